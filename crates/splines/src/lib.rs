@@ -1,0 +1,13 @@
+//! Functions along a rail: cells, lines, compliance surfaces, table readings and ADAMS SPLINE files.
+//!
+//! The bottom of the workspace: knows no file system, no unit, and no other crate of ours.
+
+pub mod cell;
+pub mod compliance;
+pub mod error;
+pub mod probe;
+
+pub use cell::{Cell, Flexibility};
+pub use compliance::{Compliance, Influence};
+pub use error::Error;
+pub use probe::{Axis, Probe};

@@ -1,0 +1,2 @@
+//! The girderway program.
+fn main() {}
