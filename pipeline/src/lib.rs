@@ -1,1 +1,3 @@
-//! placeholder
+//! From a beam spec to influence tables, simulation, plots and report.
+
+pub mod chart;
