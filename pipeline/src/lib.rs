@@ -1,3 +1,4 @@
 //! From a beam spec to influence tables, simulation, plots and report.
 
 pub mod chart;
+pub mod report;

@@ -49,7 +49,7 @@ impl Axis {
 }
 
 /// Unit preceded by a power of ten: `10^6 lbf` with a raised exponent, `lbf` where the exponent is 0.
-pub(super) fn with_power(exponent: i32, unit: &str) -> String {
+pub(crate) fn with_power(exponent: i32, unit: &str) -> String {
     if exponent == 0 {
         return unit.to_owned();
     }
