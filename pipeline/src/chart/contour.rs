@@ -37,7 +37,7 @@ pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> R
             if let (Some(corners), 1..) = (corners, inside) {
                 let from = found.chords.len();
                 clip(&corners, level, &mut found);
-                if (row + column) % 2 == 0 {
+                if (row + column).is_multiple_of(2) {
                     found.dashes.extend_from_slice(&found.chords[from..]);
                 }
             }
