@@ -1,12 +1,14 @@
 //! Line charts as plain data.
 
-use super::axis::{Axis, Scale};
+use super::axis::Axis;
 use super::error::Error;
 use super::frame::{BELOW, Frame, RIGHT, WIDTH};
 use super::legend::{Legend, dashes, symbol};
 use super::path::{along, thin};
+use super::scale::Scale;
 use super::series::{Marker, Series, Style};
-use super::svg::{Anchor, GREY, INK, SMALL, Sheet, TITLE, colour, text_width, wrap};
+use super::svg::{Anchor, GREY, INK, SMALL, Sheet, TITLE, colour};
+use super::text::{text_width, wrap};
 
 /// Height of the frame of an ordinary chart, in pixels.
 const HEIGHT: f64 = 370.0;

@@ -1,8 +1,10 @@
 //! The frame of a chart: where data go on the picture, grid lines, ticks and captions.
 
-use super::axis::{Axis, Scale, Ticks};
+use super::axis::Axis;
 use super::error::Error;
-use super::svg::{Anchor, FAINT, GREY, INK, LABEL, Pen, SMALL, text_width};
+use super::scale::{Scale, Ticks};
+use super::svg::{Anchor, FAINT, GREY, INK, LABEL, Pen, SMALL};
+use super::text::text_width;
 
 /// Width of a picture in pixels.
 pub(super) const WIDTH: f64 = 860.0;

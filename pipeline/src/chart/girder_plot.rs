@@ -1,12 +1,13 @@
 //! Side view of a girder: members, rail, supports, stations, loads and the deflected shape.
 
-use super::axis::step;
 use super::error::Error;
 use super::frame::WIDTH;
 use super::legend::Legend;
+use super::scale::step;
 use super::series::{Series, Style};
 use super::surface_plot::short;
-use super::svg::{Anchor, GREY, INK, Pen, SMALL, Sheet, TITLE, colour, text_width, wrap};
+use super::svg::{Anchor, GREY, INK, Pen, SMALL, Sheet, TITLE, colour};
+use super::text::{text_width, wrap};
 
 const MARGIN: f64 = 46.0;
 /// The largest deflection is drawn about this share of the girder's length where no factor is given.
@@ -57,12 +58,12 @@ pub struct GirderPlot {
     pub note: String,
 }
 
-/// One scale for both directions: millimetres of the structure to pixels of the sheet.
+/// Placement of the structure on the sheet, with one scale for both directions.
 struct View {
     scale: f64,
     left: f64,
     right: f64,
-    /// Pixel rows of y = 0.
+    /// Pixel row of y = 0.
     base: f64,
     origin: f64,
 }

@@ -2,7 +2,8 @@
 
 use super::error::Error;
 use super::series::{Series, Style};
-use super::svg::{Anchor, INK, Pen, SMALL, Sheet, colour, text_width};
+use super::svg::{Anchor, INK, Pen, SMALL, Sheet, colour};
+use super::text::text_width;
 use plotters::style::{RGBColor, WHITE};
 
 /// Height of a row of the legend.

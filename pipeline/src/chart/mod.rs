@@ -13,9 +13,11 @@ pub mod frame;
 pub mod girder_plot;
 pub mod legend;
 pub mod path;
+pub mod scale;
 pub mod series;
 pub mod surface_plot;
 pub mod svg;
+pub mod text;
 
 pub use axis::Axis;
 pub use chart::{Chart, Drawing};

@@ -1,12 +1,14 @@
 //! An influence grid as a picture: a map with contours, or a table with shaded cells.
 
-use super::axis::{Axis, Scale, exponent, fixed, step, with_power};
+use super::axis::{Axis, fixed, with_power};
 use super::chart::Chart;
 use super::contour::region;
 use super::error::Error;
 use super::frame::{BELOW, Frame, WIDTH};
+use super::scale::{Scale, exponent, step};
 use super::series::{Series, Style};
-use super::svg::{Anchor, GREY, INK, LABEL, Pen, SMALL, Sheet, TITLE, wrap};
+use super::svg::{Anchor, GREY, INK, LABEL, Pen, SMALL, Sheet, TITLE};
+use super::text::wrap;
 use plotters::style::{RGBColor, WHITE};
 
 /// Grids with at most this many rows and columns are shown as tables.

@@ -235,7 +235,7 @@ fn ticks_are_1_2_5_and_never_negative_zero() {
     for (low, high) in [(-0.3, 0.3), (0.0, 1e6), (-1e-9, 1e-9), (2.38e6, 2.42e6), (-7.0, 1e4), (-1.0, 1e-12)]
     {
         let axis = Axis::new("x", "").range(low, high);
-        let scale = axis::Scale::new(&axis, std::iter::empty(), true).expect("a usable range");
+        let scale = scale::Scale::new(&axis, std::iter::empty(), true).expect("a usable range");
         let ticks = scale.ticks(8.0);
         let apart = (ticks.values[1] - ticks.values[0]) / 10f64.powi(ticks.exponent);
         let mantissa = apart / 10f64.powf(apart.log10().floor() + 1e-12);

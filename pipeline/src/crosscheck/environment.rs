@@ -50,7 +50,7 @@ impl Environment {
     /// Where Python is missing or old, or the packages cannot be installed.
     pub fn prepare(&self, say: &mut dyn FnMut(&str)) -> Result<PathBuf, Error> {
         let folder = self.folder();
-        if folder.join(MARK).is_file() {
+        if complete(&folder) {
             return Ok(program(&folder));
         }
         self.check_version()?;
@@ -75,10 +75,14 @@ impl Environment {
         let mark = new.join(MARK);
         fs::write(&mark, REQUIREMENTS).map_err(file(&mark))?;
 
+        if folder.exists() && !complete(&folder) {
+            // Its Python is gone, for example after an upgrade of the system.
+            fs::remove_dir_all(&folder).map_err(file(&folder))?;
+        }
         match fs::rename(&new, &folder) {
             Ok(()) => Ok(program(&folder)),
-            // Another process was faster, or an incomplete directory is in the way.
-            Err(_) if folder.join(MARK).is_file() => Ok(program(&folder)),
+            // Another process was faster.
+            Err(_) if complete(&folder) => Ok(program(&folder)),
             Err(source) => Err(Error::File { path: folder, source }),
         }
     }
@@ -94,6 +98,11 @@ impl Environment {
         }
         Ok(())
     }
+}
+
+/// The environment was made to the end, and its Python is still there.
+fn complete(folder: &Path) -> bool {
+    folder.join(MARK).is_file() && program(folder).exists()
 }
 
 fn program(folder: &Path) -> PathBuf {
