@@ -34,6 +34,9 @@ pub(crate) struct Element {
     pub scale: [f64; 12],
     /// Local displacements of the flexible ends by those of the tips of the arms.
     pub recovery: Matrix12,
+    /// Local displacements of the flexible ends per load on them while the tips of the arms are held:
+    /// zero but between released freedoms.
+    pub slack: Matrix12,
 }
 
 impl Element {
@@ -59,14 +62,25 @@ impl Element {
         }
         let mut stiffness = stiffness(&flexibility, length);
         let scale = std::array::from_fn(|k| stiffness[(k, k)]);
-        let recovery = condense(&mut stiffness, &member.releases).map_err(|k| Error::Released {
+        let (recovery, slack) = condense(&mut stiffness, &member.releases).map_err(|k| Error::Released {
             member: index,
             end: k / 6,
             freedom: Freedom::ALL[k % 6],
         })?;
         let released = member.releases.map(|set| set.contains(&true));
-        let points = member.points;
-        Ok(Element { points, ends, offsets, axes, length, flexibility, released, stiffness, scale, recovery })
+        Ok(Element {
+            points: member.points,
+            ends,
+            offsets,
+            axes,
+            length,
+            flexibility,
+            released,
+            stiffness,
+            scale,
+            recovery,
+            slack,
+        })
     }
 
     /// Rotation of a vector pair into local axes.
@@ -144,12 +158,15 @@ fn stiffness(f: &Flexibility, length: f64) -> Matrix12 {
     k
 }
 
-/// Condenses released freedoms out of `k`, one after the other, and returns the matrix that gives all
-/// member displacements by those at the tips of the arms. A released freedom that the section does not
-/// resist stays at rest. Fails with a freedom that the others' release has left loose.
-fn condense(k: &mut Matrix12, releases: &[[bool; 6]; 2]) -> Result<Matrix12, usize> {
+/// Condenses released freedoms out of `k`, one after the other: u_r = -K_rr^-1 K_ro u_o + K_rr^-1 f_r.
+///
+/// Returns the matrix that gives all member displacements by those at the tips of the arms, and K_rr^-1.
+/// A released freedom that the section does not resist stays at rest. Fails with a freedom that the
+/// others' release has left loose.
+fn condense(k: &mut Matrix12, releases: &[[bool; 6]; 2]) -> Result<(Matrix12, Matrix12), usize> {
     let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)]);
     let mut recovery = Matrix12::identity();
+    let mut slack = Matrix12::zeros();
     let mut any = false;
     for r in (0..12).filter(|&r| releases[r / 6][r % 6]) {
         any = true;
@@ -169,6 +186,7 @@ fn condense(k: &mut Matrix12, releases: &[[bool; 6]; 2]) -> Result<Matrix12, usi
         k.column_mut(r).fill(0.0);
         // Whatever followed the freedom just released now follows what it follows.
         let share = recovery.column(r).into_owned();
+        slack += share * share.transpose() / pivot;
         recovery.column_mut(r).fill(0.0);
         recovery += share * row;
     }
@@ -182,5 +200,5 @@ fn condense(k: &mut Matrix12, releases: &[[bool; 6]; 2]) -> Result<Matrix12, usi
         // To the last bit, whatever the order of the products above.
         *k = (*k + k.transpose()) * 0.5;
     }
-    Ok(recovery)
+    Ok((recovery, slack))
 }

@@ -52,7 +52,7 @@ impl Frame {
         cells.sort_unstable();
         for same in cells.chunk_by(|a, b| a.0 == b.0) {
             let probes: Vec<Probe> = same.iter().map(|&(_, k)| at[k]).collect();
-            let local = clamped(&self.line()?.cells()[same[0].0], &probes)?;
+            let local = self.clamped(same[0].0, &probes)?;
             for (i, &(_, a)) in same.iter().enumerate() {
                 for (j, &(_, b)) in same.iter().enumerate() {
                     value[(a, b)] += local[(i, j)];
@@ -77,16 +77,19 @@ impl Frame {
         }
         value
     }
-}
 
-/// Influence coefficients of one cell with both ends held.
-fn clamped(cell: &Cell, probes: &[Probe]) -> Result<DMatrix<f64>, Error> {
-    let n = probes.len();
-    if cell.ends[0] == cell.ends[1] {
-        return Ok(DMatrix::zeros(n, n));
+    /// Influence coefficients of one cell alone, the tips of the arms at both its ends held.
+    fn clamped(&self, cell: usize, probes: &[Probe]) -> Result<DMatrix<f64>, Error> {
+        let given = &self.line()?.cells()[cell];
+        let n = probes.len();
+        if given.ends[0] == given.ends[1] {
+            return Ok(DMatrix::zeros(n, n));
+        }
+        let alone = Line::new(vec![Cell { ends: [0, 1], ..given.clone() }])?;
+        let slack = self.slack().get(&cell);
+        let nodal = DMatrix::from_fn(12, 12, |i, j| slack.map_or(0.0, |slack| slack[(i, j)]));
+        let mut out = Influence::zeros(n);
+        Surface::new(Arc::new(alone), nodal)?.fill(probes, &mut out)?;
+        Ok(out.value)
     }
-    let alone = Line::new(vec![Cell { ends: [0, 1], ..cell.clone() }])?;
-    let mut out = Influence::zeros(n);
-    Surface::new(Arc::new(alone), DMatrix::zeros(12, 12))?.fill(probes, &mut out)?;
-    Ok(out.value)
 }

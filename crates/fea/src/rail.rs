@@ -1,12 +1,12 @@
 //! Rails on members: how a rail is laid over the cells that carry it.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use nalgebra::{Matrix3, Vector3};
 use splines::{Cell, Line};
 
 use crate::assembly::reach;
-use crate::element::{Element, Matrix6, blocks, triad};
+use crate::element::{Element, Matrix6, Matrix12, blocks, triad};
 use crate::error::{Error, Fault, Item, Quantity};
 use crate::freedoms::{Freedoms, Sum};
 use crate::model::Model;
@@ -47,6 +47,8 @@ pub(crate) struct Layout {
     pub line: Line,
     /// Six sums a state, over the motions of the bodies.
     pub states: Vec<[Sum; 6]>,
+    /// What releases add to the compliance between the states of a cell's ends, by cell.
+    pub slack: BTreeMap<usize, Matrix12>,
 }
 
 /// A flexible cell with its order along the rail.
@@ -63,6 +65,7 @@ struct Builder<'a> {
     freedoms: &'a Freedoms,
     states: Vec<[Sum; 6]>,
     known: HashMap<(usize, usize, [u64; 3]), usize>,
+    slack: BTreeMap<usize, Matrix12>,
 }
 
 /// Lays all rails.
@@ -72,12 +75,13 @@ pub(crate) fn lay(
     elements: &[Element],
     freedoms: &Freedoms,
 ) -> Result<Layout, Error> {
-    let mut builder = Builder { elements, freedoms, states: Vec::new(), known: HashMap::new() };
+    let mut builder =
+        Builder { elements, freedoms, states: Vec::new(), known: HashMap::new(), slack: BTreeMap::new() };
     let mut cells = Vec::new();
     for (index, rail) in rails.iter().enumerate() {
         builder.rail(m, index, rail, &mut cells)?;
     }
-    Ok(Layout { line: Line::new(cells)?, states: builder.states })
+    Ok(Layout { line: Line::new(cells)?, states: builder.states, slack: builder.slack })
 }
 
 impl Builder<'_> {
@@ -120,6 +124,9 @@ impl Builder<'_> {
             let (length, flexibility) = (element.length, element.flexibility);
             let tips = order.map(|end| self.tip(index, given.member, end, &frame));
             let ends = [0, 1].map(|k| self.end(given.member, order[k], tips[k], &frame));
+            if element.released.contains(&true) {
+                self.slack.insert(cells.len(), slack(element, order, &frame));
+            }
             cells.push(Cell {
                 rail: index,
                 x,
@@ -172,6 +179,19 @@ impl Builder<'_> {
         }));
         self.states.len() - 1
     }
+}
+
+/// The slack of a member in the frame of a rail, ends in the order given.
+fn slack(element: &Element, order: [usize; 2], frame: &Matrix3<f64>) -> Matrix12 {
+    let back: Matrix6 = blocks(frame) * element.rotation().transpose();
+    let mut out = Matrix12::zeros();
+    for (i, a) in order.into_iter().enumerate() {
+        for (j, b) in order.into_iter().enumerate() {
+            let block = back * element.slack.fixed_view::<6, 6>(6 * a, 6 * b) * back.transpose();
+            out.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
+        }
+    }
+    out
 }
 
 /// Rigid arms between neighbouring segments; refuses overlaps.

@@ -50,7 +50,16 @@ impl Frame {
     pub fn surface(&self) -> Result<Exact, Error> {
         let line = Arc::clone(self.line()?);
         let sums: Vec<&Sum> = self.states().iter().flatten().take(6 * line.states()).collect();
-        let surface = Surface::new(line, self.compliance(&sums))?;
+        let mut nodal = self.compliance(&sums);
+        for (&cell, slack) in self.slack() {
+            let ends = line.cells()[cell].ends;
+            for i in 0..12 {
+                for j in 0..12 {
+                    nodal[(6 * ends[i / 6] + i % 6, 6 * ends[j / 6] + j % 6)] += slack[(i, j)];
+                }
+            }
+        }
+        let surface = Surface::new(line, nodal)?;
         Ok(Exact { surface, certificate: self.certificate() })
     }
 
