@@ -37,13 +37,18 @@ struct Plane {
     c: f64,
     g: f64,
     l: f64,
+    per_l: f64,
     inverse: f64,
 }
 
 impl Plane {
     fn new(c: f64, g: f64, l: f64) -> Self {
         let d = (c * l * l + 12.0 * g) * l;
-        if d > 0.0 && d.is_finite() { Plane { c, g, l, inverse: 1.0 / d } } else { Plane::default() }
+        if d > 0.0 && d.is_finite() {
+            Plane { c, g, l, per_l: 1.0 / l, inverse: 1.0 / d }
+        } else {
+            Plane::default()
+        }
     }
 
     /// f v(a) + m theta(a) under a force F and a moment M at b, where a <= b; derivatives in a and b.
@@ -51,16 +56,16 @@ impl Plane {
     /// Between the clamp and b the shear V and the end moment m0 are constant:
     /// theta' = c (m0 - V x), v' = theta + g V; both vanish at the far clamp.
     fn green(&self, a: f64, [f, m]: [f64; 2], b: f64, [force, moment]: [f64; 2]) -> Green {
-        let Plane { c, g, l, inverse } = *self;
+        let Plane { c, g, l, per_l, inverse } = *self;
         if inverse == 0.0 {
             return Green::default();
         }
         let q = l - b;
         let v = (force * q * (c * q * (3.0 * l - 2.0 * q) + 12.0 * g) - 6.0 * c * moment * q * b) * inverse;
-        let m0 = 0.5 * v * l + q * (moment - 0.5 * force * q) / l;
+        let m0 = 0.5 * v * l + q * (moment - 0.5 * force * q) * per_l;
         let dv = (force * (6.0 * c * q * b + 12.0 * g) + 6.0 * c * moment * (q - b)) * inverse;
-        let dm0 = 0.5 * dv * l + (moment - force * q) / l;
-        let deflection = |v: f64, m0: f64| a * (g * v + c * a * (0.5 * m0 - v * a / 6.0));
+        let dm0 = 0.5 * dv * l + (moment - force * q) * per_l;
+        let deflection = |v: f64, m0: f64| a * (g * v + c * a * (0.5 * m0 - v * a * (1.0 / 6.0)));
         let rotation = |v: f64, m0: f64| c * a * (m0 - 0.5 * v * a);
         let slope = rotation(v, m0) + g * v;
         Green {
@@ -76,7 +81,8 @@ impl Plane {
         } else if s > t {
             self.green(t, q, s, p).swapped()
         } else {
-            self.green(s, p, t, q).mean(self.green(t, q, s, p).swapped())
+            let one = self.green(s, p, t, q);
+            one.mean(if p == q { one.swapped() } else { self.green(t, q, s, p).swapped() })
         }
     }
 }

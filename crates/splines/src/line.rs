@@ -1,7 +1,7 @@
 //! Rails made of cells: which cell carries a place, and how it moves.
 
 use crate::kernel::{Arm, Kernel, free};
-use crate::row::{Row, Term, terms};
+use crate::row::{Row, Terms, terms};
 use crate::{Cell, Error, Probe};
 
 /// Rounding allowed in coordinates and frames, relative.
@@ -13,7 +13,6 @@ const SQUARE: f64 = 1e-9;
 pub struct Line {
     cells: Vec<Cell>,
     ready: Vec<Ready>,
-    terms: Vec<Term>,
     tracks: Vec<Track>,
     states: usize,
 }
@@ -21,8 +20,8 @@ pub struct Line {
 /// A cell prepared for evaluation.
 #[derive(Clone, Debug)]
 struct Ready {
-    /// Where the terms of x, y, z begin and end.
-    spans: [usize; 4],
+    /// Shape rows along x, y, z.
+    terms: [Terms; 3],
     /// Axes in which nothing resists.
     free: [bool; 3],
     /// `None` for a rigid arm.
@@ -57,24 +56,20 @@ impl Line {
             return Err(Error::NoCells);
         }
         let mut ready = Vec::with_capacity(cells.len());
-        let mut all = Vec::new();
         let mut states = 0;
         for (index, cell) in cells.iter().enumerate() {
             check(index, cell)?;
             states = states.max(cell.ends[0].max(cell.ends[1]) + 1);
-            let mut spans = [all.len(); 4];
-            let mut loose = [false; 3];
             let arm = cell.ends[0] == cell.ends[1];
-            for axis in 0..3 {
-                all.extend(terms(cell, axis));
-                spans[axis + 1] = all.len();
-                let uses = Arm::new(cell, axis).uses();
-                loose[axis] = !arm && (0..4).any(|k| uses[k] && free(cell)[k]);
-            }
-            ready.push(Ready { spans, free: loose, kernel: (!arm).then(|| Kernel::new(cell)) });
+            let needs = |axis| Arm::new(cell, axis).uses();
+            ready.push(Ready {
+                terms: [0, 1, 2].map(|axis| terms(cell, axis)),
+                free: [0, 1, 2].map(|axis| !arm && (0..4).any(|k| needs(axis)[k] && free(cell)[k])),
+                kernel: (!arm).then(|| Kernel::new(cell)),
+            });
         }
         let tracks = tracks(&cells)?;
-        Ok(Line { cells, ready, terms: all, tracks, states })
+        Ok(Line { cells, ready, tracks, states })
     }
 
     /// The cells, as given.
@@ -119,7 +114,7 @@ impl Line {
         row.axis = axis;
         row.s = r * length;
         row.rate = length * scale;
-        row.evaluate(&self.terms[ready.spans[axis]..ready.spans[axis + 1]], r, scale);
+        row.evaluate(&ready.terms[axis], r, scale);
         Ok(())
     }
 

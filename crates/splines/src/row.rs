@@ -17,6 +17,7 @@ pub struct Row {
     pub(crate) s: f64,
     pub(crate) rate: f64,
     len: usize,
+    groups: usize,
     index: [usize; 12],
     value: [f64; 12],
     slope: [f64; 12],
@@ -29,6 +30,7 @@ impl Row {
         s: 0.0,
         rate: 0.0,
         len: 0,
+        groups: 0,
         index: [0; 12],
         value: [0.0; 12],
         slope: [0.0; 12],
@@ -53,29 +55,56 @@ impl Row {
     }
 
     /// Evaluates the cubics of a cell's axis at r in 0..=1; `scale` = dr/dx.
-    pub(crate) fn evaluate(&mut self, terms: &[Term], r: f64, scale: f64) {
-        self.len = terms.len().min(12);
-        for (k, term) in terms.iter().take(12).enumerate() {
-            let [a, b, c, d] = term.cubic;
-            self.index[k] = term.index;
-            self.value[k] = a + r * (b + r * (c + r * d));
-            self.slope[k] = scale * (b + r * (2.0 * c + r * (3.0 * d)));
+    #[inline]
+    pub(crate) fn evaluate(&mut self, terms: &Terms, r: f64, scale: f64) {
+        self.len = terms.len;
+        self.groups = terms.groups.len().min(3);
+        let (indices, _) = self.index.as_chunks_mut::<4>();
+        let (values, _) = self.value.as_chunks_mut::<4>();
+        let (slopes, _) = self.slope.as_chunks_mut::<4>();
+        let out = indices.iter_mut().zip(values.iter_mut().zip(slopes));
+        for (group, (index, (value, slope))) in terms.groups.iter().zip(out) {
+            let [a, b, c, d] = &group.cubic;
+            *index = group.index;
+            for k in 0..4 {
+                value[k] = a[k] + r * (b[k] + r * (c[k] + r * d[k]));
+                slope[k] = scale * (b[k] + r * (2.0 * c[k] + r * (3.0 * d[k])));
+            }
         }
+    }
+
+    /// The entries four at a time, the last group filled with zeros.
+    #[inline]
+    pub(crate) fn chunks(&self) -> [&[[f64; 4]]; 2] {
+        [&self.value.as_chunks().0[..self.groups], &self.slope.as_chunks().0[..self.groups]]
+    }
+
+    /// Places of the entries four at a time; fillers repeat a valid place.
+    #[inline]
+    pub(crate) fn places(&self) -> &[[usize; 4]] {
+        &self.index.as_chunks().0[..self.groups]
     }
 }
 
-/// One entry of N along a cell: a cubic in r, the fraction of the cell.
+/// Entries of N of one cell along one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Terms {
+    len: usize,
+    groups: Vec<Group>,
+}
+
+/// Four entries: cubics in r, the fraction of the cell; `cubic[p][k]` is the coefficient of r^p of entry k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Term {
-    pub index: usize,
-    pub cubic: [f64; 4],
+struct Group {
+    index: [usize; 4],
+    cubic: [[f64; 4]; 4],
 }
 
 /// Cubics of one axis of one cell, those that vanish left out.
 ///
 /// Bending: Timoshenko shapes with alpha = c h^2/(c h^2 + 12 g), beta = 12 g/(c h^2 + 12 g),
 /// c = 1/EI, g = 1/kGA, h = length; a rigid plane has alpha = 1, beta = 0.
-pub(crate) fn terms(cell: &Cell, axis: usize) -> Vec<Term> {
+pub(crate) fn terms(cell: &Cell, axis: usize) -> Terms {
     let mut cubics = [[0.0; 4]; 12];
     if cell.ends[0] == cell.ends[1] {
         let along = cross([cell.x[1] - cell.x[0], 0.0, 0.0], unit(axis));
@@ -98,8 +127,13 @@ pub(crate) fn terms(cell: &Cell, axis: usize) -> Vec<Term> {
             }
         }
     }
+    let used: Vec<usize> = (0..12).filter(|&k| cubics[k] != [0.0; 4]).collect();
     let index = |k: usize| 6 * cell.ends[k / 6] + k % 6;
-    (0..12).filter(|&k| cubics[k] != [0.0; 4]).map(|k| Term { index: index(k), cubic: cubics[k] }).collect()
+    let groups = used.chunks(4).map(|four| Group {
+        index: std::array::from_fn(|k| index(*four.get(k).unwrap_or(&four[0]))),
+        cubic: std::array::from_fn(|p| std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| cubics[k][p]))),
+    });
+    Terms { len: used.len(), groups: groups.collect() }
 }
 
 /// The same in local axes: u, v, w, theta x, y, z of the first end, then of the last.

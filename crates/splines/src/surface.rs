@@ -87,22 +87,25 @@ impl Surface {
         for j in 0..n {
             let load = &rows[j];
             let mut last = None;
-            let mut moved = [0.0; 12];
+            let mut moved = [[0.0; 4]; 3];
             for &i in order.iter() {
                 let row = &rows[i];
                 if last != Some(block(row)) {
                     last = Some(block(row));
-                    moved = [0.0; 12];
+                    moved = [[0.0; 4]; 3];
                     for (&freedom, &share) in load.indices().iter().zip(load.values()) {
                         let column = &nodal[freedom * size..(freedom + 1) * size];
-                        for (sum, &k) in moved.iter_mut().zip(row.indices()) {
-                            *sum += share * column[k];
+                        for (sum, place) in moved.iter_mut().zip(row.places()) {
+                            for (sum, &k) in sum.iter_mut().zip(place) {
+                                *sum += share * column[k];
+                            }
                         }
                     }
                 }
-                slope[i + n * j] = dot(row.slopes(), &moved);
+                let [values, slopes] = row.chunks();
+                slope[i + n * j] = dot(slopes, &moved);
                 if i >= j {
-                    value[i + n * j] = dot(row.values(), &moved);
+                    value[i + n * j] = dot(values, &moved);
                 }
             }
         }
@@ -128,8 +131,9 @@ impl Surface {
     }
 }
 
-fn dot(a: &[f64], b: &[f64; 12]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+fn dot(a: &[[f64; 4]], b: &[[f64; 4]; 3]) -> f64 {
+    let one = |x: &[f64; 4], y: &[f64; 4]| (x[0] * y[0] + x[2] * y[2]) + (x[1] * y[1] + x[3] * y[3]);
+    a.iter().zip(b).map(|(x, y)| one(x, y)).sum()
 }
 
 impl Compliance for Surface {
