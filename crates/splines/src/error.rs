@@ -29,4 +29,81 @@ pub enum Error {
         /// The direction asked for.
         axis: Axis,
     },
+    /// A line without cells.
+    #[error("a line needs at least one cell")]
+    NoCells,
+    /// A coordinate or offset that is not finite, or a state index beyond all reason.
+    #[error("cell {cell} has a number that cannot be used")]
+    CellNumber {
+        /// Index of the cell.
+        cell: usize,
+    },
+    /// Coordinates that do not increase.
+    #[error("cell {cell} runs from x = {} to {}", x[0], x[1])]
+    CellExtent {
+        /// Index of the cell.
+        cell: usize,
+        /// Its coordinates.
+        x: [f64; 2],
+    },
+    /// A length that is not positive.
+    #[error("cell {cell} has length {length}")]
+    CellLength {
+        /// Index of the cell.
+        cell: usize,
+        /// Its length.
+        length: f64,
+    },
+    /// A frame that is not a rotation.
+    #[error("the frame of cell {cell} is not a rotation")]
+    CellFrame {
+        /// Index of the cell.
+        cell: usize,
+    },
+    /// A negative flexibility, or one that is not a number.
+    #[error("cell {cell} has a negative flexibility")]
+    CellFlexibility {
+        /// Index of the cell.
+        cell: usize,
+    },
+    /// Two cells that claim the same place.
+    #[error("cells {first} and {second} of rail {rail} overlap at x = {x}")]
+    Overlap {
+        /// Which rail.
+        rail: usize,
+        /// Index of the cell that begins earlier.
+        first: usize,
+        /// Index of the cell that begins later.
+        second: usize,
+        /// Where the later one begins.
+        x: f64,
+    },
+    /// A nodal compliance that does not fit the states.
+    #[error("nodal compliance is {rows} x {columns}, expected {expected} x {expected}")]
+    NodalShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Six freedoms a state.
+        expected: usize,
+    },
+    /// An entry of a nodal compliance that is not a number, or infinite off the diagonal.
+    #[error("nodal compliance ({row}, {column}) is not finite")]
+    NodalNumber {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+    },
+    /// An influence matrix of another size than the probes.
+    #[error("influence matrices are {rows} x {columns}, expected {expected} x {expected}")]
+    OutputShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Number of probes.
+        expected: usize,
+    },
 }

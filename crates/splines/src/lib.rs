@@ -5,9 +5,16 @@
 pub mod cell;
 pub mod compliance;
 pub mod error;
+mod kernel;
+pub mod line;
 pub mod probe;
+pub mod row;
+pub mod surface;
 
 pub use cell::{Cell, Flexibility};
 pub use compliance::{Compliance, Influence};
 pub use error::Error;
+pub use line::Line;
 pub use probe::{Axis, Probe};
+pub use row::Row;
+pub use surface::Surface;

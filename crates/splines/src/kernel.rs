@@ -1,0 +1,214 @@
+//! What one clamped cell adds between its ends: its own Green's function.
+
+use crate::Cell;
+
+/// A bilinear form and its derivatives with respect to both places.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Green {
+    pub value: f64,
+    pub first: f64,
+    pub second: f64,
+}
+
+impl Green {
+    fn add(&mut self, other: Green) {
+        self.value += other.value;
+        self.first += other.first;
+        self.second += other.second;
+    }
+
+    /// The two places exchanged.
+    fn swapped(self) -> Green {
+        Green { value: self.value, first: self.second, second: self.first }
+    }
+
+    fn mean(self, other: Green) -> Green {
+        Green {
+            value: 0.5 * (self.value + other.value),
+            first: 0.5 * (self.first + other.first),
+            second: 0.5 * (self.second + other.second),
+        }
+    }
+}
+
+/// One bending plane: c = 1/EI, g = 1/kGA, l = length, inverse = 1/(c l^3 + 12 g l), zero where rigid.
+#[derive(Clone, Copy, Debug, Default)]
+struct Plane {
+    c: f64,
+    g: f64,
+    l: f64,
+    per_l: f64,
+    inverse: f64,
+}
+
+impl Plane {
+    fn new(c: f64, g: f64, l: f64) -> Self {
+        let d = (c * l * l + 12.0 * g) * l;
+        if d > 0.0 && d.is_finite() {
+            Plane { c, g, l, per_l: 1.0 / l, inverse: 1.0 / d }
+        } else {
+            Plane::default()
+        }
+    }
+
+    /// f v(a) + m theta(a) under a force F and a moment M at b, where a <= b; derivatives in a and b.
+    ///
+    /// Between the clamp and b the shear V and the end moment m0 are constant:
+    /// theta' = c (m0 - V x), v' = theta + g V; both vanish at the far clamp.
+    fn green(&self, a: f64, [f, m]: [f64; 2], b: f64, [force, moment]: [f64; 2]) -> Green {
+        let Plane { c, g, l, per_l, inverse } = *self;
+        if inverse == 0.0 {
+            return Green::default();
+        }
+        let q = l - b;
+        let v = (force * q * (c * q * (3.0 * l - 2.0 * q) + 12.0 * g) - 6.0 * c * moment * q * b) * inverse;
+        let m0 = 0.5 * v * l + q * (moment - 0.5 * force * q) * per_l;
+        let dv = (force * (6.0 * c * q * b + 12.0 * g) + 6.0 * c * moment * (q - b)) * inverse;
+        let dm0 = 0.5 * dv * l + (moment - force * q) * per_l;
+        let deflection = |v: f64, m0: f64| a * (g * v + c * a * (0.5 * m0 - v * a * (1.0 / 6.0)));
+        let rotation = |v: f64, m0: f64| c * a * (m0 - 0.5 * v * a);
+        let slope = rotation(v, m0) + g * v;
+        Green {
+            value: f * deflection(v, m0) + m * rotation(v, m0),
+            first: f * slope + m * c * (m0 - v * a),
+            second: -(f * deflection(dv, dm0) + m * rotation(dv, dm0)),
+        }
+    }
+
+    fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Green {
+        if s < t {
+            self.green(s, p, t, q)
+        } else if s > t {
+            self.green(t, q, s, p).swapped()
+        } else {
+            let one = self.green(s, p, t, q);
+            one.mean(if p == q { one.swapped() } else { self.green(t, q, s, p).swapped() })
+        }
+    }
+}
+
+/// A clamped bar, axial or torsional: flexibility times a (l - b)/l.
+fn bar(flexibility: f64, l: f64, s: f64, t: f64) -> Green {
+    let green = |a: f64, b: f64| Green {
+        value: flexibility * a * (l - b) / l,
+        first: flexibility * (l - b) / l,
+        second: -flexibility * a / l,
+    };
+    if s < t {
+        green(s, t)
+    } else if s > t {
+        green(t, s).swapped()
+    } else {
+        green(s, t).mean(green(t, s).swapped())
+    }
+}
+
+/// How a unit force at the rail loads the cell's axis, in local axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Arm {
+    /// Local x force, and moment about local x.
+    pub axial: f64,
+    pub twist: f64,
+    /// Force and moment in the plane of (v, theta z), and of (w, -theta y).
+    pub xy: [f64; 2],
+    pub xz: [f64; 2],
+}
+
+impl Arm {
+    /// A unit force along rail direction `axis`: its local components, and those of `offset` x force.
+    pub fn new(cell: &Cell, axis: usize) -> Arm {
+        let moment = cross(cell.offset, unit(axis));
+        let reach = cell.offset.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        let row = |k: usize| clean(cell.frame[k][axis], 1.0);
+        let turn = |k: usize| clean((0..3).map(|a| cell.frame[k][a] * moment[a]).sum(), reach);
+        Arm { axial: row(0), twist: turn(0), xy: [row(1), turn(2)], xz: [row(2), -turn(1)] }
+    }
+
+    /// Whether the force asks for stiffness along, about, across (x-y) and across (x-z) the axis.
+    pub fn uses(&self) -> [bool; 4] {
+        [self.axial != 0.0, self.twist != 0.0, self.xy != [0.0; 2], self.xz != [0.0; 2]]
+    }
+}
+
+/// Zero where rounding of a rotation is all there is.
+pub(crate) fn clean(value: f64, scale: f64) -> f64 {
+    if value.abs() <= 4.0 * f64::EPSILON * scale { 0.0 } else { value }
+}
+
+pub(crate) fn unit(axis: usize) -> [f64; 3] {
+    let mut e = [0.0; 3];
+    e[axis] = 1.0;
+    e
+}
+
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// Green's function of a cell clamped at both ends, between forces at the rail.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Kernel {
+    length: f64,
+    axial: f64,
+    torsion: f64,
+    xy: Plane,
+    xz: Plane,
+    arms: [Arm; 3],
+    /// Along, about, across (x-y), across (x-z): nothing resists.
+    free: [bool; 4],
+}
+
+impl Kernel {
+    pub fn new(cell: &Cell) -> Kernel {
+        let flexibility = &cell.flexibility;
+        let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+        Kernel {
+            length: cell.length,
+            axial: finite(flexibility.axial),
+            torsion: finite(flexibility.torsion),
+            xy: Plane::new(flexibility.bending_z, flexibility.shear_y, cell.length),
+            xz: Plane::new(flexibility.bending_y, flexibility.shear_z, cell.length),
+            arms: [Arm::new(cell, 0), Arm::new(cell, 1), Arm::new(cell, 2)],
+            free: free(cell),
+        }
+    }
+
+    /// Displacement along axis `a` at s under a unit force along axis `b` at t, s and t in 0..=length.
+    pub fn pair(&self, a: usize, s: f64, b: usize, t: f64) -> Green {
+        let (p, q) = (&self.arms[a], &self.arms[b]);
+        let mut sum = Green::default();
+        if p.xy != [0.0; 2] && q.xy != [0.0; 2] {
+            sum.add(self.xy.pair(s, p.xy, t, q.xy));
+        }
+        if p.xz != [0.0; 2] && q.xz != [0.0; 2] {
+            sum.add(self.xz.pair(s, p.xz, t, q.xz));
+        }
+        let axial = self.axial * (p.axial * q.axial);
+        if axial != 0.0 {
+            sum.add(bar(axial, self.length, s, t));
+        }
+        let twist = self.torsion * (p.twist * q.twist);
+        if twist != 0.0 {
+            sum.add(bar(twist, self.length, s, t));
+        }
+        sum
+    }
+
+    /// Whether both forces act where nothing resists.
+    pub fn is_free(&self, a: usize, b: usize) -> bool {
+        let (p, q) = (self.arms[a].uses(), self.arms[b].uses());
+        (0..4).any(|k| self.free[k] && p[k] && q[k])
+    }
+}
+
+/// Along, about, across (x-y), across (x-z): where the section resists nothing.
+pub(crate) fn free(cell: &Cell) -> [bool; 4] {
+    let flexibility = &cell.flexibility;
+    let infinite = |x: f64| x == f64::INFINITY;
+    [
+        infinite(flexibility.axial),
+        infinite(flexibility.torsion),
+        infinite(flexibility.bending_z) || infinite(flexibility.shear_y),
+        infinite(flexibility.bending_y) || infinite(flexibility.shear_z),
+    ]
+}

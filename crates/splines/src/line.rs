@@ -1,0 +1,249 @@
+//! Rails made of cells: which cell carries a place, and how it moves.
+
+use crate::kernel::{Arm, Kernel, free};
+use crate::row::{Row, Terms, terms};
+use crate::{Cell, Error, Probe};
+
+/// Rounding allowed in coordinates and frames, relative.
+const SLACK: f64 = 1e-12;
+const SQUARE: f64 = 1e-9;
+
+/// Cells of any number of rails, ready for look-up.
+#[derive(Clone, Debug)]
+pub struct Line {
+    cells: Vec<Cell>,
+    ready: Vec<Ready>,
+    tracks: Vec<Track>,
+    states: usize,
+}
+
+/// A cell prepared for evaluation.
+#[derive(Clone, Debug)]
+struct Ready {
+    /// Shape rows along x, y, z.
+    terms: [Terms; 3],
+    /// Axes in which nothing resists.
+    free: [bool; 3],
+    /// `None` for a rigid arm.
+    kernel: Option<Kernel>,
+}
+
+/// One rail: its cells by increasing x.
+#[derive(Clone, Debug)]
+struct Track {
+    rail: usize,
+    slack: f64,
+    cells: Vec<Span>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    x: [f64; 2],
+    cell: usize,
+    /// At `x[0]` the cell before this one, listed earlier, carries the probe.
+    yields: bool,
+}
+
+impl Line {
+    /// Checks and sorts the cells. Rails may have gaps; where two cells of a rail meet, the first listed
+    /// carries the shared place. A gap or overlap below 1e-12 of the rail's largest coordinate is rounding.
+    ///
+    /// # Errors
+    /// No cell; a number that is not finite; `x` not increasing; a flexible cell with a length that is not
+    /// positive, a frame that is not a rotation or a negative flexibility; cells of one rail that overlap.
+    pub fn new(cells: Vec<Cell>) -> Result<Line, Error> {
+        if cells.is_empty() {
+            return Err(Error::NoCells);
+        }
+        let mut ready = Vec::with_capacity(cells.len());
+        let mut states = 0;
+        for (index, cell) in cells.iter().enumerate() {
+            check(index, cell)?;
+            states = states.max(cell.ends[0].max(cell.ends[1]) + 1);
+            let arm = cell.ends[0] == cell.ends[1];
+            let needs = |axis| Arm::new(cell, axis).uses();
+            ready.push(Ready {
+                terms: [0, 1, 2].map(|axis| terms(cell, axis)),
+                free: [0, 1, 2].map(|axis| !arm && (0..4).any(|k| needs(axis)[k] && free(cell)[k])),
+                kernel: (!arm).then(|| Kernel::new(cell)),
+            });
+        }
+        let tracks = tracks(&cells)?;
+        Ok(Line { cells, ready, tracks, states })
+    }
+
+    /// The cells, as given.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// One more than the largest state index.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// Shape row of a probe: N(x) of its cell, along its axis.
+    ///
+    /// Exact for a uniform Euler-Bernoulli or Timoshenko member without load between its ends.
+    ///
+    /// # Errors
+    /// No such rail; no cell there; or the cell needs a stiffness that its section has not.
+    ///
+    /// # Source
+    /// Timoshenko shapes: Przemieniecki, Theory of Matrix Structural Analysis (1968), chapter 5.
+    pub fn row(&self, p: Probe) -> Result<Row, Error> {
+        let mut row = Row::EMPTY;
+        self.row_into(p, &mut row)?;
+        Ok(row)
+    }
+
+    pub(crate) fn row_into(&self, p: Probe, row: &mut Row) -> Result<(), Error> {
+        let span = self.find(p.rail, p.x)?;
+        let ready = &self.ready[span.cell];
+        let axis = p.axis.component();
+        if ready.free[axis] {
+            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
+        }
+        let width = span.x[1] - span.x[0];
+        let r = ((p.x - span.x[0]) / width).clamp(0.0, 1.0);
+        let scale = 1.0 / width;
+        let length = self.cells[span.cell].length;
+        row.cell = span.cell;
+        row.axis = axis;
+        row.s = r * length;
+        row.rate = length * scale;
+        row.evaluate(&ready.terms[axis], r, scale);
+        Ok(())
+    }
+
+    /// Green's function of the cell clamped at both ends: `[i][j]` is the displacement along axis i at rail
+    /// coordinate x per unit force along axis j at z, with the rail's offset.
+    ///
+    /// x and z are taken within the cell. Guarantee: `kernel(c, x, z)[i][j] == kernel(c, z, x)[j][i]` to the
+    /// last bit; positive semi-definite. Zero for a rigid arm or a cell that does not exist; infinite in a
+    /// direction that nothing resists.
+    ///
+    /// # Source
+    /// theta' = m/EI, m' = -V, v' = theta + V/kGA, clamped at both ends (Cowper 1966, J. Appl. Mech. 33).
+    #[must_use]
+    pub fn kernel(&self, cell: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
+        let mut out = [[0.0; 3]; 3];
+        let (Some(ready), Some(given)) = (self.ready.get(cell), self.cells.get(cell)) else { return out };
+        let Some(kernel) = &ready.kernel else { return out };
+        let place = |x: f64| ((x - given.x[0]) / (given.x[1] - given.x[0])).clamp(0.0, 1.0) * given.length;
+        let (s, t) = (place(x), place(z));
+        for (a, row) in out.iter_mut().enumerate() {
+            for (b, entry) in row.iter_mut().enumerate() {
+                *entry = if kernel.is_free(a, b) { f64::INFINITY } else { kernel.pair(a, s, b, t).value };
+            }
+        }
+        out
+    }
+
+    pub(crate) fn kernel_of(&self, cell: usize) -> Option<&Kernel> {
+        self.ready.get(cell).and_then(|ready| ready.kernel.as_ref())
+    }
+
+    /// Ends of the cells of `rail`, increasing, each once.
+    #[must_use]
+    pub fn breaks(&self, rail: usize) -> Vec<f64> {
+        let mut out: Vec<f64> = Vec::new();
+        if let Some(track) = self.track(rail) {
+            out.extend(track.cells.iter().flat_map(|span| span.x));
+            out.sort_by(f64::total_cmp);
+            out.dedup_by(|b, a| *b - *a <= track.slack);
+        }
+        out
+    }
+
+    /// First and last coordinate of `rail`; `None` where it has no cell.
+    #[must_use]
+    pub fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        let cells = &self.track(rail)?.cells;
+        Some([cells.first()?.x[0], cells.last()?.x[1]])
+    }
+
+    fn track(&self, rail: usize) -> Option<&Track> {
+        match self.tracks.get(rail) {
+            Some(track) if track.rail == rail => Some(track),
+            _ => self.tracks.binary_search_by_key(&rail, |t| t.rail).ok().map(|k| &self.tracks[k]),
+        }
+    }
+
+    fn find(&self, rail: usize, x: f64) -> Result<Span, Error> {
+        let Track { slack, cells, .. } = self.track(rail).ok_or(Error::NoRail { rail })?;
+        let after = cells.partition_point(|span| span.x[0] <= x);
+        if let Some(k) = after.checked_sub(1) {
+            let span = cells[k];
+            if x == span.x[0] && span.yields {
+                return Ok(cells[k - 1]);
+            }
+            if x <= span.x[1] + slack {
+                return Ok(span);
+            }
+        }
+        match cells.get(after) {
+            Some(span) if span.x[0] - x <= *slack => Ok(*span),
+            _ => Err(Error::OffRail { rail, x }),
+        }
+    }
+}
+
+fn tracks(cells: &[Cell]) -> Result<Vec<Track>, Error> {
+    let mut order: Vec<usize> = (0..cells.len()).collect();
+    order.sort_by(|&a, &b| {
+        let (p, q) = (&cells[a], &cells[b]);
+        p.rail.cmp(&q.rail).then(p.x[0].total_cmp(&q.x[0])).then(a.cmp(&b))
+    });
+    let mut tracks: Vec<Track> = Vec::new();
+    for same in order.chunk_by(|&a, &b| cells[a].rail == cells[b].rail) {
+        let rail = cells[same[0]].rail;
+        let largest = same.iter().flat_map(|&k| cells[k].x).fold(0.0_f64, |a, x| a.max(x.abs()));
+        let slack = SLACK * largest;
+        let mut spans = vec![Span { x: cells[same[0]].x, cell: same[0], yields: false }];
+        for pair in same.windows(2) {
+            let (before, cell) = (pair[0], pair[1]);
+            let (end, start) = (cells[before].x[1], cells[cell].x[0]);
+            if end > start + slack {
+                return Err(Error::Overlap { rail, first: before, second: cell, x: start });
+            }
+            spans.push(Span { x: cells[cell].x, cell, yields: end >= start && before < cell });
+        }
+        tracks.push(Track { rail, slack, cells: spans });
+    }
+    Ok(tracks)
+}
+
+fn check(index: usize, cell: &Cell) -> Result<(), Error> {
+    let numbers = cell.x.iter().chain(&cell.offset);
+    if numbers.copied().any(|x| !x.is_finite()) || cell.ends.iter().any(|&end| end > u32::MAX as usize) {
+        return Err(Error::CellNumber { cell: index });
+    }
+    if cell.x[0] >= cell.x[1] {
+        return Err(Error::CellExtent { cell: index, x: cell.x });
+    }
+    if cell.ends[0] == cell.ends[1] {
+        return Ok(());
+    }
+    if !(cell.length > 0.0 && cell.length.is_finite()) {
+        return Err(Error::CellLength { cell: index, length: cell.length });
+    }
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let [x, y, z] = cell.frame;
+    let third = {
+        let c = crate::kernel::cross(x, y);
+        [c[0] - z[0], c[1] - z[1], c[2] - z[2]]
+    };
+    let defects = [dot(x, x) - 1.0, dot(y, y) - 1.0, dot(x, y), dot(third, third).sqrt()];
+    if defects.iter().any(|d| d.abs() > SQUARE || d.is_nan()) {
+        return Err(Error::CellFrame { cell: index });
+    }
+    let f = &cell.flexibility;
+    let all = [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z];
+    if all.iter().any(|x| *x < 0.0 || x.is_nan()) {
+        return Err(Error::CellFlexibility { cell: index });
+    }
+    Ok(())
+}

@@ -1,0 +1,179 @@
+//! Displacement of the rail at one place, by the states at the ends of its cell.
+
+use crate::Cell;
+use crate::kernel::{Arm, clean, cross, free, unit};
+
+/// One row of N: displacement of the rail at a probe = sum of `values` times state freedoms, plus what
+/// the clamped cell itself gives.
+///
+/// Freedom `6 * state + k`: k = 0..3 displacement, 3..6 rotation, in the rail frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Row {
+    /// Index of the cell that carries the probe.
+    pub cell: usize,
+    /// Component of the probe's axis: 0, 1 or 2.
+    pub(crate) axis: usize,
+    /// Place along the cell, 0 at its first end, `length` at its last; derivative of it by x.
+    pub(crate) s: f64,
+    pub(crate) rate: f64,
+    len: usize,
+    groups: usize,
+    index: [usize; 12],
+    value: [f64; 12],
+    slope: [f64; 12],
+}
+
+impl Row {
+    pub(crate) const EMPTY: Row = Row {
+        cell: 0,
+        axis: 0,
+        s: 0.0,
+        rate: 0.0,
+        len: 0,
+        groups: 0,
+        index: [0; 12],
+        value: [0.0; 12],
+        slope: [0.0; 12],
+    };
+
+    /// State freedoms of the entries that are not zero for the whole cell: at most 12, each once.
+    #[must_use]
+    pub fn indices(&self) -> &[usize] {
+        &self.index[..self.len]
+    }
+
+    /// Shape values, dimensionless at displacements, a length at rotations.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.value[..self.len]
+    }
+
+    /// Derivatives of the values with respect to the rail coordinate.
+    #[must_use]
+    pub fn slopes(&self) -> &[f64] {
+        &self.slope[..self.len]
+    }
+
+    /// Evaluates the cubics of a cell's axis at r in 0..=1; `scale` = dr/dx.
+    #[inline]
+    pub(crate) fn evaluate(&mut self, terms: &Terms, r: f64, scale: f64) {
+        self.len = terms.len;
+        self.groups = terms.groups.len().min(3);
+        let (indices, _) = self.index.as_chunks_mut::<4>();
+        let (values, _) = self.value.as_chunks_mut::<4>();
+        let (slopes, _) = self.slope.as_chunks_mut::<4>();
+        let out = indices.iter_mut().zip(values.iter_mut().zip(slopes));
+        for (group, (index, (value, slope))) in terms.groups.iter().zip(out) {
+            let [a, b, c, d] = &group.cubic;
+            *index = group.index;
+            for k in 0..4 {
+                value[k] = a[k] + r * (b[k] + r * (c[k] + r * d[k]));
+                slope[k] = scale * (b[k] + r * (2.0 * c[k] + r * (3.0 * d[k])));
+            }
+        }
+    }
+
+    /// The entries four at a time, the last group filled with zeros.
+    #[inline]
+    pub(crate) fn chunks(&self) -> [&[[f64; 4]]; 2] {
+        [&self.value.as_chunks().0[..self.groups], &self.slope.as_chunks().0[..self.groups]]
+    }
+
+    /// Places of the entries four at a time; fillers repeat a valid place.
+    #[inline]
+    pub(crate) fn places(&self) -> &[[usize; 4]] {
+        &self.index.as_chunks().0[..self.groups]
+    }
+}
+
+/// Entries of N of one cell along one axis.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Terms {
+    len: usize,
+    groups: Vec<Group>,
+}
+
+/// Four entries: cubics in r, the fraction of the cell; `cubic[p][k]` is the coefficient of r^p of entry k.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Group {
+    index: [usize; 4],
+    cubic: [[f64; 4]; 4],
+}
+
+/// Cubics of one axis of one cell, those that vanish left out.
+///
+/// Bending: Timoshenko shapes with alpha = c h^2/(c h^2 + 12 g), beta = 12 g/(c h^2 + 12 g),
+/// c = 1/EI, g = 1/kGA, h = length; a rigid plane has alpha = 1, beta = 0.
+pub(crate) fn terms(cell: &Cell, axis: usize) -> Terms {
+    let mut cubics = [[0.0; 4]; 12];
+    if cell.ends[0] == cell.ends[1] {
+        let along = cross([cell.x[1] - cell.x[0], 0.0, 0.0], unit(axis));
+        let moment = cross(cell.offset, unit(axis));
+        cubics[axis][0] = 1.0;
+        for k in 0..3 {
+            cubics[3 + k][0] = moment[k];
+            cubics[3 + k][1] = along[k];
+        }
+    } else {
+        let local = local(cell, &Arm::new(cell, axis));
+        for (k, axes) in cell.frame.iter().enumerate() {
+            for (a, &component) in axes.iter().enumerate() {
+                let factor = clean(component, 1.0);
+                for block in [0, 3, 6, 9] {
+                    for p in 0..4 {
+                        cubics[block + a][p] += factor * local[block + k][p];
+                    }
+                }
+            }
+        }
+    }
+    let used: Vec<usize> = (0..12).filter(|&k| cubics[k] != [0.0; 4]).collect();
+    let index = |k: usize| 6 * cell.ends[k / 6] + k % 6;
+    let groups = used.chunks(4).map(|four| Group {
+        index: std::array::from_fn(|k| index(*four.get(k).unwrap_or(&four[0]))),
+        cubic: std::array::from_fn(|p| std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| cubics[k][p]))),
+    });
+    Terms { len: used.len(), groups: groups.collect() }
+}
+
+/// The same in local axes: u, v, w, theta x, y, z of the first end, then of the last.
+fn local(cell: &Cell, arm: &Arm) -> [[f64; 4]; 12] {
+    let mut out = [[0.0; 4]; 12];
+    let free = free(cell);
+    let linear = |scale: f64| [[scale, -scale, 0.0, 0.0], [0.0, scale, 0.0, 0.0]];
+    if !free[0] {
+        [out[0], out[6]] = linear(arm.axial);
+    }
+    if !free[1] {
+        [out[3], out[9]] = linear(arm.twist);
+    }
+    let f = &cell.flexibility;
+    if !free[2] {
+        [out[1], out[5], out[7], out[11]] = plane(f.bending_z, f.shear_y, cell.length, arm.xy);
+    }
+    if !free[3] {
+        let [w0, t0, w1, t1] = plane(f.bending_y, f.shear_z, cell.length, arm.xz);
+        [out[2], out[4], out[8], out[10]] = [w0, t0.map(|x| -x), w1, t1.map(|x| -x)];
+    }
+    out
+}
+
+/// force v + moment theta of one bending plane as cubics of (v, theta) at both ends.
+fn plane(c: f64, g: f64, h: f64, [force, moment]: [f64; 2]) -> [[f64; 4]; 4] {
+    let total = c * h * h + 12.0 * g;
+    let (alpha, beta) = if total > 0.0 { (c * h * h / total, 12.0 * g / total) } else { (1.0, 0.0) };
+    let v = [
+        [1.0, -beta, -3.0 * alpha, 2.0 * alpha],
+        [0.0, h * (alpha + 0.5 * beta), -h * (2.0 * alpha + 0.5 * beta), h * alpha],
+        [0.0, beta, 3.0 * alpha, -2.0 * alpha],
+        [0.0, -0.5 * h * beta, -h * (alpha - 0.5 * beta), h * alpha],
+    ];
+    let theta = [
+        [0.0, -6.0 * alpha / h, 6.0 * alpha / h, 0.0],
+        [1.0, -(4.0 * alpha + beta), 3.0 * alpha, 0.0],
+        [0.0, 6.0 * alpha / h, -6.0 * alpha / h, 0.0],
+        [0.0, beta - 2.0 * alpha, 3.0 * alpha, 0.0],
+    ];
+    let mix = |k: usize| std::array::from_fn(|p| force * v[k][p] + moment * theta[k][p]);
+    [mix(0), mix(1), mix(2), mix(3)]
+}

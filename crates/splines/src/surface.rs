@@ -1,0 +1,163 @@
+//! The exact influence surface of a structure along its rails.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+
+use crate::row::Row;
+use crate::{Compliance, Error, Influence, Line, Probe};
+
+/// Exact influence coefficients at any place of any rail:
+///
+/// G(p, q) = N(p) C N(q)^T + \[same cell\] b(p, q)
+///
+/// with the shape rows N and clamped kernels b of the cells, and the compliance C of the states at their
+/// ends. Exact for piecewise uniform Euler-Bernoulli and Timoshenko members loaded at the rail, whatever
+/// the number of cells; positive semi-definite where C is; smooth where bending alone gives.
+///
+/// # Source
+/// Superposition of the loaded cell with its ends held, and of the released ends; see
+/// Przemieniecki, Theory of Matrix Structural Analysis (1968), section 10.
+#[derive(Clone, Debug)]
+pub struct Surface {
+    line: Arc<Line>,
+    nodal: DMatrix<f64>,
+}
+
+impl Surface {
+    /// `nodal`: 6 S x 6 S, S = `line.states()`: displacement of freedom i per unit load on freedom j, in the
+    /// frames of the rails. Its symmetric part is taken. An infinite diagonal entry marks a freedom that
+    /// nothing resists: probes that need it are refused.
+    ///
+    /// # Errors
+    /// A wrong shape; an entry that is not a number, or infinite off the diagonal.
+    pub fn new(line: Arc<Line>, nodal: DMatrix<f64>) -> Result<Surface, Error> {
+        let expected = 6 * line.states();
+        let (rows, columns) = nodal.shape();
+        if rows != expected || columns != expected {
+            return Err(Error::NodalShape { rows, columns, expected });
+        }
+        let mut nodal = nodal;
+        for column in 0..expected {
+            for row in 0..=column {
+                let mean = 0.5 * nodal[(row, column)] + 0.5 * nodal[(column, row)];
+                if !(mean.is_finite() || (row == column && mean == f64::INFINITY)) {
+                    return Err(Error::NodalNumber { row, column });
+                }
+                nodal[(row, column)] = mean;
+                nodal[(column, row)] = mean;
+            }
+        }
+        Ok(Surface { line, nodal })
+    }
+
+    /// The cells it stands on.
+    #[must_use]
+    pub fn line(&self) -> &Arc<Line> {
+        &self.line
+    }
+
+    /// Compliance of the states.
+    #[must_use]
+    pub fn nodal(&self) -> &DMatrix<f64> {
+        &self.nodal
+    }
+
+    fn assemble(
+        &self,
+        at: &[Probe],
+        rows: &mut [Row],
+        order: &mut [usize],
+        out: &mut Influence,
+    ) -> Result<(), Error> {
+        let n = at.len();
+        let size = self.nodal.nrows();
+        let nodal = self.nodal.as_slice();
+        let value = out.value.as_mut_slice();
+        let slope = out.slope.as_mut_slice();
+        for (i, p) in at.iter().enumerate() {
+            self.line.row_into(*p, &mut rows[i])?;
+            order[i] = i;
+        }
+        // Probes of one cell and axis share their freedoms: one product C N(q) serves them all.
+        let block = |row: &Row| (row.cell, row.axis);
+        if !rows.is_sorted_by_key(block) {
+            order.sort_unstable_by_key(|&i| block(&rows[i]));
+        }
+        for j in 0..n {
+            let load = &rows[j];
+            let mut last = None;
+            let mut moved = [[0.0; 4]; 3];
+            for &i in order.iter() {
+                let row = &rows[i];
+                if last != Some(block(row)) {
+                    last = Some(block(row));
+                    moved = [[0.0; 4]; 3];
+                    for (&freedom, &share) in load.indices().iter().zip(load.values()) {
+                        let column = &nodal[freedom * size..(freedom + 1) * size];
+                        for (sum, place) in moved.iter_mut().zip(row.places()) {
+                            for (sum, &k) in sum.iter_mut().zip(place) {
+                                *sum += share * column[k];
+                            }
+                        }
+                    }
+                }
+                let [values, slopes] = row.chunks();
+                slope[i + n * j] = dot(slopes, &moved);
+                if i >= j {
+                    value[i + n * j] = dot(values, &moved);
+                }
+            }
+        }
+        for j in 0..n {
+            let kernel = self.line.kernel_of(rows[j].cell);
+            for i in j..n {
+                let (p, q) = (&rows[i], &rows[j]);
+                if let Some(kernel) = kernel.filter(|_| p.cell == q.cell) {
+                    let green = kernel.pair(p.axis, p.s, q.axis, q.s);
+                    value[i + n * j] += green.value;
+                    slope[i + n * j] += green.first * p.rate;
+                    if i != j {
+                        slope[j + n * i] += green.second * q.rate;
+                    }
+                }
+                value[j + n * i] = value[i + n * j];
+            }
+            if !value[j + n * j].is_finite() {
+                return Err(Error::Unstiffened { rail: at[j].rail, x: at[j].x, axis: at[j].axis });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn dot(a: &[[f64; 4]], b: &[[f64; 4]; 3]) -> f64 {
+    let one = |x: &[f64; 4], y: &[f64; 4]| (x[0] * y[0] + x[2] * y[2]) + (x[1] * y[1] + x[3] * y[3]);
+    a.iter().zip(b).map(|(x, y)| one(x, y)).sum()
+}
+
+impl Compliance for Surface {
+    /// `value` is symmetric to the last bit. At a place where a slope jumps (one's own force in shear,
+    /// torsion or axially) `slope` is the mean of both sides. Up to 16 probes take no memory from the heap.
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
+        let n = at.len();
+        if out.value.shape() != (n, n) || out.slope.shape() != (n, n) {
+            let (rows, columns) = out.value.shape();
+            return Err(Error::OutputShape { rows, columns, expected: n });
+        }
+        match n {
+            0..=2 => self.assemble(at, &mut [Row::EMPTY; 2][..n], &mut [0; 2][..n], out),
+            3..=8 => self.assemble(at, &mut [Row::EMPTY; 8][..n], &mut [0; 8][..n], out),
+            9..=16 => self.assemble(at, &mut [Row::EMPTY; 16][..n], &mut [0; 16][..n], out),
+            _ => self.assemble(at, &mut vec![Row::EMPTY; n], &mut vec![0; n], out),
+        }
+    }
+
+    fn breaks(&self, rail: usize) -> Vec<f64> {
+        self.line.breaks(rail)
+    }
+
+    fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        self.line.range(rail)
+    }
+}

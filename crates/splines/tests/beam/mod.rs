@@ -1,0 +1,134 @@
+//! A uniform straight beam on knife edges by the force method: an independent route to every coefficient.
+//!
+//! Field of free space plus reactions and a rigid motion a + b x. Nothing here knows of elements,
+//! shape functions or clamped cells.
+#![allow(dead_code)]
+
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+use splines::{Axis, Cell, Flexibility, Line, Probe, Surface};
+
+/// EI of the paper's girder, lb ft^2.
+pub const EI: f64 = 9.528 * 4.32e9;
+
+/// c = 1/EI, g = 1/kGA; supports hold the deflection alone, except that ends may be free.
+pub struct Beam {
+    pub c: f64,
+    pub g: f64,
+    pub supports: Vec<f64>,
+}
+
+/// What acts or what is measured: a force and its deflection, a moment and its rotation.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Kind {
+    Force,
+    Moment,
+}
+
+impl Beam {
+    pub fn paper() -> Beam {
+        Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 60.0] }
+    }
+
+    /// Free-space field at x of a unit action at z, up to a rigid motion.
+    fn free(&self, at: Kind, x: f64, load: Kind, z: f64) -> f64 {
+        let r = x - z;
+        match (at, load) {
+            (Kind::Force, Kind::Force) => self.c * r.abs().powi(3) / 12.0 - 0.5 * self.g * r.abs(),
+            (Kind::Moment, Kind::Force) => self.c * r * r.abs() / 4.0,
+            (Kind::Force, Kind::Moment) => -self.c * r * r.abs() / 4.0,
+            (Kind::Moment, Kind::Moment) => -self.c * r.abs() / 2.0,
+        }
+    }
+
+    /// Deflection or rotation at x under a unit force or moment at z.
+    pub fn give(&self, at: Kind, x: f64, load: Kind, z: f64) -> f64 {
+        let n = self.supports.len();
+        // Unknowns: upward reactions, then a, b. Equations: no deflection at supports, no net force or moment.
+        let mut matrix = DMatrix::zeros(n + 2, n + 2);
+        let mut right = DVector::zeros(n + 2);
+        for (i, &s) in self.supports.iter().enumerate() {
+            for (j, &t) in self.supports.iter().enumerate() {
+                matrix[(i, j)] = self.free(Kind::Force, s, Kind::Force, t) * EI;
+            }
+            matrix[(i, n)] = 1.0;
+            matrix[(i, n + 1)] = s;
+            matrix[(n, i)] = 1.0;
+            matrix[(n + 1, i)] = s;
+            right[i] = -self.free(Kind::Force, s, load, z) * EI;
+        }
+        (right[n], right[n + 1]) = if load == Kind::Force { (-1.0, -z) } else { (0.0, -1.0) };
+        let solved = matrix.lu().solve(&right).expect("two supports hold a beam");
+        let rigid = if at == Kind::Force { solved[n] + solved[n + 1] * x } else { solved[n + 1] };
+        let mut sum = self.free(at, x, load, z) + rigid / EI;
+        for (i, &s) in self.supports.iter().enumerate() {
+            sum += solved[i] * self.free(at, x, Kind::Force, s);
+        }
+        sum
+    }
+
+    pub fn deflection(&self, x: f64, z: f64) -> f64 {
+        self.give(Kind::Force, x, Kind::Force, z)
+    }
+
+    /// Exact surface of the vertical direction with states at `stations`, their compliance from `give`.
+    pub fn surface(&self, stations: &[f64]) -> Surface {
+        let mut nodal = DMatrix::zeros(6 * stations.len(), 6 * stations.len());
+        let kinds = [(1, Kind::Force), (5, Kind::Moment)];
+        for (i, &x) in stations.iter().enumerate() {
+            for (j, &z) in stations.iter().enumerate() {
+                for (a, at) in kinds {
+                    for (b, load) in kinds {
+                        nodal[(6 * i + a, 6 * j + b)] = self.give(at, x, load, z);
+                    }
+                }
+            }
+        }
+        let flexibility = Flexibility { bending_z: self.c, shear_y: self.g, ..Flexibility::default() };
+        let cells = chain(stations, [0.0; 3], flexibility);
+        Surface::new(Arc::new(Line::new(cells).expect("valid cells")), nodal).expect("fits")
+    }
+}
+
+pub const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Cells of one straight rail from station to station.
+pub fn chain(stations: &[f64], offset: [f64; 3], flexibility: Flexibility) -> Vec<Cell> {
+    let pairs = stations.windows(2).enumerate();
+    pairs
+        .map(|(k, x)| Cell {
+            rail: 0,
+            x: [x[0], x[1]],
+            ends: [k, k + 1],
+            length: x[1] - x[0],
+            frame: STRAIGHT,
+            offset,
+            flexibility,
+        })
+        .collect()
+}
+
+pub fn probe(axis: Axis, x: f64) -> Probe {
+    Probe { rail: 0, x, axis }
+}
+
+/// Numbers in 0..1 that look random: xorshift64*.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Random {
+        Random(seed | 1)
+    }
+
+    pub fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
