@@ -1,1 +1,33 @@
-//! placeholder
+//! Frames in space, and their influence functions along rails.
+//!
+//! A [`Model`] (or the short form [`Girder`]) and its [`Rail`]s become a [`Frame`], which answers with
+//! a [`Grid`] of chosen places, the exact [`Exact::surface`] of whole rails, compliance of points and
+//! reactions. Statics of small displacements; members are uniform and exact.
+
+mod assembly;
+pub mod certificate;
+mod element;
+pub mod error;
+mod factor;
+pub mod frame;
+mod freedoms;
+pub mod girder;
+pub mod grid;
+mod mechanism;
+pub mod model;
+mod order;
+pub mod rail;
+pub mod reaction;
+pub mod section;
+pub mod surface;
+
+pub use certificate::Certificate;
+pub use error::{Error, Fault, Item, Quantity};
+pub use frame::Frame;
+pub use girder::Girder;
+pub use grid::{Grid, grid};
+pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Support};
+pub use rail::{Rail, Segment};
+pub use reaction::{Hold, Reactions, reactions};
+pub use section::{Section, Theory};
+pub use surface::{Exact, nodal, surface};

@@ -1,0 +1,274 @@
+//! What can be wrong with a frame.
+
+use std::fmt;
+
+use crate::Freedom;
+
+/// Errors of this crate: ids and numbers; the caller knows the names and files.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// An entry of the model or of a rail that cannot be used.
+    #[error("{item}: {fault}")]
+    Invalid {
+        /// Which entry.
+        item: Item,
+        /// What is wrong with it.
+        fault: Fault,
+    },
+    /// Releases of one member that let a part of it move freely.
+    #[error("releases of member {member} leave a mechanism in it: {freedom} at its end {end}")]
+    Released {
+        /// Index of the member.
+        member: usize,
+        /// 0 at its first point, 1 at its second.
+        end: usize,
+        /// Local freedom that nothing holds any more.
+        freedom: Freedom,
+    },
+    /// The structure can move without strain.
+    #[error("mechanism: nothing holds point {point} in {freedom}")]
+    Mechanism {
+        /// Point that moves most, stiffness considered.
+        point: usize,
+        /// Its freedom that moves most.
+        freedom: Freedom,
+    },
+    /// Rounding may have eaten every digit.
+    #[error("condition {condition:.1e} leaves no digit; weakest is point {point} in {freedom}")]
+    Ill {
+        /// Estimate of the condition of the scaled stiffness.
+        condition: f64,
+        /// Point that moves most in the weakest pattern.
+        point: usize,
+        /// Its freedom that moves most.
+        freedom: Freedom,
+    },
+    /// A structure without any stiffened freedom, or too large for the factor.
+    #[error("the stiffness of {unknowns} freedoms cannot be factored")]
+    Factor {
+        /// Number of unknown freedoms.
+        unknowns: usize,
+    },
+    /// A rail was asked for where none was given.
+    #[error("no rail was given")]
+    NoRails,
+    /// A place or direction that the rails do not offer.
+    #[error(transparent)]
+    Rail(#[from] splines::Error),
+}
+
+/// An entry, by its index in the model's or rail's list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Item {
+    /// The direction up.
+    Up,
+    /// A point.
+    Point(usize),
+    /// A section.
+    Section(usize),
+    /// A member.
+    Member(usize),
+    /// A support.
+    Support(usize),
+    /// A spring.
+    Spring(usize),
+    /// A link.
+    Link(usize),
+    /// A mass.
+    Mass(usize),
+    /// A span of a girder.
+    Span(usize),
+    /// An overhang of a girder: 0 before the first support, 1 after the last.
+    Overhang(usize),
+    /// A girder as a whole.
+    Girder,
+    /// A rail.
+    Rail(usize),
+    /// A segment of a rail.
+    Segment {
+        /// Which rail.
+        rail: usize,
+        /// Which of its segments.
+        segment: usize,
+    },
+    /// A station of a rail.
+    Station {
+        /// Which rail.
+        rail: usize,
+        /// Which of its stations.
+        station: usize,
+    },
+}
+
+/// What is wrong with an entry.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Fault {
+    /// Infinite or not a number.
+    #[error("{quantity} is not finite")]
+    NotFinite {
+        /// Which number of the entry.
+        quantity: Quantity,
+    },
+    /// Must be above zero.
+    #[error("{quantity} must be positive, got {value}")]
+    NotPositive {
+        /// Which number of the entry.
+        quantity: Quantity,
+        /// What was given.
+        value: f64,
+    },
+    /// Must not be below zero.
+    #[error("{quantity} must not be negative, got {value}")]
+    Negative {
+        /// Which number of the entry.
+        quantity: Quantity,
+        /// What was given.
+        value: f64,
+    },
+    /// A shear area without a shear modulus.
+    #[error("a shear area needs a shear modulus")]
+    NoShearModulus,
+    /// A point that does not exist.
+    #[error("point {point} does not exist")]
+    NoPoint {
+        /// The index given.
+        point: usize,
+    },
+    /// A section that does not exist.
+    #[error("section {section} does not exist")]
+    NoSection {
+        /// The index given.
+        section: usize,
+    },
+    /// A member that does not exist.
+    #[error("member {member} does not exist")]
+    NoMember {
+        /// The index given.
+        member: usize,
+    },
+    /// A flexible part without length.
+    #[error("the flexible part has no length")]
+    NoLength,
+    /// An orientation that does not fix the local axes.
+    #[error("the orientation is parallel to the member, or zero")]
+    Orientation,
+    /// An empty list.
+    #[error("has no {quantity}")]
+    Empty {
+        /// Which list of the entry.
+        quantity: Quantity,
+    },
+    /// A rail axis without length, or along `up`.
+    #[error("the axis is zero or parallel to up")]
+    Axis,
+    /// A segment at right angles to the rail.
+    #[error("the member has no extent along the rail")]
+    NoExtent,
+    /// Two segments over one stretch of rail.
+    #[error("overlaps segment {segment} at x = {x}")]
+    Overlap {
+        /// The other segment.
+        segment: usize,
+        /// Where the overlap begins.
+        x: f64,
+    },
+    /// A station that is not beyond the one before it.
+    #[error("stations must increase, got {value}")]
+    Unsorted {
+        /// The station.
+        value: f64,
+    },
+    /// A station that no segment covers.
+    #[error("no segment covers x = {x}")]
+    Uncovered {
+        /// The station.
+        x: f64,
+    },
+}
+
+/// A number of an entry.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// Coordinates of a point, an origin or a direction.
+    Coordinate,
+    /// Length.
+    Length,
+    /// Young's modulus.
+    E,
+    /// Shear modulus.
+    G,
+    /// Area.
+    Area,
+    /// Second moment of area about local y, lateral.
+    Iy,
+    /// Second moment of area about local z, vertical.
+    Iz,
+    /// Torsion constant.
+    J,
+    /// Shear area along local y, vertical.
+    ShearY,
+    /// Shear area along local z, lateral.
+    ShearZ,
+    /// Mass, or mass per length.
+    Mass,
+    /// Rotary inertia.
+    Inertia,
+    /// Offset.
+    Offset,
+    /// Orientation.
+    Orientation,
+    /// Stiffness of a spring.
+    Stiffness,
+    /// Spans.
+    Spans,
+    /// Segments.
+    Segments,
+    /// Station.
+    Station,
+}
+
+impl fmt::Display for Item {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Item::Up => write!(f, "up"),
+            Item::Point(k) => write!(f, "point {k}"),
+            Item::Section(k) => write!(f, "section {k}"),
+            Item::Member(k) => write!(f, "member {k}"),
+            Item::Support(k) => write!(f, "support {k}"),
+            Item::Spring(k) => write!(f, "spring {k}"),
+            Item::Link(k) => write!(f, "link {k}"),
+            Item::Mass(k) => write!(f, "mass {k}"),
+            Item::Span(k) => write!(f, "span {k}"),
+            Item::Overhang(k) => write!(f, "overhang {k}"),
+            Item::Girder => write!(f, "girder"),
+            Item::Rail(k) => write!(f, "rail {k}"),
+            Item::Segment { rail, segment } => write!(f, "segment {segment} of rail {rail}"),
+            Item::Station { rail, station } => write!(f, "station {station} of rail {rail}"),
+        }
+    }
+}
+
+impl fmt::Display for Quantity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Quantity::Coordinate => "coordinate",
+            Quantity::Length => "length",
+            Quantity::E => "E",
+            Quantity::G => "G",
+            Quantity::Area => "area",
+            Quantity::Iy => "Iy",
+            Quantity::Iz => "Iz",
+            Quantity::J => "J",
+            Quantity::ShearY => "shear area along y",
+            Quantity::ShearZ => "shear area along z",
+            Quantity::Mass => "mass",
+            Quantity::Inertia => "inertia",
+            Quantity::Offset => "offset",
+            Quantity::Orientation => "orientation",
+            Quantity::Stiffness => "stiffness",
+            Quantity::Spans => "spans",
+            Quantity::Segments => "segments",
+            Quantity::Station => "station",
+        })
+    }
+}

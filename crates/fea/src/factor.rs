@@ -1,0 +1,294 @@
+//! Sparse Cholesky factor, with solves that follow the elimination tree.
+
+use faer::Par;
+use faer::Side;
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use sprs::CsMat;
+
+/// Why a matrix has no factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Refusal {
+    /// A pivot that is not positive.
+    Indefinite,
+    /// Too large for memory or indices.
+    Size,
+}
+
+/// L with L L^T = K, K symmetric positive definite, in panels of adjoining columns.
+#[derive(Debug)]
+pub(crate) struct Factor {
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<f64>,
+    /// Panel of each column.
+    owner: Vec<usize>,
+    panels: usize,
+}
+
+/// Columns `start..start + width` of L: `values` holds a dense column-major block whose first `width`
+/// rows are the triangle and whose others are the rows `below`.
+struct Panel<'a> {
+    start: usize,
+    width: usize,
+    below: &'a [usize],
+    values: &'a [f64],
+}
+
+/// w = L^-1 p for a sparse p: values on the panels between p and the root, ascending.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Tail {
+    /// Where each run of values begins.
+    pub starts: Vec<usize>,
+    /// How long it is.
+    pub widths: Vec<usize>,
+    /// The runs, one after the other.
+    pub values: Vec<f64>,
+}
+
+impl Factor {
+    /// Factors the matrix whose upper triangle is given, in the order given.
+    pub fn new(upper: &CsMat<f64>) -> Result<Factor, Refusal> {
+        let n = upper.cols();
+        let storage = upper.indptr();
+        let pattern = SymbolicSparseColMatRef::new_checked(
+            n,
+            n,
+            storage.as_slice().ok_or(Refusal::Size)?,
+            None,
+            upper.indices(),
+        );
+        let params = CholeskySymbolicParams::default();
+        let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
+            .map_err(|_| Refusal::Size)?;
+        let mut values = Vec::new();
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size)?;
+        values.resize(symbolic.len_val(), 0.0);
+        let request = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size)?;
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                SparseColMatRef::new(pattern, upper.data()),
+                Side::Upper,
+                LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+                Default::default(),
+            )
+            .map_err(|_| Refusal::Indefinite)?;
+        let (owner, panels) = match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(_) => ((0..n).collect(), n),
+            SymbolicCholeskyRaw::Supernodal(s) => {
+                let spans = s.supernode_begin().iter().zip(s.supernode_end());
+                let owner = spans.enumerate().flat_map(|(k, (a, b))| std::iter::repeat_n(k, b - a)).collect();
+                (owner, s.n_supernodes())
+            }
+        };
+        Ok(Factor { symbolic, values, owner, panels })
+    }
+
+    pub fn len(&self) -> usize {
+        self.owner.len()
+    }
+
+    fn panel(&self, k: usize) -> Panel<'_> {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(s) => {
+                let (from, to) = (s.col_ptr()[k], s.col_ptr()[k + 1]);
+                Panel {
+                    start: k,
+                    width: 1,
+                    below: &s.row_idx()[from + 1..to],
+                    values: &self.values[from..to],
+                }
+            }
+            SymbolicCholeskyRaw::Supernodal(s) => {
+                let (start, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
+                let values = &self.values[s.col_ptr_for_val()[k]..s.col_ptr_for_val()[k + 1]];
+                Panel { start, width: end - start, below: s.supernode(k).pattern(), values }
+            }
+        }
+    }
+
+    /// Smallest pivot L_kk^2.
+    pub fn least_pivot(&self) -> f64 {
+        let mut least = f64::INFINITY;
+        for k in 0..self.panels {
+            let panel = self.panel(k);
+            let rows = panel.width + panel.below.len();
+            for j in 0..panel.width {
+                let pivot = panel.values[j * rows + j];
+                least = least.min(pivot * pivot);
+            }
+        }
+        least
+    }
+
+    /// Panels from those of `columns` to the root, ascending.
+    fn path(&self, columns: impl Iterator<Item = usize>, seen: &mut [bool]) -> Vec<usize> {
+        let mut path = Vec::new();
+        for column in columns {
+            let mut k = self.owner[column];
+            while !seen[k] {
+                seen[k] = true;
+                path.push(k);
+                match self.panel(k).below.iter().min() {
+                    Some(&next) => k = self.owner[next],
+                    None => break,
+                }
+            }
+        }
+        path.iter().for_each(|&k| seen[k] = false);
+        path.sort_unstable();
+        path
+    }
+
+    /// L^-1 p, following the elimination tree from the entries of p to its root.
+    ///
+    /// # Source
+    /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9; Davis, Direct Methods for Sparse Linear
+    /// Systems (2006), chapter 3.
+    pub fn forward(&self, load: &[(usize, f64)], work: &mut Work) -> Tail {
+        let Work { x, seen } = work;
+        for &(row, value) in load {
+            x[row] += value;
+        }
+        let path = self.path(load.iter().map(|&(row, _)| row), seen);
+        let mut tail = Tail::default();
+        for &k in &path {
+            let panel = self.panel(k);
+            panel.forward(x);
+            let span = panel.start..panel.start + panel.width;
+            match (tail.starts.last(), tail.widths.last_mut()) {
+                (Some(&start), Some(width)) if start + *width == panel.start => *width += panel.width,
+                _ => {
+                    tail.starts.push(panel.start);
+                    tail.widths.push(panel.width);
+                }
+            }
+            tail.values.extend_from_slice(&x[span.clone()]);
+            x[span].fill(0.0);
+        }
+        tail
+    }
+
+    /// Solves K x = x in place.
+    pub fn solve(&self, x: &mut [f64]) {
+        for k in 0..self.panels {
+            self.panel(k).forward(x);
+        }
+        for k in (0..self.panels).rev() {
+            self.panel(k).backward(x);
+        }
+    }
+
+    /// Workspace for `forward`.
+    pub fn work(&self) -> Work {
+        Work { x: vec![0.0; self.len()], seen: vec![false; self.panels] }
+    }
+
+    /// Row and column sums of |L|: bound on | |L| |L^T| | and longest row.
+    pub fn growth(&self) -> (f64, usize) {
+        let n = self.len();
+        let (mut rows, mut lengths) = (vec![0.0_f64; n], vec![0_usize; n]);
+        let mut column_norm = 0.0_f64;
+        for k in 0..self.panels {
+            let panel = self.panel(k);
+            let height = panel.width + panel.below.len();
+            for j in 0..panel.width {
+                let mut sum = 0.0;
+                for i in j..height {
+                    let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
+                    let size = panel.values[j * height + i].abs();
+                    sum += size;
+                    rows[row] += size;
+                    lengths[row] += 1;
+                }
+                column_norm = column_norm.max(sum);
+            }
+        }
+        let row_norm = rows.iter().fold(0.0_f64, |a, &b| a.max(b));
+        (column_norm * row_norm, lengths.into_iter().max().unwrap_or(0))
+    }
+}
+
+/// Scratch of the forward solves; zero between them.
+pub(crate) struct Work {
+    x: Vec<f64>,
+    seen: Vec<bool>,
+}
+
+impl Work {
+    /// Products of `tail` with each of `others`.
+    pub fn dots<'a>(
+        &mut self,
+        tail: &Tail,
+        others: impl Iterator<Item = &'a Tail>,
+        mut each: impl FnMut(f64),
+    ) {
+        tail.runs().for_each(|(start, run)| self.x[start..start + run.len()].copy_from_slice(run));
+        for other in others {
+            let mut sum = 0.0;
+            for (start, run) in other.runs() {
+                sum += run.iter().zip(&self.x[start..start + run.len()]).map(|(a, b)| a * b).sum::<f64>();
+            }
+            each(sum);
+        }
+        tail.runs().for_each(|(start, run)| self.x[start..start + run.len()].fill(0.0));
+    }
+}
+
+impl Tail {
+    fn runs(&self) -> impl Iterator<Item = (usize, &[f64])> {
+        let mut from = 0;
+        self.starts.iter().zip(&self.widths).map(move |(&start, &width)| {
+            let run = &self.values[from..from + width];
+            from += width;
+            (start, run)
+        })
+    }
+}
+
+impl Panel<'_> {
+    fn forward(&self, x: &mut [f64]) {
+        let height = self.width + self.below.len();
+        for j in 0..self.width {
+            let column = &self.values[j * height + j..(j + 1) * height];
+            let (pivot, rest) = column.split_at(1);
+            let value = x[self.start + j] / pivot[0];
+            x[self.start + j] = value;
+            if value == 0.0 {
+                continue;
+            }
+            let (triangle, below) = rest.split_at(self.width - 1 - j);
+            for (l, target) in triangle.iter().zip(&mut x[self.start + j + 1..]) {
+                *target -= l * value;
+            }
+            for (l, &row) in below.iter().zip(self.below) {
+                x[row] -= l * value;
+            }
+        }
+    }
+
+    fn backward(&self, x: &mut [f64]) {
+        let height = self.width + self.below.len();
+        for j in (0..self.width).rev() {
+            let column = &self.values[j * height + j..(j + 1) * height];
+            let (pivot, rest) = column.split_at(1);
+            let (triangle, below) = rest.split_at(self.width - 1 - j);
+            let mut value = x[self.start + j];
+            for (l, &known) in triangle.iter().zip(&x[self.start + j + 1..]) {
+                value -= l * known;
+            }
+            for (l, &row) in below.iter().zip(self.below) {
+                value -= l * x[row];
+            }
+            x[self.start + j] = value / pivot[0];
+        }
+    }
+}

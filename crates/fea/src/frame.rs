@@ -1,0 +1,188 @@
+//! A frame, factored once.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use nalgebra::{SVector, Vector3};
+use splines::{Axis, Line, Probe};
+
+use crate::assembly::Assembly;
+use crate::certificate::Certificate;
+use crate::element::{Element, Matrix12};
+use crate::error::{Error, Fault, Item};
+use crate::factor::{Factor, Refusal, Tail, Work};
+use crate::freedoms::{Freedoms, Sum};
+use crate::mechanism::{PIVOT, weakest};
+use crate::model::{Freedom, Model};
+use crate::rail::{Rail, lay};
+
+/// A model and its rails, numbered, assembled and factored: answers any number of questions.
+#[derive(Debug)]
+pub struct Frame {
+    pub(crate) elements: Vec<Element>,
+    pub(crate) freedoms: Freedoms,
+    assembly: Assembly,
+    factor: Factor,
+    certificate: Certificate,
+    line: Option<Arc<Line>>,
+    states: Vec<[Sum; 6]>,
+    slack: BTreeMap<usize, Matrix12>,
+}
+
+impl Frame {
+    /// Checks, assembles and factors. Freedoms that nothing stiffens are left out.
+    ///
+    /// # Errors
+    /// An entry that cannot be used; a mechanism, by point and freedom; a stiffness so badly
+    /// conditioned that no digit can be trusted.
+    pub fn new(m: &Model, rails: &[Rail]) -> Result<Frame, Error> {
+        m.check()?;
+        let elements: Vec<Element> =
+            (0..m.members.len()).map(|index| Element::new(m, index)).collect::<Result<_, _>>()?;
+        let freedoms = Freedoms::new(m);
+        let layout = if rails.is_empty() { None } else { Some(lay(m, rails, &elements, &freedoms)?) };
+        if let Some(layout) = &layout {
+            covered(&layout.line, rails)?;
+        }
+        let assembly = Assembly::new(m, &elements, &freedoms);
+        let unknowns = assembly.column.len();
+        if !assembly.norm().is_finite() {
+            return Err(Error::Factor { unknowns });
+        }
+        let factor = match Factor::new(&assembly.upper) {
+            Ok(factor) if factor.least_pivot() > PIVOT => factor,
+            Ok(_) | Err(Refusal::Indefinite) => {
+                let (point, freedom) = weakest(&assembly, &freedoms);
+                return Err(Error::Mechanism { point, freedom });
+            }
+            Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
+        };
+        let certificate = Certificate::new(&assembly, &factor);
+        if !certificate.error_bound.is_finite() {
+            let (point, freedom) = weakest(&assembly, &freedoms);
+            return Err(Error::Ill { condition: certificate.condition, point, freedom });
+        }
+        let (line, states, slack) = match layout {
+            Some(layout) => (Some(Arc::new(layout.line)), layout.states, layout.slack),
+            None => Default::default(),
+        };
+        Ok(Frame { elements, freedoms, assembly, factor, certificate, line, states, slack })
+    }
+
+    /// How far compliances of this frame can be trusted.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.certificate
+    }
+
+    /// Number of unknown freedoms.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.factor.len()
+    }
+
+    /// The cells of the rails; state k of the line is state k of the surface.
+    ///
+    /// # Errors
+    /// The frame has no rail.
+    pub fn line(&self) -> Result<&Arc<Line>, Error> {
+        self.line.as_ref().ok_or(Error::NoRails)
+    }
+
+    /// Whether the structure resists forces along `axis` everywhere on `rail`.
+    #[must_use]
+    pub fn available(&self, rail: usize, axis: Axis) -> bool {
+        let Some(line) = &self.line else { return false };
+        let mut cells = line.cells().iter().filter(|cell| cell.rail == rail).peekable();
+        cells.peek().is_some()
+            && cells.all(|cell| {
+                let [a, b] = cell.x;
+                [a + 0.25 * (b - a), 0.5 * (a + b), b - 0.25 * (b - a)]
+                    .into_iter()
+                    .all(|x| self.load(Probe { rail, x, axis }).is_ok())
+            })
+    }
+
+    pub(crate) fn states(&self) -> &[[Sum; 6]] {
+        &self.states
+    }
+
+    /// What releases add to the compliance between the end states of cells.
+    pub(crate) fn slack(&self) -> &BTreeMap<usize, Matrix12> {
+        &self.slack
+    }
+
+    /// Shape row of a probe over the motions of the bodies, and its cell.
+    pub(crate) fn row(&self, probe: Probe) -> Result<(Sum, usize), Error> {
+        let row = self.line()?.row(probe)?;
+        let mut sum = Sum::default();
+        for (&index, &value) in row.indices().iter().zip(row.values()) {
+            sum.add_scaled(&self.states[index / 6][index % 6], value);
+        }
+        Ok((sum, row.cell))
+    }
+
+    /// Scaled load of a unit force at a probe, and its cell.
+    pub(crate) fn load(&self, probe: Probe) -> Result<(Vec<(usize, f64)>, usize), Error> {
+        let (sum, cell) = self.row(probe)?;
+        let Probe { rail, x, axis } = probe;
+        let load = self.scaled(&sum).ok_or(splines::Error::Unstiffened { rail, x, axis })?;
+        Ok((load, cell))
+    }
+
+    /// A sum over motions of the bodies as a load on the scaled unknowns; `None` where a freedom that
+    /// nothing stiffens takes part.
+    pub(crate) fn scaled(&self, sum: &Sum) -> Option<Vec<(usize, f64)>> {
+        let mut load = Vec::with_capacity(sum.terms.len());
+        for (column, value) in self.freedoms.supported(sum).significant() {
+            let k = self.assembly.unknown[column]?;
+            load.push((k, value * self.assembly.scale[k]));
+        }
+        Some(load)
+    }
+
+    /// Motion of the references of all bodies, six each, under a scaled load.
+    pub(crate) fn motions(&self, load: &[(usize, f64)]) -> Vec<SVector<f64, 6>> {
+        let mut x = vec![0.0; self.factor.len()];
+        load.iter().for_each(|&(k, value)| x[k] += value);
+        self.factor.solve(&mut x);
+        let mut motions = vec![SVector::<f64, 6>::zeros(); self.freedoms.bodies.len()];
+        for (k, value) in x.into_iter().enumerate() {
+            let column = self.assembly.column[k];
+            motions[column / 6][column % 6] = value * self.assembly.scale[k];
+        }
+        motions.iter().zip(&self.freedoms.bodies).map(|(motion, body)| body.basis * motion).collect()
+    }
+
+    pub(crate) fn work(&self) -> Work {
+        self.factor.work()
+    }
+
+    pub(crate) fn forward(&self, load: &[(usize, f64)], work: &mut Work) -> Tail {
+        self.factor.forward(load, work)
+    }
+
+    /// Six sums of a point's own freedoms.
+    pub(crate) fn point(&self, point: usize) -> [Sum; 6] {
+        let motion = self.freedoms.motion(point, &Vector3::zeros());
+        let columns = 6 * self.freedoms.body[point];
+        Freedom::ALL.map(|freedom| {
+            let mut sum = Sum::default();
+            (0..6).for_each(|k| sum.add(columns + k, motion[(freedom as usize, k)]));
+            sum
+        })
+    }
+}
+
+fn covered(line: &Line, rails: &[Rail]) -> Result<(), Error> {
+    for (rail, given) in rails.iter().enumerate() {
+        for (station, &x) in given.stations.iter().enumerate() {
+            let probe = Probe { rail, x, axis: Axis::Vertical };
+            if let Err(splines::Error::OffRail { .. }) = line.row(probe) {
+                let item = Item::Station { rail, station };
+                return Err(Error::Invalid { item, fault: Fault::Uncovered { x } });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,104 @@
+//! The error bound against true errors of ill-conditioned chains (analytic).
+
+mod common;
+
+use common::probes;
+use fea::{Error, Frame, Girder, Kind, Member, Model, Rail, Section, Segment, Support};
+use splines::Axis;
+
+/// A simply supported beam of length 60 cut at the given places, none at midspan.
+fn chain(cuts: &[f64]) -> (Model, Rail) {
+    let points = cuts.iter().map(|&x| [x, 0.0, 0.0]).collect();
+    let section = Section { e: 4.32e9, iz: 9.528, ..Section::default() };
+    let members: Vec<Member> = (1..cuts.len())
+        .map(|k| Member {
+            points: [k - 1, k],
+            kind: Kind::Beam,
+            section: 0,
+            orientation: [0.0, 1.0, 0.0],
+            offsets: [[0.0; 3]; 2],
+            releases: [[false; 6]; 2],
+        })
+        .collect();
+    let supports = [0, cuts.len() - 1]
+        .map(|point| Support { point, fix: [point == 0, true, true, true, false, false] })
+        .to_vec();
+    let segments = (0..members.len()).map(|member| Segment { member, offset: [0.0; 3] }).collect();
+    let rail = Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() };
+    (
+        Model { points, sections: vec![section], members, supports, up: [0.0, 1.0, 0.0], ..Model::default() },
+        rail,
+    )
+}
+
+/// True relative error at 31 ft and the bound; `None` where the frame is refused.
+fn check(cuts: &[f64]) -> Option<(f64, f64)> {
+    let (model, rail) = chain(cuts);
+    let frame = match Frame::new(&model, &[rail]) {
+        Ok(frame) => frame,
+        Err(Error::Ill { .. } | Error::Mechanism { .. }) => return None,
+        Err(other) => panic!("{other}"),
+    };
+    let x = 31.0_f64;
+    let exact = x * x * (60.0 - x).powi(2) / (3.0 * 60.0 * 4.32e9 * 9.528);
+    let found = frame.grid(&probes(Axis::Vertical, &[x])).expect("solvable").value[(0, 0)];
+    Some(((found / exact - 1.0).abs(), frame.certificate().error_bound))
+}
+
+#[test]
+fn bound_is_never_below_the_true_error_of_even_chains() {
+    let mut trusted = 0;
+    for elements in [2, 3, 16, 64, 256, 1024, 2048, 8192, 32_768] {
+        let cuts: Vec<f64> = (0..=elements).map(|k| 60.0 * f64::from(k) / f64::from(elements)).collect();
+        let Some((error, bound)) = check(&cuts) else {
+            println!("{elements} elements: refused");
+            continue;
+        };
+        println!("{elements} elements: error {error:.1e}, bound {bound:.1e}");
+        assert!(error <= bound, "{elements} elements: {error:.1e} > {bound:.1e}");
+        assert!(bound < 1.0);
+        trusted += 1;
+    }
+    assert!(trusted >= 6, "{trusted}");
+}
+
+#[test]
+fn bound_is_never_below_the_true_error_of_chains_with_a_short_element() {
+    for power in 1..12 {
+        let short = 60.0 * 10f64.powi(-power);
+        let Some((error, bound)) = check(&[0.0, 20.0, 20.0 + short, 60.0]) else {
+            println!("short element {short:.0e}: refused");
+            continue;
+        };
+        println!("short element {short:.0e}: error {error:.1e}, bound {bound:.1e}");
+        assert!(error <= bound, "{short:.0e}: {error:.1e} > {bound:.1e}");
+    }
+}
+
+#[test]
+fn bound_is_never_below_the_true_error_of_random_chains() {
+    let mut stream = common::Stream(3);
+    for elements in [5, 20, 50, 200] {
+        let mut cuts: Vec<f64> = (1..elements).map(|_| stream.between(0.0, 60.0)).collect();
+        cuts.extend([0.0, 60.0]);
+        cuts.sort_by(f64::total_cmp);
+        let Some((error, bound)) = check(&cuts) else {
+            println!("{elements} random elements: refused");
+            continue;
+        };
+        println!("{elements} random elements: error {error:.1e}, bound {bound:.1e}");
+        assert!(error <= bound, "{elements}: {error:.1e} > {bound:.1e}");
+    }
+}
+
+#[test]
+fn short_girders_are_certified_to_ten_digits() {
+    for spans in [vec![60.0], vec![60.0, 60.0], vec![30.0, 40.0, 50.0, 60.0]] {
+        let girder =
+            Girder { spans, overhangs: [15.0; 2], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
+        let (model, rail) = girder.frame().expect("sound");
+        let certificate = Frame::new(&model, &[rail]).expect("solvable").certificate();
+        println!("{certificate:?}");
+        assert!(certificate.error_bound < 1e-10, "{certificate:?}");
+    }
+}

@@ -1,0 +1,134 @@
+//! What several test files share.
+#![allow(dead_code)]
+
+use fea::{Freedom, Girder, Kind, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
+use serde_json::Value;
+use splines::{Axis, Probe};
+
+/// McConville's girder: 60 ft simply supported, overhangs of 15 ft; pounds and feet.
+pub fn paper() -> Girder {
+    Girder {
+        spans: vec![60.0],
+        overhangs: [15.0; 2],
+        e: 4.32e9,
+        g: Some(1.661_538e9),
+        area: Some(1.0),
+        i_vertical: 9.528,
+        i_lateral: Some(0.874_97),
+        j: Some(0.6552),
+        rail_height: 3.6615,
+        theory: Theory::EulerBernoulli,
+        stations: vec![-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0],
+        ..Girder::default()
+    }
+}
+
+pub fn probes(axis: Axis, at: &[f64]) -> Vec<Probe> {
+    at.iter().map(|&x| Probe { rail: 0, x, axis }).collect()
+}
+
+/// A repeatable stream of numbers in 0..1 (splitmix64).
+pub struct Stream(pub u64);
+
+impl Stream {
+    pub fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    pub fn between(&mut self, a: f64, b: f64) -> f64 {
+        a + (b - a) * self.next()
+    }
+}
+
+/// The mill girderway of `data/`, and its one rail.
+pub fn mill(theory: Theory) -> (Model, Rail) {
+    let spec: Value = serde_json::from_str(include_str!("../data/mill_girderway.json")).expect("valid");
+    let material = &spec["materials"][0];
+    let number = |value: &Value| value.as_f64().expect("a number");
+    let sections = list(&spec["sections"])
+        .iter()
+        .map(|s| Section {
+            e: number(&material["E"]),
+            g: number(&material["G"]),
+            area: number(&s["A"]),
+            iy: number(&s["Iy"]),
+            iz: number(&s["Iz"]),
+            j: number(&s["J"]),
+            shear_y: s["Asy"].as_f64(),
+            shear_z: s["Asz"].as_f64(),
+            mass: 0.0,
+        })
+        .collect();
+    let mut members = Vec::new();
+    let mut first = Vec::new();
+    for (block, cells) in list(&spec["cells"]).iter().enumerate() {
+        first.push(members.len());
+        for (k, pair) in list(&cells["data"]).iter().enumerate() {
+            let data = |name: &str| &spec["cell_data"][name][block][k];
+            members.push(Member {
+                points: [index(&pair[0]), index(&pair[1])],
+                kind: if data("kind") == "truss" { Kind::Truss } else { Kind::Beam },
+                section: index(data("section")),
+                orientation: vector(data("orientation")),
+                offsets: [vector(data("offset_a")), vector(data("offset_b"))],
+                releases: [set(data("release_a")), set(data("release_b"))],
+            });
+        }
+    }
+    let supports = list(&spec["supports"])
+        .iter()
+        .map(|s| Support { point: index(&s["point"]), fix: set(&s["fix"]) })
+        .collect();
+    let springs = list(&spec["springs"])
+        .iter()
+        .map(|s| Spring {
+            point: index(&s["point"]),
+            freedom: freedom(&s["dof"]),
+            stiffness: number(&s["k"]),
+        })
+        .collect();
+    let north = &spec["rails"]["north"];
+    let segments = list(&north["segments"])
+        .iter()
+        .map(|s| Segment {
+            member: first[index(&s["cell"][0])] + index(&s["cell"][1]),
+            offset: vector(&s["offset"]),
+        })
+        .collect();
+    let rail = Rail {
+        origin: vector(&north["origin"]),
+        axis: vector(&north["axis"]),
+        segments,
+        stations: list(&north["stations"]).iter().map(number).collect(),
+    };
+    let points = list(&spec["points"]).iter().map(vector).collect();
+    let up = vector(&spec["up"]);
+    (Model { points, sections, members, supports, springs, up, theory, ..Model::default() }, rail)
+}
+
+fn list(value: &Value) -> &Vec<Value> {
+    value.as_array().expect("a list")
+}
+
+fn index(value: &Value) -> usize {
+    value.as_u64().expect("an index") as usize
+}
+
+fn vector(value: &Value) -> [f64; 3] {
+    std::array::from_fn(|k| value[k].as_f64().expect("a number"))
+}
+
+fn freedom(value: &Value) -> Freedom {
+    let name = value.as_str().expect("a name");
+    Freedom::ALL.into_iter().find(|freedom| freedom.to_string() == name).expect("a freedom")
+}
+
+fn set(value: &Value) -> [bool; 6] {
+    let mut out = [false; 6];
+    list(value).iter().for_each(|name| out[freedom(name) as usize] = true);
+    out
+}
