@@ -13,6 +13,8 @@ pub mod entries;
 pub mod exit;
 pub mod fault;
 pub mod inputs;
+pub mod link;
+pub mod motion;
 pub mod place;
 pub mod report;
 pub mod scene;
