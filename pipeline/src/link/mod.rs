@@ -172,7 +172,6 @@ fn failure(name: &str, error: &splines::Error) -> Failure {
 
 fn window(handover: Handover) -> Option<f64> {
     match handover {
-        Handover::Blend { length } => length,
-        Handover::PerPart => None,
+        Handover::Blend { length } | Handover::PerPart { length } => length,
     }
 }
