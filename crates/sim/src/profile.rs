@@ -51,7 +51,11 @@ impl Profile {
             }
         }
         if let Some(pair) = table.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            return Err(Error::Number { what: "time of a motion table", wanted: "increasing", found: pair[1][0] });
+            return Err(Error::Number {
+                what: "time of a motion table",
+                wanted: "increasing",
+                found: pair[1][0],
+            });
         }
         let times: Vec<f64> = table.iter().map(|row| row[0]).collect();
         let values: Vec<f64> = table.iter().map(|row| row[1]).collect();
@@ -130,7 +134,8 @@ mod tests {
 
     #[test]
     fn acceleration_starts_from_the_given_place_and_speed() {
-        let profile = Profile::new(Order::Acceleration, &[[1.0, 2.0], [2.0, 2.0]], 3.0, 1.0).expect("a valid table");
+        let profile =
+            Profile::new(Order::Acceleration, &[[1.0, 2.0], [2.0, 2.0]], 3.0, 1.0).expect("a valid table");
         let at = profile.at(0.0);
         assert!((at.x - 3.0).abs() < 1e-14 && (at.v - 1.0).abs() < 1e-14);
         let at = profile.at(3.0);
