@@ -2,6 +2,7 @@
 //!
 //! The bottom of the workspace: knows no file system, no unit, and no other crate of ours.
 
+pub mod adams;
 pub mod akima;
 pub mod cell;
 pub mod compliance;
