@@ -195,4 +195,7 @@ pub enum Error {
         /// The identifier.
         id: u32,
     },
+    /// A table that belongs to no uniform beam on knife edges at its stations.
+    #[error("table belongs to no uniform beam on knife edges at its stations")]
+    Unliftable,
 }
