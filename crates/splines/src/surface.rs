@@ -141,10 +141,7 @@ impl Compliance for Surface {
     /// torsion or axially) `slope` is the mean of both sides. Up to 16 probes take no memory from the heap.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
-        if out.value.shape() != (n, n) || out.slope.shape() != (n, n) {
-            let (rows, columns) = out.value.shape();
-            return Err(Error::OutputShape { rows, columns, expected: n });
-        }
+        out.expect(n)?;
         match n {
             0..=2 => self.assemble(at, &mut [Row::EMPTY; 2][..n], &mut [0; 2][..n], out),
             3..=8 => self.assemble(at, &mut [Row::EMPTY; 8][..n], &mut [0; 8][..n], out),
