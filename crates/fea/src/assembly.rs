@@ -139,17 +139,7 @@ impl Assembly {
 
     /// Upper triangle of S K S + shift.
     pub fn shifted(&self, shift: f64) -> CsMat<f64> {
-        let mut out = self.upper.clone();
-        let starts: Vec<usize> = out.indptr().raw_storage().to_vec();
-        let rows = out.indices().to_vec();
-        for (j, ends) in starts.windows(2).enumerate() {
-            for at in ends[0]..ends[1] {
-                if rows[at] == j {
-                    out.data_mut()[at] += shift;
-                }
-            }
-        }
-        out
+        &self.upper + &CsMat::eye_csc(self.column.len()).map(|one: &f64| one * shift)
     }
 
     /// Largest column sum of |S K S|.

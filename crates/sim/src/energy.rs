@@ -68,7 +68,7 @@ impl Exchanged {
 pub struct Audit {
     /// Largest |stored + lost - put in - stored at the start| over the run, an energy.
     pub imbalance: f64,
-    /// Peak elastic and kinetic energy over the run: the scale of `residual`.
+    /// Peak elastic energy of contacts and structures over the run: the scale of `residual`.
     pub peak_stored: f64,
     /// Everything exchanged until the end.
     pub exchanged: Exchanged,

@@ -28,7 +28,7 @@ pub use error::Error;
 pub use foundation::{Extent, Foundation, Shapes, Structure};
 pub use history::{Channel, History};
 pub use parts::{BlendedParts, PartChain, PartShapes};
-pub use profile::{Motion3, Order, Profile};
+pub use profile::{Given, Moving, Profile};
 pub use run::{Run, Status, run};
 pub use scene::{Analysis, Body, Contact, Freedom, Scene};
 pub use step::step;

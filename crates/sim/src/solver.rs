@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::complementarity::complementarity;
 use crate::energy;
 use crate::forces::Problem;
 use crate::state::State;
@@ -229,6 +230,7 @@ impl<'a> Solver<'a> {
             }
         }
         self.geometry.update(system, at.t, &at.q, &at.force)?;
+        self.geometry.update_rail_slope(system, &at.q, &at.force)?;
         self.fill_load(at.t);
         for j in 0..n {
             let (q, v) = (at.q[j], at.v[j]);
@@ -249,6 +251,7 @@ impl<'a> Solver<'a> {
     /// of the active set. Returns whether it settled.
     pub fn settle(&mut self, at: &mut State) -> Result<bool, Error> {
         let count = self.system.normals.len();
+        self.guess_active(at)?;
         for _ in 0..4 * count + 8 {
             if !self.instant(at)? {
                 return Ok(false);
@@ -268,6 +271,39 @@ impl<'a> Solver<'a> {
             self.active[i] = true;
         }
         Ok(false)
+    }
+
+    /// Active contacts of the complementarity problem (G + 1/k) F - (e + (c/k) r) >= 0, F >= 0, where every law is
+    /// linear and none remembers its penetration: the sweeps of [`Solver::settle`] start from its solution.
+    fn guess_active(&mut self, at: &mut State) -> Result<(), Error> {
+        let system = self.system;
+        let (n, m, count) = (system.freedoms, system.components(), system.normals.len());
+        let law = |i: usize| &system.scene.wheels[system.normals[i].kind].normal;
+        if !system.linear_normals || (0..count).any(|i| law(i).has_memory() || law(i).bilateral) {
+            return Ok(());
+        }
+        self.geometry.update(system, at.t, &at.q, &at.force)?;
+        let share = |i: usize| self.geometry.share[i][0];
+        let felt: Vec<usize> = (0..count).filter(|&i| share(i) > 0.0).collect();
+        let mut matrix: Vec<f64> =
+            felt.iter().flat_map(|&i| felt.iter().map(move |&j| i * m + j)).map(|at| self.geometry.compliance[at]).collect();
+        let mut reach = vec![0.0; felt.len()];
+        for (r, &i) in felt.iter().enumerate() {
+            let per_wheel = law(i).stiffness * system.normals[i].count() * share(i);
+            matrix[r * felt.len() + r] += 1.0 / per_wheel;
+            let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
+            let rate: f64 = row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum();
+            reach[r] =
+                energy::approach(system, &self.geometry, at, i) + law(i).damping / law(i).stiffness * rate;
+        }
+        let mut force: Vec<f64> = felt.iter().map(|&i| at.force[i]).collect();
+        if complementarity(&matrix, &reach, &mut force).is_some() {
+            self.active.fill(false);
+            for (&i, f) in felt.iter().zip(force) {
+                self.active[i] = f > 0.0;
+            }
+        }
+        Ok(())
     }
 
     /// Whether an active contact must open: it pulls though it may not, or its part has let go of the wheel.

@@ -473,17 +473,11 @@ impl Geometry {
         Ok(())
     }
 
-    /// Rows of the forces: those of the approach, less the rail's slope times the rows of the wheel's x.
-    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
-        let (m, n) = (system.components(), system.freedoms);
+    /// Slope of the deflected rail under each component, for the forces and freedoms given.
+    pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+        let m = system.components();
         for i in 0..m {
-            self.rail_slope[i] = (0..m).map(|j| self.slope[i * m + j] * force[j]).sum();
-        }
-        if system.constant_rows {
-            if self.force_rows != self.rows {
-                self.force_rows.copy_from_slice(&self.rows);
-            }
-            return Ok(());
+            self.rail_slope[i] = self.slope[i * m..(i + 1) * m].iter().zip(force).map(|(g, f)| g * f).sum();
         }
         for (s, entries) in system.entries.iter().enumerate() {
             let Some(structure) = &system.foundations[s].structure else { continue };
@@ -500,12 +494,25 @@ impl Geometry {
                     * slope.iter().zip(range.clone()).map(|(shape, number)| shape * q[number]).sum::<f64>();
             }
         }
+        Ok(())
+    }
+
+    /// Rows of the forces: those of the approach, less the rail's slope times the rows of the wheel's x.
+    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+        let n = system.freedoms;
+        if system.constant_rows {
+            if self.force_rows != self.rows {
+                self.force_rows.copy_from_slice(&self.rows);
+            }
+            return Ok(());
+        }
         let first_traction = system.traction(0);
         self.force_rows.copy_from_slice(&self.rows);
         self.force_rows[first_traction * n..].copy_from_slice(&self.rate_rows[first_traction * n..]);
         if !system.moves_freely {
             return Ok(());
         }
+        self.update_rail_slope(system, q, force)?;
         let mut along = |component: usize, w: usize| {
             let wheel = &system.wheels[w];
             let row = arm_rows(wheel.hub)[0];

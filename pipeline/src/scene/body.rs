@@ -1,7 +1,8 @@
 //! Bodies of a scene, and how they move along their rails.
 
 use super::raw::{RawBody, RawMotion, RawStart};
-use super::travel::{Given, Travel};
+use sim::{Given, Profile};
+
 use crate::check::Check;
 use crate::entries::Entries;
 use crate::fault::{Fault, alternatives, nearest};
@@ -42,7 +43,7 @@ pub enum Along {
     /// By its forces.
     Free,
     /// As prescribed; the force needed is found.
-    Prescribed(Travel),
+    Prescribed(Profile),
 }
 
 impl Body {
@@ -257,7 +258,13 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
     if !ordered {
         return;
     }
-    let travel = Travel::new(what, &rows, body.x0, body.v0);
+    let travel = match Profile::new(what, &rows, body.x0, body.v0) {
+        Ok(travel) => travel,
+        Err(error) => {
+            check.faults.add(Fault::new(&place, error.to_string()));
+            return;
+        }
+    };
     let begin = travel.at(0.0);
     let clashes = [
         ("x0", what == Given::Position, raw.x0, begin.x),

@@ -5,14 +5,12 @@ mod compare;
 mod raw;
 mod read;
 mod structure;
-mod travel;
 mod truck;
 mod wheel;
 
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
-pub use travel::{Given, Motion, Travel};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
 

@@ -1,6 +1,6 @@
 //! The paper's girder in closed form, and its bogie.
 
-use sim::{Analysis, Body, Contact, Damper, Foundation, NormalLaw, Order, Profile, Scene, Wheel};
+use sim::{Analysis, Body, Contact, Damper, Foundation, Given, NormalLaw, Profile, Scene, Wheel};
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
 /// Span, ft, and bending stiffness, lb ft^2, of the paper's girder.
@@ -69,7 +69,7 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
             free: [false, true, false, false, false, true],
             start: [0.0; 6],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(Order::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
         }],
         wheels: vec![Wheel {
             radius: 1.25,
