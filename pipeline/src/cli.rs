@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// From a beam spec to influence tables, simulation, plots and report.
 #[derive(Debug, Parser)]
@@ -36,6 +36,40 @@ pub enum Command {
     /// Solve the structures, write their tables, simulate, draw and report: the main job
     #[command(after_help = "Example:\n  girderway run examples/bogie/scene.json -o out")]
     Run(Scene),
+    /// Solve a beam spec for its influence grid
+    #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
+    Fea(Fea),
+}
+
+/// Arguments of `fea`.
+#[derive(Clone, Debug, Args)]
+pub struct Fea {
+    /// Beam spec
+    pub spec: PathBuf,
+    /// Grid file to write [default: standard output]
+    #[arg(short, long, value_name = "GRID.json")]
+    pub output: Option<PathBuf>,
+    /// Beam theory in place of the spec's
+    #[arg(long)]
+    pub theory: Option<Theory>,
+}
+
+/// Words of the beam theories.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Theory {
+    /// Sections stay normal to the axis
+    EulerBernoulli,
+    /// Sections shear
+    Timoshenko,
+}
+
+impl From<Theory> for fea::Theory {
+    fn from(theory: Theory) -> fea::Theory {
+        match theory {
+            Theory::EulerBernoulli => fea::Theory::EulerBernoulli,
+            Theory::Timoshenko => fea::Theory::Timoshenko,
+        }
+    }
 }
 
 /// Arguments of `run` and `sim`.

@@ -13,6 +13,7 @@ fn main() -> ExitCode {
     let global = cli.global;
     let result = match cli.command {
         Command::Run(args) => commands::run::run(&args, global),
+        Command::Fea(args) => commands::fea::run(&args, global),
     };
     let exit = result.unwrap_or_else(|failure: Failure| {
         // where standard error is closed there is nobody to tell

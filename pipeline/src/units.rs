@@ -120,6 +120,12 @@ impl Units {
         Some(Units { length: length?, force: force? })
     }
 
+    /// The member `units` of a file in these units.
+    #[must_use]
+    pub fn json(self) -> serde_json::Value {
+        serde_json::json!({ "length": self.length.word(), "force": self.force.word(), "time": "s" })
+    }
+
     /// The unit of a quantity in words, such as `lbf s/ft`.
     #[must_use]
     pub fn label(self, dimension: Dimension) -> String {

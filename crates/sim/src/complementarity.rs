@@ -45,7 +45,8 @@ fn solve_active(a: &[f64], b: &[f64], active: &[bool], force: &mut [f64]) -> Opt
     let mut matrix: Vec<f64> = index.iter().flat_map(|&i| index.iter().map(move |&j| a[i * n + j])).collect();
     let mut rhs: Vec<f64> = index.iter().map(|&i| b[i]).collect();
     if !solve_spd(&mut matrix, &mut rhs) {
-        let mut matrix: Vec<f64> = index.iter().flat_map(|&i| index.iter().map(move |&j| a[i * n + j])).collect();
+        let mut matrix: Vec<f64> =
+            index.iter().flat_map(|&i| index.iter().map(move |&j| a[i * n + j])).collect();
         rhs = index.iter().map(|&i| b[i]).collect();
         if !solve_general(&mut matrix, &mut rhs) {
             return None;
@@ -95,7 +96,9 @@ fn lemke(a: &[f64], b: &[f64], force: &mut [f64]) -> bool {
         let ratio = |i: usize| tableau[i * width + 2 * n + 1] / tableau[i * width + entering];
         let best = (0..n)
             .filter(|&i| tableau[i * width + entering] > 1e-14 * a[0].abs().max(f64::MIN_POSITIVE))
-            .min_by(|&p, &q| ratio(p).total_cmp(&ratio(q)).then((basis[q] == 2 * n).cmp(&(basis[p] == 2 * n))));
+            .min_by(|&p, &q| {
+                ratio(p).total_cmp(&ratio(q)).then((basis[q] == 2 * n).cmp(&(basis[p] == 2 * n)))
+            });
         match best {
             Some(next) => row = next,
             None => return false,
@@ -158,7 +161,12 @@ mod tests {
                 let mut pivoted = vec![0.0; n];
                 assert!(lemke(&a, &b, &mut pivoted));
                 for i in 0..n {
-                    assert!((found[i] - force[i]).abs() < 1e-9, "n {n} seed {seed}: {} for {}", found[i], force[i]);
+                    assert!(
+                        (found[i] - force[i]).abs() < 1e-9,
+                        "n {n} seed {seed}: {} for {}",
+                        found[i],
+                        force[i]
+                    );
                     assert!((pivoted[i] - force[i]).abs() < 1e-9, "lemke n {n} seed {seed}");
                 }
             }

@@ -48,7 +48,8 @@ impl Exchanged {
     /// What left the scene, less what was put in.
     #[must_use]
     pub fn net_loss(&self) -> f64 {
-        self.dampers + self.friction + self.flanges + self.handover + self.structure + self.switches - self.drives
+        self.dampers + self.friction + self.flanges + self.handover + self.structure + self.switches
+            - self.drives
     }
 
     pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
@@ -97,17 +98,20 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         if body.motion.is_some() {
             let line = body.mass_matrix()[0];
             energy.kinetic += 0.5 * line[0] * speed[0] * speed[0];
-            energy.kinetic += (1..6).filter(|&i| body.free[i]).map(|i| line[i] * speed[0] * speed[i]).sum::<f64>();
+            energy.kinetic +=
+                (1..6).filter(|&i| body.free[i]).map(|i| line[i] * speed[0] * speed[i]).sum::<f64>();
         }
     }
     let m = system.components();
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] != 0.0 {
-            energy.contact +=
-                normal.count() * geometry.share[i][0] * system.scene.wheels[normal.kind].normal.energy(state.p[i]);
+            energy.contact += normal.count()
+                * geometry.share[i][0]
+                * system.scene.wheels[normal.kind].normal.energy(state.p[i]);
         }
         let row = &geometry.compliance[i * m..(i + 1) * m];
-        energy.structure += 0.5 * state.force[i] * row.iter().zip(&state.force).map(|(g, f)| g * f).sum::<f64>();
+        energy.structure +=
+            0.5 * state.force[i] * row.iter().zip(&state.force).map(|(g, f)| g * f).sum::<f64>();
     }
     for (index, &w) in system.laterals.iter().enumerate() {
         let i = system.lateral(index);
@@ -127,7 +131,11 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
     let n = system.freedoms;
     let rate = |i: usize| {
         geometry.rate_held[i]
-            + geometry.rate_rows[i * n..(i + 1) * n].iter().zip(state.v.iter()).map(|(r, v)| r * v).sum::<f64>()
+            + geometry.rate_rows[i * n..(i + 1) * n]
+                .iter()
+                .zip(state.v.iter())
+                .map(|(r, v)| r * v)
+                .sum::<f64>()
     };
     let mut power = Exchanged { structure: quadratic(&system.damping, &state.v), ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
@@ -185,7 +193,11 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
         if law.damper == Damper::Ground && law.damping > 0.0 && state.force[i] != 0.0 {
             let row = &geometry.rate_rows[i * n..(i + 1) * n];
             let rate: f64 = row.iter().zip(state.v.iter()).map(|(r, v)| r * v).sum();
-            sum += normal.count() * geometry.share[i][0] * law.damping * rate * ramp_integral(law.depth, state.p[i]);
+            sum += normal.count()
+                * geometry.share[i][0]
+                * law.damping
+                * rate
+                * ramp_integral(law.depth, state.p[i]);
         }
     }
     sum
@@ -224,7 +236,8 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
 /// Approach of component `i` before the give of the compliance.
 pub(crate) fn approach(system: &System, geometry: &Geometry, state: &State, i: usize) -> f64 {
     let n = system.freedoms;
-    geometry.held[i] + geometry.rows[i * n..(i + 1) * n].iter().zip(state.q.iter()).map(|(r, q)| r * q).sum::<f64>()
+    geometry.held[i]
+        + geometry.rows[i * n..(i + 1) * n].iter().zip(state.q.iter()).map(|(r, q)| r * q).sum::<f64>()
 }
 
 /// Speed along the rail of the wheels of vertical contact `i`.

@@ -43,7 +43,9 @@ impl Solver<'_> {
             .map(|i| {
                 self.geometry.held[i]
                     + (0..n)
-                        .filter(|k| !moving.contains(k) && !system.structure.iter().any(|range| range.contains(k)))
+                        .filter(|k| {
+                            !moving.contains(k) && !system.structure.iter().any(|range| range.contains(k))
+                        })
                         .map(|k| self.geometry.rows[i * n + k] * at.q[k])
                         .sum::<f64>()
             })
@@ -79,11 +81,15 @@ impl Solver<'_> {
                 }
                 let lever = DMatrix::from_fn(size, moving.len(), |r, j| rows[(active[r], j)]);
                 let lu = matrix.lu();
-                let (Some(by_lever), Some(by_free)) = (lu.solve(&lever), lu.solve(&free)) else { return Err(none) };
+                let (Some(by_lever), Some(by_free)) = (lu.solve(&lever), lu.solve(&free)) else {
+                    return Err(none);
+                };
                 let stiffness = lever.transpose() * &by_lever;
                 let balance = &weight - lever.transpose() * &by_free;
                 let Some(next) = stiffness.clone().lu().solve(&balance) else { return Err(none) };
-                if !next.iter().all(|x| x.is_finite()) || (&stiffness * &next - &balance).amax() > 1e-6 * total.max(1e-300) {
+                if !next.iter().all(|x| x.is_finite())
+                    || (&stiffness * &next - &balance).amax() > 1e-6 * total.max(1e-300)
+                {
                     return Err(none);
                 }
                 let solved = &by_lever * &next + &by_free;
@@ -93,7 +99,8 @@ impl Solver<'_> {
                     let point = law(i).at(p[i], 0.0);
                     let step = (solved[r] - share(i) * point.force) / (share(i) * point.by_penetration);
                     let floor = 0.1 * p[i].abs();
-                    let bounded = if law(i).exponent == 1.0 || p[i] + step > floor { p[i] + step } else { floor };
+                    let bounded =
+                        if law(i).exponent == 1.0 || p[i] + step > floor { p[i] + step } else { floor };
                     change = change.max((bounded - p[i]).abs());
                     p[i] = bounded;
                     force[i] = solved[r];

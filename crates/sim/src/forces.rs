@@ -60,7 +60,13 @@ impl Problem {
 
     /// Solves for the forces of the `active` vertical contacts and of everything that depends on them;
     /// `force` holds a first guess. Returns false where Newton's method does not converge.
-    pub fn solve(&mut self, system: &System, geometry: &Geometry, active: &[bool], force: &mut [f64]) -> bool {
+    pub fn solve(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
         if system.linear_normals && force.len() == system.normals.len() {
             return self.solve_linear(system, geometry, active, force);
         }
@@ -68,7 +74,13 @@ impl Problem {
     }
 
     /// One linear system: F/k + W F + (c/k) Y F = e + (c/k) r, k and c times wheels and share.
-    fn solve_linear(&mut self, system: &System, geometry: &Geometry, active: &[bool], force: &mut [f64]) -> bool {
+    fn solve_linear(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
         let m = force.len();
         self.index.clear();
         self.index.extend((0..m).filter(|&i| active[i] && !self.known[i]));
@@ -104,7 +116,13 @@ impl Problem {
     }
 
     /// Newton's method with step halving on F - law(F) = 0.
-    fn solve_newton(&mut self, system: &System, geometry: &Geometry, active: &[bool], force: &mut [f64]) -> bool {
+    fn solve_newton(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
         let m = force.len();
         for (i, normal_active) in active.iter().enumerate() {
             if !normal_active {

@@ -64,7 +64,11 @@ impl Foundation {
     #[must_use]
     pub fn influence(compliance: Box<dyn Compliance>, rails: usize) -> Self {
         let extent = |rail| Extent { range: compliance.range(rail), breaks: compliance.breaks(rail) };
-        Foundation { rails: (0..rails).map(extent).collect(), compliance: Some(compliance), ..Foundation::default() }
+        Foundation {
+            rails: (0..rails).map(extent).collect(),
+            compliance: Some(compliance),
+            ..Foundation::default()
+        }
     }
 
     /// Coordinates along `rail` at which steps must end.

@@ -37,7 +37,9 @@ impl PartChain {
             })
             .collect();
         let slack = 1e-9 * (ends[ends.len() - 1] - ends[0]);
-        if windows.iter().any(|w| w[0] >= w[1]) || windows.windows(2).any(|pair| pair[0][1] > pair[1][0] + slack) {
+        if windows.iter().any(|w| w[0] >= w[1])
+            || windows.windows(2).any(|pair| pair[0][1] > pair[1][0] + slack)
+        {
             return None;
         }
         Some(PartChain { ends, windows, first })
@@ -88,7 +90,9 @@ impl PartChain {
     /// Parts that carry a wheel at `x`.
     fn carriers(&self, x: f64) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         let at = self.windows.partition_point(|window| window[1] <= x);
-        (at..self.count().min(at + 2)).map(move |j| (j, self.share(j, x))).filter(|(_, share)| share[0] != 0.0)
+        (at..self.count().min(at + 2))
+            .map(move |j| (j, self.share(j, x)))
+            .filter(|(_, share)| share[0] != 0.0)
     }
 }
 
@@ -178,7 +182,6 @@ impl Shapes for PartShapes {
         Ok(())
     }
 }
-
 
 #[cfg(test)]
 mod tests {

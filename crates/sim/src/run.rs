@@ -84,7 +84,8 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    let placed = scene.bodies.iter().any(|body| [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0));
+    let placed =
+        scene.bodies.iter().any(|body| [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0));
     if !placed {
         solver.equilibrate(&mut state)?;
         start_speeds(system, &mut state);
@@ -240,15 +241,29 @@ impl Recorder {
                     deepest = deepest.max(at.p[i]);
                 }
             }
-            let lateral = system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
+            let lateral =
+                system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
             let down = {
                 let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-                -crate::scene::arm_rows(wheel.hub)[1].iter().zip(displacement).map(|(r, d)| r * d).sum::<f64>()
+                -crate::scene::arm_rows(wheel.hub)[1]
+                    .iter()
+                    .zip(displacement)
+                    .map(|(r, d)| r * d)
+                    .sum::<f64>()
             };
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
-            values.extend([solver.geometry.x[w], vertical, lateral, traction, deepest, down - deepest, angle, speed]);
+            values.extend([
+                solver.geometry.x[w],
+                vertical,
+                lateral,
+                traction,
+                deepest,
+                down - deepest,
+                angle,
+                speed,
+            ]);
         }
     }
 }

@@ -129,7 +129,11 @@ impl Scene {
     /// The first index that does not exist, or number that is out of range.
     pub fn check(&self, structures: usize) -> Result<(), Error> {
         let positive = |what: &'static str, found: f64| {
-            if found > 0.0 && found.is_finite() { Ok(()) } else { Err(Error::Number { what, wanted: "positive", found }) }
+            if found > 0.0 && found.is_finite() {
+                Ok(())
+            } else {
+                Err(Error::Number { what, wanted: "positive", found })
+            }
         };
         positive("end time", self.end)?;
         positive("output interval", self.output_dt)?;
@@ -141,7 +145,11 @@ impl Scene {
             positive("wheel radius", wheel.radius)?;
             positive("wheel stiffness", wheel.normal.stiffness)?;
             if wheel.normal.exponent < 1.0 {
-                return Err(Error::Number { what: "contact exponent", wanted: "at least 1", found: wheel.normal.exponent });
+                return Err(Error::Number {
+                    what: "contact exponent",
+                    wanted: "at least 1",
+                    found: wheel.normal.exponent,
+                });
             }
             if let Some(inertia) = wheel.spin_inertia {
                 positive("spin inertia", inertia)?;
@@ -158,7 +166,11 @@ impl Scene {
                 }
             }
             if contact.offsets.is_empty() {
-                return Err(Error::Number { what: "wheels of a contact", wanted: "at least one", found: 0.0 });
+                return Err(Error::Number {
+                    what: "wheels of a contact",
+                    wanted: "at least one",
+                    found: 0.0,
+                });
             }
         }
         Ok(())

@@ -84,7 +84,8 @@ impl<'a> Solver<'a> {
     fn set_mobility(&mut self, step: f64) -> Result<(), Error> {
         let dynamic = self.system.foundations.iter().any(|foundation| foundation.structure.is_some());
         if dynamic && step != self.mobility_step {
-            let matrix = &self.system.mass + step * &self.system.damping + step * step * &self.system.stiffness;
+            let matrix =
+                &self.system.mass + step * &self.system.damping + step * step * &self.system.stiffness;
             self.mobility = inverse(matrix)?;
             self.mobility_step = step;
         }
@@ -184,7 +185,9 @@ impl<'a> Solver<'a> {
                 at.p_rate[i] = (at.p[i] - known.p[i]) / g;
             }
             moved = moved.max(self.update_heights(at));
-            if moved < 1e-13 || !(system.moves_freely || !system.laterals.is_empty() || !system.tractions.is_empty()) {
+            if moved < 1e-13
+                || !(system.moves_freely || !system.laterals.is_empty() || !system.tractions.is_empty())
+            {
                 return Ok(true);
             }
         }

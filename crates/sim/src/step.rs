@@ -33,7 +33,8 @@ mod tests {
         let h = 1e-6;
         for x in [0.1, 0.35, 0.8] {
             let (_, slope) = step(x, 0.0, 1.0, 1.0, -1.0);
-            let difference = (step(x + h, 0.0, 1.0, 1.0, -1.0).0 - step(x - h, 0.0, 1.0, 1.0, -1.0).0) / (2.0 * h);
+            let difference =
+                (step(x + h, 0.0, 1.0, 1.0, -1.0).0 - step(x - h, 0.0, 1.0, 1.0, -1.0).0) / (2.0 * h);
             assert!((slope - difference).abs() < 1e-9);
         }
     }

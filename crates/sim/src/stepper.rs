@@ -116,9 +116,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 ends_at_event = false;
                 continue;
             }
-            if !ends_at_event
-                && let Some(share) = self.first_event()?
-            {
+            if !ends_at_event && let Some(share) = self.first_event()? {
                 if share * h > smallest && share < 1.0 - 1e-9 {
                     h *= share;
                     ends_at_event = true;
@@ -231,7 +229,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 if !self.solver.instant(&mut self.probe)? {
                     break;
                 }
-                if self.event(i, &self.probe) > 0.0 { high = middle } else { low = middle }
+                if self.event(i, &self.probe) > 0.0 {
+                    high = middle
+                } else {
+                    low = middle
+                }
                 if high - low < 1e-12 {
                     break;
                 }
@@ -274,8 +276,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.rate_scale[i] = self.rate_scale[i].max(self.to.v[i].abs());
         }
         let before = stored(system, &self.solver.geometry, &self.to);
-        let due = (0..system.normals.len())
-            .any(|i| (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0);
+        let due = (0..system.normals.len()).any(|i| {
+            (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
+        });
         let mut after = before;
         if due {
             let flags = self.solver.active.clone();

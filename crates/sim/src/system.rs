@@ -105,7 +105,8 @@ impl<'a> System<'a> {
             let kind = &scene.wheels[contact.wheel];
             for offset in &contact.offsets {
                 let [x, y, z] = contact.at;
-                let spin = if kind.spin_inertia.is_some() && kind.friction.is_some() { Some(next()) } else { None };
+                let spin =
+                    if kind.spin_inertia.is_some() && kind.friction.is_some() { Some(next()) } else { None };
                 wheels.push(WheelPoint {
                     body: contact.body,
                     contact: index,
@@ -116,13 +117,20 @@ impl<'a> System<'a> {
             }
             let parts = match &foundations[contact.structure].parts {
                 Some(chains) => {
-                    let chain = chains.get(contact.rail).ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
+                    let chain = chains
+                        .get(contact.rail)
+                        .ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
                     (0..chain.count()).map(Some).collect()
                 }
                 None => vec![None],
             };
             for part in parts {
-                normals.push(Normal { wheels: first..wheels.len(), kind: contact.wheel, contact: index, part });
+                normals.push(Normal {
+                    wheels: first..wheels.len(),
+                    kind: contact.wheel,
+                    contact: index,
+                    part,
+                });
             }
         }
         let structure: Vec<Range<usize>> = foundations
@@ -161,7 +169,9 @@ impl<'a> System<'a> {
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
         system.moves_freely = system.wheels.iter().any(|wheel| {
             let numbers = &system.freedom[wheel.body];
-            numbers[0].is_some() || (numbers[4].is_some() && wheel.hub[2] != 0.0) || (numbers[5].is_some() && wheel.hub[1] != 0.0)
+            numbers[0].is_some()
+                || (numbers[4].is_some() && wheel.hub[2] != 0.0)
+                || (numbers[5].is_some() && wheel.hub[1] != 0.0)
         });
         system.constant_rows = !system.moves_freely
             && system.laterals.is_empty()
@@ -173,7 +183,9 @@ impl<'a> System<'a> {
         let grounded = laws().find(|law| !law.has_memory());
         system.symmetric = !system.moves_freely
             && grounded.is_none_or(|first| {
-                laws().all(|law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) })
+                laws().all(
+                    |law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) },
+                )
             });
         Ok(system)
     }
@@ -264,7 +276,8 @@ impl<'a> System<'a> {
                 continue;
             }
             for wheel in normal.wheels.clone() {
-                let probe = Probe { rail: rail_of(normal.contact, normal.part), x: 0.0, axis: Axis::Vertical };
+                let probe =
+                    Probe { rail: rail_of(normal.contact, normal.part), x: 0.0, axis: Axis::Vertical };
                 entries.push(Entry { component, weight: -1.0 / normal.count(), wheel, probe });
             }
         }
@@ -350,7 +363,8 @@ impl Geometry {
         if speed_is_needed {
             for (i, &w) in system.tractions.iter().enumerate() {
                 let body = &system.scene.bodies[system.wheels[w].body];
-                self.rate_held[system.traction(i)] = body.motion.as_ref().map_or(0.0, |profile| profile.at(t).v);
+                self.rate_held[system.traction(i)] =
+                    body.motion.as_ref().map_or(0.0, |profile| profile.at(t).v);
             }
         }
         self.update_force_rows(system, q, force)
@@ -375,7 +389,9 @@ impl Geometry {
                 probe.x = self.x[entry.wheel];
             }
             let influence = &mut self.influence[s];
-            compliance.fill(&self.probes[s], influence).map_err(|source| Error::Compliance { structure: s, source })?;
+            compliance
+                .fill(&self.probes[s], influence)
+                .map_err(|source| Error::Compliance { structure: s, source })?;
             for row in entries {
                 self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
                 self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
@@ -397,20 +413,28 @@ impl Geometry {
         self.rows.fill(0.0);
         self.rate_rows.fill(0.0);
         self.held.fill(0.0);
-        let put = |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
-            for i in 0..6 {
-                match system.freedom[body][i] {
-                    Some(number) => rows[component * n + number] += scale * row[i],
-                    None if i > 0 => *held += scale * row[i] * system.scene.bodies[body].start[i],
-                    None => {}
+        let put =
+            |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
+                for i in 0..6 {
+                    match system.freedom[body][i] {
+                        Some(number) => rows[component * n + number] += scale * row[i],
+                        None if i > 0 => *held += scale * row[i] * system.scene.bodies[body].start[i],
+                        None => {}
+                    }
                 }
-            }
-        };
+            };
         for (component, normal) in system.normals.iter().enumerate() {
             for w in normal.wheels.clone() {
                 let wheel = &system.wheels[w];
                 let row = arm_rows(wheel.hub)[1];
-                put(&mut self.rows, &mut self.held[component], component, wheel.body, row, -1.0 / normal.count());
+                put(
+                    &mut self.rows,
+                    &mut self.held[component],
+                    component,
+                    wheel.body,
+                    row,
+                    -1.0 / normal.count(),
+                );
             }
             let span = component * n..(component + 1) * n;
             self.rate_rows[span.clone()].copy_from_slice(&self.rows[span]);
@@ -436,7 +460,10 @@ impl Geometry {
             for entry in entries {
                 let at = Probe { x: self.x[entry.wheel], ..entry.probe };
                 let (value, slope) = (&mut self.shape[..size], &mut self.shape_slope[..size]);
-                structure.shapes.row(at, value, slope).map_err(|source| Error::Compliance { structure: s, source })?;
+                structure
+                    .shapes
+                    .row(at, value, slope)
+                    .map_err(|source| Error::Compliance { structure: s, source })?;
                 let row = &mut self.rows[entry.component * n + range.start..entry.component * n + range.end];
                 for (target, shape) in row.iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
@@ -459,9 +486,12 @@ impl Geometry {
             for entry in entries {
                 let at = Probe { x: self.x[entry.wheel], ..entry.probe };
                 let (value, slope) = (&mut self.shape[..size], &mut self.shape_slope[..size]);
-                structure.shapes.row(at, value, slope).map_err(|source| Error::Compliance { structure: s, source })?;
-                self.rail_slope[entry.component] +=
-                    entry.weight * slope.iter().zip(range.clone()).map(|(shape, number)| shape * q[number]).sum::<f64>();
+                structure
+                    .shapes
+                    .row(at, value, slope)
+                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                self.rail_slope[entry.component] += entry.weight
+                    * slope.iter().zip(range.clone()).map(|(shape, number)| shape * q[number]).sum::<f64>();
             }
         }
         Ok(())

@@ -83,7 +83,11 @@ impl NormalLaw {
     /// The elastic part of the force at penetration `p`.
     #[must_use]
     pub fn spring(&self, p: f64) -> f64 {
-        if self.exponent == 1.0 { self.stiffness * p } else { self.stiffness * p * p.abs().powf(self.exponent - 1.0) }
+        if self.exponent == 1.0 {
+            self.stiffness * p
+        } else {
+            self.stiffness * p * p.abs().powf(self.exponent - 1.0)
+        }
     }
 
     /// Elastic energy at penetration `p`: k |p|^(e+1)/(e+1).
@@ -176,8 +180,14 @@ mod tests {
 
     #[test]
     fn power_law_with_a_ramped_damper_is_the_impact_function() {
-        let law =
-            NormalLaw { stiffness: 1e8, exponent: 1.1, damping: 1e5, depth: 1e-2, damper: Damper::Rail, bilateral: false };
+        let law = NormalLaw {
+            stiffness: 1e8,
+            exponent: 1.1,
+            damping: 1e5,
+            depth: 1e-2,
+            damper: Damper::Rail,
+            bilateral: false,
+        };
         for (p, rate) in [(0.003, 0.5), (0.02, -1.0), (0.05, 2.0)] {
             let theirs = impact(1.25 - p, -rate, 1.25, 1e8, 1.1, 1e5, 1e-2);
             assert!((law.at(p, rate).force - theirs).abs() < 1e-7 * theirs);
@@ -186,8 +196,14 @@ mod tests {
 
     #[test]
     fn derivatives_of_the_law_are_derivatives() {
-        let law =
-            NormalLaw { stiffness: 1e8, exponent: 1.5, damping: 1e5, depth: 2e-2, damper: Damper::Rail, bilateral: false };
+        let law = NormalLaw {
+            stiffness: 1e8,
+            exponent: 1.5,
+            damping: 1e5,
+            depth: 2e-2,
+            damper: Damper::Rail,
+            bilateral: false,
+        };
         let (p, r, h) = (0.007, 0.3, 1e-7);
         let at = law.at(p, r);
         let by_p = (law.at(p + h, r).force - law.at(p - h, r).force) / (2.0 * h);

@@ -49,7 +49,11 @@ fn crossings_follow_the_scipy_reference_in_displacement_and_wheel_forces() {
         let run = run(&scene);
         assert_eq!(run.status, Status::Done);
         let [z, pitch, force] = errors(&run, &reference(text));
-        println!("v {speed}: z {z:.1e} ft, pitch {pitch:.1e}, force {force:.1e} lbf, residual {:.1e}, {:?}", run.audit.residual(), run.counts);
+        println!(
+            "v {speed}: z {z:.1e} ft, pitch {pitch:.1e}, force {force:.1e} lbf, residual {:.1e}, {:?}",
+            run.audit.residual(),
+            run.counts
+        );
         assert!(z < 1e-5, "z errs by {z}");
         assert!(pitch < 1e-5, "pitch errs by {pitch}");
         assert!(force < 2e-5 * 2.4e6, "a wheel force errs by {force}");
@@ -84,7 +88,9 @@ fn quasi_static_trunnion_meets_the_closed_form() {
     let x = run.history.column(Channel::Displacement(0, Freedom::X));
     let y = run.history.column(Channel::Displacement(0, Freedom::Y));
     // Analytic: both wheels on the closed-form influence function, and the wheels' own springs.
-    for (place, wanted) in [(15.0, 0.316_942_453_057_280_3), (22.5, 0.482_399_599_829_367_25), (30.0, 0.545_751_499_299_156_1)] {
+    for (place, wanted) in
+        [(15.0, 0.316_942_453_057_280_3), (22.5, 0.482_399_599_829_367_25), (30.0, 0.545_751_499_299_156_1)]
+    {
         let i = x.iter().position(|&x| (x - place).abs() < 1e-9).expect("the sweep stops there");
         assert!((-y[i] - wanted).abs() < 1e-12, "at {place}: {}", -y[i]);
     }
@@ -99,7 +105,10 @@ fn error_falls_with_the_accuracy_asked() {
         scene.accuracy = accuracy;
         let run = run(&scene);
         let [z, ..] = errors(&run, &reference);
-        println!("accuracy {accuracy:.0e}: z {z:.1e} of 0.9, {} steps, {} rejected", run.counts.steps, run.counts.rejected);
+        println!(
+            "accuracy {accuracy:.0e}: z {z:.1e} of 0.9, {} steps, {} rejected",
+            run.counts.steps, run.counts.rejected
+        );
         assert!(z < accuracy, "asked {accuracy}, got {z}");
         assert!(z < last);
         last = z;

@@ -2,6 +2,7 @@
 //!
 //! The bottom of the workspace: knows no file system, no unit, and no other crate of ours.
 
+pub mod adams;
 pub mod akima;
 pub mod cell;
 pub mod compliance;
@@ -9,6 +10,7 @@ pub mod cubic;
 pub mod curve;
 pub mod error;
 mod kernel;
+pub mod lift;
 pub mod line;
 pub mod probe;
 pub mod reading;
@@ -22,6 +24,7 @@ pub use compliance::{Compliance, Influence};
 pub use cubic::natural;
 pub use curve::{Curve, Jet};
 pub use error::Error;
+pub use lift::{Lift, lift};
 pub use line::Line;
 pub use probe::{Axis, Probe};
 pub use reading::{Kind, Reading, Sheet};

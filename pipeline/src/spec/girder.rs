@@ -1,49 +1,17 @@
 //! The short form: a straight girder, continuous over its supports.
 
-use super::Theory;
+use fea::{Girder, Theory};
+
 use super::raw::RawGirder;
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
 use crate::units::Dimension;
 
-/// A checked short form, in the units asked for.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Girder {
-    /// Distances between neighbouring supports.
-    pub spans: Vec<f64>,
-    /// Lengths beyond the first and the last support.
-    pub overhangs: [f64; 2],
-    /// Young's modulus.
-    pub e: f64,
-    /// Shear modulus.
-    pub g: Option<f64>,
-    /// Area of the section.
-    pub area: Option<f64>,
-    /// Second moment of area for bending in the vertical plane.
-    pub i_vertical: f64,
-    /// Second moment of area for bending in the horizontal plane.
-    pub i_lateral: Option<f64>,
-    /// Torsion constant.
-    pub j: Option<f64>,
-    /// Effective shear area for vertical loads; none = rigid in shear.
-    pub ka_vertical: Option<f64>,
-    /// Effective shear area for lateral loads; none = rigid in shear.
-    pub ka_lateral: Option<f64>,
-    /// Height of the rail over the elastic axis.
-    pub rail_height: f64,
-    /// Mass per length.
-    pub mass_per_length: Option<f64>,
-    /// Coordinates of the grid, from the first support.
-    pub stations: Vec<f64>,
-}
-
-impl Girder {
-    /// First and last rail coordinate.
-    #[must_use]
-    pub fn range(&self) -> [f64; 2] {
-        [-self.overhangs[0], self.spans.iter().sum::<f64>() + self.overhangs[1]]
-    }
+/// First and last rail coordinate of a girder.
+#[must_use]
+pub fn range(girder: &Girder) -> [f64; 2] {
+    [-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]]
 }
 
 pub(super) fn read(
@@ -73,7 +41,7 @@ pub(super) fn read(
         overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
     }
     // without good lengths there is nothing that stations could be on
-    let range = (check.faults.0.len() == before).then(|| raw_range(raw));
+    let raw_range = (check.faults.0.len() == before).then(|| range_of(raw));
     let mut optional =
         |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
     let g = optional(raw.g, "G", Dimension::STRESS);
@@ -91,16 +59,12 @@ pub(super) fn read(
         .mass_per_length
         .map(|mass| check.not_negative(mass, &at.key("mass_per_length"), Dimension::LINE_MASS, ""));
     let sheared = theory == Theory::Timoshenko && (ka_vertical.is_some() || ka_lateral.is_some());
-    for (needs, why) in [(j.is_some(), "J"), (sheared, "kA_vertical or kA_lateral")] {
-        if needs && g.is_none() {
-            check
-                .faults
-                .add(Fault::new(&at, "missing key `G`").hint(format!("{why} has no effect without it")));
-            break;
-        }
+    if sheared && g.is_none() {
+        let fault = Fault::new(&at, "missing key `G`");
+        check.faults.add(fault.hint("kA_vertical and kA_lateral have no effect without it"));
     }
     let girder = Girder {
-        stations: read_stations(stations, range, root, check),
+        stations: read_stations(stations, raw_range, root, check),
         spans,
         overhangs,
         e,
@@ -113,8 +77,9 @@ pub(super) fn read(
         ka_lateral,
         rail_height,
         mass_per_length,
+        theory,
     };
-    let [first, last] = girder.range();
+    let [first, last] = range(&girder);
     if !(last - first).is_finite() {
         check.faults.add(Fault::new(&at.key("spans"), "must have a finite sum"));
     }
@@ -122,7 +87,7 @@ pub(super) fn read(
 }
 
 /// The rail's range in the file's own units.
-fn raw_range(raw: &RawGirder) -> [f64; 2] {
+fn range_of(raw: &RawGirder) -> [f64; 2] {
     let [before, after] = raw.overhangs.unwrap_or_default();
     [-before, raw.spans.iter().flatten().sum::<f64>() + after]
 }

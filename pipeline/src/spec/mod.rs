@@ -1,9 +1,16 @@
 //! Beam specs: read, checked, in the units asked for.
 
+mod frame;
 mod girder;
+mod locate;
+mod members;
+mod rails;
 mod raw;
+mod sections;
 
-pub use girder::Girder;
+use fea::{Girder, Model, Rail, Theory};
+
+pub use frame::Frame;
 
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -19,27 +26,16 @@ pub const FORMAT: &str = "girderway-beam/1";
 /// Name of the one rail of the short form.
 pub const GIRDER_RAIL: &str = "rail";
 
-/// How a beam takes shear.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Theory {
-    /// Sections stay normal to the axis: rigid in shear.
-    EulerBernoulli,
-    /// Constant shear angle over the effective shear area.
-    Timoshenko,
-}
+/// Words of the beam theories.
+pub const THEORIES: [(&str, Theory); 2] =
+    [("euler-bernoulli", Theory::EulerBernoulli), ("timoshenko", Theory::Timoshenko)];
 
-impl Theory {
-    /// Words of the theories.
-    pub const WORDS: [(&'static str, Theory); 2] =
-        [("euler-bernoulli", Theory::EulerBernoulli), ("timoshenko", Theory::Timoshenko)];
-
-    /// Its word in files.
-    #[must_use]
-    pub const fn word(self) -> &'static str {
-        match self {
-            Theory::EulerBernoulli => "euler-bernoulli",
-            Theory::Timoshenko => "timoshenko",
-        }
+/// The word of a theory in files.
+#[must_use]
+pub const fn theory_word(theory: Theory) -> &'static str {
+    match theory {
+        Theory::EulerBernoulli => "euler-bernoulli",
+        Theory::Timoshenko => "timoshenko",
     }
 }
 
@@ -61,6 +57,8 @@ pub struct Spec {
 pub enum Form {
     /// A straight girder, continuous over its supports.
     Girder(Girder),
+    /// Points, members, what holds them, and rails.
+    Frame(Frame),
 }
 
 /// A rail as a user knows it.
@@ -95,10 +93,43 @@ impl Spec {
         match &self.form {
             Form::Girder(girder) => vec![RailOutline {
                 name: GIRDER_RAIL.to_owned(),
-                range: girder.range(),
+                range: girder::range(girder),
                 stations: girder.stations.clone(),
             }],
+            Form::Frame(frame) => {
+                let rails = frame.rails.iter().zip(&frame.ranges);
+                let outline = |((name, rail), range): (&(String, Rail), &[f64; 2])| RailOutline {
+                    name: name.clone(),
+                    range: *range,
+                    stations: rail.stations.clone(),
+                };
+                rails.map(outline).collect()
+            }
         }
+    }
+
+    /// The model and rails to solve.
+    ///
+    /// # Errors
+    /// A girder of numbers that no model can be made of.
+    pub fn model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
+        match &self.form {
+            Form::Girder(girder) => girder.frame().map(|(model, rail)| (model, vec![rail])),
+            Form::Frame(frame) => {
+                Ok((frame.model.clone(), frame.rails.iter().map(|(_, rail)| rail.clone()).collect()))
+            }
+        }
+    }
+
+    /// The same structure under another theory.
+    #[must_use]
+    pub fn with_theory(mut self, theory: Theory) -> Spec {
+        self.theory = theory;
+        match &mut self.form {
+            Form::Girder(girder) => girder.theory = theory,
+            Form::Frame(frame) => frame.model.theory = theory,
+        }
+        self
     }
 
     fn check(raw: &RawSpec, file: &str, target: Option<Units>, faults: &mut Faults) -> Option<Spec> {
@@ -106,9 +137,7 @@ impl Spec {
         format(&raw.format, FORMAT, &root, faults);
         let own = Units::read(&raw.units, &root, faults);
         let theory = match &raw.theory {
-            Some(word) => {
-                faults.word(word, &root.key("theory"), &Theory::WORDS).unwrap_or(Theory::Timoshenko)
-            }
+            Some(word) => faults.word(word, &root.key("theory"), &THEORIES).unwrap_or(Theory::Timoshenko),
             None => Theory::Timoshenko,
         };
         let any = Units { length: crate::units::Length::Metre, force: crate::units::Force::Newton };
@@ -120,8 +149,14 @@ impl Spec {
                 refuse_general(raw, &root, check.faults);
                 Form::Girder(girder::read(girder, &raw.stations, theory, &root, &mut check))
             }
+            None if raw.points.is_some() || raw.cells.is_some() => {
+                Form::Frame(frame::read(raw, theory, &root, &mut check))
+            }
             None => {
-                check.faults.need(&raw.girder, &root, "girder");
+                let fault = Fault::new(&root, "must have a `girder`, or `points` and `cells`").got("neither");
+                check
+                    .faults
+                    .add(fault.hint("`girder` is the short form, `points` and `cells` the general one"));
                 return None;
             }
         };

@@ -79,7 +79,14 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
             spin_inertia: None,
         }],
         contacts: [-4.0 / 3.0, 4.0 / 3.0]
-            .map(|offset| Contact { body: 0, structure: 0, rail: 0, at: [0.0; 3], offsets: vec![offset], wheel: 0 })
+            .map(|offset| Contact {
+                body: 0,
+                structure: 0,
+                rail: 0,
+                at: [0.0; 3],
+                offsets: vec![offset],
+                wheel: 0,
+            })
             .to_vec(),
         analysis: Analysis::Dynamic,
         end,

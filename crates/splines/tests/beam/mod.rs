@@ -147,3 +147,25 @@ pub fn read(kind: Kind, table: Table) -> Reading {
     let way = (0, Axis::Vertical);
     Reading::new(kind, &[Sheet { deflection: way, load: way, table }]).expect("one table")
 }
+
+/// A rolled and inclined girder with its rail off both planes, on states that give alike in all directions.
+pub fn coupled() -> Surface {
+    let c = 1.0 / EI;
+    let flexibility = Flexibility {
+        axial: 1e-9,
+        torsion: 9.0 * c,
+        bending_y: 4.0 * c,
+        bending_z: c,
+        shear_y: 1e-9,
+        shear_z: 2e-9,
+    };
+    let (s, t) = (0.6, 0.8);
+    let mut cells = chain(&printed::STATIONS, [0.1, 3.0, 0.5], flexibility);
+    for cell in &mut cells {
+        cell.frame = [[t, s, 0.0], [-s * t, t * t, s], [s * s, -s * t, t]];
+        cell.length /= t;
+    }
+    let line = Line::new(cells).expect("valid cells");
+    let size = 6 * line.states();
+    Surface::new(Arc::new(line), DMatrix::identity(size, size) * 1e-8).expect("fits")
+}
