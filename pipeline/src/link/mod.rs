@@ -11,7 +11,7 @@ use splines::{Axis, Kind, Probe, Reading, Sheet, Surface, Table};
 
 use crate::exit::Failure;
 use crate::scene::{self, Handover, Origin, Structure};
-use crate::spec::{Form, Spec, Theory};
+use crate::spec::{Form, Spec};
 
 /// A structure's FE model, solved.
 pub struct Solved {
@@ -31,47 +31,25 @@ pub struct Solved {
     pub girder: Option<fea::Girder>,
 }
 
-/// The FE girder of a spec's short form.
-#[must_use]
-pub fn girder(spec: &Spec) -> fea::Girder {
-    let Form::Girder(short) = &spec.form;
-    fea::Girder {
-        spans: short.spans.clone(),
-        overhangs: short.overhangs,
-        e: short.e,
-        g: short.g,
-        area: short.area,
-        i_vertical: short.i_vertical,
-        i_lateral: short.i_lateral,
-        j: short.j,
-        ka_vertical: short.ka_vertical,
-        ka_lateral: short.ka_lateral,
-        rail_height: short.rail_height,
-        mass_per_length: short.mass_per_length,
-        theory: match spec.theory {
-            Theory::EulerBernoulli => fea::Theory::EulerBernoulli,
-            Theory::Timoshenko => fea::Theory::Timoshenko,
-        },
-        stations: short.stations.clone(),
-    }
-}
-
 /// Solves a spec: grid at its stations and exact surface.
 ///
 /// # Errors
 /// A mechanism, or numbers that cannot be trusted.
 pub fn solve(spec: &Spec) -> Result<Solved, Failure> {
-    let girder = girder(spec);
-    let (model, rail) = girder.frame().map_err(untrusted)?;
-    let rails = vec![rail];
+    let (model, rails) = spec.model().map_err(untrusted)?;
+    let girder = match &spec.form {
+        Form::Girder(girder) => Some(girder.clone()),
+        Form::Frame(_) => None,
+    };
     let frame = Frame::new(&model, &rails).map_err(untrusted)?;
     let exact = frame.surface().map_err(untrusted)?;
     let mut probes = BTreeMap::new();
     for axis in Axis::ALL {
         if (0..rails.len()).all(|rail| frame.available(rail, axis)) {
-            let all = rails.iter().enumerate().flat_map(|(rail, outline)| {
-                outline.stations.iter().map(move |&x| Probe { rail, x, axis })
-            });
+            let all = rails
+                .iter()
+                .enumerate()
+                .flat_map(|(rail, outline)| outline.stations.iter().map(move |&x| Probe { rail, x, axis }));
             probes.insert(axis, all.collect::<Vec<Probe>>());
         }
     }
@@ -85,7 +63,7 @@ pub fn solve(spec: &Spec) -> Result<Solved, Failure> {
             grids.insert((row, column), block);
         }
     }
-    Ok(Solved { model, rails, surface: exact.surface, probes, grids, certificate: exact.certificate, girder: Some(girder) })
+    Ok(Solved { model, rails, surface: exact.surface, probes, grids, certificate: exact.certificate, girder })
 }
 
 /// The foundation of one structure of a scene.
@@ -172,7 +150,6 @@ fn failure(name: &str, error: &splines::Error) -> Failure {
 
 fn window(handover: Handover) -> Option<f64> {
     match handover {
-        Handover::Blend { length } => length,
-        Handover::PerPart => None,
+        Handover::Blend { length } | Handover::PerPart { length } => length,
     }
 }
