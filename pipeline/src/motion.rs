@@ -13,6 +13,8 @@ pub struct Cast {
     pub wheels: Vec<String>,
     /// Rail of each wheel, as an index into the scene's rails.
     pub rails: Vec<usize>,
+    /// Whether each wheel's spin is a freedom.
+    pub spins: Vec<bool>,
 }
 
 /// Resolves `scene` for the simulator.
@@ -21,8 +23,8 @@ pub struct Cast {
 /// An equaliser whose wheels carry unequal shares.
 pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     let bodies = scene.bodies.iter().map(body).collect();
-    let wheels = scene.wheels.iter().map(wheel).collect();
-    let (mut contacts, mut names, mut rails) = (Vec::new(), Vec::new(), Vec::new());
+    let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
+    let (mut contacts, mut names, mut rails, mut spins) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for truck in &scene.trucks {
         let rail = &scene.rails[truck.rail];
         let mut number = 0;
@@ -38,6 +40,8 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
                 number += 1;
                 names.push(format!("{}.wheel{number}", truck.name));
                 rails.push(truck.rail);
+                let kind = &wheels[truck.wheel];
+                spins.push(kind.spin_inertia.is_some() && kind.friction.is_some());
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -62,7 +66,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         output_dt: scene.dt,
         accuracy: scene.accuracy,
     };
-    Ok(Cast { scene, wheels: names, rails })
+    Ok(Cast { scene, wheels: names, rails, spins })
 }
 
 fn body(body: &crate::scene::Body) -> sim::Body {

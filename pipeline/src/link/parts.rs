@@ -33,7 +33,7 @@ pub fn foundation(girder: &Girder, count: usize, handover: Handover) -> Result<F
     breaks.dedup();
     let mut foundation =
         Foundation { rails: vec![Extent { range: Some(range), breaks }], ..Foundation::default() };
-    let separate = handover == Handover::PerPart;
+    let separate = matches!(handover, Handover::PerPart { .. });
     if separate {
         foundation.parts = Some(vec![chain.clone()]);
     }

@@ -84,8 +84,11 @@ pub enum Handover {
         /// Length of the blend.
         length: Option<f64>,
     },
-    /// One one-sided force a part.
-    PerPart,
+    /// One one-sided force a part, faded by STEP over `length` about the joint; none = from centre to centre.
+    PerPart {
+        /// Length of the fading.
+        length: Option<f64>,
+    },
 }
 
 /// How a table is read between its stations.
@@ -244,7 +247,7 @@ fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> H
     };
     let hint = "the length over which the datum is blended";
     let length = check.optional_positive(raw.blend, &at.key("blend"), Dimension::LENGTH, hint);
-    if per_part { Handover::PerPart } else { Handover::Blend { length } }
+    if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
 }
 
 fn read_spec(
