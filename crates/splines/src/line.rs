@@ -39,7 +39,7 @@ struct Track {
 #[derive(Clone, Copy, Debug)]
 struct Span {
     x: [f64; 2],
-    /// 1/(x\[1\] - x\[0\]), and the member's length.
+    /// Inverse of the extent in x, and the member's length.
     scale: f64,
     length: f64,
     cell: usize,
