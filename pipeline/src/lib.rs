@@ -25,4 +25,5 @@ pub mod report;
 pub mod scene;
 pub mod source;
 pub mod spec;
+pub mod tables;
 pub mod units;

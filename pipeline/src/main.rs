@@ -14,6 +14,7 @@ fn main() -> ExitCode {
     let result = match cli.command {
         Command::Run(args) => commands::run::run(&args, global),
         Command::Fea(args) => commands::fea::run(&args, global),
+        Command::Splines(args) => commands::splines::run(&args, global),
     };
     let exit = result.unwrap_or_else(|failure: Failure| {
         // where standard error is closed there is nobody to tell

@@ -2,3 +2,4 @@
 
 pub mod fea;
 pub mod run;
+pub mod splines;

@@ -178,7 +178,7 @@ pub(super) fn read(
         check.positive(tolerance, &at.key("tolerance"), Dimension::NUMBER, "a relative error, such as 1e-3");
     let origin = match (&raw.spec, &raw.tables) {
         (Some(file), None) => read_spec(file, &at.key("spec"), units, inputs, elsewhere, check),
-        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, inputs, elsewhere, check),
+        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, units, inputs, elsewhere, check),
         (Some(_), Some(_)) => {
             let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
             check
@@ -293,6 +293,7 @@ fn read_tables(
     raw: &RawTables,
     at: &Place<'_>,
     word: Word,
+    units: Units,
     inputs: &mut Inputs,
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
@@ -307,9 +308,8 @@ fn read_tables(
         check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6"));
     }
     let file = check.faults.need(&raw.file, at, "file")?;
-    refer(file, &at.key("file"), inputs, elsewhere, check)?;
-    check.faults.unavailable(at, "reading tables");
-    None
+    let source = refer(file, &at.key("file"), inputs, elsewhere, check)?;
+    super::tables::read(raw, file, &source, at, units, elsewhere, check)
 }
 
 /// What the spline readings of a table need.
