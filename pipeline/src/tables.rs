@@ -1,12 +1,12 @@
 //! Influence grids as SPLINE tables, in several formats.
 
 use serde_json::json;
+use splines::Table;
 use splines::adams::{self, DataSet, Spline};
-use splines::{Error, Table};
 
 use crate::crosscheck::Quantity;
 use crate::grid::Grid;
-use crate::units::{Force, Length, Units};
+use crate::units::{Dimension, Force, Length, Units};
 
 /// Number of the first SPLINE: the paper's vertical table is SPLINE/6, its lateral one SPLINE/7.
 const FIRST: usize = 6;
@@ -54,11 +54,10 @@ impl Units {
 ///
 /// SPLINE/6 holds the vertical grid, 7 the lateral, 8 the longitudinal one, 9 to 11 the couplings
 /// vertical-lateral, vertical-longitudinal, lateral-longitudinal. Of several rails, the six of the first with
-/// itself come first, then those of each other pair; a direct grid of two rails stands once.
-///
-/// # Errors
-/// A rail of fewer than four stations, the least that a SPLINE may have.
-pub fn data_set(grid: &Grid) -> Result<DataSet, Error> {
+/// itself come first, then those of each other pair; a direct grid of two rails stands once. Rails of fewer
+/// than four stations, the least that a SPLINE may have, take no loads.
+#[must_use]
+pub fn data_set(grid: &Grid) -> DataSet {
     let mut splines = Vec::new();
     let rails = &grid.rails;
     let mut pair = 0;
@@ -71,17 +70,20 @@ pub fn data_set(grid: &Grid) -> Result<DataSet, Error> {
                 let Some(block) = grid.block(quantity).filter(|_| !direct || r <= c) else { continue };
                 let (n, m) = (row.stations.len(), column.stations.len());
                 let values = block.view((top, left), (n, m)).into_owned();
+                let Ok(table) = Table::new(column.stations.clone(), row.stations.clone(), values) else {
+                    continue;
+                };
                 let name = if r == c {
-                    format!("{}.{quantity}", row.name)
+                    format!("{}_{}_{quantity}", grid.name, row.name)
                 } else {
-                    format!("{}.from.{}.{quantity}", row.name, column.name)
+                    format!("{}_{}_from_{}_{quantity}", grid.name, row.name, column.name)
                 };
                 splines.push(Spline {
                     id: u32::try_from(FIRST + 6 * pair + index).unwrap_or(u32::MAX),
                     name: Some(plain(&name)),
-                    units: None,
-                    linear: false,
-                    table: Table::new(column.stations.clone(), row.stations.clone(), values)?,
+                    units: Some("no_units".to_owned()),
+                    linear: true,
+                    table,
                 });
             }
             pair += 1;
@@ -89,13 +91,23 @@ pub fn data_set(grid: &Grid) -> Result<DataSet, Error> {
         }
         top += row.stations.len();
     }
-    let title = format!("girderway influence tables of {}", grid.name);
-    Ok(DataSet { title: Some(title), units: Some(grid.units.to_adams()), splines })
+    let unit = grid.units.label(Dimension::FLEXIBILITY);
+    let title = format!("{}: influence coefficients, {unit}", grid.name);
+    DataSet { title: Some(title), units: Some(grid.units.to_adams()), splines }
+}
+
+/// The tables of a structure as an ADAMS data set; `None` where no rail has the stations that a SPLINE needs.
+///
+/// # Errors
+/// More tables than identifiers.
+pub fn adm(name: &str, grid: &Grid) -> Result<Option<String>, splines::Error> {
+    let set = data_set(&Grid { name: name.to_owned(), ..grid.clone() });
+    if set.splines.is_empty() { Ok(None) } else { adams::write(&set).map(Some) }
 }
 
 /// A name that a data set can hold.
 fn plain(name: &str) -> String {
-    name.chars().map(|c| if c.is_ascii_graphic() && c != '\'' { c } else { '_' }).take(50).collect()
+    name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).take(56).collect()
 }
 
 /// The tables as JSON.
@@ -157,7 +169,7 @@ mod tests {
 
     #[test]
     fn a_data_set_read_back_has_the_grid_bit_for_bit() {
-        let set = data_set(&grid(1)).expect("four stations");
+        let set = data_set(&grid(1));
         let text = adams::write(&set).expect("plain names");
         let back = adams::read(&text).expect("our own text");
         assert_eq!(back.splines, set.splines);
@@ -169,7 +181,7 @@ mod tests {
 
     #[test]
     fn every_pair_of_rails_has_its_tables_once() {
-        let set = data_set(&grid(2)).expect("four stations each");
+        let set = data_set(&grid(2));
         let ids: Vec<u32> = set.splines.iter().map(|spline| spline.id).collect();
         // pairs (0, 0), (0, 1), (1, 0), (1, 1); the vertical grid of (1, 0) is the transpose of (0, 1)
         assert_eq!(ids, [6, 9, 12, 15, 21, 24, 27]);
@@ -179,9 +191,9 @@ mod tests {
 
     #[test]
     fn csv_has_one_line_a_value() {
-        let set = data_set(&grid(1)).expect("four stations");
+        let set = data_set(&grid(1));
         let text = to_csv(&set);
         assert_eq!(text.lines().count(), 1 + 2 * 16);
-        assert_eq!(text.lines().nth(1), Some("6,rail_0.vertical,0.0,0.0,1e-8"));
+        assert_eq!(text.lines().nth(1), Some("6,two_rails_rail_0_vertical,0.0,0.0,1e-8"));
     }
 }

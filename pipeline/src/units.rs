@@ -167,7 +167,7 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    const fn of(length: i32, force: i32, time: i32) -> Self {
+    pub const fn of(length: i32, force: i32, time: i32) -> Self {
         Dimension { length, force, time }
     }
 

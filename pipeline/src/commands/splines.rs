@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use splines::Table;
+
 use crate::cli::{Global, Splines};
 use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
@@ -21,21 +23,29 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     let format = args.output.as_deref().map_or(Ok(Format::Adams), format)?;
     let (_, source) = Inputs::open(&args.grid).map_err(|error| Failure::from(*error))?;
     let grid = grid_file::read(&source)?;
-    let refuse = |error: splines::Error| {
+    let progress = Progress::new(global);
+    for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
+        progress
+            .say(&format!("note: no tables of loads on rail {}: it has fewer than four stations", rail.name));
+    }
+    let set = tables::data_set(&grid);
+    if set.splines.is_empty() {
         let root = Place::root();
-        let fault = Fault::new(&root.key("rails"), error.to_string());
-        Failure::Input(source.diagnose(&Faults(vec![fault.hint("a SPLINE has four x values or more")])))
-    };
-    let set = tables::data_set(&grid).map_err(refuse)?;
+        let fault = Fault::new(&root.key("rails"), "must have a rail of at least four stations");
+        let fault = fault.hint("a SPLINE has four x values or more");
+        return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
+    }
     let text = match format {
-        Format::Adams => splines::adams::write(&set).map_err(refuse)?,
+        Format::Adams => {
+            splines::adams::write(&set).map_err(|error| Failure::Untrusted(error.to_string()))?
+        }
         Format::Json => tables::to_json(&grid, &set),
         Format::Csv => tables::to_csv(&set),
     };
     match &args.output {
         Some(path) => {
             output::write(path, text.as_bytes())?;
-            Progress::new(global).say(&format!("wrote {}", path.display()));
+            progress.say(&format!("wrote {}", path.display()));
         }
         None => output::print(&text)?,
     }

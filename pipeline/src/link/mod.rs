@@ -2,14 +2,13 @@
 
 mod parts;
 
-use std::collections::BTreeMap;
-
-use fea::{Certificate, Frame};
+use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Kind, Probe, Reading, Sheet, Surface, Table};
+use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
 
 use crate::exit::Failure;
+use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::{Form, Spec};
 
@@ -21,12 +20,8 @@ pub struct Solved {
     pub rails: Vec<fea::Rail>,
     /// Exact influence surface.
     pub surface: Surface,
-    /// Probes of the grid: all stations of all rails, for each available direction.
-    pub probes: BTreeMap<Axis, Vec<Probe>>,
-    /// Grids by (row direction, column direction), in the order of `probes`; couplings once.
-    pub grids: BTreeMap<(Axis, Axis), DMatrix<f64>>,
-    /// How far to trust them.
-    pub certificate: Certificate,
+    /// Grids at the stations.
+    pub grid: Grid,
     /// The girder, where the structure is one.
     pub girder: Option<fea::Girder>,
 }
@@ -34,36 +29,17 @@ pub struct Solved {
 /// Solves a spec: grid at its stations and exact surface.
 ///
 /// # Errors
-/// A mechanism, or numbers that cannot be trusted.
-pub fn solve(spec: &Spec) -> Result<Solved, Failure> {
-    let (model, rails) = spec.model().map_err(untrusted)?;
+/// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
+pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
+    let (model, rails) = spec.model()?;
+    let frame = Frame::new(&model, &rails)?;
+    let exact = frame.surface()?;
+    let grid = Grid::of(spec, &frame)?;
     let girder = match &spec.form {
         Form::Girder(girder) => Some(girder.clone()),
         Form::Frame(_) => None,
     };
-    let frame = Frame::new(&model, &rails).map_err(untrusted)?;
-    let exact = frame.surface().map_err(untrusted)?;
-    let mut probes = BTreeMap::new();
-    for axis in Axis::ALL {
-        if (0..rails.len()).all(|rail| frame.available(rail, axis)) {
-            let all = rails
-                .iter()
-                .enumerate()
-                .flat_map(|(rail, outline)| outline.stations.iter().map(move |&x| Probe { rail, x, axis }));
-            probes.insert(axis, all.collect::<Vec<Probe>>());
-        }
-    }
-    let at: Vec<Probe> = probes.values().flatten().copied().collect();
-    let grid = frame.grid(&at).map_err(untrusted)?;
-    let mut grids = BTreeMap::new();
-    let stations = probes.values().next().map_or(0, Vec::len);
-    for (r, &row) in probes.keys().enumerate() {
-        for (c, &column) in probes.keys().enumerate() {
-            let block = grid.value.view((r * stations, c * stations), (stations, stations)).into_owned();
-            grids.insert((row, column), block);
-        }
-    }
-    Ok(Solved { model, rails, surface: exact.surface, probes, grids, certificate: exact.certificate, girder })
+    Ok(Solved { model, rails, surface: exact.surface, grid, girder })
 }
 
 /// The foundation of one structure of a scene.
@@ -117,9 +93,13 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
                 for (c, column) in solved.rails.iter().enumerate() {
                     let stations: [&[f64]; 2] = [&row.stations, &column.stations];
                     let size = stations.map(<[f64]>::len);
-                    for (&(a, b), grid) in solved.grids.iter().filter(|((a, b), _)| (r, a) <= (c, b)) {
-                        let block = grid.view((first, left), (size[0], size[1])).into_owned();
-                        add((r, a), (c, b), stations, block)?;
+                    for (quantity, grid) in &solved.grid.blocks {
+                        let (a, b) = axes(*quantity);
+                        // one of (row, column) and (column, row) is enough where both are the same block
+                        if a != b || r <= c {
+                            let block = grid.view((first, left), (size[0], size[1])).into_owned();
+                            add((r, a), (c, b), stations, block)?;
+                        }
                     }
                     left += column.stations.len();
                 }
