@@ -42,6 +42,16 @@ pub enum Command {
     /// Write the tables of a grid, as an ADAMS data set or in the format of the file's ending
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
+    /// Compare a beam spec's grids with those of an independent FE code, scikit-fem
+    #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
+    Crosscheck(Crosscheck),
+}
+
+/// Arguments of `crosscheck`.
+#[derive(Clone, Debug, Args)]
+pub struct Crosscheck {
+    /// Beam spec
+    pub spec: PathBuf,
 }
 
 /// Arguments of `splines`.

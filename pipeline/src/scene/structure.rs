@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::inputs::{Inputs, Unread};
 use crate::place::Place;
-use crate::spec::{RailOutline, Spec};
+use crate::spec::{Form, RailOutline, Spec};
 use crate::units::{Dimension, Units};
 
 /// Something that carries rails.
@@ -200,6 +200,12 @@ pub(super) fn read(
         Word::Influence | Word::Auto | Word::Later => Foundation::Influence,
     };
     let origin = origin?;
+    if let (Word::Parts, Origin::Spec { spec, .. }) = (word, &origin)
+        && !matches!(spec.form, Form::Girder(_))
+    {
+        let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
+        check.faults.add(fault.hint("the short form of a spec, with `girder`"));
+    }
     let rails = match &origin {
         Origin::Spec { spec, .. } => spec.rails(),
         Origin::Tables { tables, .. } => {
