@@ -39,6 +39,29 @@ pub enum Command {
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(Fea),
+    /// Write the tables of a grid, as an ADAMS data set or in the format of the file's ending
+    #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
+    Splines(Splines),
+    /// Compare a beam spec's grids with those of an independent FE code, scikit-fem
+    #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
+    Crosscheck(Crosscheck),
+}
+
+/// Arguments of `crosscheck`.
+#[derive(Clone, Debug, Args)]
+pub struct Crosscheck {
+    /// Beam spec
+    pub spec: PathBuf,
+}
+
+/// Arguments of `splines`.
+#[derive(Clone, Debug, Args)]
+pub struct Splines {
+    /// Grid file
+    pub grid: PathBuf,
+    /// File to write: .adm, .json or .csv [default: an ADAMS data set on standard output]
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Option<PathBuf>,
 }
 
 /// Arguments of `fea`.

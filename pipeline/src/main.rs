@@ -1,24 +1,59 @@
 //! The girderway program.
 
 use std::io::Write;
+use std::panic;
 use std::process::ExitCode;
 
 use clap::Parser;
 use girderway::cli::{Cli, Command};
 use girderway::commands;
+use girderway::diagnostic::Diagnostic;
 use girderway::exit::{Exit, Failure};
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
-    let global = cli.global;
-    let result = match cli.command {
-        Command::Run(args) => commands::run::run(&args, global),
-        Command::Fea(args) => commands::fea::run(&args, global),
+    // a fault of the program is told in one line below, without a backtrace
+    panic::set_hook(Box::new(|_| {}));
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error).into(),
     };
-    let exit = result.unwrap_or_else(|failure: Failure| {
-        // where standard error is closed there is nobody to tell
-        let _ = std::io::stderr().write_all(failure.report(global.json).as_bytes());
-        failure.exit()
+    let json = cli.global.json;
+    let result = panic::catch_unwind(|| dispatch(cli));
+    let result = result.unwrap_or_else(|_| {
+        let version = env!("CARGO_PKG_VERSION");
+        Err(Failure::Untrusted(format!("internal error in version {version}: please report it with its input")))
     });
-    ExitCode::from(Exit::status(exit))
+    result.unwrap_or_else(|failure| tell(&failure, json)).into()
+}
+
+fn dispatch(cli: Cli) -> Result<Exit, Failure> {
+    match cli.command {
+        Command::Run(args) => commands::run::run(&args, cli.global),
+        Command::Fea(args) => commands::fea::run(&args, cli.global),
+        Command::Splines(args) => commands::splines::run(&args, cli.global),
+        Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),
+    }
+}
+
+/// Help goes to standard output; wrong usage to standard error, as JSON where that was asked for.
+fn usage(error: &clap::Error) -> Exit {
+    if !error.use_stderr() {
+        // a reader who has gone away has seen enough
+        let _ = error.print();
+        return Exit::Done;
+    }
+    if std::env::args_os().any(|argument| argument == "--json") {
+        let text = error.to_string();
+        let line = text.lines().next().unwrap_or_default();
+        let message = line.strip_prefix("error: ").unwrap_or(line);
+        return tell(&Diagnostic::of_file("command line", message).hint("see --help").into(), true);
+    }
+    let _ = error.print();
+    Exit::Input
+}
+
+fn tell(failure: &Failure, json: bool) -> Exit {
+    // where standard error is closed there is nobody to tell
+    let _ = std::io::stderr().write_all(failure.report(json).as_bytes());
+    failure.exit()
 }

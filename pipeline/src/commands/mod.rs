@@ -1,4 +1,6 @@
 //! The commands, one file each.
 
+pub mod crosscheck;
 pub mod fea;
 pub mod run;
+pub mod splines;

@@ -91,7 +91,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     for structure in &scene.structures {
         if let Some(solved) = solved_of(&known, &structure.origin) {
             folder.add(&format!("grid-{}.json", structure.name), grid_file::write(&solved.grid));
-            if let Some(text) = tables::data_set(&structure.name, &solved.grid)? {
+            if let Some(text) = tables::adm(&structure.name, &solved.grid).map_err(|error| Failure::Untrusted(error.to_string()))? {
                 folder.add(&format!("{}.adm", structure.name), text);
             }
         }

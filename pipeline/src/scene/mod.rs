@@ -5,6 +5,7 @@ mod compare;
 mod raw;
 mod read;
 mod structure;
+mod tables;
 mod truck;
 mod wheel;
 

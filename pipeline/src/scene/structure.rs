@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::inputs::{Inputs, Unread};
 use crate::place::Place;
-use crate::spec::{RailOutline, Spec};
+use crate::spec::{Form, RailOutline, Spec};
 use crate::units::{Dimension, Units};
 
 /// Something that carries rails.
@@ -178,7 +178,7 @@ pub(super) fn read(
         check.positive(tolerance, &at.key("tolerance"), Dimension::NUMBER, "a relative error, such as 1e-3");
     let origin = match (&raw.spec, &raw.tables) {
         (Some(file), None) => read_spec(file, &at.key("spec"), units, inputs, elsewhere, check),
-        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, inputs, elsewhere, check),
+        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, units, inputs, elsewhere, check),
         (Some(_), Some(_)) => {
             let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
             check
@@ -200,6 +200,12 @@ pub(super) fn read(
         Word::Influence | Word::Auto | Word::Later => Foundation::Influence,
     };
     let origin = origin?;
+    if let (Word::Parts, Origin::Spec { spec, .. }) = (word, &origin)
+        && !matches!(spec.form, Form::Girder(_))
+    {
+        let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
+        check.faults.add(fault.hint("the short form of a spec, with `girder`"));
+    }
     let rails = match &origin {
         Origin::Spec { spec, .. } => spec.rails(),
         Origin::Tables { tables, .. } => {
@@ -293,6 +299,7 @@ fn read_tables(
     raw: &RawTables,
     at: &Place<'_>,
     word: Word,
+    units: Units,
     inputs: &mut Inputs,
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
@@ -307,9 +314,8 @@ fn read_tables(
         check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6"));
     }
     let file = check.faults.need(&raw.file, at, "file")?;
-    refer(file, &at.key("file"), inputs, elsewhere, check)?;
-    check.faults.unavailable(at, "reading tables");
-    None
+    let source = refer(file, &at.key("file"), inputs, elsewhere, check)?;
+    super::tables::read(raw, file, &source, at, units, elsewhere, check)
 }
 
 /// What the spline readings of a table need.
