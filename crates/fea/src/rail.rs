@@ -66,6 +66,8 @@ struct Builder<'a> {
     states: Vec<[Sum; 6]>,
     known: HashMap<(usize, usize, [u64; 3]), usize>,
     slack: BTreeMap<usize, Matrix12>,
+    /// Rail that each member carries.
+    carried: HashMap<usize, usize>,
 }
 
 /// Lays all rails.
@@ -75,8 +77,14 @@ pub(crate) fn lay(
     elements: &[Element],
     freedoms: &Freedoms,
 ) -> Result<Layout, Error> {
-    let mut builder =
-        Builder { elements, freedoms, states: Vec::new(), known: HashMap::new(), slack: BTreeMap::new() };
+    let mut builder = Builder {
+        elements,
+        freedoms,
+        states: Vec::new(),
+        known: HashMap::new(),
+        slack: BTreeMap::new(),
+        carried: HashMap::new(),
+    };
     let mut cells = Vec::new();
     for (index, rail) in rails.iter().enumerate() {
         builder.rail(m, index, rail, &mut cells)?;
@@ -106,6 +114,10 @@ impl Builder<'_> {
             let element =
                 self.elements.get(given.member).ok_or(at(Fault::NoMember { member: given.member }))?;
             finite(Quantity::Offset, &given.offset).map_err(at)?;
+            let other = *self.carried.entry(given.member).or_insert(index);
+            if other != index {
+                return Err(at(Fault::Shared { member: given.member, rail: other }));
+            }
             let along = |k: usize| (frame * (element.ends[k] - origin))[0];
             let (mut x, mut order) = ([along(0), along(1)], [0, 1]);
             if x[1] < x[0] {
