@@ -3,7 +3,7 @@
 mod common;
 
 use common::{mill, paper, probes};
-use fea::{Error, Fault, Frame, Girder, Item, Link, Model, Rail, Segment, Support, Theory, grid, nodal};
+use fea::{Error, Fault, Frame, Girder, Item, Link, Model, Rail, Support, Theory, grid, nodal};
 use nalgebra::{Matrix6, SMatrix, Vector3};
 use splines::{Axis, Probe};
 
