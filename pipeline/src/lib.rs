@@ -1,1 +1,28 @@
-//! placeholder
+//! The girderway program as a library: from a beam spec to influence tables, simulation, plots and report.
+//!
+//! [`spec`] and [`scene`] read and check input files; [`commands`] do the work; every number that reaches them is
+//! finite, checked and in the units asked for.
+
+pub mod chart;
+pub mod check;
+pub mod cli;
+pub mod commands;
+pub mod crosscheck;
+pub mod diagnostic;
+pub mod entries;
+pub mod exit;
+pub mod fault;
+pub mod grid;
+pub mod grid_file;
+pub mod inputs;
+pub mod link;
+pub mod manifest;
+pub mod motion;
+pub mod output;
+pub mod place;
+pub mod progress;
+pub mod report;
+pub mod scene;
+pub mod source;
+pub mod spec;
+pub mod units;

@@ -1,1 +1,36 @@
-//! placeholder
+//! Scenes in motion: wheels, contact, bodies and what carries their rails.
+//!
+//! Knows no section, material, unit or file: a structure is a [`splines::Compliance`] and, where its mass
+//! counts, freedoms of its own ([`Foundation`]).
+
+mod complementarity;
+mod dense;
+mod energy;
+mod equilibrium;
+mod error;
+mod forces;
+mod foundation;
+mod history;
+mod parts;
+mod profile;
+mod run;
+mod scene;
+mod solver;
+mod state;
+mod step;
+mod stepper;
+mod system;
+mod tableau;
+mod wheel;
+
+pub use energy::{Audit, Exchanged, Stored};
+pub use error::Error;
+pub use foundation::{Extent, Foundation, Shapes, Structure};
+pub use history::{Channel, History};
+pub use parts::{BlendedParts, PartChain, PartShapes};
+pub use profile::{Given, Moving, Profile};
+pub use run::{Run, Status, run};
+pub use scene::{Analysis, Body, Contact, Freedom, Scene};
+pub use step::step;
+pub use stepper::Counts;
+pub use wheel::{Damper, Flange, Friction, NormalLaw, Wheel};

@@ -1,11 +1,12 @@
-//! Influence matrices of 2, 8 and 32 wheels: the exact surface.
+//! Influence matrices of 2, 8 and 32 wheels: the exact surface beside readings of a table.
 
 #[path = "../tests/beam/mod.rs"]
 mod beam;
 
-use beam::{Beam, probe};
+use beam::printed::STATIONS;
+use beam::{Beam, probe, read, tabulate};
 use divan::{Bencher, black_box};
-use splines::{Axis, Compliance, Influence, Probe};
+use splines::{Axis, Compliance, Influence, Kind, Probe};
 
 fn main() {
     divan::main();
@@ -19,8 +20,24 @@ fn wheels(n: usize) -> Vec<Probe> {
 
 #[divan::bench(args = [2, 8, 32])]
 fn exact(bencher: Bencher<'_, '_>, n: usize) {
-    let surface = Beam::paper().surface(&[-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0]);
+    let surface = Beam::paper().surface(&STATIONS);
     fill(bencher, &surface, n);
+}
+
+/// A rail above the axis and beside it: every row has twelve entries.
+#[divan::bench(args = [2, 8, 32])]
+fn coupled(bencher: Bencher<'_, '_>, n: usize) {
+    fill(bencher, &beam::coupled(), n);
+}
+
+#[divan::bench(args = [2, 8, 32])]
+fn akispl(bencher: Bencher<'_, '_>, n: usize) {
+    fill(bencher, &read(Kind::Akispl, tabulate(&Beam::paper(), &STATIONS)), n);
+}
+
+#[divan::bench(args = [2, 8, 32])]
+fn natural(bencher: Bencher<'_, '_>, n: usize) {
+    fill(bencher, &read(Kind::Natural, tabulate(&Beam::paper(), &STATIONS)), n);
 }
 
 fn fill(bencher: Bencher<'_, '_>, compliance: &dyn Compliance, n: usize) {

@@ -19,6 +19,17 @@ impl Influence {
     pub fn zeros(n: usize) -> Self {
         Influence { value: DMatrix::zeros(n, n), slope: DMatrix::zeros(n, n) }
     }
+
+    /// Refuses matrices of another size than `n` probes.
+    pub(crate) fn expect(&self, n: usize) -> Result<(), Error> {
+        for matrix in [&self.value, &self.slope] {
+            let (rows, columns) = matrix.shape();
+            if (rows, columns) != (n, n) {
+                return Err(Error::OutputShape { rows, columns, expected: n });
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A structure's give at its rails: displacements per unit force between any set of probes.

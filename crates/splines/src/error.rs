@@ -106,4 +106,96 @@ pub enum Error {
         /// Number of probes.
         expected: usize,
     },
+    /// Not as many y as x.
+    #[error("{x} x values, {y} y values")]
+    PointCount {
+        /// x values given.
+        x: usize,
+        /// y values given.
+        y: usize,
+    },
+    /// Too few points.
+    #[error("{found} points, at least {least} needed")]
+    Points {
+        /// Points given.
+        found: usize,
+        /// Fewest that will do.
+        least: usize,
+    },
+    /// A point that is not finite.
+    #[error("point {index} is not finite")]
+    PointNumber {
+        /// Which point, from 0.
+        index: usize,
+    },
+    /// Coordinates that do not increase.
+    #[error("point {index} does not lie beyond the one before it")]
+    PointOrder {
+        /// Which point, from 0.
+        index: usize,
+    },
+    /// A table whose values do not fit its stations.
+    #[error("table is {rows} x {columns}, expected {} x {}", expected[0], expected[1])]
+    TableShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Curves, and values a curve.
+        expected: [usize; 2],
+    },
+    /// A table entry that is not finite.
+    #[error("table entry ({row}, {column}) is not finite")]
+    TableNumber {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+    },
+    /// A reading without tables.
+    #[error("a reading needs at least one table")]
+    NoSheets,
+    /// A coupling between directions that have no table of their own.
+    #[error("table {sheet} couples a direction that has no table of its own")]
+    SheetAlone {
+        /// Which table, from 0.
+        sheet: usize,
+    },
+    /// A second table for the same pair of directions.
+    #[error("table {sheet} repeats the directions of another")]
+    SheetTwice {
+        /// Which table, from 0.
+        sheet: usize,
+    },
+    /// Stations that differ from those of the direction's own table.
+    #[error("the stations of table {sheet} differ between its directions' tables")]
+    SheetStations {
+        /// Which table, from 0.
+        sheet: usize,
+    },
+    /// A data set that cannot be read.
+    #[error("line {line}, column {column}: {fault}")]
+    Adams {
+        /// Line, from 1.
+        line: usize,
+        /// Column, from 1, in characters.
+        column: usize,
+        /// What is wrong there.
+        fault: crate::adams::Fault,
+    },
+    /// A spline identifier that is zero or used twice.
+    #[error("spline identifier {id} is zero or stands twice")]
+    SplineId {
+        /// The identifier.
+        id: u32,
+    },
+    /// A name that has no place between quotes on a line.
+    #[error("SPLINE/{id} has a name or units that cannot be written")]
+    SplineName {
+        /// The identifier.
+        id: u32,
+    },
+    /// A table that belongs to no uniform beam on knife edges at its stations.
+    #[error("table belongs to no uniform beam on knife edges at its stations")]
+    Unliftable,
 }

@@ -2,19 +2,32 @@
 //!
 //! The bottom of the workspace: knows no file system, no unit, and no other crate of ours.
 
+pub mod adams;
+pub mod akima;
 pub mod cell;
 pub mod compliance;
+pub mod cubic;
+pub mod curve;
 pub mod error;
 mod kernel;
+pub mod lift;
 pub mod line;
 pub mod probe;
+pub mod reading;
 pub mod row;
 pub mod surface;
+pub mod table;
 
+pub use akima::akima;
 pub use cell::{Cell, Flexibility};
 pub use compliance::{Compliance, Influence};
+pub use cubic::natural;
+pub use curve::{Curve, Jet};
 pub use error::Error;
+pub use lift::{Lift, lift};
 pub use line::Line;
 pub use probe::{Axis, Probe};
+pub use reading::{Kind, Reading, Sheet};
 pub use row::Row;
 pub use surface::Surface;
+pub use table::Table;

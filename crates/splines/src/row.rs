@@ -66,10 +66,9 @@ impl Row {
         for (group, (index, (value, slope))) in terms.groups.iter().zip(out) {
             let [a, b, c, d] = &group.cubic;
             *index = group.index;
-            for k in 0..4 {
-                value[k] = a[k] + r * (b[k] + r * (c[k] + r * d[k]));
-                slope[k] = scale * (b[k] + r * (2.0 * c[k] + r * (3.0 * d[k])));
-            }
+            // Whole arrays are stored, so that they can be loaded again without waiting.
+            *value = std::array::from_fn(|k| a[k] + r * (b[k] + r * (c[k] + r * d[k])));
+            *slope = std::array::from_fn(|k| scale * (b[k] + r * (2.0 * c[k] + r * (3.0 * d[k]))));
         }
     }
 

@@ -92,15 +92,7 @@ impl Surface {
                 let row = &rows[i];
                 if last != Some(block(row)) {
                     last = Some(block(row));
-                    moved = [[0.0; 4]; 3];
-                    for (&freedom, &share) in load.indices().iter().zip(load.values()) {
-                        let column = &nodal[freedom * size..(freedom + 1) * size];
-                        for (sum, place) in moved.iter_mut().zip(row.places()) {
-                            for (sum, &k) in sum.iter_mut().zip(place) {
-                                *sum += share * column[k];
-                            }
-                        }
-                    }
+                    moved = product(nodal, size, row, load);
                 }
                 let [values, slopes] = row.chunks();
                 slope[i + n * j] = dot(slopes, &moved);
@@ -131,6 +123,24 @@ impl Surface {
     }
 }
 
+/// C N(q)^T at the freedoms of `row`.
+#[inline]
+fn product(nodal: &[f64], size: usize, row: &Row, load: &Row) -> [[f64; 4]; 3] {
+    let mut out = [[0.0; 4]; 3];
+    let [shares, _] = load.chunks();
+    for (freedoms, s) in load.places().iter().zip(shares) {
+        let [a, b, c, d] = freedoms.map(|freedom| &nodal[freedom * size..(freedom + 1) * size]);
+        for (sum, places) in out.iter_mut().zip(row.places()) {
+            let moved: [f64; 4] = std::array::from_fn(|k| {
+                let k = places[k];
+                (s[0] * a[k] + s[1] * b[k]) + (s[2] * c[k] + s[3] * d[k])
+            });
+            *sum = std::array::from_fn(|k| sum[k] + moved[k]);
+        }
+    }
+    out
+}
+
 fn dot(a: &[[f64; 4]], b: &[[f64; 4]; 3]) -> f64 {
     let one = |x: &[f64; 4], y: &[f64; 4]| (x[0] * y[0] + x[2] * y[2]) + (x[1] * y[1] + x[3] * y[3]);
     a.iter().zip(b).map(|(x, y)| one(x, y)).sum()
@@ -141,10 +151,7 @@ impl Compliance for Surface {
     /// torsion or axially) `slope` is the mean of both sides. Up to 16 probes take no memory from the heap.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
-        if out.value.shape() != (n, n) || out.slope.shape() != (n, n) {
-            let (rows, columns) = out.value.shape();
-            return Err(Error::OutputShape { rows, columns, expected: n });
-        }
+        out.expect(n)?;
         match n {
             0..=2 => self.assemble(at, &mut [Row::EMPTY; 2][..n], &mut [0; 2][..n], out),
             3..=8 => self.assemble(at, &mut [Row::EMPTY; 8][..n], &mut [0; 8][..n], out),

@@ -4,7 +4,7 @@ mod beam;
 
 use std::sync::Arc;
 
-use beam::{Beam, EI, Kind, Random, STRAIGHT, chain, probe};
+use beam::{Beam, EI, Effect, Random, STRAIGHT, chain, probe};
 use nalgebra::DMatrix;
 use splines::{Axis, Cell, Compliance, Error, Flexibility, Influence, Line, Probe, Surface};
 
@@ -245,8 +245,8 @@ fn rail_above_the_axis_couples_vertical_and_longitudinal() {
         let (x, z) = (random.between(0.0, 60.0), random.between(0.0, 60.0));
         let at = [probe(Axis::Vertical, x), probe(Axis::Longitudinal, z)];
         let got = fill(&surface, &at).value;
-        let coupling = -h * beam.give(Kind::Force, x, Kind::Moment, z);
-        let along = h * h * beam.give(Kind::Moment, z, Kind::Moment, z);
+        let coupling = -h * beam.give(Effect::Force, x, Effect::Moment, z);
+        let along = h * h * beam.give(Effect::Moment, z, Effect::Moment, z);
         assert!((got[(0, 1)] - coupling).abs() < 1e-21, "{:e} {coupling:e}", got[(0, 1)]);
         assert!((got[(1, 1)] - along).abs() < 1e-21, "{:e} {along:e}", got[(1, 1)]);
         assert!((got[(0, 0)] - beam.deflection(x, x)).abs() < 1e-20);

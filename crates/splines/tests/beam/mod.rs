@@ -4,10 +4,12 @@
 //! shape functions or clamped cells.
 #![allow(dead_code)]
 
+pub mod printed;
+
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use splines::{Axis, Cell, Flexibility, Line, Probe, Surface};
+use splines::{Axis, Cell, Flexibility, Kind, Line, Probe, Reading, Sheet, Surface, Table};
 
 /// EI of the paper's girder, lb ft^2.
 pub const EI: f64 = 9.528 * 4.32e9;
@@ -21,7 +23,7 @@ pub struct Beam {
 
 /// What acts or what is measured: a force and its deflection, a moment and its rotation.
 #[derive(Clone, Copy, PartialEq)]
-pub enum Kind {
+pub enum Effect {
     Force,
     Moment,
 }
@@ -32,50 +34,50 @@ impl Beam {
     }
 
     /// Free-space field at x of a unit action at z, up to a rigid motion.
-    fn free(&self, at: Kind, x: f64, load: Kind, z: f64) -> f64 {
+    fn free(&self, at: Effect, x: f64, load: Effect, z: f64) -> f64 {
         let r = x - z;
         match (at, load) {
-            (Kind::Force, Kind::Force) => self.c * r.abs().powi(3) / 12.0 - 0.5 * self.g * r.abs(),
-            (Kind::Moment, Kind::Force) => self.c * r * r.abs() / 4.0,
-            (Kind::Force, Kind::Moment) => -self.c * r * r.abs() / 4.0,
-            (Kind::Moment, Kind::Moment) => -self.c * r.abs() / 2.0,
+            (Effect::Force, Effect::Force) => self.c * r.abs().powi(3) / 12.0 - 0.5 * self.g * r.abs(),
+            (Effect::Moment, Effect::Force) => self.c * r * r.abs() / 4.0,
+            (Effect::Force, Effect::Moment) => -self.c * r * r.abs() / 4.0,
+            (Effect::Moment, Effect::Moment) => -self.c * r.abs() / 2.0,
         }
     }
 
     /// Deflection or rotation at x under a unit force or moment at z.
-    pub fn give(&self, at: Kind, x: f64, load: Kind, z: f64) -> f64 {
+    pub fn give(&self, at: Effect, x: f64, load: Effect, z: f64) -> f64 {
         let n = self.supports.len();
         // Unknowns: upward reactions, then a, b. Equations: no deflection at supports, no net force or moment.
         let mut matrix = DMatrix::zeros(n + 2, n + 2);
         let mut right = DVector::zeros(n + 2);
         for (i, &s) in self.supports.iter().enumerate() {
             for (j, &t) in self.supports.iter().enumerate() {
-                matrix[(i, j)] = self.free(Kind::Force, s, Kind::Force, t) * EI;
+                matrix[(i, j)] = self.free(Effect::Force, s, Effect::Force, t) * EI;
             }
             matrix[(i, n)] = 1.0;
             matrix[(i, n + 1)] = s;
             matrix[(n, i)] = 1.0;
             matrix[(n + 1, i)] = s;
-            right[i] = -self.free(Kind::Force, s, load, z) * EI;
+            right[i] = -self.free(Effect::Force, s, load, z) * EI;
         }
-        (right[n], right[n + 1]) = if load == Kind::Force { (-1.0, -z) } else { (0.0, -1.0) };
+        (right[n], right[n + 1]) = if load == Effect::Force { (-1.0, -z) } else { (0.0, -1.0) };
         let solved = matrix.lu().solve(&right).expect("two supports hold a beam");
-        let rigid = if at == Kind::Force { solved[n] + solved[n + 1] * x } else { solved[n + 1] };
+        let rigid = if at == Effect::Force { solved[n] + solved[n + 1] * x } else { solved[n + 1] };
         let mut sum = self.free(at, x, load, z) + rigid / EI;
         for (i, &s) in self.supports.iter().enumerate() {
-            sum += solved[i] * self.free(at, x, Kind::Force, s);
+            sum += solved[i] * self.free(at, x, Effect::Force, s);
         }
         sum
     }
 
     pub fn deflection(&self, x: f64, z: f64) -> f64 {
-        self.give(Kind::Force, x, Kind::Force, z)
+        self.give(Effect::Force, x, Effect::Force, z)
     }
 
     /// Exact surface of the vertical direction with states at `stations`, their compliance from `give`.
     pub fn surface(&self, stations: &[f64]) -> Surface {
         let mut nodal = DMatrix::zeros(6 * stations.len(), 6 * stations.len());
-        let kinds = [(1, Kind::Force), (5, Kind::Moment)];
+        let kinds = [(1, Effect::Force), (5, Effect::Moment)];
         for (i, &x) in stations.iter().enumerate() {
             for (j, &z) in stations.iter().enumerate() {
                 for (a, at) in kinds {
@@ -131,4 +133,39 @@ impl Random {
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.unit()
     }
+}
+
+/// The table of values of a beam at its stations.
+pub fn tabulate(beam: &Beam, stations: &[f64]) -> Table {
+    let n = stations.len();
+    let values = DMatrix::from_fn(n, n, |i, j| beam.deflection(stations[i], stations[j]));
+    Table::new(stations.to_vec(), stations.to_vec(), values).expect("stations increase")
+}
+
+/// A reading of one vertical table on rail 0.
+pub fn read(kind: Kind, table: Table) -> Reading {
+    let way = (0, Axis::Vertical);
+    Reading::new(kind, &[Sheet { deflection: way, load: way, table }]).expect("one table")
+}
+
+/// A rolled and inclined girder with its rail off both planes, on states that give alike in all directions.
+pub fn coupled() -> Surface {
+    let c = 1.0 / EI;
+    let flexibility = Flexibility {
+        axial: 1e-9,
+        torsion: 9.0 * c,
+        bending_y: 4.0 * c,
+        bending_z: c,
+        shear_y: 1e-9,
+        shear_z: 2e-9,
+    };
+    let (s, t) = (0.6, 0.8);
+    let mut cells = chain(&printed::STATIONS, [0.1, 3.0, 0.5], flexibility);
+    for cell in &mut cells {
+        cell.frame = [[t, s, 0.0], [-s * t, t * t, s], [s * s, -s * t, t]];
+        cell.length /= t;
+    }
+    let line = Line::new(cells).expect("valid cells");
+    let size = 6 * line.states();
+    Surface::new(Arc::new(line), DMatrix::identity(size, size) * 1e-8).expect("fits")
 }

@@ -1,0 +1,270 @@
+//! The energy audit: what is stored, what was lost, what was put in.
+
+use crate::state::State;
+use crate::system::{Geometry, System};
+use crate::wheel::Damper;
+
+/// Energy stored in a scene at one time.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stored {
+    /// Kinetic energy of bodies, wheels and structures.
+    pub kinetic: f64,
+    /// Potential energy of weight, zero where every body touches the unloaded rail.
+    pub gravity: f64,
+    /// Elastic energy between wheel and rail, flanges included.
+    pub contact: f64,
+    /// Elastic energy of the structures.
+    pub structure: f64,
+}
+
+impl Stored {
+    /// Sum of all.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.gravity + self.contact + self.structure
+    }
+}
+
+/// Energy lost and put in since the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Exchanged {
+    /// Lost in the dampers of contacts.
+    pub dampers: f64,
+    /// Lost in sliding.
+    pub friction: f64,
+    /// Lost as flanges let go, and gained as they take hold.
+    pub flanges: f64,
+    /// Lost as the parts of a structure hand wheels over, one force a part.
+    pub handover: f64,
+    /// Lost in the structures' damping.
+    pub structure: f64,
+    /// Lost where a contact opens or closes with a jump of its force.
+    pub switches: f64,
+    /// Put in by prescribed motions.
+    pub drives: f64,
+}
+
+impl Exchanged {
+    /// What left the scene, less what was put in.
+    #[must_use]
+    pub fn net_loss(&self) -> f64 {
+        self.dampers + self.friction + self.flanges + self.handover + self.structure + self.switches
+            - self.drives
+    }
+
+    pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
+        self.dampers += weight * power.dampers;
+        self.friction += weight * power.friction;
+        self.flanges += weight * power.flanges;
+        self.handover += weight * power.handover;
+        self.structure += weight * power.structure;
+        self.switches += weight * power.switches;
+        self.drives += weight * power.drives;
+    }
+}
+
+/// Result of the audit of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Audit {
+    /// Largest |stored + lost - put in - stored at the start| over the run, an energy.
+    pub imbalance: f64,
+    /// Peak elastic energy of contacts and structures over the run: the scale of `residual`.
+    pub peak_stored: f64,
+    /// Everything exchanged until the end.
+    pub exchanged: Exchanged,
+    /// Stored at the start.
+    pub start: Stored,
+    /// Stored at the end.
+    pub end: Stored,
+}
+
+impl Audit {
+    /// Imbalance relative to the peak stored energy.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        if self.peak_stored > 0.0 { self.imbalance / self.peak_stored } else { self.imbalance }
+    }
+}
+
+/// Energy stored at `state`; `geometry` must belong to it.
+pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
+    let mut energy = Stored { kinetic: 0.5 * quadratic(&system.mass, &state.v), ..Stored::default() };
+    energy.structure = 0.5 * quadratic(&system.stiffness, &state.q);
+    for (b, body) in system.scene.bodies.iter().enumerate() {
+        let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
+        let row = crate::scene::arm_rows(body.cg)[1];
+        let lift: f64 = row.iter().zip(displacement).map(|(r, d)| r * d).sum();
+        energy.gravity += body.mass * system.scene.gravity * lift;
+        if body.motion.is_some() {
+            let line = body.mass_matrix()[0];
+            energy.kinetic += 0.5 * line[0] * speed[0] * speed[0];
+            energy.kinetic +=
+                (1..6).filter(|&i| body.free[i]).map(|i| line[i] * speed[0] * speed[i]).sum::<f64>();
+        }
+    }
+    let m = system.components();
+    for (i, normal) in system.normals.iter().enumerate() {
+        if state.force[i] != 0.0 {
+            energy.contact += normal.count()
+                * geometry.share[i][0]
+                * system.scene.wheels[normal.kind].normal.energy(state.p[i]);
+        }
+        let row = &geometry.compliance[i * m..(i + 1) * m];
+        energy.structure +=
+            0.5 * state.force[i] * row.iter().zip(&state.force).map(|(g, f)| g * f).sum::<f64>();
+    }
+    for (index, &w) in system.laterals.iter().enumerate() {
+        let i = system.lateral(index);
+        let row = &geometry.compliance[i * m..(i + 1) * m];
+        let give: f64 = row.iter().zip(&state.force).map(|(g, f)| g * f).sum();
+        energy.structure += 0.5 * state.force[i] * give;
+        if let Some(flange) = &system.scene.wheels[system.wheels[w].kind].flange {
+            let overlap = flange.overlap(approach(system, geometry, state, i) - give);
+            energy.contact += 0.5 * flange.stiffness * flange.share(geometry.height[w]).0 * overlap * overlap;
+        }
+    }
+    energy
+}
+
+/// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
+pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
+    let n = system.freedoms;
+    let rate = |i: usize| {
+        geometry.rate_held[i]
+            + geometry.rate_rows[i * n..(i + 1) * n]
+                .iter()
+                .zip(state.v.iter())
+                .map(|(r, v)| r * v)
+                .sum::<f64>()
+    };
+    let mut power = Exchanged { structure: quadratic(&system.damping, &state.v), ..Exchanged::default() };
+    for (i, normal) in system.normals.iter().enumerate() {
+        if state.force[i] == 0.0 {
+            continue;
+        }
+        let law = &system.scene.wheels[normal.kind].normal;
+        let [share, share_slope] = geometry.share[i];
+        let share_rate = if share_slope == 0.0 { 0.0 } else { share_slope * speed_along(system, state, i) };
+        power.handover -= normal.count() * share_rate * law.energy(state.p[i]);
+        match law.damper {
+            Damper::Rail => {
+                power.dampers +=
+                    (state.force[i] - normal.count() * share * law.spring(state.p[i])) * state.p_rate[i];
+            }
+            Damper::Ground => {
+                let row = &geometry.rate_rows[i * n..(i + 1) * n];
+                let acceleration: f64 = row.iter().zip(state.a.iter()).map(|(r, a)| r * a).sum();
+                power.dampers -= normal.count()
+                    * law.damping
+                    * (share * acceleration + share_rate * rate(i))
+                    * ramp_integral(law.depth, state.p[i]);
+            }
+        }
+    }
+    for (index, &w) in system.laterals.iter().enumerate() {
+        let i = system.lateral(index);
+        let Some(flange) = &system.scene.wheels[system.wheels[w].kind].flange else { continue };
+        let (share, slope) = flange.share(geometry.height[w]);
+        if share > 0.0 && slope != 0.0 && state.force[i] != 0.0 {
+            let overlap = state.force[i] / (flange.stiffness * share);
+            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal));
+            power.flanges -= 0.5 * flange.stiffness * overlap * overlap * slope * climb;
+        }
+    }
+    for index in 0..system.tractions.len() {
+        let i = system.traction(index);
+        power.friction += state.force[i] * rate(i);
+    }
+    for (b, body) in system.scene.bodies.iter().enumerate() {
+        if let Some(profile) = &body.motion {
+            power.drives += drive_force(system, geometry, state, b) * profile.at(state.t).v;
+        }
+    }
+    power
+}
+
+/// Boundary term of the losses in dampers to ground: with d the wheel's displacement and S the damper's ramp,
+/// integral of c S(p) d' dp = [c d' Q(p)] - integral of c d'' Q(p) dt, Q' = S.
+pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f64 {
+    let n = system.freedoms;
+    let mut sum = 0.0;
+    for (i, normal) in system.normals.iter().enumerate() {
+        let law = &system.scene.wheels[normal.kind].normal;
+        if law.damper == Damper::Ground && law.damping > 0.0 && state.force[i] != 0.0 {
+            let row = &geometry.rate_rows[i * n..(i + 1) * n];
+            let rate: f64 = row.iter().zip(state.v.iter()).map(|(r, v)| r * v).sum();
+            sum += normal.count()
+                * geometry.share[i][0]
+                * law.damping
+                * rate
+                * ramp_integral(law.depth, state.p[i]);
+        }
+    }
+    sum
+}
+
+/// Force along the rail that the prescribed motion of body `b` needs: its inertia, less what its wheels
+/// get from the rail's slope and from friction.
+pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
+    let body = &system.scene.bodies[b];
+    let Some(profile) = &body.motion else { return 0.0 };
+    let line = body.mass_matrix()[0];
+    let mut force = line[0] * profile.at(state.t).a;
+    for i in 1..6 {
+        if let Some(number) = system.freedom[b][i] {
+            force += line[i] * state.a[number];
+        }
+    }
+    for (i, normal) in system.normals.iter().enumerate() {
+        if system.scene.contacts[normal.contact].body == b {
+            force -= geometry.rail_slope[i] * state.force[i];
+        }
+    }
+    for (index, &w) in system.laterals.iter().enumerate() {
+        if system.wheels[w].body == b {
+            force -= geometry.rail_slope[system.lateral(index)] * state.force[system.lateral(index)];
+        }
+    }
+    for (index, &w) in system.tractions.iter().enumerate() {
+        if system.wheels[w].body == b {
+            force += state.force[system.traction(index)];
+        }
+    }
+    force
+}
+
+/// Approach of component `i` before the give of the compliance.
+pub(crate) fn approach(system: &System, geometry: &Geometry, state: &State, i: usize) -> f64 {
+    let n = system.freedoms;
+    geometry.held[i]
+        + geometry.rows[i * n..(i + 1) * n].iter().zip(state.q.iter()).map(|(r, q)| r * q).sum::<f64>()
+}
+
+/// Speed along the rail of the wheels of vertical contact `i`.
+fn speed_along(system: &System, state: &State, i: usize) -> f64 {
+    let wheel = &system.wheels[system.normals[i].wheels.start];
+    let (_, speed) = system.body(wheel.body, state.t, &state.q, &state.v);
+    crate::scene::arm_rows(wheel.hub)[0].iter().zip(speed).map(|(r, s)| r * s).sum()
+}
+
+/// Q(p) = integral of STEP(p, 0, 0, depth, 1) from 0 to p; p itself where there is no ramp.
+fn ramp_integral(depth: f64, p: f64) -> f64 {
+    if depth == 0.0 {
+        p
+    } else if p <= 0.0 {
+        0.0
+    } else if p >= depth {
+        p - 0.5 * depth
+    } else {
+        let d = p / depth;
+        depth * d * d * d * (1.0 - 0.5 * d)
+    }
+}
+
+fn quadratic(matrix: &nalgebra::DMatrix<f64>, x: &nalgebra::DVector<f64>) -> f64 {
+    let mut sum = 0.0;
+    for (j, column) in matrix.column_iter().enumerate() {
+        sum += x[j] * column.iter().zip(x.iter()).map(|(m, x)| m * x).sum::<f64>();
+    }
+    sum
+}

@@ -1,0 +1,52 @@
+//! What can go wrong in a scene: ids and numbers; the caller knows the names.
+
+/// Errors of the simulator.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Error {
+    /// A structure refused a probe.
+    #[error("structure {structure}: {source}")]
+    Compliance {
+        /// Which structure.
+        structure: usize,
+        /// What it said.
+        source: splines::Error,
+    },
+    /// A mass or inertia of a free freedom that is not positive.
+    #[error("body {body}: freedom {freedom:?} is free but nothing has inertia there")]
+    NoInertia {
+        /// Which body.
+        body: usize,
+        /// Which freedom.
+        freedom: crate::Freedom,
+    },
+    /// A body, structure or rail index beyond the scene's.
+    #[error("{what} {index} does not exist")]
+    NoSuch {
+        /// What was looked for.
+        what: &'static str,
+        /// The index.
+        index: usize,
+    },
+    /// A number that must be positive, or finite, is not.
+    #[error("{what} must be {wanted}, got {found}")]
+    Number {
+        /// What it is.
+        what: &'static str,
+        /// What it must be.
+        wanted: &'static str,
+        /// What it is instead.
+        found: f64,
+    },
+    /// The wheels in contact cannot carry the bodies at rest.
+    #[error("no static equilibrium at t = {time}: the wheels on the rail cannot carry the weight")]
+    NoEquilibrium {
+        /// Time of the attempt.
+        time: f64,
+    },
+    /// A quasi-static sweep of a body whose place along the rail is not prescribed.
+    #[error("body {body}: a quasi-static sweep needs its x prescribed")]
+    NotPrescribed {
+        /// Which body.
+        body: usize,
+    },
+}

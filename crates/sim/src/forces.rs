@@ -1,0 +1,219 @@
+//! Contact forces of one instant or one stage of a step: F = law(e - W F, r - Y F).
+//!
+//! Every component presses with a law of its approach p = e - W F and rate r - Y F: W holds the rail's give
+//! G and, inside a step, the bodies' mobility; Y the mobility that the rates feel. Which vertical contacts
+//! act is given; the caller checks that they push and that the others stay open.
+
+use crate::dense::{solve_general, solve_spd};
+use crate::system::{Geometry, System};
+use crate::wheel::LawPoint;
+
+/// Relative change of the forces at which Newton's method ends.
+const TOLERANCE: f64 = 1e-13;
+const ITERATIONS: usize = 60;
+
+/// Matrices and free motion of one solution, over components, row-major.
+pub(crate) struct Problem {
+    pub w: Vec<f64>,
+    pub y: Vec<f64>,
+    pub approach: Vec<f64>,
+    pub rate: Vec<f64>,
+    /// Components whose force is known already.
+    pub known: Vec<bool>,
+    /// Ratio of a row of `y` to the row of `w`, where the rate is that of the penetration.
+    pub memory: Vec<Option<f64>>,
+    matrix: Vec<f64>,
+    residual: Vec<f64>,
+    start: Vec<f64>,
+    newton: Vec<f64>,
+    index: Vec<usize>,
+}
+
+impl Problem {
+    pub fn new(system: &System) -> Self {
+        let m = system.components();
+        Problem {
+            w: vec![0.0; m * m],
+            y: vec![0.0; m * m],
+            approach: vec![0.0; m],
+            rate: vec![0.0; m],
+            known: vec![false; m],
+            memory: vec![None; m],
+            matrix: vec![0.0; m * m],
+            residual: vec![0.0; m],
+            start: vec![0.0; m],
+            newton: vec![0.0; m],
+            index: Vec::with_capacity(m),
+        }
+    }
+
+    /// Approach of component `i` under `force`: e - W F.
+    pub fn penetration(&self, i: usize, force: &[f64]) -> f64 {
+        let m = force.len();
+        self.approach[i] - self.w[i * m..(i + 1) * m].iter().zip(force).map(|(w, f)| w * f).sum::<f64>()
+    }
+
+    fn rate(&self, i: usize, force: &[f64]) -> f64 {
+        let m = force.len();
+        self.rate[i] - self.y[i * m..(i + 1) * m].iter().zip(force).map(|(y, f)| y * f).sum::<f64>()
+    }
+
+    /// Solves for the forces of the `active` vertical contacts and of everything that depends on them;
+    /// `force` holds a first guess. Returns false where Newton's method does not converge.
+    pub fn solve(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
+        if system.linear_normals && force.len() == system.normals.len() {
+            return self.solve_linear(system, geometry, active, force);
+        }
+        self.solve_newton(system, geometry, active, force)
+    }
+
+    /// One linear system: F/k + W F + (c/k) Y F = e + (c/k) r, k and c times wheels and share.
+    fn solve_linear(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
+        let m = force.len();
+        self.index.clear();
+        self.index.extend((0..m).filter(|&i| active[i] && !self.known[i]));
+        let count = self.index.len();
+        for (row, &i) in self.index.iter().enumerate() {
+            let normal = &system.normals[i];
+            let law = &system.scene.wheels[normal.kind].normal;
+            let ratio = law.damping / law.stiffness;
+            // A damper between wheel and rail has Y = W/step: divide its row by 1 + ratio/step.
+            let (scale, by_rate) = match self.memory[i] {
+                Some(per_step) => (1.0 / (1.0 + ratio * per_step), 0.0),
+                None => (1.0, ratio),
+            };
+            let mut rhs = (self.approach[i] + ratio * self.rate[i]) * scale;
+            for (column, &j) in self.index.iter().enumerate() {
+                self.matrix[row * count + column] = self.w[i * m + j] + by_rate * self.y[i * m + j];
+            }
+            for j in (0..m).filter(|&j| self.known[j]) {
+                rhs -= (self.w[i * m + j] + by_rate * self.y[i * m + j]) * force[j];
+            }
+            self.matrix[row * count + row] += scale / (law.stiffness * normal.count() * geometry.share[i][0]);
+            self.residual[row] = rhs;
+        }
+        let (matrix, rhs) = (&mut self.matrix[..count * count], &mut self.residual[..count]);
+        let solved = if system.symmetric { solve_spd(matrix, rhs) } else { solve_general(matrix, rhs) };
+        for i in (0..m).filter(|&i| !self.known[i]) {
+            force[i] = 0.0;
+        }
+        for (row, &i) in self.index.iter().enumerate() {
+            force[i] = self.residual[row];
+        }
+        solved
+    }
+
+    /// Newton's method with step halving on F - law(F) = 0.
+    fn solve_newton(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        active: &[bool],
+        force: &mut [f64],
+    ) -> bool {
+        let m = force.len();
+        for (i, normal_active) in active.iter().enumerate() {
+            if !normal_active {
+                force[i] = 0.0;
+            }
+        }
+        let mut size = self.evaluate(system, geometry, active, force);
+        for _ in 0..ITERATIONS {
+            if !solve_general(&mut self.matrix, &mut self.residual) {
+                return false;
+            }
+            let scale = largest(force);
+            let change = largest(&self.residual);
+            self.start.copy_from_slice(force);
+            self.newton.copy_from_slice(&self.residual);
+            let mut damping = 1.0;
+            loop {
+                for i in 0..m {
+                    force[i] = self.start[i] - damping * self.newton[i];
+                }
+                let now = self.evaluate(system, geometry, active, force);
+                if now <= size || now <= TOLERANCE * scale || damping < 1e-3 {
+                    size = now;
+                    break;
+                }
+                damping *= 0.5;
+            }
+            if change <= TOLERANCE * scale.max(f64::MIN_POSITIVE) || size == 0.0 {
+                return true;
+            }
+        }
+        // The residual may stall at rounding; accept it where it is small beside the forces.
+        size <= 1e-9 * largest(force)
+    }
+
+    /// Fills the residual F - law(F) and its Jacobian; returns the residual's largest entry.
+    fn evaluate(&mut self, system: &System, geometry: &Geometry, active: &[bool], force: &[f64]) -> f64 {
+        let m = force.len();
+        self.matrix.fill(0.0);
+        for i in 0..m {
+            self.matrix[i * m + i] = 1.0;
+            self.residual[i] = 0.0;
+        }
+        for (i, normal) in system.normals.iter().enumerate() {
+            if self.known[i] || !active[i] {
+                continue;
+            }
+            let LawPoint { force: law, by_penetration, by_rate } =
+                system.scene.wheels[normal.kind].normal.at(self.penetration(i, force), self.rate(i, force));
+            let scale = normal.count() * geometry.share[i][0];
+            self.residual[i] = force[i] - scale * law;
+            for j in 0..m {
+                self.matrix[i * m + j] +=
+                    scale * (by_penetration * self.w[i * m + j] + by_rate * self.y[i * m + j]);
+            }
+        }
+        for (index, &w) in system.laterals.iter().enumerate() {
+            let i = system.lateral(index);
+            let kind = &system.scene.wheels[system.wheels[w].kind];
+            let Some(flange) = &kind.flange else { continue };
+            let overlap = flange.overlap(self.penetration(i, force));
+            if overlap == 0.0 {
+                self.residual[i] = force[i];
+                continue;
+            }
+            let normal = system.normals_of(w).next().unwrap_or(0);
+            let (share, by_height) = flange.share(kind.radius - self.penetration(normal, force));
+            self.residual[i] = force[i] - flange.stiffness * share * overlap;
+            for j in 0..m {
+                self.matrix[i * m + j] += flange.stiffness
+                    * (share * self.w[i * m + j] - by_height * overlap * self.w[normal * m + j]);
+            }
+        }
+        for (index, &w) in system.tractions.iter().enumerate() {
+            let i = system.traction(index);
+            let Some(friction) = &system.scene.wheels[system.wheels[w].kind].friction else { continue };
+            let (share, by_slip) = friction.share(self.rate(i, force));
+            let load: f64 = system.normals_of(w).map(|n| force[n] / system.normals[n].count()).sum();
+            self.residual[i] = force[i] - friction.coefficient * load * share;
+            for j in 0..m {
+                self.matrix[i * m + j] += friction.coefficient * load * by_slip * self.y[i * m + j];
+            }
+            for n in system.normals_of(w) {
+                self.matrix[i * m + n] -= friction.coefficient * share / system.normals[n].count();
+            }
+        }
+        largest(&self.residual)
+    }
+}
+
+/// Largest absolute entry.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |max, value| max.max(value.abs()))
+}

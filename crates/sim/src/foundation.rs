@@ -1,0 +1,85 @@
+//! What carries a rail: a compliance, and where its mass counts a structure with freedoms of its own.
+//!
+//! M q'' + C q' + K q = Phi^T F, (G + diag(1/k)) F = d - Phi q: rigid has neither G nor q, influence has G
+//! alone, parts have q alone (or, without mass, G = Phi K^-1 Phi^T).
+
+use nalgebra::DMatrix;
+use splines::{Compliance, Probe};
+
+use crate::PartChain;
+
+/// Shapes Phi of a structure's freedoms along its rails.
+pub trait Shapes: Send + Sync {
+    /// Displacement at `at` along its axis per unit of each freedom, and its derivative along the rail,
+    /// into `value` and `slope`, of one entry a freedom.
+    ///
+    /// # Errors
+    /// A probe beyond its rail.
+    fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), splines::Error>;
+}
+
+/// Freedoms of a structure that has mass.
+pub struct Structure {
+    /// M, symmetric and positive definite.
+    pub mass: DMatrix<f64>,
+    /// C, symmetric.
+    pub damping: DMatrix<f64>,
+    /// K, symmetric and positive definite.
+    pub stiffness: DMatrix<f64>,
+    /// Phi.
+    pub shapes: Box<dyn Shapes>,
+}
+
+/// One rail's extent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Extent {
+    /// First and last coordinate; `None`: without end.
+    pub range: Option<[f64; 2]>,
+    /// Coordinates where the rail's give is less smooth: supports, hinges, stations, hand-overs.
+    pub breaks: Vec<f64>,
+}
+
+/// One structure as the wheels feel it.
+#[derive(Default)]
+pub struct Foundation {
+    /// G; `None`: rigid beside the freedoms of `structure`.
+    pub compliance: Option<Box<dyn Compliance>>,
+    /// Freedoms with mass.
+    pub structure: Option<Structure>,
+    /// One force a part: the wheels of rail r feel each rigid part of chain r on its own, and the rails of
+    /// `compliance` and `structure` are the parts ([`PartChain::rail`]). `None`: one force a wheel.
+    pub parts: Option<Vec<PartChain>>,
+    /// Extents of the rails; empty: rails without end or break.
+    pub rails: Vec<Extent>,
+}
+
+impl Foundation {
+    /// A rail that does not give.
+    #[must_use]
+    pub fn rigid() -> Self {
+        Foundation::default()
+    }
+
+    /// A massless structure of `rails` rails.
+    #[must_use]
+    pub fn influence(compliance: Box<dyn Compliance>, rails: usize) -> Self {
+        let extent = |rail| Extent { range: compliance.range(rail), breaks: compliance.breaks(rail) };
+        Foundation {
+            rails: (0..rails).map(extent).collect(),
+            compliance: Some(compliance),
+            ..Foundation::default()
+        }
+    }
+
+    /// Coordinates along `rail` at which steps must end.
+    #[must_use]
+    pub fn breaks(&self, rail: usize) -> &[f64] {
+        self.rails.get(rail).map_or(&[], |extent| &extent.breaks)
+    }
+
+    /// Number of freedoms with mass.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.structure.as_ref().map_or(0, |structure| structure.mass.nrows())
+    }
+}

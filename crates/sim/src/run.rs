@@ -1,0 +1,269 @@
+//! One scene from start to end.
+
+use std::ops::ControlFlow;
+
+use crate::energy::{Audit, drive_force};
+use crate::history::{Channel, History};
+use crate::scene::Analysis;
+use crate::solver::Solver;
+use crate::state::State;
+use crate::stepper::{Counts, Failure, Stepper};
+use crate::system::System;
+use crate::{Error, Foundation, Freedom, Scene};
+
+/// Error a step may make for each unit of accuracy asked of the run: on crossings of the paper's girder
+/// (5 to 100 ft/s) the error of the run stays below a hundredth of that of a step.
+const LOCAL_PER_GLOBAL: f64 = 20.0;
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Status {
+    /// The end time was reached.
+    Done,
+    /// The caller stopped it.
+    Stopped,
+    /// No step was small enough at this time.
+    StepTooSmall(f64),
+    /// A wheel asked for what its structure does not have, at this time.
+    Refused(f64, Error),
+}
+
+/// Everything a run found.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// How it ended.
+    pub status: Status,
+    /// Samples over time.
+    pub history: History,
+    /// The energy audit; zeros for a quasi-static sweep.
+    pub audit: Audit,
+    /// Work done.
+    pub counts: Counts,
+}
+
+/// Runs `scene` on `foundations`, one a structure. `watch` sees the time reached, and may stop the run.
+///
+/// A dynamic run starts in static equilibrium (y, roll and pitch of bodies whose wheels can carry them, unless
+/// they start with a displacement of their own there), and is integrated by an adaptive SDIRK method of order 4
+/// in force form, with contacts located in time. The relative error of displacements per unit of motion is near
+/// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
+///
+/// # Errors
+/// A scene that cannot be set up: see [`Error`]. Trouble on the way ends the run with a [`Status`] instead.
+pub fn run(
+    scene: &Scene,
+    foundations: &[Foundation],
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Run, Error> {
+    let system = System::new(scene, foundations)?;
+    let mut solver = Solver::new(&system)?;
+    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    start(&system, &mut state);
+    match scene.analysis {
+        Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
+        Analysis::Dynamic => integrate(&system, &mut solver, state, watch),
+    }
+}
+
+/// Starting values of the freedoms.
+fn start(system: &System, state: &mut State) {
+    for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
+        for i in 0..6 {
+            if let Some(number) = numbers[i] {
+                state.q[number] = body.start[i];
+            }
+        }
+    }
+    start_speeds(system, state);
+}
+
+fn integrate(
+    system: &System,
+    solver: &mut Solver,
+    mut state: State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Run, Error> {
+    let scene = system.scene;
+    let placed =
+        scene.bodies.iter().any(|body| [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0));
+    if !placed {
+        solver.equilibrate(&mut state)?;
+        start_speeds(system, &mut state);
+    }
+    if !solver.settle(&mut state)? {
+        return Err(Error::NoEquilibrium { time: 0.0 });
+    }
+    let mut recorder = Recorder::new(system);
+    recorder.record(system, solver, &state);
+    let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
+    let mut breaks: Vec<f64> = scene
+        .bodies
+        .iter()
+        .filter_map(|body| body.motion.as_ref())
+        .flat_map(|profile| profile.breaks().iter().copied())
+        .filter(|&t| t > 0.0 && t < scene.end)
+        .collect();
+    breaks.push(scene.end);
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first);
+    let mut sample = stepper.to.clone();
+    let mut next = 1_u64;
+    let mut status = Status::Done;
+    'run: for limit in breaks {
+        while stepper.to.t < limit * (1.0 - 1e-14) {
+            match stepper.advance(limit) {
+                Ok(()) => {}
+                Err(Failure::TooSmall) => {
+                    status = Status::StepTooSmall(stepper.from.t);
+                    break 'run;
+                }
+                Err(Failure::Refused(error)) => {
+                    status = Status::Refused(stepper.from.t, error);
+                    break 'run;
+                }
+            }
+            let (from, to) = (stepper.from.t, stepper.to.t);
+            let active = stepper.solver.active.clone();
+            while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
+                let t = next as f64 * scene.output_dt;
+                if t >= to * (1.0 - 1e-14) {
+                    sample.copy_from(&stepper.to);
+                } else {
+                    sample.interpolate(&stepper.from, &stepper.to, (t - from) / (to - from));
+                }
+                stepper.solver.settle(&mut sample)?;
+                recorder.record(system, stepper.solver, &sample);
+                stepper.solver.active.clone_from(&active);
+                next += 1;
+            }
+            if watch(to).is_break() {
+                status = Status::Stopped;
+                break 'run;
+            }
+        }
+    }
+    Ok(Run { status, history: recorder.history, audit: stepper.audit, counts: stepper.counts })
+}
+
+fn start_speeds(system: &System, state: &mut State) {
+    for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
+        for i in 0..6 {
+            if let Some(number) = numbers[i] {
+                state.v[number] = body.start_speed[i];
+            }
+        }
+    }
+}
+
+fn sweep(
+    system: &System,
+    solver: &mut Solver,
+    mut state: State,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Run, Error> {
+    let scene = system.scene;
+    if let Some(body) = (0..scene.bodies.len()).find(|&b| system.freedom[b][0].is_some()) {
+        return Err(Error::NotPrescribed { body });
+    }
+    let mut recorder = Recorder::new(system);
+    let mut counts = Counts::default();
+    let mut status = Status::Done;
+    let last = (scene.end / scene.output_dt * (1.0 + 1e-12)).floor();
+    let mut times: Vec<f64> = (0..=last as u64).map(|i| i as f64 * scene.output_dt).collect();
+    if times.last().is_some_and(|&t| t < scene.end * (1.0 - 1e-9)) {
+        times.push(scene.end);
+    }
+    for t in times {
+        state.t = t;
+        match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
+            Ok(_) => {}
+            Err(error) if t == 0.0 => return Err(error),
+            Err(error) => {
+                status = Status::Refused(t, error);
+                break;
+            }
+        }
+        counts.steps += 1;
+        recorder.record(system, solver, &state);
+        if watch(t).is_break() {
+            status = Status::Stopped;
+            break;
+        }
+    }
+    Ok(Run { status, history: recorder.history, audit: Audit::default(), counts })
+}
+
+/// Writes samples.
+struct Recorder {
+    history: History,
+}
+
+impl Recorder {
+    fn new(system: &System) -> Self {
+        let mut channels = vec![Channel::Time];
+        for b in 0..system.scene.bodies.len() {
+            channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
+            channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
+            channels.push(Channel::Drive(b));
+        }
+        for w in 0..system.wheels.len() {
+            channels.extend([
+                Channel::Place(w),
+                Channel::Vertical(w),
+                Channel::Lateral(w),
+                Channel::Traction(w),
+                Channel::Penetration(w),
+                Channel::Give(w),
+                Channel::SpinAngle(w),
+                Channel::SpinSpeed(w),
+            ]);
+        }
+        Recorder { history: History { channels, values: Vec::new() } }
+    }
+
+    /// Adds a sample; the solver's geometry belongs to `at`.
+    fn record(&mut self, system: &System, solver: &Solver, at: &State) {
+        let values = &mut self.history.values;
+        values.push(at.t);
+        for b in 0..system.scene.bodies.len() {
+            let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
+            values.extend(displacement);
+            values.extend(speed);
+            values.push(drive_force(system, &solver.geometry, at, b));
+        }
+        for (w, wheel) in system.wheels.iter().enumerate() {
+            let mut vertical = 0.0;
+            let mut deepest = f64::NEG_INFINITY;
+            for i in system.normals_of(w) {
+                vertical += at.force[i] / system.normals[i].count();
+                if solver.geometry.share[i][0] > 0.0 {
+                    deepest = deepest.max(at.p[i]);
+                }
+            }
+            let lateral =
+                system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
+            let traction =
+                system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
+            let down = {
+                let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
+                -crate::scene::arm_rows(wheel.hub)[1]
+                    .iter()
+                    .zip(displacement)
+                    .map(|(r, d)| r * d)
+                    .sum::<f64>()
+            };
+            let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
+            values.extend([
+                solver.geometry.x[w],
+                vertical,
+                lateral,
+                traction,
+                deepest,
+                down - deepest,
+                angle,
+                speed,
+            ]);
+        }
+    }
+}

@@ -1,0 +1,362 @@
+//! Solutions at one instant and at one stage of a step, over the numbered scene.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::complementarity::complementarity;
+use crate::energy;
+use crate::forces::Problem;
+use crate::state::State;
+use crate::system::{Geometry, System};
+use crate::{Damper, Error};
+
+/// Iterations on the wheels' places and heights inside one solution.
+const PASSES: usize = 30;
+
+/// Known parts of a stage: Q = `q` + (h gamma) V, V = `v` + (h gamma) A, and the like for the penetrations.
+pub(crate) struct Known {
+    pub q: DVector<f64>,
+    pub v: DVector<f64>,
+    pub p: Vec<f64>,
+}
+
+/// The scene with everything needed to solve it again and again without allocation.
+pub(crate) struct Solver<'a> {
+    pub system: &'a System<'a>,
+    pub geometry: Geometry,
+    /// Which vertical contacts act.
+    pub active: Vec<bool>,
+    pub problem: Problem,
+    inverse: DMatrix<f64>,
+    mobility: DMatrix<f64>,
+    mobility_step: f64,
+    /// Z R^T, freedoms x components, column-major.
+    spread: Vec<f64>,
+    free_a: DVector<f64>,
+    free_q: DVector<f64>,
+    free_v: DVector<f64>,
+    load: DVector<f64>,
+    spread_is_fixed: bool,
+}
+
+impl<'a> Solver<'a> {
+    pub fn new(system: &'a System<'a>) -> Result<Self, Error> {
+        let n = system.freedoms;
+        let inverse = inverse(system.mass.clone())?;
+        Ok(Solver {
+            system,
+            geometry: Geometry::new(system),
+            active: vec![false; system.normals.len()],
+            problem: Problem::new(system),
+            mobility: inverse.clone(),
+            inverse,
+            mobility_step: 0.0,
+            spread: vec![0.0; n * system.components()],
+            free_a: DVector::zeros(n),
+            free_q: DVector::zeros(n),
+            free_v: DVector::zeros(n),
+            load: DVector::zeros(n),
+            spread_is_fixed: false,
+        })
+    }
+
+    /// Whether vertical contact `i` keeps its penetration as a state while it acts.
+    fn remembers(&self, i: usize) -> bool {
+        self.active[i] && self.system.scene.wheels[self.system.normals[i].kind].normal.has_memory()
+    }
+
+    /// Forces that do not depend on the contacts: weight, and what a prescribed x does to the other freedoms.
+    fn fill_load(&mut self, t: f64) {
+        self.load.copy_from(&self.system.gravity);
+        for (b, body) in self.system.scene.bodies.iter().enumerate() {
+            let Some(profile) = &body.motion else { continue };
+            let (acceleration, line) = (profile.at(t).a, body.mass_matrix()[0]);
+            if acceleration == 0.0 {
+                continue;
+            }
+            for i in 1..6 {
+                if let Some(number) = self.system.freedom[b][i] {
+                    self.load[number] -= line[i] * acceleration;
+                }
+            }
+        }
+    }
+
+    fn set_mobility(&mut self, step: f64) -> Result<(), Error> {
+        let dynamic = self.system.foundations.iter().any(|foundation| foundation.structure.is_some());
+        if dynamic && step != self.mobility_step {
+            let matrix =
+                &self.system.mass + step * &self.system.damping + step * step * &self.system.stiffness;
+            self.mobility = inverse(matrix)?;
+            self.mobility_step = step;
+        }
+        Ok(())
+    }
+
+    fn fill_spread(&mut self) {
+        if self.spread_is_fixed {
+            return;
+        }
+        let (n, m) = (self.system.freedoms, self.system.components());
+        for j in 0..m {
+            let row = &self.geometry.force_rows[j * n..(j + 1) * n];
+            for i in 0..n {
+                self.spread[j * n + i] = self.mobility.column(i).iter().zip(row).map(|(z, r)| z * r).sum();
+            }
+        }
+        self.spread_is_fixed = self.system.constant_rows;
+    }
+
+    /// Solves the stage Q = q* + g V, V = v* + g A at `at.t` with the contacts that are active; `at` brings
+    /// the previous solution as a guess. Returns whether it converged.
+    pub fn stage(&mut self, g: f64, known: &Known, at: &mut State) -> Result<bool, Error> {
+        let system = self.system;
+        let (n, m) = (system.freedoms, system.components());
+        self.set_mobility(g)?;
+        self.fill_load(at.t);
+        // Motion without contacts.
+        if self.mobility_step > 0.0 {
+            for j in 0..n {
+                let reach = known.q[j] + g * known.v[j];
+                for i in 0..n {
+                    self.load[i] -= system.damping[(i, j)] * known.v[j] + system.stiffness[(i, j)] * reach;
+                }
+            }
+        }
+        self.free_a.gemv(1.0, &self.mobility, &self.load, 0.0);
+        for i in 0..n {
+            self.free_v[i] = known.v[i] + g * self.free_a[i];
+            self.free_q[i] = known.q[i] + g * self.free_v[i];
+        }
+        if system.moves_freely || !system.laterals.is_empty() {
+            for i in 0..n {
+                at.q[i] = known.q[i] + g * (known.v[i] + g * at.a[i]);
+            }
+        }
+        for _ in 0..PASSES {
+            self.geometry.update(system, at.t, &at.q, &at.force)?;
+            self.fill_spread();
+            for i in 0..m {
+                let (row, rate_row) = (&self.geometry.rows[i * n..], &self.geometry.rate_rows[i * n..]);
+                let is_normal = i < system.normals.len();
+                let memory = is_normal && self.remembers(i);
+                let grounded = if is_normal {
+                    system.scene.wheels[system.normals[i].kind].normal.damper == Damper::Ground
+                } else {
+                    i >= system.traction(0)
+                };
+                let mut approach = self.geometry.held[i];
+                let mut rate = self.geometry.rate_held[i];
+                for k in 0..n {
+                    approach += row[k] * self.free_q[k];
+                    rate += rate_row[k] * self.free_v[k];
+                }
+                for j in 0..m {
+                    let column = &self.spread[j * n..(j + 1) * n];
+                    let mobility: f64 = (0..n).map(|k| row[k] * column[k]).sum();
+                    let w = self.geometry.compliance[i * m + j] + g * g * mobility;
+                    self.problem.w[i * m + j] = w;
+                    self.problem.y[i * m + j] = if memory {
+                        w / g
+                    } else if grounded {
+                        g * (0..n).map(|k| rate_row[k] * column[k]).sum::<f64>()
+                    } else {
+                        0.0
+                    };
+                }
+                self.problem.approach[i] = approach;
+                self.problem.rate[i] = if memory { (approach - known.p[i]) / g } else { rate };
+                self.problem.memory[i] = memory.then_some(1.0 / g);
+                self.problem.known[i] = false;
+            }
+            if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
+                return Ok(false);
+            }
+            let mut moved = 0.0_f64;
+            for i in 0..n {
+                let give: f64 = (0..m).map(|j| self.spread[j * n + i] * at.force[j]).sum();
+                at.a[i] = self.free_a[i] - give;
+                at.v[i] = known.v[i] + g * at.a[i];
+                let q = known.q[i] + g * at.v[i];
+                moved = moved.max((q - at.q[i]).abs() / (1.0 + q.abs()));
+                at.q[i] = q;
+            }
+            for i in 0..system.normals.len() {
+                at.p[i] = self.problem.penetration(i, &at.force);
+                at.p_rate[i] = (at.p[i] - known.p[i]) / g;
+            }
+            moved = moved.max(self.update_heights(at));
+            if moved < 1e-13
+                || !(system.moves_freely || !system.laterals.is_empty() || !system.tractions.is_empty())
+            {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Forces, penetrations and accelerations at (t, q, v) for the contacts that are active; the
+    /// penetration of those that remember it is given. Returns whether it converged.
+    pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
+        let system = self.system;
+        let (n, m) = (system.freedoms, system.components());
+        for _ in 0..PASSES {
+            self.geometry.update(system, at.t, &at.q, &at.force)?;
+            for i in 0..m {
+                self.problem.approach[i] = energy::approach(system, &self.geometry, at, i);
+                let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
+                self.problem.rate[i] =
+                    self.geometry.rate_held[i] + row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum::<f64>();
+                self.problem.memory[i] = None;
+                self.problem.known[i] = i < system.normals.len() && self.remembers(i);
+                if self.problem.known[i] {
+                    let normal = &system.normals[i];
+                    let law = &system.scene.wheels[normal.kind].normal;
+                    let scale = normal.count() * self.geometry.share[i][0];
+                    at.force[i] = scale * law.at(at.p[i], at.p_rate[i]).force;
+                }
+            }
+            self.problem.w.copy_from_slice(&self.geometry.compliance);
+            self.problem.y.fill(0.0);
+            if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
+                return Ok(false);
+            }
+            for i in 0..system.normals.len() {
+                if !self.problem.known[i] {
+                    at.p[i] = self.problem.penetration(i, &at.force);
+                }
+            }
+            if self.update_heights(at) < 1e-13 {
+                break;
+            }
+        }
+        self.geometry.update(system, at.t, &at.q, &at.force)?;
+        self.geometry.update_rail_slope(system, &at.q, &at.force)?;
+        self.fill_load(at.t);
+        for j in 0..n {
+            let (q, v) = (at.q[j], at.v[j]);
+            for i in 0..n {
+                self.load[i] -= system.damping[(i, j)] * v + system.stiffness[(i, j)] * q;
+            }
+        }
+        for j in 0..m {
+            for i in 0..n {
+                self.load[i] -= self.geometry.force_rows[j * n + i] * at.force[j];
+            }
+        }
+        at.a.gemv(1.0, &self.inverse, &self.load, 0.0);
+        Ok(true)
+    }
+
+    /// Finds which vertical contacts act at (t, q, v), and the forces: the complementarity problem, by sweeps
+    /// of the active set. Returns whether it settled.
+    pub fn settle(&mut self, at: &mut State) -> Result<bool, Error> {
+        let count = self.system.normals.len();
+        self.guess_active(at)?;
+        for _ in 0..4 * count + 8 {
+            if !self.instant(at)? {
+                return Ok(false);
+            }
+            let weakest = (0..count)
+                .filter(|&i| self.active[i] && self.opens(i, at))
+                .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
+            if let Some(i) = weakest {
+                self.active[i] = false;
+                at.p_rate[i] = 0.0;
+                continue;
+            }
+            let deepest = (0..count)
+                .filter(|&i| !self.active[i] && self.closing(i, at) > 0.0)
+                .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
+            let Some(i) = deepest else { return Ok(true) };
+            self.active[i] = true;
+        }
+        Ok(false)
+    }
+
+    /// Active contacts of the complementarity problem (G + 1/k) F - (e + (c/k) r) >= 0, F >= 0, where every law is
+    /// linear and none remembers its penetration: the sweeps of [`Solver::settle`] start from its solution.
+    fn guess_active(&mut self, at: &mut State) -> Result<(), Error> {
+        let system = self.system;
+        let (n, m, count) = (system.freedoms, system.components(), system.normals.len());
+        let law = |i: usize| &system.scene.wheels[system.normals[i].kind].normal;
+        if !system.linear_normals || (0..count).any(|i| law(i).has_memory() || law(i).bilateral) {
+            return Ok(());
+        }
+        self.geometry.update(system, at.t, &at.q, &at.force)?;
+        let share = |i: usize| self.geometry.share[i][0];
+        let felt: Vec<usize> = (0..count).filter(|&i| share(i) > 0.0).collect();
+        let mut matrix: Vec<f64> =
+            felt.iter().flat_map(|&i| felt.iter().map(move |&j| i * m + j)).map(|at| self.geometry.compliance[at]).collect();
+        let mut reach = vec![0.0; felt.len()];
+        for (r, &i) in felt.iter().enumerate() {
+            let per_wheel = law(i).stiffness * system.normals[i].count() * share(i);
+            matrix[r * felt.len() + r] += 1.0 / per_wheel;
+            let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
+            let rate: f64 = row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum();
+            reach[r] =
+                energy::approach(system, &self.geometry, at, i) + law(i).damping / law(i).stiffness * rate;
+        }
+        let mut force: Vec<f64> = felt.iter().map(|&i| at.force[i]).collect();
+        if complementarity(&matrix, &reach, &mut force).is_some() {
+            self.active.fill(false);
+            for (&i, f) in felt.iter().zip(force) {
+                self.active[i] = f > 0.0;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether an active contact must open: it pulls though it may not, or its part has let go of the wheel.
+    pub fn opens(&self, i: usize, at: &State) -> bool {
+        let share = self.geometry.share[i][0];
+        share == 0.0 || (at.force[i] < 0.0 && !self.bilateral(i))
+    }
+
+    /// Force that an open contact would have if it closed now, per wheel; positive: it must close.
+    pub fn closing(&self, i: usize, at: &State) -> f64 {
+        let law = &self.system.scene.wheels[self.system.normals[i].kind].normal;
+        let share = self.geometry.share[i][0];
+        if share == 0.0 {
+            return -1.0;
+        }
+        if law.bilateral {
+            return 1.0;
+        }
+        let n = self.system.freedoms;
+        let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
+        let rate: f64 = row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum();
+        let spring = law.spring(at.p[i]);
+        if at.p[i] <= 0.0 { spring } else { law.at(at.p[i], rate).force }
+    }
+
+    pub fn bilateral(&self, i: usize) -> bool {
+        self.system.scene.wheels[self.system.normals[i].kind].normal.bilateral
+    }
+
+    /// Heights of the wheels' centres above their rails; returns the largest change where it matters.
+    fn update_heights(&mut self, at: &State) -> f64 {
+        if self.system.laterals.is_empty() && self.system.tractions.is_empty() {
+            return 0.0;
+        }
+        let mut moved = 0.0_f64;
+        for w in 0..self.system.wheels.len() {
+            let deepest = self.system.normals_of(w).map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
+            let height = self.system.scene.wheels[self.system.wheels[w].kind].radius - deepest;
+            moved = moved.max((height - self.geometry.height[w]).abs() / height.abs());
+            self.geometry.height[w] = height;
+        }
+        moved
+    }
+}
+
+fn inverse(matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    if matrix.is_empty() {
+        return Ok(matrix);
+    }
+    let smallest = matrix.diagonal().min();
+    matrix.cholesky().map(|factor| factor.inverse()).ok_or(Error::Number {
+        what: "mass matrix",
+        wanted: "positive definite",
+        found: smallest,
+    })
+}

@@ -1,0 +1,348 @@
+//! The adaptive force-form stepper: every stage of an SDIRK method is one contact solution.
+//!
+//! Within a step the set of wheels in contact is fixed, so that the solution is smooth and the method keeps
+//! its order; the instant at which a wheel leaves or meets the rail is located on the step's interpolant and
+//! the step is taken again to end there. Steps also end at the breaks of motions and rails.
+
+use nalgebra::DVector;
+
+use crate::energy::{Exchanged, boundary, power, stored};
+use crate::solver::{Known, Solver};
+use crate::state::State;
+use crate::tableau::{SDIRK4, Tableau};
+use crate::{Audit, Error};
+
+/// Work done by a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Contact solutions in stages.
+    pub stages: usize,
+    /// Instants at which a wheel left or met the rail.
+    pub events: usize,
+}
+
+/// Why a step could not be taken.
+pub(crate) enum Failure {
+    TooSmall,
+    Refused(Error),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Refused(error)
+    }
+}
+
+/// A run in progress.
+pub(crate) struct Stepper<'a, 'b> {
+    pub solver: &'b mut Solver<'a>,
+    pub from: State,
+    pub to: State,
+    pub counts: Counts,
+    pub audit: Audit,
+    tableau: &'static Tableau,
+    tolerance: f64,
+    scale: DVector<f64>,
+    rate_scale: DVector<f64>,
+    h: f64,
+    last_error: f64,
+    stage: State,
+    known: Known,
+    accelerations: Vec<DVector<f64>>,
+    rates: Vec<DVector<f64>>,
+    p_rates: Vec<Vec<f64>>,
+    powers: Vec<Exchanged>,
+    probe: State,
+    begun: f64,
+}
+
+impl<'a, 'b> Stepper<'a, 'b> {
+    /// A run from `start`, in which the solver's active contacts are settled.
+    pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Self {
+        let system = solver.system;
+        let (n, count) = (system.freedoms, system.normals.len());
+        let tableau = &SDIRK4;
+        let energy = stored(system, &solver.geometry, &start);
+        let (scale, rate_scale) = floors(solver, &start);
+        Stepper {
+            to: start.clone(),
+            stage: start.clone(),
+            probe: start.clone(),
+            from: start,
+            counts: Counts::default(),
+            audit: Audit { start: energy, end: energy, ..Audit::default() },
+            tableau,
+            tolerance,
+            scale,
+            rate_scale,
+            h: first,
+            last_error: 1.0,
+            known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
+            accelerations: vec![DVector::zeros(n); tableau.stages()],
+            rates: vec![DVector::zeros(n); tableau.stages()],
+            p_rates: vec![vec![0.0; count]; tableau.stages()],
+            powers: vec![Exchanged::default(); tableau.stages()],
+            begun: energy.total(),
+            solver,
+        }
+    }
+
+    /// Takes one accepted step, at most to `limit`; `from` and `to` are its ends.
+    pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
+        self.from.copy_from(&self.to);
+        let start = self.from.t;
+        let smallest = 1e-13 * limit.abs().max(1e-3);
+        let mut h = self.h.min(limit - start);
+        // Do not leave a sliver before the limit.
+        if limit - start - h < 0.1 * h {
+            h = limit - start;
+        }
+        let mut ends_at_event = false;
+        loop {
+            if h < smallest {
+                return Err(Failure::TooSmall);
+            }
+            if let Some(shorter) = self.prescribed_break(start, h) {
+                h = shorter;
+            }
+            let error = if self.attempt(h)? { self.error() } else { f64::INFINITY };
+            if error > 1.0 {
+                self.counts.rejected += 1;
+                h *= if error.is_finite() { (0.9 * error.powf(-0.25)).clamp(0.1, 0.9) } else { 0.25 };
+                ends_at_event = false;
+                continue;
+            }
+            if !ends_at_event && let Some(share) = self.first_event()? {
+                if share * h > smallest && share < 1.0 - 1e-9 {
+                    h *= share;
+                    ends_at_event = true;
+                    continue;
+                }
+                ends_at_event = true;
+            }
+            let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
+            self.last_error = error.max(1e-4);
+            if !ends_at_event {
+                let proposed = h * growth.clamp(0.2, 5.0);
+                // A step cut short by a limit says nothing against the longer one that was planned.
+                self.h = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
+            }
+            break;
+        }
+        self.accept(h)?;
+        Ok(())
+    }
+
+    /// One step of the method with the active contacts; false where a stage does not converge.
+    fn attempt(&mut self, h: f64) -> Result<bool, Error> {
+        let tableau = self.tableau;
+        let gamma_h = tableau.gamma * h;
+        self.stage.copy_from(&self.from);
+        for i in 0..tableau.stages() {
+            self.known.q.copy_from(&self.from.q);
+            self.known.v.copy_from(&self.from.v);
+            self.known.p.copy_from_slice(&self.from.p);
+            for (j, weight) in tableau.a[i].iter().enumerate() {
+                self.known.q.axpy(h * weight, &self.rates[j], 1.0);
+                self.known.v.axpy(h * weight, &self.accelerations[j], 1.0);
+                for (p, rate) in self.known.p.iter_mut().zip(&self.p_rates[j]) {
+                    *p += h * weight * rate;
+                }
+            }
+            self.stage.t = self.from.t + tableau.c[i] * h;
+            self.counts.stages += 1;
+            if !self.solver.stage(gamma_h, &self.known, &mut self.stage)? {
+                return Ok(false);
+            }
+            self.accelerations[i].copy_from(&self.stage.a);
+            self.rates[i].copy_from(&self.stage.v);
+            self.p_rates[i].copy_from_slice(&self.stage.p_rate);
+            self.solver.geometry.update_rail_slope(self.solver.system, &self.stage.q, &self.stage.force)?;
+            self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
+        }
+        self.to.copy_from(&self.stage);
+        self.to.t = self.from.t + h;
+        Ok(self.to.q.iter().chain(self.to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    /// Embedded error relative to the tolerance.
+    fn error(&self) -> f64 {
+        let h = self.to.t - self.from.t;
+        let mut largest = 0.0_f64;
+        for i in 0..self.to.q.len() {
+            let (mut dq, mut dv) = (0.0, 0.0);
+            for (j, weight) in self.tableau.error.iter().enumerate() {
+                dq += weight * self.rates[j][i];
+                dv += weight * self.accelerations[j][i];
+            }
+            let scale = self.scale[i].max(self.to.q[i].abs());
+            let rate_scale = self.rate_scale[i].max(self.to.v[i].abs());
+            largest = largest.max((h * dq / scale).abs()).max((h * dv / rate_scale).abs());
+        }
+        largest / self.tolerance
+    }
+
+    /// Length of the step that ends where a wheel with prescribed motion meets a break of its rail, if the
+    /// step of length `h` would pass it.
+    fn prescribed_break(&self, start: f64, h: f64) -> Option<f64> {
+        let system = self.solver.system;
+        let mut best: Option<f64> = None;
+        for (b, body) in system.scene.bodies.iter().enumerate() {
+            let Some(profile) = &body.motion else { continue };
+            let (x0, x1) = (profile.at(start).x, profile.at(start + h).x);
+            for wheel in system.wheels.iter().filter(|wheel| wheel.body == b) {
+                let contact = &system.scene.contacts[wheel.contact];
+                for &place in system.foundations[contact.structure].breaks(contact.rail) {
+                    let target = place - wheel.hub[0];
+                    let slack = 1e-9 * (1.0 + target.abs());
+                    if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
+                        continue;
+                    }
+                    let length = root(|s| profile.at(start + s * h).x - target) * h;
+                    if length < h * (1.0 - 1e-9) && best.is_none_or(|known| length < known) {
+                        best = Some(length);
+                    }
+                }
+            }
+        }
+        best
+    }
+
+    /// Share of the step at which the first contact opens or closes, if one does.
+    fn first_event(&mut self) -> Result<Option<f64>, Error> {
+        let count = self.solver.system.normals.len();
+        self.probe.copy_from(&self.to);
+        let mut first: Option<f64> = None;
+        for i in 0..count {
+            if self.event(i, &self.to) <= 0.0 {
+                continue;
+            }
+            // Bisection and secant on the interpolant; the event function is negative at the start.
+            let (mut low, mut high) = (0.0_f64, 1.0_f64);
+            for _ in 0..60 {
+                let middle = 0.5 * (low + high);
+                self.probe.interpolate(&self.from, &self.to, middle);
+                if !self.solver.instant(&mut self.probe)? {
+                    break;
+                }
+                if self.event(i, &self.probe) > 0.0 {
+                    high = middle
+                } else {
+                    low = middle
+                }
+                if high - low < 1e-12 {
+                    break;
+                }
+            }
+            if first.is_none_or(|known| high < known) {
+                first = Some(high);
+            }
+        }
+        if first.is_some() {
+            // Leave the solver's geometry at the end of the step.
+            self.probe.copy_from(&self.to);
+            self.solver.instant(&mut self.probe)?;
+        }
+        Ok(first)
+    }
+
+    /// Positive where contact `i` must open (if it acts) or close (if it does not).
+    fn event(&self, i: usize, at: &State) -> f64 {
+        if self.solver.active[i] {
+            if self.solver.bilateral(i) { -1.0 } else { -at.force[i] }
+        } else {
+            self.solver.closing(i, at)
+        }
+    }
+
+    /// Books the step: audit, scales, and the contacts that open or close at its end.
+    fn accept(&mut self, h: f64) -> Result<(), Error> {
+        let system = self.solver.system;
+        self.counts.steps += 1;
+        let mut booked = Exchanged::default();
+        for (i, power) in self.powers.iter().enumerate() {
+            booked.add(power, h * self.tableau.weight(i));
+        }
+        self.audit.exchanged.add(&booked, 1.0);
+        // Boundary terms of grounded dampers, from the same states that end the stages.
+        let memory = self.probe_boundary()?;
+        self.audit.exchanged.dampers += memory;
+        for i in 0..self.to.q.len() {
+            self.scale[i] = self.scale[i].max(self.to.q[i].abs());
+            self.rate_scale[i] = self.rate_scale[i].max(self.to.v[i].abs());
+        }
+        let before = stored(system, &self.solver.geometry, &self.to);
+        let due = (0..system.normals.len()).any(|i| {
+            (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
+        });
+        let mut after = before;
+        if due {
+            let flags = self.solver.active.clone();
+            if self.solver.settle(&mut self.to)? {
+                self.counts.events += usize::from(flags != self.solver.active);
+                after = stored(system, &self.solver.geometry, &self.to);
+                self.audit.exchanged.switches += before.total() - after.total();
+            }
+        }
+        self.audit.end = after;
+        let elastic = after.contact + after.structure;
+        self.audit.peak_stored = self.audit.peak_stored.max(elastic);
+        let imbalance = (after.total() + self.audit.exchanged.net_loss() - self.begun).abs();
+        self.audit.imbalance = self.audit.imbalance.max(imbalance);
+        Ok(())
+    }
+
+    /// Boundary term of the step just taken.
+    fn probe_boundary(&mut self) -> Result<f64, Error> {
+        let system = self.solver.system;
+        let grounded = system.scene.wheels.iter().any(|w| w.normal.damping > 0.0 && !w.normal.has_memory());
+        if !grounded {
+            return Ok(0.0);
+        }
+        let end = boundary(system, &self.solver.geometry, &self.to);
+        // Shares at the start of the step.
+        self.solver.geometry.update(system, self.from.t, &self.from.q, &self.from.force)?;
+        let start = boundary(system, &self.solver.geometry, &self.from);
+        self.solver.geometry.update(system, self.to.t, &self.to.q, &self.to.force)?;
+        Ok(end - start)
+    }
+}
+
+/// Smallest displacements and rates that the error is measured against: the penetration at rest, carried
+/// to each freedom by its lever, and the bounce that belongs to it.
+fn floors(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
+    let system = solver.system;
+    let n = system.freedoms;
+    let depth = start.p.iter().fold(0.0_f64, |max, p| max.max(*p));
+    let radius = system.scene.wheels.iter().fold(1.0_f64, |max, wheel| max.max(wheel.radius));
+    let depth = if depth > 0.0 { depth } else { 1e-3 * radius };
+    let frequency = if system.scene.gravity > 0.0 { (system.scene.gravity / depth).sqrt() } else { 1.0 };
+    let lever = |k: usize| {
+        let rows = solver.geometry.rows.iter().chain(&solver.geometry.rate_rows).skip(k).step_by(n);
+        rows.fold(0.0_f64, |max, r| max.max(r.abs()))
+    };
+    let scale = DVector::from_fn(n, |k, _| {
+        let lever = lever(k);
+        if lever > 0.0 { depth / lever } else { depth }
+    });
+    let rates = &scale * frequency;
+    (scale, rates)
+}
+
+/// Root in (0, 1) of a function with opposite signs at the ends, by bisection.
+fn root(f: impl Fn(f64) -> f64) -> f64 {
+    let sign = f(0.0).signum();
+    let (mut low, mut high) = (0.0_f64, 1.0_f64);
+    while high - low > 1e-15 {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            break;
+        }
+        if f(middle).signum() == sign { low = middle } else { high = middle }
+    }
+    high
+}

@@ -1,0 +1,116 @@
+//! The paper's bogie against references computed by other codes.
+
+mod common;
+
+use std::ops::ControlFlow;
+
+use common::{bogie, girder};
+use serde_json::Value;
+use sim::{Analysis, Channel, Damper, Freedom, Run, Scene, Status};
+
+fn run(scene: &Scene) -> Run {
+    sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
+}
+
+/// External: scipy DOP853 at rtol 1e-12 on a closed-form influence function, `fea/bogie_reference.py`.
+fn reference(text: &str) -> Vec<[f64; 5]> {
+    let json: Value = serde_json::from_str(text).expect("the file is JSON");
+    let column = |name: &str| -> Vec<f64> {
+        json[name].as_array().expect("an array").iter().map(|v| v.as_f64().expect("a number")).collect()
+    };
+    let (t, z, pitch, f1, f2) = (column("time"), column("z"), column("pitch"), column("F1"), column("F2"));
+    (0..t.len()).map(|i| [t[i], z[i], pitch[i], f1[i], f2[i]]).collect()
+}
+
+/// Largest errors of z, pitch and wheel forces over the reference's times.
+fn errors(run: &Run, reference: &[[f64; 5]]) -> [f64; 3] {
+    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+    let pitch = run.history.column(Channel::Displacement(0, Freedom::Pitch));
+    let rear = run.history.column(Channel::Vertical(0));
+    let front = run.history.column(Channel::Vertical(1));
+    assert_eq!(y.len(), reference.len());
+    let mut worst = [0.0_f64; 3];
+    for (i, row) in reference.iter().enumerate() {
+        worst[0] = worst[0].max((-y[i] - row[1]).abs());
+        worst[1] = worst[1].max((-pitch[i] - row[2]).abs());
+        worst[2] = worst[2].max((rear[i] - row[3]).abs()).max((front[i] - row[4]).abs());
+    }
+    worst
+}
+
+const S1: &str = include_str!("../../../fea/reference/bogie_s1.json");
+const S2: &str = include_str!("../../../fea/reference/bogie_s2.json");
+
+#[test]
+fn crossings_follow_the_scipy_reference_in_displacement_and_wheel_forces() {
+    for (speed, end, text, peak) in [(5.0, 12.0, S1, 0.54709), (100.0, 0.55, S2, 0.90868)] {
+        let mut scene = bogie(speed, end, Damper::Ground);
+        scene.accuracy = 1e-7;
+        let run = run(&scene);
+        assert_eq!(run.status, Status::Done);
+        let [z, pitch, force] = errors(&run, &reference(text));
+        println!(
+            "v {speed}: z {z:.1e} ft, pitch {pitch:.1e}, force {force:.1e} lbf, residual {:.1e}, {:?}",
+            run.audit.residual(),
+            run.counts
+        );
+        assert!(z < 1e-5, "z errs by {z}");
+        assert!(pitch < 1e-5, "pitch errs by {pitch}");
+        assert!(force < 2e-5 * 2.4e6, "a wheel force errs by {force}");
+        assert!(run.audit.residual() < 1e-6, "energy residual {}", run.audit.residual());
+        let mut fine = scene;
+        fine.output_dt = end / 2000.0;
+        let deepest = self::run(&fine)
+            .history
+            .column(Channel::Displacement(0, Freedom::Y))
+            .iter()
+            .fold(0.0_f64, |max, y| max.max(-y));
+        // Converged: several independent codes, baselines of the paper's bogie.
+        assert!((deepest - peak).abs() < 1e-4 * peak, "peak {deepest}");
+    }
+}
+
+#[test]
+fn energy_closes_for_dampers_between_wheel_and_rail_too() {
+    let run = run(&bogie(50.0, 1.0, Damper::Rail));
+    println!("{:?} residual {:.1e}", run.counts, run.audit.residual());
+    assert_eq!(run.status, Status::Done);
+    assert!(run.audit.exchanged.dampers > 0.0);
+    assert!(run.audit.residual() < 1e-6, "energy residual {}", run.audit.residual());
+}
+
+#[test]
+fn quasi_static_trunnion_meets_the_closed_form() {
+    let mut scene = bogie(5.0, 12.0, Damper::Rail);
+    scene.analysis = Analysis::QuasiStatic;
+    scene.output_dt = 0.1;
+    let run = run(&scene);
+    let x = run.history.column(Channel::Displacement(0, Freedom::X));
+    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+    // Analytic: both wheels on the closed-form influence function, and the wheels' own springs.
+    for (place, wanted) in
+        [(15.0, 0.316_942_453_057_280_3), (22.5, 0.482_399_599_829_367_25), (30.0, 0.545_751_499_299_156_1)]
+    {
+        let i = x.iter().position(|&x| (x - place).abs() < 1e-9).expect("the sweep stops there");
+        assert!((-y[i] - wanted).abs() < 1e-12, "at {place}: {}", -y[i]);
+    }
+}
+
+#[test]
+fn error_falls_with_the_accuracy_asked() {
+    let reference = reference(S2);
+    let mut last = f64::INFINITY;
+    for accuracy in [1e-3, 1e-4, 1e-5, 1e-6, 1e-7] {
+        let mut scene = bogie(100.0, 0.55, Damper::Ground);
+        scene.accuracy = accuracy;
+        let run = run(&scene);
+        let [z, ..] = errors(&run, &reference);
+        println!(
+            "accuracy {accuracy:.0e}: z {z:.1e} of 0.9, {} steps, {} rejected",
+            run.counts.steps, run.counts.rejected
+        );
+        assert!(z < accuracy, "asked {accuracy}, got {z}");
+        assert!(z < last);
+        last = z;
+    }
+}

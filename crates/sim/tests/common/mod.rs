@@ -1,0 +1,96 @@
+//! The paper's girder in closed form, and its bogie.
+
+use sim::{Analysis, Body, Contact, Damper, Foundation, Given, NormalLaw, Profile, Scene, Wheel};
+use splines::{Axis, Compliance, Error, Influence, Probe};
+
+/// Span, ft, and bending stiffness, lb ft^2, of the paper's girder.
+pub const SPAN: f64 = 60.0;
+pub const EI: f64 = 9.528 * 4.32e9;
+/// Weight of the bogie, lb; gravity, ft/s^2.
+pub const WEIGHT: f64 = 4.8e6;
+pub const GRAVITY: f64 = 32.174;
+
+/// Simply supported beam with overhangs, closed form: analytic, independent of the splines crate.
+pub struct ClosedForm;
+
+/// Downward deflection at x for a unit downward load at z, and its slope.
+///
+/// # Source
+/// Macaulay's method: EI w''' = jumps at the supports 0 and L and the load.
+pub fn give(x: f64, z: f64) -> (f64, f64) {
+    let cube = |a: f64| if a > 0.0 { (a * a * a, 3.0 * a * a) } else { (0.0, 0.0) };
+    // Reactions up at 0 and L balance the load down at z.
+    let (r0, rl) = ((SPAN - z) / SPAN, z / SPAN);
+    let shape = |x: f64| {
+        let ((c0, d0), (cl, dl), (cz, dz)) = (cube(x), cube(x - SPAN), cube(x - z));
+        ((cz - r0 * c0 - rl * cl) / (6.0 * EI), (dz - r0 * d0 - rl * dl) / (6.0 * EI))
+    };
+    let (at0, atl) = (shape(0.0).0, shape(SPAN).0);
+    let (w, slope) = shape(x);
+    let tilt = (atl - at0) / SPAN;
+    (w - at0 - tilt * x, slope - tilt)
+}
+
+impl Compliance for ClosedForm {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
+        for (i, p) in at.iter().enumerate() {
+            for (j, q) in at.iter().enumerate() {
+                let vertical = p.axis == Axis::Vertical && q.axis == Axis::Vertical;
+                let (value, slope) = if vertical { give(p.x, q.x) } else { (0.0, 0.0) };
+                out.value[(i, j)] = value;
+                out.slope[(i, j)] = slope;
+            }
+        }
+        Ok(())
+    }
+
+    fn breaks(&self, _: usize) -> Vec<f64> {
+        vec![0.0, SPAN]
+    }
+
+    fn range(&self, _: usize) -> Option<[f64; 2]> {
+        Some([-15.0, 75.0])
+    }
+}
+
+pub fn girder() -> Foundation {
+    Foundation::influence(Box::new(ClosedForm), 1)
+}
+
+/// The paper's two-wheel bogie at constant `speed`.
+pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
+    let mass = WEIGHT / GRAVITY;
+    Scene {
+        gravity: GRAVITY,
+        bodies: vec![Body {
+            mass,
+            inertia: [0.0, 0.0, mass * 1.5 * 1.5],
+            cg: [0.0; 3],
+            free: [false, true, false, false, false, true],
+            start: [0.0; 6],
+            start_speed: [0.0; 6],
+            motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+        }],
+        wheels: vec![Wheel {
+            radius: 1.25,
+            normal: NormalLaw::linear(1e8, 1e5, damper),
+            flange: None,
+            friction: None,
+            spin_inertia: None,
+        }],
+        contacts: [-4.0 / 3.0, 4.0 / 3.0]
+            .map(|offset| Contact {
+                body: 0,
+                structure: 0,
+                rail: 0,
+                at: [0.0; 3],
+                offsets: vec![offset],
+                wheel: 0,
+            })
+            .to_vec(),
+        analysis: Analysis::Dynamic,
+        end,
+        output_dt: 0.01 * end,
+        accuracy: 1e-6,
+    }
+}

@@ -1,0 +1,66 @@
+//! The natural cubic spline.
+
+use nalgebra::DMatrix;
+
+use crate::Error;
+use crate::curve::{Curve, check};
+
+/// Natural cubic spline through at least two points, x increasing: twice continuously differentiable, no
+/// curvature at either end.
+///
+/// Slopes t from, with h_i = x_{i+1} - x_i and m_i the secants,
+/// t_{i-1}/h_{i-1} + 2 (1/h_{i-1} + 1/h_i) t_i + t_{i+1}/h_i = 3 (m_{i-1}/h_{i-1} + m_i/h_i),
+/// and 2 t_0 + t_1 = 3 m_0 at the ends.
+///
+/// # Errors
+/// Fewer than two points, x not increasing, or numbers that are not finite.
+///
+/// # Source
+/// de Boor, A Practical Guide to Splines (1978), chapter IV.
+pub fn natural(x: &[f64], y: &[f64]) -> Result<Curve, Error> {
+    check(x, y, 2)?;
+    Ok(Curve::new(x, y, slopes(x, y)))
+}
+
+fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
+    let n = x.len();
+    let h = |i: usize| x[i + 1] - x[i];
+    let m = |i: usize| (y[i + 1] - y[i]) / h(i);
+    // Thomas' algorithm on a diagonally dominant matrix.
+    let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
+    for i in 0..n {
+        let below = if i > 0 { 1.0 / h(i - 1) } else { 0.0 };
+        let above = if i + 1 < n { 1.0 / h(i) } else { 0.0 };
+        let mut load = 0.0;
+        if i > 0 {
+            load += 3.0 * m(i - 1) * below;
+        }
+        if i + 1 < n {
+            load += 3.0 * m(i) * above;
+        }
+        let (carried, previous) = if i > 0 { (upper[i - 1], right[i - 1]) } else { (0.0, 0.0) };
+        let pivot = 2.0 * (below + above) - below * carried;
+        upper[i] = above / pivot;
+        right[i] = (load - below * previous) / pivot;
+    }
+    for i in (0..n - 1).rev() {
+        right[i] -= upper[i] * right[i + 1];
+    }
+    right
+}
+
+/// The matrix B, 2 N x N, of values and slopes (interleaved) of the natural spline by its N values.
+pub(crate) fn interleaved(x: &[f64]) -> DMatrix<f64> {
+    let n = x.len();
+    let mut out = DMatrix::zeros(2 * n, n);
+    let mut unit = vec![0.0; n];
+    for j in 0..n {
+        unit[j] = 1.0;
+        out[(2 * j, j)] = 1.0;
+        for (i, slope) in slopes(x, &unit).into_iter().enumerate() {
+            out[(2 * i + 1, j)] = slope;
+        }
+        unit[j] = 0.0;
+    }
+    out
+}

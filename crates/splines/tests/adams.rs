@@ -1,0 +1,213 @@
+//! SPLINE statements of ADAMS data sets: what is written is read back; what others write is read; the rest
+//! is refused with its place.
+
+mod beam;
+
+use beam::printed::{LATERAL, VERTICAL, table};
+use beam::{Beam, Random, tabulate};
+use nalgebra::DMatrix;
+use splines::adams::{DataSet, Fault, Force, Length, Mass, Spline, Units, read, write};
+use splines::{Error, Table};
+
+fn set(splines: Vec<Spline>) -> DataSet {
+    let units = Units { force: Force::Pound, mass: Mass::Slug, length: Length::Foot };
+    DataSet { title: Some("bridge_flex".into()), units: Some(units), splines }
+}
+
+fn spline(id: u32, table: Table) -> Spline {
+    Spline { id, name: Some(format!("vertical_{id}")), units: Some("no_units".into()), linear: true, table }
+}
+
+fn bits(set: &DataSet) -> Vec<u64> {
+    let table = |s: &Spline| [s.table.x(), s.table.z(), s.table.values().as_slice()].concat();
+    set.splines.iter().flat_map(table).map(f64::to_bits).collect()
+}
+
+fn round_trips(set: &DataSet) {
+    let text = write(set).expect("writable");
+    assert!(text.is_ascii() && text.ends_with("END\n"));
+    for line in text.lines() {
+        assert!(line.len() <= 79, "{line}");
+    }
+    let back = read(&text).expect("readable");
+    assert_eq!(&back, set);
+    assert_eq!(bits(&back), bits(set));
+    assert_eq!(write(&back).as_deref(), Ok(text.as_str()));
+}
+
+#[test]
+fn data_set_reads_back_bit_for_bit() {
+    let exact = tabulate(&Beam::paper(), &[-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0]);
+    let curve = Table::curve(vec![0.0, 0.1, 1.0 / 3.0, 2e9], vec![-0.0, 5e-324, f64::MAX, -1.5e-7]);
+    let mut plain = spline(4, curve.expect("four points"));
+    (plain.name, plain.units, plain.linear) = (None, None, false);
+    round_trips(&set(vec![spline(6, table(&VERTICAL)), spline(7, table(&LATERAL)), spline(8, exact), plain]));
+    round_trips(&DataSet { title: None, units: None, splines: vec![] });
+    for (force, mass, length) in [
+        (Force::Newton, Mass::Kilogram, Length::Meter),
+        (Force::Kilonewton, Mass::Tonne, Length::Millimeter),
+        (Force::Kilopound, Mass::Slinch, Length::Inch),
+        (Force::Pound, Mass::Pound, Length::Foot),
+    ] {
+        let mut set = set(vec![]);
+        set.units = Some(Units { force, mass, length });
+        round_trips(&set);
+    }
+}
+
+#[test]
+fn random_bits_read_back() {
+    let mut random = Random::new(99);
+    let mut any = || loop {
+        let bits =
+            (random.unit() * 2_f64.powi(32)) as u64 | (((random.unit() * 2_f64.powi(32)) as u64) << 32);
+        if f64::from_bits(bits).is_finite() {
+            return f64::from_bits(bits);
+        }
+    };
+    for _ in 0..50 {
+        let mut x: Vec<f64> = (0..9).map(|_| any()).collect();
+        x.sort_by(f64::total_cmp);
+        x.dedup();
+        let values = DMatrix::from_fn(3, x.len(), |_, _| any());
+        round_trips(&set(vec![spline(1, Table::new(x, vec![-1.0, 0.5, 7e8], values).expect("sorted"))]));
+    }
+}
+
+/// Written as other programs write: packed lines, trailing commas, blanks, comments, D exponents, lower case,
+/// abbreviations, statements of other kinds, several statements a line.
+#[test]
+fn reads_what_others_write() {
+    let text = "\
+Adams View model name: girder
+!
+!-------------------------------- SYSTEM UNITS ---------------------------------
+!
+UNITS/FORCE = POUND_FORCE, MASS = SLUG, LENGTH = FOOT, TIME = SECOND
+PART/1, GROUND
+!                       adams_view_name='VFORCE_3'
+VFORCE/3, I = 1, FX = IF(MODE-5: 0,
+,-DIF(101)-2,
+,0 )\\ FY = 0
+!
+!                       adams_view_name='vertical'
+!                       adams_view_units='no_units'
+SPLINE/6
+, X = -15, 0.0, 1.5D+01
+, 30,
+! a comment in between
+, 45.
+, LINEAR_EXTRAPOLATE
+, Y = 0, 1.0E-007, 2, 3, 4, 5
+, Y = 10,
+ +.5, .25
+   , 3,, 4, 5
+spl/ 7 , linear, x=1,2,3,4, y=4,3,2,1; SPLINE/8,X=0,1,2,3,Y=1,2,3,4
+MARKER/9, PART = 1
+END
+SPLINE/9, X = nonsense
+";
+    let set = read(text).expect("readable");
+    assert_eq!(set.title.as_deref(), Some("Adams View model name: girder"));
+    assert_eq!(set.units, Some(Units { force: Force::Pound, mass: Mass::Slug, length: Length::Foot }));
+    assert_eq!(set.splines.iter().map(|s| s.id).collect::<Vec<_>>(), [6, 7, 8]);
+    let [six, seven, eight] = &set.splines[..] else { panic!("three splines") };
+    assert_eq!((six.name.as_deref(), six.units.as_deref()), (Some("vertical"), Some("no_units")));
+    assert_eq!(six.table.x(), [-15.0, 0.0, 15.0, 30.0, 45.0]);
+    assert_eq!(six.table.z(), [0.0, 10.0]);
+    assert_eq!(
+        six.table.values(),
+        &DMatrix::from_row_slice(2, 5, &[1e-7, 2.0, 3.0, 4.0, 5.0, 0.5, 0.25, 3.0, 4.0, 5.0])
+    );
+    assert_eq!((six.linear, seven.linear, eight.linear), (true, true, false));
+    assert_eq!((seven.table.values()[(0, 0)], &seven.name), (4.0, &None));
+    assert_eq!(eight.table.z(), [] as [f64; 0]);
+}
+
+/// Where and why: line, column, fault.
+#[test]
+fn faults_have_their_place() {
+    let points = |index| Fault::Table { id: 6, source: Box::new(Error::PointOrder { index }) };
+    let few = Fault::Table { id: 6, source: Box::new(Error::Points { found: 3, least: 4 }) };
+    let cases: &[(&str, usize, usize, Fault)] = &[
+        ("t\nSPLINE/6, X=0,1,2,3\n, FILE=force.dac", 3, 3, Fault::File { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3\n, B=1", 3, 3, Fault::File { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3, Z=0", 2, 22, Fault::Argument),
+        ("t\nSPLINE/6, X=0,1,2,3, X=0", 2, 22, Fault::Repeated),
+        ("t\nSPLINE/6, LINEAR, LINEAR", 2, 19, Fault::Repeated),
+        ("t\nSPLINE/x", 2, 8, Fault::Id),
+        ("t\nSPLINE/0", 2, 8, Fault::Id),
+        ("t\nSPLINE/-3", 2, 8, Fault::Id),
+        ("t\nSPLINE/99999999999", 2, 8, Fault::Id),
+        ("t\nSPLINE/", 2, 7, Fault::Id),
+        ("t\nSPLINE/6, X=0,1,2,3, Y=0,1,2,3\nSPLINE/6", 3, 8, Fault::Twice { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3", 2, 8, Fault::NoY { id: 6 }),
+        ("t\nSPLINE/6\n, Y=0,1,2,3", 2, 8, Fault::NoX { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2", 3, 3, Fault::Count { id: 6, found: 3, expected: 4 }),
+        (
+            "t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2,3,4\n, Y=1,2",
+            4,
+            3,
+            Fault::Count { id: 6, found: 2, expected: 5 },
+        ),
+        ("t\nSPLINE/6, X=0,1,2, Y=0,1,2", 2, 8, few),
+        ("t\nSPLINE/6, X=0,1,1,2, Y=0,1,2,3", 2, 8, points(2)),
+        ("t\nSPLINE/6, X=0,1,2,3\n, Y=1,0,0,0,0\n, Y=1,0,0,0,0", 2, 8, points(1)),
+        ("t\nSPLINE/6, X=0,1,2,90D", 2, 19, Fault::Number),
+        ("t\nSPLINE/6, X=0,1,2,1e999", 2, 19, Fault::Number),
+        ("t\nSPLINE/6, X=0,1,2,1.2.3", 2, 19, Fault::Number),
+        ("t\nSPLINE/6, X=0 1", 2, 15, Fault::Text),
+        ("t\nSPLINE/6, X 0", 2, 11, Fault::Text),
+        ("t\nSPLINE/6, 5", 2, 11, Fault::Text),
+        ("t\nSPLINE/6, X=\"a\"", 2, 13, Fault::Text),
+        ("t\n  , X=1", 2, 3, Fault::Text),
+        ("t\nUNITS/FORCE=STONE", 2, 13, Fault::Unit),
+        ("t\nUNITS/FORCE=NEWTON", 2, 1, Fault::Unit),
+        ("t\nUNITS/UCF=1", 2, 7, Fault::Argument),
+        ("t\nUNITS/SYSTEM=CGS", 2, 14, Fault::Unit),
+    ];
+    for (text, line, column, fault) in cases {
+        let expected = Error::Adams { line: *line, column: *column, fault: fault.clone() };
+        assert_eq!(read(text), Err(expected), "{text}");
+    }
+}
+
+#[test]
+fn first_line_is_a_title_unless_it_is_a_statement() {
+    let body = "X=0,1,2,3, Y=0,1,2,3";
+    assert_eq!(read(&format!("SPLINE/6, {body}")).map(|set| set.splines.len()), Ok(1));
+    let set = read("Spline of the girder\nUNITS/SYSTEM=NONE").expect("readable");
+    assert_eq!((set.title.as_deref(), set.units), (Some("Spline of the girder"), None));
+    assert_eq!(read("").map(|set| set.title), Ok(None));
+    let mut set = set;
+    set.title = Some("SPLINE/6, X=0\n \u{e9}".into());
+    let text = write(&set).expect("writable");
+    assert_eq!(read(&text).map(|set| set.title), Ok(Some("Model: SPLINE/6, X=0? ?".into())));
+}
+
+#[test]
+fn writer_refuses_what_could_not_be_read_back() {
+    let good = spline(6, table(&VERTICAL));
+    assert_eq!(write(&set(vec![good.clone(), good.clone()])), Err(Error::SplineId { id: 6 }));
+    assert_eq!(write(&set(vec![Spline { id: 0, ..good.clone() }])), Err(Error::SplineId { id: 0 }));
+    for name in ["", "it's", "two\nlines", &"x".repeat(80)] {
+        let bad = Spline { name: Some(name.into()), ..good.clone() };
+        assert_eq!(write(&set(vec![bad])), Err(Error::SplineName { id: 6 }));
+    }
+}
+
+/// No text makes the reader panic: pieces of statements in random order.
+#[test]
+fn reader_survives_any_order_of_pieces() {
+    let pieces = [
+        "SPLINE/", "6", ",", " X", "=", "1.5", "\n", "!", ";", "Y =", "UNITS/", "FORCE", "END", "'", "-",
+        "1D", "\u{e9}", "\t", "&", "/",
+    ];
+    let mut random = Random::new(4);
+    for _ in 0..20_000 {
+        let text: String = (0..12).map(|_| pieces[(random.unit() * pieces.len() as f64) as usize]).collect();
+        if let Ok(set) = read(&text) {
+            assert!(write(&set).is_ok() || set.splines.iter().any(|s| s.name.is_some()));
+        }
+    }
+}

@@ -1,0 +1,63 @@
+//! What a chart shows: series of points, and markers across it.
+
+/// How a series is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Straight lines from point to point.
+    #[default]
+    Line,
+    /// The same, dashed.
+    Dashed,
+    /// A symbol at each point.
+    Points,
+    /// Each value held until the next point.
+    Step,
+}
+
+/// Points of one curve.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    /// Name in the legend.
+    pub label: String,
+    /// How it is drawn.
+    pub style: Style,
+    /// (x, y), in the units of the axes, in the order in which they are joined.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl Series {
+    /// A series of the given style.
+    pub fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
+        Series { label: label.into(), style, points }
+    }
+
+    /// Corners of the curve: those of the stairs for [`Style::Step`], the points otherwise.
+    pub(super) fn corners(&self) -> Vec<[f64; 2]> {
+        if self.style != Style::Step {
+            return self.points.clone();
+        }
+        let mut corners = Vec::with_capacity(2 * self.points.len());
+        for pair in self.points.windows(2) {
+            corners.push(pair[0]);
+            corners.push([pair[1][0], pair[0][1]]);
+        }
+        corners.extend(self.points.last());
+        corners
+    }
+}
+
+/// A vertical line across the chart with a label above it, for example a support.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Marker {
+    /// Place on the x axis.
+    pub x: f64,
+    /// Text above the line.
+    pub label: String,
+}
+
+impl Marker {
+    /// A marker at `x`.
+    pub fn new(x: f64, label: impl Into<String>) -> Self {
+        Marker { x, label: label.into() }
+    }
+}

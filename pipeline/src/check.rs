@@ -1,0 +1,88 @@
+//! Checks of single numbers, with conversion to the units wanted.
+
+use crate::fault::{Fault, Faults};
+use crate::place::Place;
+use crate::units::{Dimension, Scale};
+
+/// Takes numbers as they stand in a file: checks them there, hands them on converted.
+///
+/// A number that fails is handed on all the same, so that the rest can be checked; the caller stops at the faults.
+#[derive(Debug)]
+pub struct Check<'f> {
+    /// What is wrong so far.
+    pub faults: &'f mut Faults,
+    /// From the file's units to those wanted.
+    pub scale: Scale,
+}
+
+impl Check<'_> {
+    /// Any finite number.
+    pub fn number(&mut self, value: f64, place: &Place<'_>, dimension: Dimension) -> f64 {
+        self.scaled(value, place, self.scale.factor(dimension))
+    }
+
+    /// A finite number times a factor that keeps it finite.
+    pub fn scaled(&mut self, value: f64, place: &Place<'_>, factor: f64) -> f64 {
+        let converted = value * factor;
+        if !converted.is_finite() || (value != 0.0 && converted == 0.0) {
+            let expected = "must stay within double precision after conversion of its unit";
+            self.faults.add(Fault::new(place, expected).got(value));
+        }
+        converted
+    }
+
+    /// A number above zero.
+    pub fn positive(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
+        if value <= 0.0 {
+            self.faults.add(hinted(Fault::new(place, "must be positive").got(value), hint));
+        }
+        self.number(value, place, dimension)
+    }
+
+    /// A number that is zero or above.
+    pub fn not_negative(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
+        if value < 0.0 {
+            self.faults.add(hinted(Fault::new(place, "must not be negative").got(value), hint));
+        }
+        self.number(value, place, dimension)
+    }
+
+    /// A number above zero that may be left out.
+    pub fn optional_positive(
+        &mut self,
+        value: Option<f64>,
+        place: &Place<'_>,
+        dimension: Dimension,
+        hint: &str,
+    ) -> Option<f64> {
+        value.map(|value| self.positive(value, place, dimension, hint))
+    }
+
+    /// A number above zero at `key` of the object at `place`, which must be there.
+    pub fn needed(
+        &mut self,
+        value: Option<f64>,
+        place: &Place<'_>,
+        key: &str,
+        dimension: Dimension,
+        hint: &str,
+    ) -> f64 {
+        match self.faults.need(&value, place, key) {
+            Some(value) => self.positive(*value, &place.key(key), dimension, hint),
+            None => 1.0,
+        }
+    }
+
+    /// A vector.
+    pub fn vector(&mut self, value: [f64; 3], place: &Place<'_>, dimension: Dimension) -> [f64; 3] {
+        let mut converted = [0.0; 3];
+        for (index, component) in value.into_iter().enumerate() {
+            converted[index] = self.number(component, &place.index(index), dimension);
+        }
+        converted
+    }
+}
+
+fn hinted(fault: Fault, hint: &str) -> Fault {
+    if hint.is_empty() { fault } else { fault.hint(hint) }
+}

@@ -1,0 +1,83 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// From a beam spec to influence tables, simulation, plots and report.
+#[derive(Debug, Parser)]
+#[command(name = "girderway", version, about, max_term_width = 100, arg_required_else_help = true)]
+pub struct Cli {
+    /// What every command takes.
+    #[command(flatten)]
+    pub global: Global,
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// Flags of every command.
+#[derive(Clone, Copy, Debug, Default, Args)]
+pub struct Global {
+    /// No progress and no messages; errors alone
+    #[arg(long, global = true)]
+    pub quiet: bool,
+    /// A machine-readable result on standard output, errors as JSON on standard error
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Number of threads [default: one a processor]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub threads: Option<u16>,
+}
+
+/// The commands.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Solve the structures, write their tables, simulate, draw and report: the main job
+    #[command(after_help = "Example:\n  girderway run examples/bogie/scene.json -o out")]
+    Run(Scene),
+    /// Solve a beam spec for its influence grid
+    #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
+    Fea(Fea),
+}
+
+/// Arguments of `fea`.
+#[derive(Clone, Debug, Args)]
+pub struct Fea {
+    /// Beam spec
+    pub spec: PathBuf,
+    /// Grid file to write [default: standard output]
+    #[arg(short, long, value_name = "GRID.json")]
+    pub output: Option<PathBuf>,
+    /// Beam theory in place of the spec's
+    #[arg(long)]
+    pub theory: Option<Theory>,
+}
+
+/// Words of the beam theories.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum Theory {
+    /// Sections stay normal to the axis
+    EulerBernoulli,
+    /// Sections shear
+    Timoshenko,
+}
+
+impl From<Theory> for fea::Theory {
+    fn from(theory: Theory) -> fea::Theory {
+        match theory {
+            Theory::EulerBernoulli => fea::Theory::EulerBernoulli,
+            Theory::Timoshenko => fea::Theory::Timoshenko,
+        }
+    }
+}
+
+/// Arguments of `run` and `sim`.
+#[derive(Clone, Debug, Args)]
+pub struct Scene {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Output folder [default: girderway-out/<scene name>]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+}

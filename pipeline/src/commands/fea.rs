@@ -1,0 +1,44 @@
+//! `girderway fea`: the influence grid of a beam spec.
+
+use fea::Frame;
+
+use crate::cli::{Fea, Global};
+use crate::exit::{Exit, Failure};
+use crate::grid::Grid;
+use crate::grid_file;
+use crate::inputs::Inputs;
+use crate::output;
+use crate::progress::Progress;
+use crate::spec::Spec;
+
+/// Reads the spec, solves it, writes the grid to the file named or to standard output.
+///
+/// # Errors
+/// What is wrong with the spec; a structure that does not stand; a file that cannot be written.
+pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let (_, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
+    let mut spec = Spec::read(&source, None)?;
+    if let Some(theory) = args.theory {
+        spec = spec.with_theory(theory.into());
+    }
+    let stage = progress.stage("solving");
+    let solved = spec
+        .model()
+        .and_then(|(model, rails)| Frame::new(&model, &rails))
+        .and_then(|frame| Grid::of(&spec, &frame));
+    drop(stage);
+    let grid = solved.map_err(|error| spec.refuse(&source, &error))?;
+    for note in &grid.notes {
+        progress.say(&format!("note: {note}"));
+    }
+    let text = grid_file::write(&grid);
+    match &args.output {
+        Some(path) => {
+            output::write(path, text.as_bytes())?;
+            progress.say(&format!("wrote {}", path.display()));
+        }
+        None => output::print(&text)?,
+    }
+    Ok(Exit::Done)
+}

@@ -1,0 +1,179 @@
+//! What is wrong in a document, by path: collected in full, placed in the text afterwards.
+
+use crate::place::{Path, Place};
+
+/// One thing wrong, by path; [`crate::source::Source::diagnose`] finds its line and column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The value (or, with `at_key`, the key) that is wrong.
+    pub path: Path,
+    /// Whether the key itself is meant, not its value.
+    pub at_key: bool,
+    /// What would have been right.
+    pub expected: String,
+    /// What stands there.
+    pub found: Option<String>,
+    /// What to do.
+    pub hint: Option<String>,
+}
+
+impl Fault {
+    /// A fault of the value at `place`.
+    #[must_use]
+    pub fn new(place: &Place<'_>, expected: impl Into<String>) -> Self {
+        Fault { path: place.path(), at_key: false, expected: expected.into(), found: None, hint: None }
+    }
+
+    /// With what was found.
+    #[must_use]
+    pub fn got(mut self, found: impl ToString) -> Self {
+        self.found = Some(found.to_string());
+        self
+    }
+
+    /// With a hint.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// Pointing at the key in place of its value.
+    #[must_use]
+    pub fn at_key(mut self) -> Self {
+        self.at_key = true;
+        self
+    }
+}
+
+/// All faults of a document so far.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Faults(pub Vec<Fault>);
+
+impl Faults {
+    /// Adds one.
+    pub fn add(&mut self, fault: Fault) {
+        self.0.push(fault);
+    }
+
+    /// `Some` where there is a value; a fault that names the missing key where there is none.
+    pub fn need<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
+        if value.is_none() {
+            self.add(Fault::new(place, format!("missing key `{key}`")));
+        }
+        value.as_ref()
+    }
+
+    /// One of a few words; unknown ones are a fault that lists them and suggests the nearest.
+    pub fn word<T: Copy>(&mut self, found: &str, place: &Place<'_>, words: &[(&str, T)]) -> Option<T> {
+        if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
+            return Some(*value);
+        }
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let mut fault =
+            Fault::new(place, format!("must be {}", alternatives(&known))).got(format!("\"{found}\""));
+        if let Some(near) = nearest(found, &known) {
+            fault = fault.hint(format!("did you mean \"{near}\"?"));
+        }
+        self.add(fault);
+        None
+    }
+
+    /// A key that the format has and this version does not do.
+    pub fn unavailable(&mut self, place: &Place<'_>, what: &str) {
+        self.add(Fault::new(place, format!("{what} is not available in this version")).at_key());
+    }
+
+    /// Numbers that must increase strictly.
+    pub fn increasing(&mut self, numbers: &[f64], place: &Place<'_>) -> bool {
+        let descent = numbers.windows(2).position(|pair| pair[1] <= pair[0]);
+        if let Some(first) = descent {
+            self.add(
+                Fault::new(
+                    &place.index(first + 1),
+                    format!("must be above the one before it, {}", numbers[first]),
+                )
+                .got(numbers[first + 1])
+                .hint("list them in increasing order, each once"),
+            );
+        }
+        descent.is_none()
+    }
+}
+
+/// `"a"`, `"a" or "b"`, `"a", "b" or "c"`.
+#[must_use]
+pub fn alternatives(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    match quoted.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+    }
+}
+
+/// The known word nearest to a misspelt one, where one is near enough to be meant.
+#[must_use]
+pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
+    let allowed = match word.chars().count() {
+        0..=2 => 1,
+        3..=5 => 2,
+        _ => 3,
+    };
+    let lower = word.to_lowercase();
+    known
+        .iter()
+        .map(|candidate| (distance(&lower, &candidate.to_lowercase()), *candidate))
+        .filter(|(edits, candidate)| *edits <= allowed && *edits < candidate.chars().count())
+        .min_by_key(|(edits, _)| *edits)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Levenshtein's distance: insertions, deletions and substitutions of one character.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.iter().enumerate() {
+            let substituted = diagonal + usize::from(ca != *cb);
+            diagonal = row[j + 1];
+            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distance_counts_single_edits() {
+        for (a, b, edits) in [("", "abc", 3), ("spans", "span", 1), ("kitten", "sitting", 3), ("x", "x", 0)] {
+            assert_eq!(distance(a, b), edits, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn nearest_suggests_a_misspelling_and_keeps_quiet_otherwise() {
+        let known = ["spans", "overhangs", "E", "G", "I_vertical", "I_lateral"];
+        assert_eq!(nearest("span", &known), Some("spans"));
+        assert_eq!(nearest("i_vertical", &known), Some("I_vertical"));
+        assert_eq!(nearest("overhang", &known), Some("overhangs"));
+        assert_eq!(nearest("colour", &known), None);
+        assert_eq!(nearest("q", &known), None);
+    }
+
+    #[test]
+    fn word_lists_what_is_known() {
+        let mut faults = Faults::default();
+        let root = Place::root();
+        assert_eq!(faults.word("rail", &root, &[("rail", 1), ("ground", 2)]), Some(1));
+        assert_eq!(faults.word("grund", &root, &[("rail", 1), ("ground", 2)]), None);
+        assert_eq!(faults.0.len(), 1);
+        assert_eq!(faults.0[0].expected, "must be \"rail\" or \"ground\"");
+        assert_eq!(faults.0[0].hint.as_deref(), Some("did you mean \"ground\"?"));
+    }
+}

@@ -1,0 +1,263 @@
+//! Grid files: `girderway-grid/1`, written with all digits and read back bit for bit.
+
+use std::fmt::Write;
+
+use fea::Certificate;
+use nalgebra::DMatrix;
+use serde::Deserialize;
+use serde_json::json;
+
+use crate::crosscheck::Quantity;
+use crate::diagnostic::Diagnostic;
+use crate::fault::{Fault, Faults};
+use crate::grid::{Grid, GridRail};
+use crate::place::Place;
+use crate::source::Source;
+use crate::spec::THEORIES;
+use crate::units::{RawUnits, Units};
+
+/// The word of the format, with its version.
+pub const FORMAT: &str = "girderway-grid/1";
+
+/// The text of a grid file: one row of a matrix a line, every number in the fewest digits that give it back.
+#[must_use]
+pub fn write(grid: &Grid) -> String {
+    let mut head = serde_json::Map::new();
+    head.insert("format".into(), json!(FORMAT));
+    head.insert("name".into(), json!(grid.name));
+    head.insert("units".into(), grid.units.json());
+    if let Some(theory) = &grid.theory {
+        head.insert("theory".into(), json!(theory));
+    }
+    let rails: Vec<_> =
+        grid.rails.iter().map(|rail| json!({ "name": rail.name, "stations": rail.stations })).collect();
+    head.insert("rails".into(), json!(rails));
+    if let Some(certificate) = &grid.certificate {
+        let object = json!({ "condition": certificate.condition, "error_bound": certificate.error_bound });
+        head.insert("certificate".into(), object);
+    }
+    if !grid.notes.is_empty() {
+        head.insert("notes".into(), json!(grid.notes));
+    }
+    let mut text = String::from("{\n");
+    for (key, value) in &head {
+        // writing to a string cannot fail
+        let _ = writeln!(text, "  \"{key}\": {value},");
+    }
+    text.push_str("  \"influence\": {");
+    for (index, (quantity, block)) in grid.blocks.iter().enumerate() {
+        let comma = if index > 0 { "," } else { "" };
+        let _ = write!(text, "{comma}\n    \"{quantity}\": [");
+        for (row, numbers) in block.row_iter().enumerate() {
+            let comma = if row > 0 { "," } else { "" };
+            let numbers: Vec<f64> = numbers.iter().copied().collect();
+            let _ = write!(text, "{comma}\n      {}", json!(numbers));
+        }
+        text.push_str("\n    ]");
+    }
+    text.push_str("\n  }\n}\n");
+    text
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+struct RawGrid {
+    format: Option<String>,
+    name: Option<String>,
+    units: Option<RawUnits>,
+    theory: Option<String>,
+    rails: Option<Vec<RawRail>>,
+    certificate: Option<RawCertificate>,
+    #[serde(default)]
+    notes: Vec<String>,
+    influence: Option<RawInfluence>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+struct RawRail {
+    name: Option<String>,
+    stations: Option<Vec<f64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+struct RawCertificate {
+    condition: f64,
+    error_bound: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+struct RawInfluence {
+    vertical: Option<Vec<Vec<f64>>>,
+    lateral: Option<Vec<Vec<f64>>>,
+    longitudinal: Option<Vec<Vec<f64>>>,
+    vertical_lateral: Option<Vec<Vec<f64>>>,
+    vertical_longitudinal: Option<Vec<Vec<f64>>>,
+    lateral_longitudinal: Option<Vec<Vec<f64>>>,
+}
+
+impl RawInfluence {
+    fn block(&self, quantity: Quantity) -> Option<&Vec<Vec<f64>>> {
+        match quantity {
+            Quantity::Vertical => self.vertical.as_ref(),
+            Quantity::Lateral => self.lateral.as_ref(),
+            Quantity::Longitudinal => self.longitudinal.as_ref(),
+            Quantity::VerticalLateral => self.vertical_lateral.as_ref(),
+            Quantity::VerticalLongitudinal => self.vertical_longitudinal.as_ref(),
+            Quantity::LateralLongitudinal => self.lateral_longitudinal.as_ref(),
+        }
+    }
+}
+
+/// Reads a grid file.
+///
+/// # Errors
+/// The first syntax or type error, or everything else that is wrong: a block of another size than the stations,
+/// a direct grid that is not symmetric to the last bit.
+pub fn read(source: &Source) -> Result<Grid, Vec<Diagnostic>> {
+    let raw: RawGrid = source.parse().map_err(|error| vec![*error])?;
+    let mut faults = Faults::default();
+    let grid = check(&raw, source, &mut faults);
+    match grid {
+        Some(grid) if faults.0.is_empty() => Ok(grid),
+        _ => Err(source.diagnose(&faults)),
+    }
+}
+
+fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
+    let root = Place::root();
+    crate::spec::format(&raw.format, FORMAT, &root, faults);
+    let units = Units::read(&raw.units, &root, faults);
+    if let Some(theory) = &raw.theory {
+        faults.word(theory, &root.key("theory"), &THEORIES);
+    }
+    let rails = read_rails(raw, &root, faults);
+    let size = rails.iter().map(|rail| rail.stations.len()).sum();
+    let influence = faults.need(&raw.influence, &root, "influence")?;
+    let at = root.key("influence");
+    let mut blocks = Vec::new();
+    for quantity in Quantity::ALL {
+        let Some(rows) = influence.block(quantity) else { continue };
+        let place = at.key(quantity.name());
+        if let Some(block) = square(rows, size, &place, faults) {
+            if quantity.direct() == [quantity; 2] {
+                symmetric(&block, &place, faults);
+            }
+            blocks.push((quantity, block));
+        }
+    }
+    if blocks.is_empty() && faults.0.is_empty() {
+        faults.add(Fault::new(&at, "must have at least one grid"));
+    }
+    let certificate = raw.certificate.as_ref();
+    let certificate =
+        certificate.map(|given| Certificate { condition: given.condition, error_bound: given.error_bound });
+    Some(Grid {
+        name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
+        units: units?,
+        theory: raw.theory.clone(),
+        rails,
+        blocks,
+        certificate,
+        notes: raw.notes.clone(),
+    })
+}
+
+fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridRail> {
+    let list = root.key("rails");
+    let mut rails: Vec<GridRail> = Vec::new();
+    let given = faults.need(&raw.rails, root, "rails").map(Vec::as_slice).unwrap_or_default();
+    for (index, raw) in given.iter().enumerate() {
+        let at = list.index(index);
+        let name = faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let stations = faults.need(&raw.stations, &at, "stations").cloned().unwrap_or_default();
+        faults.increasing(&stations, &at.key("stations"));
+        if rails.iter().any(|rail| rail.name == name) {
+            faults.add(
+                Fault::new(&at.key("name"), "must differ from the other rails").got(format!("\"{name}\"")),
+            );
+        }
+        rails.push(GridRail { name, stations });
+    }
+    if rails.iter().all(|rail| rail.stations.is_empty()) && faults.0.is_empty() {
+        faults.add(Fault::new(&list, "must have at least one station"));
+    }
+    rails
+}
+
+fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults) -> Option<DMatrix<f64>> {
+    if rows.len() != size {
+        let fault = Fault::new(place, format!("must have {size} rows, one for each station")).got(rows.len());
+        faults.add(fault);
+        return None;
+    }
+    let wrong = rows.iter().position(|row| row.len() != size);
+    if let Some(row) = wrong {
+        let fault = Fault::new(&place.index(row), format!("must have {size} numbers, one for each station"));
+        faults.add(fault.got(rows[row].len()));
+        return None;
+    }
+    Some(DMatrix::from_fn(size, size, |row, column| rows[row][column]))
+}
+
+fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
+    for row in 0..block.nrows() {
+        for column in 0..row {
+            if block[(row, column)] != block[(column, row)] {
+                let line = place.index(row);
+                let expected = format!("must be symmetric: [{column}][{row}] is {}", block[(column, row)]);
+                let fault = Fault::new(&line.index(column), expected).got(block[(row, column)]);
+                faults.add(fault.hint("a displacement at i from a load at j is the same as at j from i"));
+                return;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::{Force, Length};
+
+    fn grid() -> Grid {
+        let block = DMatrix::from_row_slice(2, 2, &[1.0 / 3.0 * 1e-8, 2.5e-310, 2.5e-310, 1e-7]);
+        Grid {
+            name: "two \"stations\"".to_owned(),
+            units: Units { length: Length::Foot, force: Force::Kip },
+            theory: Some("timoshenko".to_owned()),
+            rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
+            blocks: vec![(Quantity::Vertical, block.clone()), (Quantity::VerticalLateral, block * 2.0)],
+            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0 }),
+            notes: vec!["no longitudinal grids".to_owned()],
+        }
+    }
+
+    fn source(text: String) -> Source {
+        Source { name: "grid.json".to_owned(), text }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_bit_for_bit() {
+        assert_eq!(read(&source(write(&grid()))), Ok(grid()));
+    }
+
+    #[test]
+    fn an_unsymmetric_direct_grid_is_refused_by_its_first_pair() {
+        let mut given = grid();
+        given.blocks[0].1[(1, 0)] = f64::from_bits(2.5e-310f64.to_bits() + 1);
+        let wrong = read(&source(write(&given))).expect_err("one bit differs");
+        assert_eq!(wrong.len(), 1);
+        assert_eq!(wrong[0].path, "influence.vertical[1][0]");
+    }
+
+    #[test]
+    fn a_block_of_another_size_than_the_stations_is_refused() {
+        let mut given = grid();
+        given.rails[0].stations.push(0.5);
+        let wrong = read(&source(write(&given))).expect_err("three stations, two rows");
+        let paths: Vec<&str> = wrong.iter().map(|found| found.path.as_str()).collect();
+        assert_eq!(paths, ["influence.vertical", "influence.vertical_lateral"]);
+    }
+}

@@ -1,0 +1,121 @@
+//! A scene of the file format as a scene of the simulator.
+
+use sim::{Contact, NormalLaw};
+
+use crate::exit::Failure;
+use crate::scene::{Along, Analysis, Damper, Law, Scene};
+
+/// The simulator's scene, and the names of its wheels in the simulator's order.
+pub struct Cast {
+    /// The scene.
+    pub scene: sim::Scene,
+    /// `<truck>.wheel<n>`, counted from 1.
+    pub wheels: Vec<String>,
+    /// Rail of each wheel, as an index into the scene's rails.
+    pub rails: Vec<usize>,
+    /// Whether each wheel's spin is a freedom.
+    pub spins: Vec<bool>,
+}
+
+/// Resolves `scene` for the simulator.
+///
+/// # Errors
+/// An equaliser whose wheels carry unequal shares.
+pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
+    let bodies = scene.bodies.iter().map(body).collect();
+    let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
+    let (mut contacts, mut names, mut rails, mut spins) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    for truck in &scene.trucks {
+        let rail = &scene.rails[truck.rail];
+        let mut number = 0;
+        for node in &truck.tree {
+            let below = node.wheels();
+            if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
+                return Err(Failure::Untrusted(format!(
+                    "{}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels",
+                    truck.name
+                )));
+            }
+            for _ in &below {
+                number += 1;
+                names.push(format!("{}.wheel{number}", truck.name));
+                rails.push(truck.rail);
+                let kind = &wheels[truck.wheel];
+                spins.push(kind.spin_inertia.is_some() && kind.friction.is_some());
+            }
+            contacts.push(Contact {
+                body: truck.body,
+                structure: rail.structure,
+                rail: rail.rail,
+                at: truck.at,
+                offsets: below.into_iter().map(|(offset, _)| offset).collect(),
+                wheel: truck.wheel,
+            });
+        }
+    }
+    let scene = sim::Scene {
+        gravity: scene.gravity,
+        bodies,
+        wheels,
+        contacts,
+        analysis: match scene.analysis {
+            Analysis::Dynamic => sim::Analysis::Dynamic,
+            Analysis::QuasiStatic => sim::Analysis::QuasiStatic,
+        },
+        end: scene.end,
+        output_dt: scene.dt,
+        accuracy: scene.accuracy,
+    };
+    Ok(Cast { scene, wheels: names, rails, spins })
+}
+
+fn body(body: &crate::scene::Body) -> sim::Body {
+    let [y, z, roll, yaw, pitch] = body.start.unwrap_or_default();
+    let motion = match &body.motion {
+        Along::Prescribed(travel) => Some(travel.clone()),
+        Along::Held | Along::Free => None,
+    };
+    let mut free = body.free;
+    free[0] = matches!(body.motion, Along::Free);
+    sim::Body {
+        mass: body.mass,
+        inertia: body.inertia,
+        cg: body.cg,
+        free,
+        start: [body.x0, y, z, roll, yaw, pitch],
+        start_speed: [body.v0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        motion,
+    }
+}
+
+fn wheel(wheel: &crate::scene::Wheel) -> sim::Wheel {
+    let vertical = &wheel.vertical;
+    let (exponent, depth) = match vertical.law {
+        Law::Linear => (1.0, 0.0),
+        Law::Impact { exponent, depth } => (exponent, depth),
+    };
+    sim::Wheel {
+        radius: wheel.radius,
+        normal: NormalLaw {
+            stiffness: vertical.k,
+            exponent,
+            damping: vertical.c,
+            depth,
+            damper: match vertical.damper {
+                Damper::Rail => sim::Damper::Rail,
+                Damper::Ground => sim::Damper::Ground,
+            },
+            bilateral: vertical.bilateral,
+        },
+        flange: wheel.lateral.as_ref().map(|lateral| sim::Flange {
+            stiffness: lateral.k,
+            clearance: lateral.clearance,
+            release: lateral.release,
+        }),
+        friction: wheel
+            .friction
+            .as_ref()
+            .map(|friction| sim::Friction { coefficient: friction.mu, slip: friction.slip }),
+        spin_inertia: wheel.spin_inertia,
+    }
+}

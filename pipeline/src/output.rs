@@ -1,0 +1,193 @@
+//! Output files: whole or not at all.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::diagnostic::Diagnostic;
+use crate::inputs::sha256;
+use crate::manifest::{MANIFEST, Manifest, Output};
+
+/// Writes a file whole or not at all: into a temporary file beside it, to the disk, then under its name.
+///
+/// # Errors
+/// What the file system refuses, naming the file.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+    put(path, bytes).map_err(|error| cannot_write(path, &error))
+}
+
+fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let folder = folder_of(path);
+    let mut file = tempfile::Builder::new().prefix(".girderway-").tempfile_in(&folder)?;
+    file.write_all(bytes)?;
+    file.as_file().sync_all()?;
+    let file = file.persist(path).map_err(|error| error.error)?;
+    readable(&file)?;
+    sync(&folder)
+}
+
+/// A temporary file is its owner's alone; a result is as readable as any new file.
+#[cfg(unix)]
+fn readable(file: &fs::File) -> io::Result<()> {
+    use std::os::unix::fs::PermissionsExt;
+    file.set_permissions(fs::Permissions::from_mode(0o644))
+}
+
+#[cfg(not(unix))]
+fn readable(_file: &fs::File) -> io::Result<()> {
+    Ok(())
+}
+
+/// Makes renames in a folder last, where the system can.
+fn sync(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
+}
+
+fn folder_of(path: &Path) -> PathBuf {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
+        _ => PathBuf::from("."),
+    }
+}
+
+fn cannot_write(path: &Path, error: &io::Error) -> Diagnostic {
+    let why = match error.kind() {
+        io::ErrorKind::NotFound => "its folder does not exist".to_owned(),
+        io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::NotADirectory => "part of its path is not a folder".to_owned(),
+        _ => error.to_string(),
+    };
+    Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}"))
+}
+
+/// Writes to standard output; a reader who has gone away is no error.
+///
+/// # Errors
+/// What the file system refuses.
+pub fn print(text: &str) -> Result<(), Diagnostic> {
+    let mut stdout = io::stdout().lock();
+    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
+            Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// An output folder in the making: nothing touches the disk before [`Folder::commit`].
+#[derive(Debug)]
+pub struct Folder {
+    path: PathBuf,
+    files: Vec<(String, Vec<u8>, bool)>,
+}
+
+impl Folder {
+    /// A folder to be at `path`.
+    ///
+    /// # Errors
+    /// A path where no folder can be: found before any work is done.
+    pub fn new(path: &Path) -> Result<Folder, Diagnostic> {
+        let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
+        if let Some(part) = there.filter(|part| !part.is_dir()) {
+            let expected = format!("cannot be an output folder: {} is a file", part.display());
+            return Err(Diagnostic::of_file(path.display().to_string(), expected));
+        }
+        Ok(Folder { path: path.to_path_buf(), files: Vec::new() })
+    }
+
+    /// Adds a file by its name in the folder, such as `plots/path.svg`; a name used before is replaced.
+    pub fn add(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
+        self.put(name, bytes.into(), true);
+    }
+
+    /// Adds a file whose bytes may differ between equal runs: its hash stays out of the manifest.
+    pub fn add_varying(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
+        self.put(name, bytes.into(), false);
+    }
+
+    fn put(&mut self, name: &str, bytes: Vec<u8>, fixed: bool) {
+        self.files.retain(|(known, ..)| known != name);
+        self.files.push((name.to_owned(), bytes, fixed));
+    }
+
+    /// Writes all files and then `manifest.json`, which lists them.
+    ///
+    /// All of them are on the disk under temporary names before the first takes its place; an older manifest goes
+    /// before that, so a manifest never speaks of files of another run. Files that the older manifest lists,
+    /// that this run has not and that nobody has changed since, are taken away.
+    ///
+    /// # Errors
+    /// What the file system refuses, naming the file.
+    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Diagnostic> {
+        self.files.sort_by(|a, b| a.0.cmp(&b.0));
+        for (name, bytes, fixed) in &self.files {
+            let sha256 = fixed.then(|| sha256(bytes));
+            manifest.outputs.push(Output { name: name.clone(), bytes: fixed.then_some(bytes.len()), sha256 });
+        }
+        let path = self.path.clone();
+        self.write(&manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
+        Ok(path)
+    }
+
+    fn write(&self, manifest: &Manifest) -> Result<(), (PathBuf, io::Error)> {
+        let fail = |file: &Path| {
+            let file = file.to_path_buf();
+            move |error: io::Error| (file, error)
+        };
+        fs::create_dir_all(&self.path).map_err(fail(&self.path))?;
+        let staging = tempfile::Builder::new()
+            .prefix(".girderway-")
+            .tempdir_in(&self.path)
+            .map_err(fail(&self.path))?;
+        let mut folders = vec![self.path.clone()];
+        for (index, (name, bytes, _)) in self.files.iter().enumerate() {
+            let target = self.path.join(name);
+            let folder = folder_of(&target);
+            if !folders.contains(&folder) {
+                fs::create_dir_all(&folder).map_err(fail(&folder))?;
+                folders.push(folder);
+            }
+            let mut file = fs::File::create(staging.path().join(index.to_string())).map_err(fail(&target))?;
+            file.write_all(bytes).and_then(|()| file.sync_all()).map_err(fail(&target))?;
+        }
+        let manifest_path = self.path.join(MANIFEST);
+        let older =
+            fs::read(&manifest_path).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
+        match fs::remove_file(&manifest_path) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err((manifest_path, error)),
+            _ => {}
+        }
+        self.clear(older.as_ref());
+        for (index, (name, ..)) in self.files.iter().enumerate() {
+            let target = self.path.join(name);
+            fs::rename(staging.path().join(index.to_string()), &target).map_err(fail(&target))?;
+        }
+        for folder in &folders {
+            sync(folder).map_err(fail(folder))?;
+        }
+        put(&manifest_path, manifest.text().as_bytes()).map_err(fail(&manifest_path))
+    }
+
+    /// Takes away what an older run left and nobody has changed.
+    fn clear(&self, older: Option<&Value>) {
+        let listed = older.and_then(|manifest| manifest.get("outputs")).and_then(Value::as_array);
+        for entry in listed.into_iter().flatten() {
+            let text = |key: &str| entry.get(key).and_then(Value::as_str);
+            let Some(name) = text("name") else { continue };
+            let inside =
+                Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)));
+            if !inside || self.files.iter().any(|(known, ..)| known == name) {
+                continue;
+            }
+            let path = self.path.join(name);
+            let unchanged =
+                fs::read(&path).is_ok_and(|bytes| Some(sha256(&bytes).as_str()) == text("sha256"));
+            if unchanged {
+                // a file that will not go stays; the manifest no longer lists it
+                let _ = fs::remove_file(&path);
+            }
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! What a user sees while a command works: messages and, on a terminal, bars; all on standard error.
+
+use std::io::{IsTerminal, Write};
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+use crate::cli::Global;
+
+/// Messages and bars on standard error.
+#[derive(Clone, Copy, Debug)]
+pub struct Progress {
+    speaks: bool,
+    draws: bool,
+}
+
+impl Progress {
+    /// As the flags ask: silent with `--quiet` and with `--json`.
+    #[must_use]
+    pub fn new(global: Global) -> Progress {
+        let speaks = !global.quiet && !global.json;
+        Progress { speaks, draws: speaks && std::io::stderr().is_terminal() }
+    }
+
+    /// One line.
+    pub fn say(&self, message: &str) {
+        if self.speaks {
+            // where standard error is closed there is nobody to tell
+            let _ = writeln!(std::io::stderr(), "{message}");
+        }
+    }
+
+    /// A stage that shows while it lasts on a terminal, and nowhere else; gone when dropped or finished.
+    #[must_use]
+    pub fn stage(&self, message: &str) -> Bar {
+        let bar = self.hidden_or(ProgressBar::new_spinner());
+        bar.set_message(message.to_owned());
+        if self.draws {
+            bar.enable_steady_tick(Duration::from_millis(100));
+        }
+        Bar(bar)
+    }
+
+    /// A bar of `length` steps on a terminal, nothing elsewhere; gone when dropped or finished.
+    #[must_use]
+    pub fn bar(&self, message: &str, length: u64) -> Bar {
+        let bar = self.hidden_or(ProgressBar::new(length));
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta}") {
+            bar.set_style(style.progress_chars("=> "));
+        }
+        bar.set_message(message.to_owned());
+        Bar(bar)
+    }
+
+    fn hidden_or(&self, bar: ProgressBar) -> ProgressBar {
+        if !self.draws {
+            bar.set_draw_target(ProgressDrawTarget::hidden());
+        }
+        bar
+    }
+}
+
+/// A bar or a stage on the terminal.
+#[derive(Debug)]
+pub struct Bar(ProgressBar);
+
+impl Bar {
+    /// Moves a bar to `position`.
+    pub fn set(&self, position: u64) {
+        self.0.set_position(position);
+    }
+}
+
+impl Drop for Bar {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

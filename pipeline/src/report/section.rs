@@ -1,0 +1,153 @@
+//! Parts of a report.
+
+use crate::chart::Chart;
+
+/// A chapter of a report: shown in this order, empty parts left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Section {
+    /// Heading, also in the table of contents.
+    pub heading: String,
+    /// Text.
+    pub paragraphs: Vec<String>,
+    /// Table of names and values.
+    pub facts: Vec<Fact>,
+    /// Further tables.
+    pub tables: Vec<Table>,
+    /// Charts and pictures.
+    pub figures: Vec<Figure>,
+}
+
+impl Section {
+    /// An empty section.
+    pub fn new(heading: impl Into<String>) -> Self {
+        Section { heading: heading.into(), ..Section::default() }
+    }
+
+    /// The same section with one more paragraph.
+    pub fn say(mut self, paragraph: impl Into<String>) -> Self {
+        self.paragraphs.push(paragraph.into());
+        self
+    }
+
+    /// The same section with one more fact.
+    pub fn fact(mut self, name: impl Into<String>, value: impl Into<Cell>, unit: impl Into<String>) -> Self {
+        self.facts.push(Fact { name: name.into(), value: value.into(), unit: unit.into() });
+        self
+    }
+
+    /// The same section with one more figure.
+    pub fn figure(mut self, picture: impl Into<Picture>, caption: impl Into<String>) -> Self {
+        self.figures.push(Figure { picture: picture.into(), caption: caption.into() });
+        self
+    }
+
+    /// The same section with one more table.
+    pub fn table(mut self, table: Table) -> Self {
+        self.tables.push(table);
+        self
+    }
+}
+
+/// A value of a fact or of a table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Cell {
+    /// Nothing to show.
+    #[default]
+    Empty,
+    /// Text, shown as it is.
+    Text(String),
+    /// A number, shown with seven significant digits.
+    Number(f64),
+}
+
+impl From<f64> for Cell {
+    fn from(value: f64) -> Self {
+        Cell::Number(value)
+    }
+}
+
+impl From<usize> for Cell {
+    fn from(value: usize) -> Self {
+        Cell::Number(value as f64)
+    }
+}
+
+impl From<&str> for Cell {
+    fn from(value: &str) -> Self {
+        Cell::Text(value.to_owned())
+    }
+}
+
+impl From<String> for Cell {
+    fn from(value: String) -> Self {
+        Cell::Text(value)
+    }
+}
+
+/// A name with its value.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Fact {
+    /// What it is.
+    pub name: String,
+    /// The value.
+    pub value: Cell,
+    /// Unit; empty where there is none.
+    pub unit: String,
+}
+
+/// Head of a column.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Column {
+    /// What the column holds.
+    pub name: String,
+    /// Unit of its numbers; empty where there is none.
+    pub unit: String,
+}
+
+impl Column {
+    /// A column's head.
+    pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
+        Column { name: name.into(), unit: unit.into() }
+    }
+}
+
+/// A table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Shown above it, after its number.
+    pub caption: String,
+    /// Heads.
+    pub columns: Vec<Column>,
+    /// Rows, each with one cell a column.
+    pub rows: Vec<Vec<Cell>>,
+}
+
+/// What a figure shows.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Picture {
+    /// A chart, with read-out where scripts run.
+    Chart(Box<Chart>),
+    /// A finished SVG file; it is trusted and taken in as it is.
+    Svg(String),
+}
+
+impl From<Chart> for Picture {
+    fn from(chart: Chart) -> Self {
+        Picture::Chart(Box::new(chart))
+    }
+}
+
+impl From<String> for Picture {
+    fn from(svg: String) -> Self {
+        Picture::Svg(svg)
+    }
+}
+
+/// A picture with its caption.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What is shown.
+    pub picture: Picture,
+    /// Shown below it, after its number.
+    pub caption: String,
+}

@@ -1,0 +1,221 @@
+//! Pages are parsed, not searched.
+
+use super::*;
+use crate::chart::{Axis, Chart, Series, Style};
+use html5gum::{DefaultEmitter, Token, Tokenizer};
+use std::collections::{BTreeMap, BTreeSet};
+
+fn chart() -> Chart {
+    let path = |scale: f64| {
+        let point =
+            |i: usize| [i as f64 * 0.1, scale * (std::f64::consts::PI * i as f64 / 600.0).sin().powi(2)];
+        (0..=600).map(point).collect()
+    };
+    let x = Axis::new("position of the trunnion", "ft");
+    Chart::new("Path of the trunnion", x, Axis::new("deflection", "ft").downwards())
+        .with(Series::new("influence, exact", Style::Line, path(0.5457515)))
+        .with(Series::new("two rigid parts", Style::Line, path(1.198)))
+        .with(Series::new("rigid </script> rail", Style::Dashed, vec![[0.0, 0.05], [60.0, 0.05]]))
+        .mark(30.0, "midspan")
+}
+
+fn report() -> Report {
+    let peaks = Table {
+        caption: "Largest deflection of the trunnion.".into(),
+        columns: vec![Column::new("model", ""), Column::new("peak", "ft"), Column::new("at", "ft")],
+        rows: vec![
+            vec!["influence, exact".into(), 0.5457515.into(), 30.0.into()],
+            vec!["two rigid parts".into(), 1.198.into(), 30.25.into()],
+            vec!["rigid rail".into(), 0.05.into(), Cell::Empty],
+        ],
+    };
+    let girder = Section::new("Girder")
+        .say("One span of 60 ft with overhangs of 15 ft, solved as an Euler-Bernoulli beam.")
+        .fact("Span", 60.0, "ft")
+        .fact("Bending stiffness", 9.528 * 4.32e9, "lbf ft\u{b2}")
+        .fact("Influence at midspan", 1.0932689616568709e-7, "ft/lbf")
+        .fact("Status", "done <b>", "");
+    let crossing = Section::new("Crossing & <i>forces</i>")
+        .say("The trunnion's path for every model.")
+        .fact("Load", 4.8e6, "lbf")
+        .table(peaks)
+        .figure(chart(), "Path of the trunnion; deflection positive downwards.")
+        .figure(chart().svg().expect("finite data"), "The same as a finished picture.");
+    Report {
+        title: "Bogie on the girder".into(),
+        subtitle: "Scene bogie, \"60 ft\" & more".into(),
+        sections: vec![girder, crossing],
+    }
+}
+
+const VOID: [&str; 6] = ["meta", "br", "hr", "img", "input", "link"];
+
+/// Start tags with their attributes, and the text of the page outside style and script elements.
+type Parsed = (Vec<(String, BTreeMap<String, String>)>, String);
+
+/// Parses a page; fails where an element is not closed in order or a name is used twice.
+fn parse(page: &str) -> Parsed {
+    let (mut tags, mut text, mut open): (Vec<_>, String, Vec<String>) = Default::default();
+    let utf8 = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).expect("the page is UTF-8");
+    let mut emitter = DefaultEmitter::default();
+    // Scripts and styles hold raw text.
+    emitter.naively_switch_states(true);
+    for token in Tokenizer::new_with_emitter(page, emitter) {
+        match token.expect("reading from memory cannot fail") {
+            Token::StartTag(tag) => {
+                let name = utf8(&tag.name);
+                let attributes: BTreeMap<_, _> =
+                    tag.attributes.iter().map(|(k, v)| (utf8(k), utf8(v))).collect();
+                if !tag.self_closing && !VOID.contains(&name.as_str()) {
+                    open.push(name.clone());
+                }
+                tags.push((name, attributes));
+            }
+            Token::EndTag(tag) => assert_eq!(open.pop(), Some(utf8(&tag.name)), "elements nest"),
+            Token::String(part) if !matches!(open.last().map(String::as_str), Some("script" | "style")) => {
+                text.push_str(&utf8(&part));
+            }
+            Token::Error(error) => panic!("{error:?} after {tags:?}"),
+            _ => {}
+        }
+    }
+    assert!(open.is_empty(), "left open: {open:?}");
+    let mut ids = BTreeSet::new();
+    for (_, attributes) in &tags {
+        if let Some(id) = attributes.get("id") {
+            assert!(ids.insert(id.clone()), "id {id} is used twice");
+        }
+    }
+    (tags, text)
+}
+
+fn page() -> String {
+    let page = report().html().expect("the report is complete");
+    if let Some(folder) = std::env::var_os("GIRDERWAY_CHARTS") {
+        let file = std::path::Path::new(&folder).join("report.html");
+        std::fs::write(file, &page).expect("the folder can be written");
+    }
+    page
+}
+
+#[test]
+fn page_is_well_formed_and_holds_every_section() {
+    let (tags, text) = parse(&page());
+    let report = report();
+    assert!(text.contains(&report.title) && text.contains(&report.subtitle));
+    for (i, section) in report.sections.iter().enumerate() {
+        let id = format!("section-{}", i + 1);
+        assert!(tags.iter().any(|(name, a)| name == "section" && a.get("id") == Some(&id)));
+        assert!(tags.iter().any(|(name, a)| name == "a" && a.get("href") == Some(&format!("#{id}"))));
+        assert_eq!(text.matches(&section.heading).count(), 2, "once in the contents, once above the section");
+        for paragraph in &section.paragraphs {
+            assert!(text.contains(paragraph));
+        }
+    }
+    for expected in
+        ["Table 1.", "Figure 1.", "Figure 2.", "done <b>", "0.5457515", "4.116096 \u{d7} 10\u{b9}\u{2070}"]
+    {
+        assert!(text.contains(expected), "{expected} is shown");
+    }
+    assert_eq!(tags.iter().filter(|(name, _)| name == "figure").count(), 2);
+}
+
+#[test]
+fn page_refers_to_nothing_outside() {
+    let page = page();
+    assert!(!page.contains("http"), "no address");
+    for (name, attributes) in parse(&page).0 {
+        assert!(!["link", "img", "iframe", "object", "embed", "base"].contains(&name.as_str()), "{name}");
+        for key in ["src", "href", "xlink:href", "data", "action"] {
+            assert!(attributes.get(key).is_none_or(|v| v.starts_with('#')), "{name} has {key}");
+        }
+    }
+}
+
+#[test]
+fn text_cannot_become_markup() {
+    let hostile = "</script></style></title><script>alert(1)</script>\"'&<!--";
+    let mut report = report();
+    report.title = hostile.into();
+    report.subtitle = hostile.into();
+    let mut section = Section::new(hostile).say(hostile).fact(hostile, hostile, hostile);
+    let mut chart = chart();
+    chart.title = hostile.into();
+    chart.series[0].label = hostile.into();
+    chart.x_axis.label = hostile.into();
+    section = section.figure(chart, hostile);
+    let before = parse(&page()).0.iter().filter(|(name, _)| name == "script").count();
+    report.sections.push(section);
+    let (tags, text) = parse(&report.html().expect("the report is complete"));
+    assert_eq!(
+        tags.iter().filter(|(name, _)| name == "script").count(),
+        before + 1,
+        "the chart's data alone"
+    );
+    assert!(text.matches(hostile).count() >= 8);
+}
+
+#[test]
+fn chart_data_survive_the_way_through_the_page() {
+    let page = page();
+    let (_, rest) = page.split_once("<script type=\"application/json\">").expect("the chart has data");
+    let (data, _) = rest.split_once("</script>").expect("the element ends");
+    let data: serde_json::Value = serde_json::from_str(data).expect("the data are JSON");
+    assert_eq!(data["series"][2]["label"], "rigid </script> rail");
+    assert_eq!(data["series"][0]["points"][300][1], 0.5457515);
+    assert_eq!(data["y"]["flip"], true);
+}
+
+#[test]
+fn nan_is_refused_by_place() {
+    let with = |section: Section| {
+        let mut report = report();
+        report.sections.push(section);
+        report.html()
+    };
+    let bad = f64::NAN;
+    assert_eq!(
+        with(Section::new("x").fact("a", 1.0, "").fact("b", bad, "")),
+        Err(Error::Fact { section: 2, fact: 1 })
+    );
+    let mut table =
+        Table { caption: String::new(), columns: vec![Column::new("a", "")], rows: vec![vec![bad.into()]] };
+    let cell = Error::Cell { section: 2, table: 0, row: 0, column: 0 };
+    assert_eq!(with(Section::new("x").table(table.clone())), Err(cell));
+    table.rows[0].clear();
+    let row = Error::Row { section: 2, table: 0, row: 0, found: 0, expected: 1 };
+    assert_eq!(with(Section::new("x").table(table)), Err(row));
+    let mut chart = chart();
+    chart.series[1].points[7][1] = bad;
+    let source = crate::chart::Error::NotFinite { series: 1, point: 7 };
+    assert_eq!(
+        with(Section::new("x").figure(chart, "")),
+        Err(Error::Chart { section: 2, figure: 0, source })
+    );
+    let text = "<p>no picture</p>".to_owned();
+    assert_eq!(with(Section::new("x").figure(text, "")), Err(Error::Picture { section: 2, figure: 0 }));
+}
+
+#[test]
+fn numbers_read_well() {
+    for (value, expected) in [
+        (0.0, "0"),
+        (-0.0, "0"),
+        (1.0, "1"),
+        (-2.5, "\u{2212}2.5"),
+        (0.5457515, "0.5457515"),
+        (0.00012345, "0.00012345"),
+        (4.8e6, "4\u{202f}800\u{202f}000"),
+        (12345.678, "12\u{202f}345.68"),
+        (9999.5, "9999.5"),
+        (9_999_999.96, "10\u{2077}"),
+        (1.0932689616568709e-7, "1.093269 \u{d7} 10\u{207b}\u{2077}"),
+        (-1e-300, "\u{2212}10\u{207b}\u{b3}\u{2070}\u{2070}"),
+        (1.0 / 3.0, "0.3333333"),
+        (0.1 + 0.2, "0.3"),
+    ] {
+        assert_eq!(number(value, 7).as_deref(), Some(expected), "{value:e}");
+    }
+    assert_eq!(number(f64::NAN, 7), None);
+    assert_eq!(number(f64::NEG_INFINITY, 7), None);
+}

@@ -1,0 +1,284 @@
+//! Bodies of a scene, and how they move along their rails.
+
+use super::raw::{RawBody, RawMotion, RawStart};
+use sim::{Given, Profile};
+
+use crate::check::Check;
+use crate::entries::Entries;
+use crate::fault::{Fault, alternatives, nearest};
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// A rigid body on wheels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// Mass.
+    pub mass: f64,
+    /// Moments of inertia about its centre of mass: roll, yaw, pitch (about x, y, z).
+    pub inertia: [f64; 3],
+    /// Centre of mass from the body's origin, in the rail frame.
+    pub cg: [f64; 3],
+    /// Which of x, y, z, roll, yaw, pitch are free.
+    pub free: [bool; 6],
+    /// Rails that hold what is not free, as indices into the scene's rails.
+    pub track: Vec<usize>,
+    /// Position along the rail at time 0.
+    pub x0: f64,
+    /// Speed along the rail at time 0.
+    pub v0: f64,
+    /// Displacements y, z, roll, yaw, pitch at time 0, from where the wheels just touch the unloaded rail;
+    /// none = static equilibrium.
+    pub start: Option<[f64; 5]>,
+    /// How x moves.
+    pub motion: Along,
+}
+
+/// How a body moves along its rails.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Along {
+    /// It stands where it is.
+    Held,
+    /// By its forces.
+    Free,
+    /// As prescribed; the force needed is found.
+    Prescribed(Profile),
+}
+
+impl Body {
+    /// Position along the rail at `t` where that is known beforehand.
+    #[must_use]
+    pub fn known_x(&self, t: f64) -> Option<f64> {
+        match &self.motion {
+            Along::Held => Some(self.x0),
+            Along::Free => (t == 0.0).then_some(self.x0),
+            Along::Prescribed(travel) => Some(travel.at(t).x),
+        }
+    }
+}
+
+/// Words of a body's freedoms, in the order of [`Body::free`].
+pub const FREEDOMS: [&str; 6] = ["x", "y", "z", "roll", "yaw", "pitch"];
+
+pub(super) fn read(
+    name: &str,
+    raw: &RawBody,
+    at: &Place<'_>,
+    gravity: Option<f64>,
+    check: &mut Check<'_>,
+) -> Body {
+    let mass = read_mass(raw, at, gravity, check);
+    let mut inertia = [0.0; 3];
+    let place = at.key("inertia");
+    for (index, value) in raw.inertia.unwrap_or_default().into_iter().enumerate() {
+        let hint = "[roll, yaw, pitch]; 0 for none";
+        inertia[index] = check.not_negative(value, &place.index(index), Dimension::INERTIA, hint);
+    }
+    let cg = check.vector(raw.cg.unwrap_or_default(), &at.key("cg"), Dimension::LENGTH);
+    let free = read_freedoms(raw, at, check);
+    let x0 = check.number(raw.x0.unwrap_or_default(), &at.key("x0"), Dimension::LENGTH);
+    let v0 = check.number(raw.v0.unwrap_or_default(), &at.key("v0"), Dimension::SPEED);
+    let start = raw.start.as_ref().map(|start| read_start(start, &free, &at.key("start"), check));
+    let motion = if free[0] { Along::Free } else { Along::Held };
+    Body { name: name.to_owned(), mass, inertia, cg, free, track: Vec::new(), x0, v0, start, motion }
+}
+
+fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Check<'_>) -> f64 {
+    match (raw.mass, raw.weight) {
+        (Some(mass), None) => check.positive(mass, &at.key("mass"), Dimension::MASS, "force time^2 / length"),
+        (None, Some(weight)) => {
+            let weight = check.positive(weight, &at.key("weight"), Dimension::FORCE, "");
+            if gravity == Some(0.0) {
+                let fault = Fault::new(&at.key("weight"), "needs a gravity above 0").hint("or give `mass`");
+                check.faults.add(fault);
+            }
+            weight / gravity.filter(|g| *g > 0.0).unwrap_or(1.0)
+        }
+        (found, _) => {
+            let found = if found.is_some() { "both" } else { "neither" };
+            check.faults.add(Fault::new(at, "must have either `mass` or `weight`").got(found));
+            1.0
+        }
+    }
+}
+
+fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
+    let mut free = [false; 6];
+    let Some(words) = check.faults.need(&raw.dof, at, "dof") else { return free };
+    let place = at.key("dof");
+    for (index, word) in words.iter().enumerate() {
+        let item = place.index(index);
+        match FREEDOMS.iter().position(|known| known == word) {
+            Some(known) if free[known] => {
+                check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+            }
+            Some(known) => free[known] = true,
+            None if ["X", "Y", "Z"].contains(&word.as_str()) => {
+                check
+                    .faults
+                    .add(Fault::new(&item, "a body in space (X, Y, Z) is not available in this version"));
+            }
+            None => {
+                let mut fault = Fault::new(&item, format!("must be {}", alternatives(&FREEDOMS)));
+                fault = fault.got(format!("\"{word}\""));
+                if let Some(near) = nearest(word, &FREEDOMS) {
+                    fault = fault.hint(format!("did you mean \"{near}\"?"));
+                }
+                check.faults.add(fault);
+            }
+        }
+    }
+    free
+}
+
+fn read_start(raw: &RawStart, free: &[bool; 6], at: &Place<'_>, check: &mut Check<'_>) -> [f64; 5] {
+    let given = [raw.y, raw.z, raw.roll, raw.yaw, raw.pitch];
+    let mut start = [0.0; 5];
+    for (index, value) in given.into_iter().enumerate() {
+        let Some(value) = value else { continue };
+        let word = FREEDOMS[index + 1];
+        let dimension = if index < 2 { Dimension::LENGTH } else { Dimension::NUMBER };
+        start[index] = check.number(value, &at.key(word), dimension);
+        if !free[index + 1] {
+            let fault =
+                Fault::new(&at.key(word), format!("`{word}` is held")).hint("list it in `dof` to free it");
+            check.faults.add(fault);
+        }
+    }
+    start
+}
+
+/// Reads the motions into their bodies.
+pub(super) fn read_motions(
+    raw: &[RawMotion],
+    raw_bodies: &Entries<RawBody>,
+    bodies: &mut [Body],
+    check: &mut Check<'_>,
+) {
+    let root = Place::root();
+    let list = root.key("motions");
+    let mut first: Vec<Option<usize>> = vec![None; bodies.len()];
+    for (index, motion) in raw.iter().enumerate() {
+        let at = list.index(index);
+        let body = check.faults.need(&motion.body, &at, "body").and_then(|name| {
+            let known: Vec<(&str, usize)> =
+                bodies.iter().enumerate().map(|(index, body)| (body.name.as_str(), index)).collect();
+            super::resolve(name, &known, "body", &at.key("body"), check.faults)
+        });
+        if let Some(dof) = check.faults.need(&motion.dof, &at, "dof") {
+            let place = at.key("dof");
+            if FREEDOMS[1..].contains(&dof.as_str()) {
+                let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
+                check.faults.add(fault.hint("motions along the rail, \"dof\": \"x\", are"));
+            } else {
+                check.faults.word(dof, &place, &[("x", ())]);
+            }
+        }
+        let Some(body) = body else {
+            read_kind(motion, &at, check);
+            continue;
+        };
+        if let Some(earlier) = first[body].replace(index) {
+            let expected = format!("body {} has its motion in motions[{earlier}] already", bodies[body].name);
+            check.faults.add(Fault::new(&at, expected).hint("every body has one motion along the rail"));
+            continue;
+        }
+        read_motion(motion, &raw_bodies.0[body].1, &mut bodies[body], &at, check);
+    }
+    for (body, (name, raw)) in bodies.iter().zip(&raw_bodies.0) {
+        let at = root.key("bodies");
+        let at = at.key(name);
+        if raw.v0.is_some() && body.motion == Along::Held {
+            let fault = Fault::new(&at.key("v0"), "the body cannot move along its rail");
+            check.faults.add(fault.hint("list \"x\" in `dof` to free it"));
+        }
+    }
+}
+
+/// The word of `kind`: whether the motion is prescribed.
+fn read_kind(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<bool> {
+    let kind = check.faults.need(&motion.kind, at, "kind")?;
+    let place = at.key("kind");
+    if kind == "drive" {
+        let fault = Fault::new(&place, "the motion \"drive\" is not available in this version");
+        check.faults.add(fault.hint("\"prescribed\" and \"free\" are"));
+        return None;
+    }
+    check.faults.word(kind, &place, &[("prescribed", true), ("free", false)])
+}
+
+fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_>, check: &mut Check<'_>) {
+    let Some(prescribed) = read_kind(motion, at, check) else { return };
+    for (key, given) in [("gain", motion.gain.is_some()), ("max_force", motion.max_force.is_some())] {
+        if given {
+            check
+                .faults
+                .add(Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"drive\"")).at_key());
+        }
+    }
+    let tables = [
+        ("position", Given::Position, &motion.position, Dimension::LENGTH),
+        ("speed", Given::Speed, &motion.speed, Dimension::SPEED),
+        ("acceleration", Given::Acceleration, &motion.acceleration, Dimension::ACCELERATION),
+    ];
+    let given: Vec<_> = tables
+        .into_iter()
+        .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
+        .collect();
+    if !prescribed {
+        for (key, ..) in &given {
+            check.faults.add(
+                Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\"")).at_key(),
+            );
+        }
+        if !body.free[0] {
+            let expected = format!("body {} cannot move freely: \"x\" is not in its `dof`", body.name);
+            check.faults.add(Fault::new(at, expected));
+        }
+        body.motion = Along::Free;
+        return;
+    }
+    let [(key, what, table, unit)] = given[..] else {
+        let expected = "must have one table: `position`, `speed` or `acceleration`";
+        check.faults.add(Fault::new(at, expected).got(if given.is_empty() { "none" } else { "several" }));
+        return;
+    };
+    let place = at.key(key);
+    if table.is_empty() {
+        check.faults.add(Fault::new(&place, "must have at least one row [time, value]").got("an empty list"));
+        return;
+    }
+    let times: Vec<f64> = table.iter().map(|row| row[0]).collect();
+    let ordered = check.faults.increasing(&times, &place);
+    let mut rows = Vec::new();
+    for (index, [t, value]) in table.iter().enumerate() {
+        rows.push([*t, check.number(*value, &place.index(index), unit)]);
+    }
+    if !ordered {
+        return;
+    }
+    let travel = match Profile::new(what, &rows, body.x0, body.v0) {
+        Ok(travel) => travel,
+        Err(error) => {
+            check.faults.add(Fault::new(&place, error.to_string()));
+            return;
+        }
+    };
+    let begin = travel.at(0.0);
+    let clashes = [
+        ("x0", what == Given::Position, raw.x0, begin.x),
+        ("v0", what != Given::Acceleration, raw.v0, begin.v),
+    ];
+    for (key, fixed, own, table) in clashes {
+        if let Some(own) = own.filter(|own| fixed && *own != table) {
+            let root = Place::root();
+            let at = root.key("bodies");
+            let at = at.key(&body.name);
+            let expected = format!("must be {table}, as the motion prescribes at time 0");
+            check.faults.add(Fault::new(&at.key(key), expected).got(own).hint("or leave it out"));
+        }
+    }
+    (body.x0, body.v0) = (begin.x, begin.v);
+    body.motion = Along::Prescribed(travel);
+}

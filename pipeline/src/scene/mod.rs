@@ -1,0 +1,120 @@
+//! Scenes: read, checked, names resolved, in the scene's units.
+
+mod body;
+mod compare;
+mod raw;
+mod read;
+mod structure;
+mod truck;
+mod wheel;
+
+pub use body::{Along, Body, FREEDOMS};
+pub use compare::{Case, Document};
+pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
+pub use truck::{Node, Truck};
+pub use wheel::{Damper, Friction, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
+
+use crate::fault::{Fault, Faults, nearest};
+use crate::place::Place;
+use crate::units::Units;
+
+/// The word of the format, with its version.
+pub const FORMAT: &str = "girderway-scene/1";
+
+/// A scene, checked, with names resolved to indices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Its name; the file's where it gives none.
+    pub name: String,
+    /// Units of all its numbers.
+    pub units: Units,
+    /// Acceleration of gravity, downwards.
+    pub gravity: f64,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// What carries rails.
+    pub structures: Vec<Structure>,
+    /// All rails of all structures, in order.
+    pub rails: Vec<SceneRail>,
+    /// What runs on them.
+    pub bodies: Vec<Body>,
+    /// Kinds of wheels.
+    pub wheels: Vec<Wheel>,
+    /// Wheels under bodies.
+    pub trucks: Vec<Truck>,
+    /// Time at which the scene ends.
+    pub end: f64,
+    /// Time between two rows of the history.
+    pub dt: f64,
+    /// Relative error allowed to the steps.
+    pub accuracy: f64,
+}
+
+/// What is computed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Analysis {
+    /// Motion under inertia.
+    Dynamic,
+    /// Equilibrium at every position of the travel.
+    QuasiStatic,
+}
+
+/// One rail of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneRail {
+    /// `<structure>.<rail>`.
+    pub name: String,
+    /// Index of its structure.
+    pub structure: usize,
+    /// Index within the structure.
+    pub rail: usize,
+    /// First and last coordinate.
+    pub range: [f64; 2],
+}
+
+/// Finds a name; one that is not there is a fault that lists those that are.
+pub(crate) fn resolve(
+    name: &str,
+    known: &[(&str, usize)],
+    what: &str,
+    place: &Place<'_>,
+    faults: &mut Faults,
+) -> Option<usize> {
+    let found = known.iter().find(|(word, _)| *word == name).map(|(_, index)| *index);
+    if found.is_none() {
+        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        let mut hint = if words.is_empty() {
+            "the file has none".to_owned()
+        } else {
+            format!("known: {}", words.join(", "))
+        };
+        if let Some(near) = nearest(name, &words) {
+            hint = format!("did you mean \"{near}\"? {hint}");
+        }
+        faults.add(
+            Fault::new(place, format!("must be the name of a {what}")).got(format!("\"{name}\"")).hint(hint),
+        );
+    }
+    found
+}
+
+/// Finds a rail by `structure.rail`, or by its own name where only one structure has it.
+pub(crate) fn rail(name: &str, rails: &[SceneRail], place: &Place<'_>, faults: &mut Faults) -> Option<usize> {
+    let known: Vec<(&str, usize)> =
+        rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
+    if known.is_empty() {
+        // the structures have been faulted already
+        return None;
+    }
+    resolve(name, &known, "rail, \"structure.rail\"", place, faults)
+}
+
+/// Names become parts of column and file names.
+pub(crate) fn name(name: &str, place: &Place<'_>, faults: &mut Faults) {
+    let fits = name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
+    if name.trim() != name || name.is_empty() || !fits {
+        let fault = Fault::new(place, "must be a name of letters, digits, spaces, `_` and `-`")
+            .got(format!("{name:?}"));
+        faults.add(fault.hint("names become parts of column and file names"));
+    }
+}

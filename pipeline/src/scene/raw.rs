@@ -1,0 +1,211 @@
+//! A scene as written, unchecked.
+
+use std::fmt;
+
+use serde::Deserialize;
+use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde_json::Value;
+
+use crate::entries::Entries;
+use crate::units::RawUnits;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawScene {
+    pub format: Option<String>,
+    pub name: Option<String>,
+    pub units: Option<RawUnits>,
+    pub gravity: Option<f64>,
+    pub analysis: Option<String>,
+    #[serde(default)]
+    pub structures: Entries<RawStructure>,
+    #[serde(default)]
+    pub bodies: Entries<RawBody>,
+    #[serde(default)]
+    pub wheels: Entries<RawWheel>,
+    #[serde(default)]
+    pub trucks: Vec<RawTruck>,
+    #[serde(default)]
+    pub ropes: Vec<Value>,
+    #[serde(default)]
+    pub motions: Vec<RawMotion>,
+    #[serde(default)]
+    pub events: Vec<Value>,
+    #[serde(default)]
+    pub stops: Vec<Value>,
+    #[serde(default)]
+    pub loads: Vec<Value>,
+    pub end: Option<RawEnd>,
+    pub output: Option<RawOutput>,
+    pub accuracy: Option<f64>,
+    #[serde(default)]
+    pub compare: Vec<Value>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawStructure {
+    pub spec: Option<String>,
+    pub tables: Option<RawTables>,
+    pub foundation: Option<String>,
+    pub reading: Option<String>,
+    pub tolerance: Option<f64>,
+    pub count: Option<usize>,
+    pub handover: Option<String>,
+    pub blend: Option<f64>,
+    pub on: Option<String>,
+    pub at: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawTables {
+    pub file: Option<String>,
+    pub vertical: Option<u32>,
+    pub lateral: Option<u32>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawBody {
+    pub mass: Option<f64>,
+    pub weight: Option<f64>,
+    pub inertia: Option<[f64; 3]>,
+    pub cg: Option<[f64; 3]>,
+    pub dof: Option<Vec<String>>,
+    pub track: Option<Vec<String>>,
+    pub x0: Option<f64>,
+    pub v0: Option<f64>,
+    pub start: Option<RawStart>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawStart {
+    pub y: Option<f64>,
+    pub z: Option<f64>,
+    pub roll: Option<f64>,
+    pub yaw: Option<f64>,
+    pub pitch: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawWheel {
+    pub radius: Option<f64>,
+    pub vertical: Option<RawVertical>,
+    pub lateral: Option<RawLateral>,
+    pub friction: Option<RawFriction>,
+    pub spin_inertia: Option<f64>,
+    #[serde(default)]
+    pub driven: bool,
+    #[serde(default)]
+    pub braked: bool,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawVertical {
+    pub law: Option<String>,
+    pub k: Option<f64>,
+    pub c: Option<f64>,
+    pub exponent: Option<f64>,
+    pub depth: Option<f64>,
+    pub damper: Option<String>,
+    pub bilateral: Option<bool>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawLateral {
+    pub k: Option<f64>,
+    pub clearance: Option<f64>,
+    pub release: Option<[f64; 2]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawFriction {
+    pub law: Option<String>,
+    pub mu: Option<f64>,
+    pub slip: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawTruck {
+    pub name: Option<String>,
+    pub body: Option<String>,
+    pub rail: Option<String>,
+    pub at: Option<[f64; 3]>,
+    pub tree: Option<Vec<RawNode>>,
+    pub wheel: Option<String>,
+}
+
+/// A wheel's offset, or what an equaliser carries.
+#[derive(Debug)]
+pub(crate) enum RawNode {
+    Wheel(f64),
+    Equaliser(Vec<RawNode>),
+}
+
+impl<'de> Deserialize<'de> for RawNode {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(NodeVisitor)
+    }
+}
+
+struct NodeVisitor;
+
+impl<'de> Visitor<'de> for NodeVisitor {
+    type Value = RawNode;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a wheel's offset or a list of two (an equaliser)")
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<RawNode, E> {
+        Ok(RawNode::Wheel(value))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<RawNode, E> {
+        Ok(RawNode::Wheel(value as f64))
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<RawNode, E> {
+        Ok(RawNode::Wheel(value as f64))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<RawNode, A::Error> {
+        let mut children = Vec::new();
+        while let Some(child) = list.next_element()? {
+            children.push(child);
+        }
+        Ok(RawNode::Equaliser(children))
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawMotion {
+    pub body: Option<String>,
+    pub dof: Option<String>,
+    pub kind: Option<String>,
+    pub position: Option<Vec<[f64; 2]>>,
+    pub speed: Option<Vec<[f64; 2]>>,
+    pub acceleration: Option<Vec<[f64; 2]>>,
+    pub gain: Option<f64>,
+    pub max_force: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawEnd {
+    pub time: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawOutput {
+    pub dt: Option<f64>,
+}

@@ -1,0 +1,324 @@
+//! Structures of a scene: what they are, and how the simulation sees them.
+
+use std::sync::Arc;
+
+use super::raw::{RawStructure, RawTables};
+use crate::check::Check;
+use crate::diagnostic::Diagnostic;
+use crate::fault::Fault;
+use crate::inputs::{Inputs, Unread};
+use crate::place::Place;
+use crate::spec::{RailOutline, Spec};
+use crate::units::{Dimension, Units};
+
+/// Something that carries rails.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Structure {
+    /// Its name.
+    pub name: String,
+    /// Where its influence coefficients come from.
+    pub origin: Origin,
+    /// Its rails.
+    pub rails: Vec<RailOutline>,
+    /// How it gives way.
+    pub foundation: Foundation,
+    /// What the scene asked for, where that was "auto".
+    pub auto: bool,
+    /// How its table is read.
+    pub reading: Reading,
+    /// Relative error allowed to the choice of the foundation.
+    pub tolerance: f64,
+}
+
+/// Where influence coefficients come from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Origin {
+    /// A beam spec, in the scene's units.
+    Spec {
+        /// The file, as the scene names it.
+        file: String,
+        /// Its contents.
+        spec: Arc<Spec>,
+    },
+    /// SPLINE tables of an ADAMS data set, in the scene's units.
+    Tables {
+        /// The file, as the scene names it.
+        file: String,
+        /// Stations and values of the tables.
+        tables: Arc<TablePair>,
+    },
+}
+
+/// Two SPLINE tables at the same stations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TablePair {
+    /// Stations of the rail.
+    pub stations: Vec<f64>,
+    /// `vertical[i][j]`: vertical deflection at station i per unit vertical load at station j.
+    pub vertical: Option<Vec<Vec<f64>>>,
+    /// The same, lateral.
+    pub lateral: Option<Vec<Vec<f64>>>,
+}
+
+/// How a structure gives way under wheels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Foundation {
+    /// Not at all.
+    Rigid,
+    /// As a chain of rigid parts and massless beams between their centres.
+    Parts {
+        /// Number of parts.
+        count: usize,
+        /// How a wheel passes from one to the next.
+        handover: Handover,
+    },
+    /// By its influence coefficients, without mass.
+    Influence,
+}
+
+/// How a wheel passes from one rigid part to the next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Handover {
+    /// One contact on a datum blended by STEP over `length` about the joint; none = from centre to centre.
+    Blend {
+        /// Length of the blend.
+        length: Option<f64>,
+    },
+    /// One one-sided force a part, faded by STEP over `length` about the joint; none = from centre to centre.
+    PerPart {
+        /// Length of the fading.
+        length: Option<f64>,
+    },
+}
+
+/// How a table is read between its stations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reading {
+    /// The exact surface of the beams.
+    Exact,
+    /// Natural cubic splines along both directions.
+    Natural,
+    /// AKISPL along the load's position, linear along the deflection's.
+    Akispl,
+    /// CUBSPL in place of AKISPL.
+    Cubspl,
+}
+
+impl Reading {
+    /// Words of the readings.
+    pub const WORDS: [(&'static str, Reading); 4] = [
+        ("exact", Reading::Exact),
+        ("natural", Reading::Natural),
+        ("akispl", Reading::Akispl),
+        ("cubspl", Reading::Cubspl),
+    ];
+
+    /// Its word in scenes.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Reading::WORDS.iter().find(|(_, reading)| *reading == self).map_or("", |(word, _)| *word)
+    }
+}
+
+impl Foundation {
+    /// Its word in scenes.
+    #[must_use]
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Foundation::Rigid => "rigid",
+            Foundation::Parts { .. } => "parts",
+            Foundation::Influence => "influence",
+        }
+    }
+}
+
+/// Relative error allowed to the choice of a foundation where the scene gives none.
+pub const TOLERANCE: f64 = 1e-3;
+
+/// Parts of the chain where the scene gives no count.
+pub const PARTS: usize = 2;
+
+#[derive(Clone, Copy)]
+enum Word {
+    Rigid,
+    Parts,
+    Influence,
+    Auto,
+    Later,
+}
+
+pub(super) fn read(
+    name: &str,
+    raw: &RawStructure,
+    at: &Place<'_>,
+    units: Units,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Option<Structure> {
+    for (key, given) in [("on", raw.on.is_some()), ("at", raw.at.is_some())] {
+        if given {
+            check.faults.unavailable(&at.key(key), "a structure that rides on a body");
+        }
+    }
+    let word = foundation_word(raw, at, check);
+    let count = raw.count.unwrap_or(PARTS);
+    if count < 2 {
+        check
+            .faults
+            .add(Fault::new(&at.key("count"), "must be at least 2").got(count).hint("parts of the chain"));
+    }
+    let handover = read_handover(raw, at, check);
+    let reading = match &raw.reading {
+        Some(word) => check.faults.word(word, &at.key("reading"), &Reading::WORDS).unwrap_or(Reading::Exact),
+        None => Reading::Exact,
+    };
+    let tolerance = raw.tolerance.unwrap_or(TOLERANCE);
+    let tolerance =
+        check.positive(tolerance, &at.key("tolerance"), Dimension::NUMBER, "a relative error, such as 1e-3");
+    let origin = match (&raw.spec, &raw.tables) {
+        (Some(file), None) => read_spec(file, &at.key("spec"), units, inputs, elsewhere, check),
+        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, inputs, elsewhere, check),
+        (Some(_), Some(_)) => {
+            let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
+            check
+                .faults
+                .add(fault.hint("`spec` is a beam spec to solve, `tables` are SPLINEs that exist already"));
+            None
+        }
+        (None, None) => {
+            let fault = Fault::new(at, "must have either `spec` or `tables`").got("neither");
+            check
+                .faults
+                .add(fault.hint("`spec` is a beam spec to solve, `tables` are SPLINEs that exist already"));
+            None
+        }
+    };
+    let foundation = match word {
+        Word::Rigid => Foundation::Rigid,
+        Word::Parts => Foundation::Parts { count, handover },
+        Word::Influence | Word::Auto | Word::Later => Foundation::Influence,
+    };
+    let origin = origin?;
+    let rails = match &origin {
+        Origin::Spec { spec, .. } => spec.rails(),
+        Origin::Tables { tables, .. } => {
+            let ends = tables.stations.first().zip(tables.stations.last());
+            let range = ends.map_or([0.0; 2], |(first, last)| [*first, *last]);
+            vec![RailOutline {
+                name: crate::spec::GIRDER_RAIL.to_owned(),
+                range,
+                stations: tables.stations.clone(),
+            }]
+        }
+    };
+    if reading != Reading::Exact {
+        enough_stations(&rails, reading, at, check);
+    }
+    let auto = matches!(word, Word::Auto);
+    Some(Structure { name: name.to_owned(), origin, rails, foundation, auto, reading, tolerance })
+}
+
+fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Word {
+    let words = [
+        ("rigid", Word::Rigid),
+        ("parts", Word::Parts),
+        ("influence", Word::Influence),
+        ("auto", Word::Auto),
+        ("modal", Word::Later),
+        ("full", Word::Later),
+        ("ties", Word::Later),
+    ];
+    let Some(word) = &raw.foundation else { return Word::Auto };
+    let place = at.key("foundation");
+    let known = check.faults.word(word, &place, &words).unwrap_or(Word::Auto);
+    if matches!(known, Word::Later) {
+        let fault = Fault::new(&place, format!("the foundation \"{word}\" is not available in this version"));
+        check.faults.add(fault.hint("\"rigid\", \"parts\", \"influence\" and \"auto\" are"));
+    }
+    known
+}
+
+fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Handover {
+    let words = [("blend", false), ("per-part", true)];
+    let per_part = match &raw.handover {
+        Some(word) => check.faults.word(word, &at.key("handover"), &words).unwrap_or(false),
+        None => false,
+    };
+    let hint = "the length over which the datum is blended";
+    let length = check.optional_positive(raw.blend, &at.key("blend"), Dimension::LENGTH, hint);
+    if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
+}
+
+fn read_spec(
+    file: &str,
+    at: &Place<'_>,
+    units: Units,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
+    let source = refer(file, at, inputs, elsewhere, check)?;
+    match Spec::read(&source, Some(units)) {
+        Ok(spec) => Some(Origin::Spec { file: file.to_owned(), spec: Arc::new(spec) }),
+        Err(diagnostics) => {
+            elsewhere.extend(diagnostics);
+            None
+        }
+    }
+}
+
+fn refer(
+    file: &str,
+    at: &Place<'_>,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Option<crate::source::Source> {
+    match inputs.refer(file) {
+        Ok(source) => Some(source),
+        Err(Unread::Io(why)) => {
+            let fault = Fault::new(at, format!("\"{file}\" {why}"));
+            check.faults.add(fault.hint("paths are relative to the scene's folder"));
+            None
+        }
+        Err(Unread::Text(diagnostic)) => {
+            elsewhere.push(*diagnostic);
+            None
+        }
+    }
+}
+
+fn read_tables(
+    raw: &RawTables,
+    at: &Place<'_>,
+    word: Word,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
+    if matches!(word, Word::Parts) {
+        let fault = Fault::new(at, "the foundation \"parts\" needs a `spec`")
+            .hint("tables do not say what lies between");
+        check.faults.add(fault);
+    }
+    if raw.vertical.is_none() && raw.lateral.is_none() {
+        let fault = Fault::new(at, "must name a SPLINE as `vertical`, `lateral` or both");
+        check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6"));
+    }
+    let file = check.faults.need(&raw.file, at, "file")?;
+    refer(file, &at.key("file"), inputs, elsewhere, check)?;
+    check.faults.unavailable(at, "reading tables");
+    None
+}
+
+/// What the spline readings of a table need.
+fn enough_stations(rails: &[RailOutline], reading: Reading, at: &Place<'_>, check: &mut Check<'_>) {
+    let least = if reading == Reading::Natural { 2 } else { 4 };
+    for rail in rails {
+        if rail.stations.len() < least {
+            let expected = format!("needs at least {least} stations on rail {}", rail.name);
+            check.faults.add(Fault::new(&at.key("reading"), expected).got(rail.stations.len()));
+        }
+    }
+}

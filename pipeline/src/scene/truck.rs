@@ -1,0 +1,164 @@
+//! Trucks: which wheels carry a body, where, on which rail.
+
+use super::raw::{RawNode, RawTruck};
+use super::{Body, SceneRail, Wheel, resolve};
+use crate::check::Check;
+use crate::fault::Fault;
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// Wheels under a body on one rail.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truck {
+    /// Its name; `<body>.truck<n>` where the scene gives none.
+    pub name: String,
+    /// Index of its body.
+    pub body: usize,
+    /// Index of its rail in the scene's list.
+    pub rail: usize,
+    /// Index of its kind of wheel.
+    pub wheel: usize,
+    /// From the body's origin to the truck's, in the rail frame.
+    pub at: [f64; 3],
+    /// What the body rests on, in the order of the file.
+    pub tree: Vec<Node>,
+}
+
+/// A wheel, or a massless equaliser pinned at the mean of its two ends.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Node {
+    /// A wheel at this offset along the rail from the truck.
+    Wheel(f64),
+    /// A lever between two nodes.
+    Equaliser(Box<[Node; 2]>),
+}
+
+impl Node {
+    /// Offset of the wheel, or of the pin: the mean of the ends.
+    #[must_use]
+    pub fn offset(&self) -> f64 {
+        match self {
+            Node::Wheel(offset) => *offset,
+            Node::Equaliser(ends) => f64::midpoint(ends[0].offset(), ends[1].offset()),
+        }
+    }
+
+    /// Offsets of the wheels below, with the share of this node's load that each carries.
+    #[must_use]
+    pub fn wheels(&self) -> Vec<(f64, f64)> {
+        match self {
+            Node::Wheel(offset) => vec![(*offset, 1.0)],
+            Node::Equaliser(ends) => {
+                let below = ends.iter().flat_map(Node::wheels);
+                below.map(|(offset, share)| (offset, share / 2.0)).collect()
+            }
+        }
+    }
+}
+
+impl Truck {
+    /// Offsets along the rail of all wheels from the body's origin, in the order of the file.
+    #[must_use]
+    pub fn wheel_offsets(&self) -> Vec<f64> {
+        self.tree.iter().flat_map(Node::wheels).map(|(offset, _)| self.at[0] + offset).collect()
+    }
+}
+
+pub(super) fn read(
+    raw: &RawTruck,
+    number: usize,
+    at: &Place<'_>,
+    bodies: &[Body],
+    rails: &[SceneRail],
+    wheels: &[Wheel],
+    check: &mut Check<'_>,
+) -> Option<Truck> {
+    let named: Vec<(&str, usize)> =
+        bodies.iter().enumerate().map(|(index, body)| (body.name.as_str(), index)).collect();
+    let body = match (&raw.body, bodies) {
+        (None, [_]) => Some(0),
+        (name, _) => check
+            .faults
+            .need(name, at, "body")
+            .and_then(|name| resolve(name, &named, "body", &at.key("body"), check.faults)),
+    };
+    let kinds: Vec<(&str, usize)> =
+        wheels.iter().enumerate().map(|(index, wheel)| (wheel.name.as_str(), index)).collect();
+    let wheel = match (&raw.wheel, wheels) {
+        (None, [_]) => Some(0),
+        (name, _) => check
+            .faults
+            .need(name, at, "wheel")
+            .and_then(|name| resolve(name, &kinds, "kind of wheel", &at.key("wheel"), check.faults)),
+    };
+    let rail = read_rail(raw, at, body.map(|body| &bodies[body]), rails, check);
+    let place = at.key("at");
+    let position = check.vector(raw.at.unwrap_or_default(), &place, Dimension::LENGTH);
+    let tree = read_tree(raw, at, check);
+    if let Some(name) = &raw.name {
+        super::name(name, &at.key("name"), check.faults);
+    }
+    let body = body?;
+    let name = raw.name.clone().unwrap_or_else(|| format!("{}.truck{number}", bodies[body].name));
+    Some(Truck { name, body, rail: rail?, wheel: wheel?, at: position, tree })
+}
+
+fn read_rail(
+    raw: &RawTruck,
+    at: &Place<'_>,
+    body: Option<&Body>,
+    rails: &[SceneRail],
+    check: &mut Check<'_>,
+) -> Option<usize> {
+    match (&raw.rail, body.map(|body| &body.track[..]), rails) {
+        (Some(name), ..) => super::rail(name, rails, &at.key("rail"), check.faults),
+        (None, Some([only]), _) => Some(*only),
+        (None, _, [_]) => Some(0),
+        // without any rail the structures have been faulted already
+        (None, _, []) => None,
+        (None, ..) => {
+            let known: Vec<&str> = rails.iter().map(|rail| rail.name.as_str()).collect();
+            let fault = Fault::new(at, "missing key `rail`");
+            check.faults.add(fault.hint(format!("the scene has several: {}", known.join(", "))));
+            None
+        }
+    }
+}
+
+fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node> {
+    let Some(tree) = &raw.tree else { return vec![Node::Wheel(0.0)] };
+    let place = at.key("tree");
+    if tree.is_empty() {
+        check.faults.add(Fault::new(&place, "must have at least one wheel").got("an empty list"));
+    }
+    tree.iter().enumerate().map(|(index, node)| read_node(node, &place.index(index), check)).collect()
+}
+
+fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
+    match raw {
+        RawNode::Wheel(offset) => Node::Wheel(check.number(*offset, at, Dimension::LENGTH)),
+        RawNode::Equaliser(children) => {
+            let mut nodes = Vec::new();
+            for (index, child) in children.iter().enumerate() {
+                nodes.push(read_node(child, &at.index(index), check));
+            }
+            match <[Node; 2]>::try_from(nodes) {
+                Ok(ends) => {
+                    if ends[0].offset() == ends[1].offset() {
+                        let fault =
+                            Fault::new(at, "an equaliser's two ends must be apart").got(ends[0].offset());
+                        check.faults.add(fault);
+                    }
+                    Node::Equaliser(Box::new(ends))
+                }
+                Err(nodes) => {
+                    let fault = Fault::new(at, "an equaliser must have two ends").got(nodes.len());
+                    check.faults.add(
+                        fault.hint("numbers are wheels; nest lists in pairs, such as [[-6, -2], [2, 6]]"),
+                    );
+                    Node::Wheel(0.0)
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,200 @@
+//! Wheels: radius, contact laws, friction, spin.
+
+use super::raw::{RawFriction, RawLateral, RawVertical, RawWheel};
+use crate::check::Check;
+use crate::fault::Fault;
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// A kind of wheel, shared by trucks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wheel {
+    /// Its name.
+    pub name: String,
+    /// Radius of the tread.
+    pub radius: f64,
+    /// Contact across the tread.
+    pub vertical: Vertical,
+    /// Contact of the flange; none = the wheel never touches sideways.
+    pub lateral: Option<Lateral>,
+    /// Friction along the rail; none = the wheel rolls without traction.
+    pub friction: Option<Friction>,
+    /// Moment of inertia about the axle; none = the wheel's spin follows its rolling.
+    pub spin_inertia: Option<f64>,
+    /// Whether a drive acts on it.
+    pub driven: bool,
+    /// Whether a brake acts on it.
+    pub braked: bool,
+}
+
+/// Vertical contact: force from penetration and its rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertical {
+    /// Law of the force.
+    pub law: Law,
+    /// Stiffness, force per length^exponent (exponent 1 for the linear law).
+    pub k: f64,
+    /// Damping, force per speed.
+    pub c: f64,
+    /// What the damper works against.
+    pub damper: Damper,
+    /// Whether the contact can pull.
+    pub bilateral: bool,
+}
+
+/// Law of a vertical contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// k p + c p'.
+    Linear,
+    /// IMPACT of ADAMS: k p^exponent + STEP(p, 0, 0, depth, c) p'.
+    Impact {
+        /// Exponent of the penetration.
+        exponent: f64,
+        /// Penetration at which the damping is full.
+        depth: f64,
+    },
+}
+
+/// The two ends of a wheel's damper.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Damper {
+    /// Between wheel and rail.
+    Rail,
+    /// On the wheel's own velocity.
+    Ground,
+}
+
+/// Flange contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lateral {
+    /// Stiffness.
+    pub k: f64,
+    /// Free play to either side.
+    pub clearance: f64,
+    /// Heights of the wheel's centre over the rail between which the flange lets go; none = at lift-off of the tread.
+    pub release: Option<[f64; 2]>,
+}
+
+/// Friction regularised by STEP from -slip to +slip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// Coefficient.
+    pub mu: f64,
+    /// Slip speed at which it is full.
+    pub slip: f64,
+}
+
+/// Exponent of IMPACT where the scene gives none.
+pub const IMPACT_EXPONENT: f64 = 1.1;
+
+pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check<'_>) -> Wheel {
+    let radius = check.needed(raw.radius, at, "radius", Dimension::LENGTH, "");
+    let vertical = match check.faults.need(&raw.vertical, at, "vertical") {
+        Some(vertical) => read_vertical(vertical, &at.key("vertical"), check),
+        None => Vertical { law: Law::Linear, k: 1.0, c: 0.0, damper: Damper::Rail, bilateral: false },
+    };
+    let lateral = raw.lateral.as_ref().map(|lateral| read_lateral(lateral, &at.key("lateral"), check));
+    let friction = raw.friction.as_ref().map(|friction| read_friction(friction, &at.key("friction"), check));
+    let spin_inertia = check.optional_positive(
+        raw.spin_inertia,
+        &at.key("spin_inertia"),
+        Dimension::INERTIA,
+        "leave it out for a wheel without inertia",
+    );
+    Wheel {
+        name: name.to_owned(),
+        radius,
+        vertical,
+        lateral,
+        friction,
+        spin_inertia,
+        driven: raw.driven,
+        braked: raw.braked,
+    }
+}
+
+fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Vertical {
+    let impact = match &raw.law {
+        Some(word) => {
+            check.faults.word(word, &at.key("law"), &[("linear", false), ("impact", true)]).unwrap_or(false)
+        }
+        None => false,
+    };
+    let exponent = if impact { raw.exponent.unwrap_or(IMPACT_EXPONENT) } else { 1.0 };
+    if impact && exponent < 1.0 {
+        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(exponent);
+        check.faults.add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
+    }
+    let k = match check.faults.need(&raw.k, at, "k") {
+        Some(k) => {
+            let place = at.key("k");
+            check.positive(*k, &place, Dimension::NUMBER, "");
+            let factor = check.scale.power_law(exponent.max(1.0));
+            check.scaled(*k, &place, factor)
+        }
+        None => 1.0,
+    };
+    let c = check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "0 for none");
+    let law = if impact {
+        let depth = match raw.depth {
+            None if c == 0.0 => 1.0,
+            depth => check.needed(
+                depth,
+                at,
+                "depth",
+                Dimension::LENGTH,
+                "penetration at which the damping is full",
+            ),
+        };
+        Law::Impact { exponent, depth }
+    } else {
+        for (key, given) in [("exponent", raw.exponent.is_some()), ("depth", raw.depth.is_some())] {
+            if given {
+                let fault =
+                    Fault::new(&at.key(key), format!("`{key}` belongs to the law \"impact\"")).at_key();
+                check.faults.add(fault.hint("give \"law\": \"impact\" or leave it out"));
+            }
+        }
+        Law::Linear
+    };
+    let dampers = [("rail", Damper::Rail), ("ground", Damper::Ground)];
+    let damper = match &raw.damper {
+        Some(word) => check.faults.word(word, &at.key("damper"), &dampers).unwrap_or(Damper::Rail),
+        None => Damper::Rail,
+    };
+    Vertical { law, k, c, damper, bilateral: raw.bilateral.unwrap_or_default() }
+}
+
+fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Lateral {
+    let k = check.needed(raw.k, at, "k", Dimension::STIFFNESS, "");
+    let clearance = raw.clearance.unwrap_or_default();
+    let clearance = check.not_negative(clearance, &at.key("clearance"), Dimension::LENGTH, "0 for none");
+    let place = at.key("release");
+    let release = raw.release.map(|heights| {
+        check.faults.increasing(&heights, &place);
+        let hint = "heights of the wheel's centre over the rail";
+        let mut converted = [0.0; 2];
+        for (index, height) in heights.into_iter().enumerate() {
+            converted[index] = check.positive(height, &place.index(index), Dimension::LENGTH, hint);
+        }
+        converted
+    });
+    Lateral { k, clearance, release }
+}
+
+fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Friction {
+    if let Some(word) = &raw.law {
+        check.faults.word(word, &at.key("law"), &[("step", ())]);
+    }
+    Friction {
+        mu: check.needed(raw.mu, at, "mu", Dimension::NUMBER, "leave `friction` out for none"),
+        slip: check.needed(
+            raw.slip,
+            at,
+            "slip",
+            Dimension::SPEED,
+            "slip speed at which the friction is full",
+        ),
+    }
+}

@@ -1,0 +1,193 @@
+//! The general form: points, members, what holds them, and rails on them.
+
+use fea::{Freedom, Link, Mass, Model, Spring, Support, Theory};
+
+use super::raw::RawSpec;
+use super::{members, rails, sections};
+use crate::check::Check;
+use crate::fault::Fault;
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// A checked general form, in the units asked for: the model with the names that users know.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Points, members and what holds them.
+    pub model: Model,
+    /// Rails with their names, in the order of the file.
+    pub rails: Vec<(String, fea::Rail)>,
+    /// First and last coordinate of each rail.
+    pub ranges: Vec<[f64; 2]>,
+    /// Names of the sections.
+    pub sections: Vec<String>,
+    /// For each member, the block of `cells` and the index in it.
+    pub cells: Vec<[usize; 2]>,
+    /// Named sets of points.
+    pub point_sets: Vec<(String, Vec<usize>)>,
+}
+
+/// Words of the freedoms of points and members' ends.
+pub(super) const FREEDOMS: [(&str, Freedom); 6] = [
+    ("ux", Freedom::Ux),
+    ("uy", Freedom::Uy),
+    ("uz", Freedom::Uz),
+    ("rx", Freedom::Rx),
+    ("ry", Freedom::Ry),
+    ("rz", Freedom::Rz),
+];
+
+/// Direction up where the spec gives none.
+const UP: [f64; 3] = [0.0, 1.0, 0.0];
+
+pub(super) fn read(raw: &RawSpec, theory: Theory, root: &Place<'_>, check: &mut Check<'_>) -> Frame {
+    let mut model = Model { theory, up: raw.up.unwrap_or(UP), ..Model::default() };
+    if length(model.up) == 0.0 {
+        check.faults.add(Fault::new(&root.key("up"), "must not be zero"));
+    }
+    let place = root.key("points");
+    for (index, point) in check.faults.need(&raw.points, root, "points").into_iter().flatten().enumerate() {
+        model.points.push(check.vector(*point, &place.index(index), Dimension::LENGTH));
+    }
+    if raw.stations.is_some() {
+        let fault = Fault::new(&root.key("stations"), "`stations` belongs to the short form").at_key();
+        check.faults.add(fault.hint("in the general form each of `rails` has its own"));
+    }
+    let sections = sections::read(raw, root, &mut model, check);
+    let cells = members::read(raw, root, &mut model, check);
+    sections::complete(raw, root, &model, check);
+    read_supports(raw, root, &mut model, check);
+    read_springs(raw, root, &mut model, check);
+    read_links(raw, root, &mut model, check);
+    read_masses(raw, root, &mut model, check);
+    let point_sets = read_sets(raw, root, &model, check);
+    let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
+    Frame { model, rails, ranges, sections, cells: cells.places, point_sets }
+}
+
+/// The index of a point that exists.
+fn point(
+    given: &Option<usize>,
+    key: &str,
+    count: usize,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<usize> {
+    let index = *check.faults.need(given, at, key)?;
+    index_below(index, count, "points", &at.key(key), check).then_some(index)
+}
+
+/// Whether an index is within a list; a fault where it is not.
+pub(super) fn index_below(
+    index: usize,
+    count: usize,
+    what: &str,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> bool {
+    if index >= count {
+        let fault = Fault::new(at, format!("must be below {count}, the number of {what}")).got(index);
+        check.faults.add(fault.hint("indices count from 0"));
+    }
+    index < count
+}
+
+/// A list of freedoms, each once, as a set.
+pub(super) fn freedoms(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
+    let mut set = [false; 6];
+    for (index, word) in words.iter().enumerate() {
+        let item = at.index(index);
+        let Some(freedom) = check.faults.word(word, &item, &FREEDOMS) else { continue };
+        if set[freedom as usize] {
+            check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+        }
+        set[freedom as usize] = true;
+    }
+    set
+}
+
+fn read_supports(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+    let list = root.key("supports");
+    for (index, raw) in raw.supports.iter().flatten().enumerate() {
+        let at = list.index(index);
+        let point = point(&raw.point, "point", model.points.len(), &at, check);
+        let place = at.key("fix");
+        let fix = check.faults.need(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
+        let fix = freedoms(fix, &place, check);
+        model.supports.extend(point.map(|point| Support { point, fix }));
+    }
+}
+
+fn read_springs(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+    let list = root.key("springs");
+    for (index, raw) in raw.springs.iter().flatten().enumerate() {
+        let at = list.index(index);
+        let point = point(&raw.point, "point", model.points.len(), &at, check);
+        let freedom = check
+            .faults
+            .need(&raw.dof, &at, "dof")
+            .and_then(|word| check.faults.word(word, &at.key("dof"), &FREEDOMS));
+        let turns = matches!(freedom, Some(Freedom::Rx | Freedom::Ry | Freedom::Rz));
+        let dimension = if turns { Dimension::MOMENT } else { Dimension::STIFFNESS };
+        let stiffness = check.needed(raw.k, &at, "k", dimension, "stiffness to ground");
+        let both = point.zip(freedom);
+        model.springs.extend(both.map(|(point, freedom)| Spring { point, freedom, stiffness }));
+    }
+}
+
+fn read_links(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+    let list = root.key("links");
+    for (index, raw) in raw.links.iter().flatten().enumerate() {
+        let at = list.index(index);
+        let from = point(&raw.from, "from", model.points.len(), &at, check);
+        let to = point(&raw.to, "to", model.points.len(), &at, check);
+        if let Some((from, to)) = from.zip(to) {
+            if from == to {
+                check
+                    .faults
+                    .add(Fault::new(&at, "a link must join two points").got(format!("point {from} twice")));
+            }
+            model.links.push(Link { from, to });
+        }
+    }
+}
+
+fn read_masses(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+    let list = root.key("masses");
+    for (index, raw) in raw.masses.iter().flatten().enumerate() {
+        let at = list.index(index);
+        let point = point(&raw.point, "point", model.points.len(), &at, check);
+        let mass = match check.faults.need(&raw.mass, &at, "mass") {
+            Some(mass) => check.not_negative(*mass, &at.key("mass"), Dimension::MASS, ""),
+            None => 0.0,
+        };
+        let place = at.key("inertia");
+        let mut inertia = [0.0; 3];
+        for (axis, value) in raw.inertia.unwrap_or_default().into_iter().enumerate() {
+            inertia[axis] = check.not_negative(value, &place.index(axis), Dimension::INERTIA, "");
+        }
+        let offset = check.vector(raw.offset.unwrap_or_default(), &at.key("offset"), Dimension::LENGTH);
+        model.masses.extend(point.map(|point| Mass { point, mass, inertia, offset }));
+    }
+}
+
+fn read_sets(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    model: &Model,
+    check: &mut Check<'_>,
+) -> Vec<(String, Vec<usize>)> {
+    let place = root.key("point_sets");
+    let sets = raw.point_sets.iter().flat_map(|sets| &sets.0);
+    for (name, set) in sets.clone() {
+        let at = place.key(name);
+        for (index, point) in set.iter().enumerate() {
+            index_below(*point, model.points.len(), "points", &at.index(index), check);
+        }
+    }
+    sets.cloned().collect()
+}
+
+/// Length of a vector.
+pub(super) fn length(vector: [f64; 3]) -> f64 {
+    vector[0].hypot(vector[1]).hypot(vector[2])
+}

@@ -1,0 +1,123 @@
+//! The short form: a straight girder, continuous over its supports.
+
+use fea::{Girder, Theory};
+
+use super::raw::RawGirder;
+use crate::check::Check;
+use crate::fault::Fault;
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// First and last rail coordinate of a girder.
+#[must_use]
+pub fn range(girder: &Girder) -> [f64; 2] {
+    [-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]]
+}
+
+pub(super) fn read(
+    raw: &RawGirder,
+    stations: &Option<Vec<f64>>,
+    theory: Theory,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Girder {
+    let at = root.key("girder");
+    let mut spans = Vec::new();
+    let before = check.faults.0.len();
+    if let Some(given) = check.faults.need(&raw.spans, &at, "spans") {
+        let place = at.key("spans");
+        if given.is_empty() {
+            check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
+        }
+        for (index, span) in given.iter().enumerate() {
+            let hint = "spans are lengths, first support to last";
+            spans.push(check.positive(*span, &place.index(index), Dimension::LENGTH, hint));
+        }
+    }
+    let mut overhangs = [0.0; 2];
+    let place = at.key("overhangs");
+    for (index, overhang) in raw.overhangs.unwrap_or_default().into_iter().enumerate() {
+        let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
+        overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
+    }
+    // without good lengths there is nothing that stations could be on
+    let raw_range = (check.faults.0.len() == before).then(|| range_of(raw));
+    let mut optional =
+        |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
+    let g = optional(raw.g, "G", Dimension::STRESS);
+    let area = optional(raw.area, "A", Dimension::AREA);
+    let i_lateral = optional(raw.i_lateral, "I_lateral", Dimension::SECOND_MOMENT);
+    let j = optional(raw.j, "J", Dimension::SECOND_MOMENT);
+    let ka_vertical = optional(raw.ka_vertical, "kA_vertical", Dimension::AREA);
+    let ka_lateral = optional(raw.ka_lateral, "kA_lateral", Dimension::AREA);
+    let e = check.needed(raw.e, &at, "E", Dimension::STRESS, "");
+    let i_vertical = check.needed(raw.i_vertical, &at, "I_vertical", Dimension::SECOND_MOMENT, "");
+    let hint = "0 where the rail lies on the elastic axis";
+    let height = raw.rail_height.unwrap_or_default();
+    let rail_height = check.not_negative(height, &at.key("rail_height"), Dimension::LENGTH, hint);
+    let mass_per_length = raw
+        .mass_per_length
+        .map(|mass| check.not_negative(mass, &at.key("mass_per_length"), Dimension::LINE_MASS, ""));
+    let sheared = theory == Theory::Timoshenko && (ka_vertical.is_some() || ka_lateral.is_some());
+    if sheared && g.is_none() {
+        let fault = Fault::new(&at, "missing key `G`");
+        check.faults.add(fault.hint("kA_vertical and kA_lateral have no effect without it"));
+    }
+    let girder = Girder {
+        stations: read_stations(stations, raw_range, root, check),
+        spans,
+        overhangs,
+        e,
+        g,
+        area,
+        i_vertical,
+        i_lateral,
+        j,
+        ka_vertical,
+        ka_lateral,
+        rail_height,
+        mass_per_length,
+        theory,
+    };
+    let [first, last] = range(&girder);
+    if !(last - first).is_finite() {
+        check.faults.add(Fault::new(&at.key("spans"), "must have a finite sum"));
+    }
+    girder
+}
+
+/// The rail's range in the file's own units.
+fn range_of(raw: &RawGirder) -> [f64; 2] {
+    let [before, after] = raw.overhangs.unwrap_or_default();
+    [-before, raw.spans.iter().flatten().sum::<f64>() + after]
+}
+
+fn read_stations(
+    stations: &Option<Vec<f64>>,
+    range: Option<[f64; 2]>,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<f64> {
+    let Some(given) = check.faults.need(stations, root, "stations") else { return Vec::new() };
+    let place = root.key("stations");
+    if given.is_empty() {
+        check.faults.add(Fault::new(&place, "must have at least one station").got("an empty list"));
+    }
+    check.faults.increasing(given, &place);
+    let mut stations = Vec::new();
+    for (index, station) in given.iter().enumerate() {
+        let item = place.index(index);
+        let mut station = *station;
+        if let Some([first, last]) = range {
+            let slack = 1e-12 * (last - first);
+            if station < first - slack || station > last + slack {
+                let expected = format!("must be on the rail, from {first} to {last}");
+                let hint = "stations are coordinates from the first support, overhangs included";
+                check.faults.add(Fault::new(&item, expected).got(station).hint(hint));
+            }
+            station = station.max(first).min(last);
+        }
+        stations.push(check.number(station, &item, Dimension::LENGTH));
+    }
+    stations
+}

@@ -1,0 +1,134 @@
+//! What the solver refuses, back at its place in the file.
+
+use fea::{Error, Fault as Refusal, Freedom, Item};
+
+use super::{Form, Spec};
+use crate::exit::Failure;
+use crate::fault::{Fault, Faults};
+use crate::place::{Path, Step};
+use crate::source::Source;
+
+impl Spec {
+    /// A solver's error in the words of the spec: an unusable entry is an input error with its place, a
+    /// mechanism or a hopeless condition means that the numbers cannot be trusted.
+    #[must_use]
+    pub fn refuse(&self, source: &Source, error: &Error) -> Failure {
+        match error {
+            Error::Invalid { item, fault } => {
+                let fault = Fault {
+                    path: self.path(*item),
+                    at_key: false,
+                    expected: self.words(fault),
+                    found: None,
+                    hint: None,
+                };
+                Failure::Input(source.diagnose(&Faults(vec![fault])))
+            }
+            Error::Mechanism { point, freedom } => Failure::Untrusted(format!(
+                "{}: mechanism: nothing holds {} in {freedom} ({})",
+                source.name,
+                self.point(*point),
+                meaning(*freedom)
+            )),
+            Error::Ill { condition, point, freedom } => Failure::Untrusted(format!(
+                "{}: condition {condition:.1e} leaves no digit to trust; weakest is {} in {freedom} ({})",
+                source.name,
+                self.point(*point),
+                meaning(*freedom)
+            )),
+            Error::Released { member, end, freedom } => Failure::Untrusted(format!(
+                "{}: mechanism: releases of {} leave {freedom} free at its end {}",
+                source.name,
+                self.path(Item::Member(*member)),
+                if *end == 0 { "a" } else { "b" }
+            )),
+            Error::Factor { .. } | Error::NoRails | Error::Rail(_) => {
+                Failure::Untrusted(format!("{}: {error}", source.name))
+            }
+        }
+    }
+
+    fn path(&self, item: Item) -> Path {
+        let key = |word: &str| Step::Key(word.to_owned());
+        let list = |word: &str, index: usize| Path(vec![key(word), Step::Index(index)]);
+        match (&self.form, item) {
+            (Form::Girder(_), Item::Span(index)) => {
+                Path(vec![key("girder"), key("spans"), Step::Index(index)])
+            }
+            (Form::Girder(_), Item::Overhang(index)) => {
+                Path(vec![key("girder"), key("overhangs"), Step::Index(index)])
+            }
+            (Form::Girder(_), Item::Station { station, .. }) => list("stations", station),
+            (Form::Girder(_), _) => Path(vec![key("girder")]),
+            (Form::Frame(_), Item::Up) => Path(vec![key("up")]),
+            (Form::Frame(_), Item::Point(index)) => list("points", index),
+            (Form::Frame(_), Item::Section(index)) => list("sections", index),
+            (Form::Frame(_), Item::Support(index)) => list("supports", index),
+            (Form::Frame(_), Item::Spring(index)) => list("springs", index),
+            (Form::Frame(_), Item::Link(index)) => list("links", index),
+            (Form::Frame(_), Item::Mass(index)) => list("masses", index),
+            (Form::Frame(frame), Item::Member(index)) => match frame.cells.get(index) {
+                Some(&[block, cell]) => {
+                    Path(vec![key("cells"), Step::Index(block), key("data"), Step::Index(cell)])
+                }
+                None => Path(vec![key("cells")]),
+            },
+            (Form::Frame(_), Item::Rail(rail)) => self.rail_path(rail, None),
+            (Form::Frame(_), Item::Segment { rail, segment }) => {
+                self.rail_path(rail, Some(("segments", segment)))
+            }
+            (Form::Frame(_), Item::Station { rail, station }) => {
+                self.rail_path(rail, Some(("stations", station)))
+            }
+            (Form::Frame(_), Item::Span(_) | Item::Overhang(_) | Item::Girder) => Path::default(),
+        }
+    }
+
+    fn rail_path(&self, rail: usize, below: Option<(&str, usize)>) -> Path {
+        let mut steps = vec![Step::Key("rails".to_owned())];
+        if let Form::Frame(frame) = &self.form {
+            steps.extend(frame.rails.get(rail).map(|(name, _)| Step::Key(name.clone())));
+        }
+        if let Some((key, index)) = below {
+            steps.extend([Step::Key(key.to_owned()), Step::Index(index)]);
+        }
+        Path(steps)
+    }
+
+    fn words(&self, refusal: &Refusal) -> String {
+        match (refusal, &self.form) {
+            (Refusal::NoMember { member }, _) => format!("cell {member} does not exist"),
+            _ => refusal.to_string(),
+        }
+    }
+
+    /// A point as users know it: by index, coordinates and the set it is in; of a girder, by its place.
+    fn point(&self, index: usize) -> String {
+        let unit = self.units.length.word();
+        match &self.form {
+            Form::Girder(girder) => match girder.frame() {
+                Ok((model, _)) if index < model.points.len() => {
+                    format!("the girder at x = {} {unit}", model.points[index][0])
+                }
+                _ => "the girder".to_owned(),
+            },
+            Form::Frame(frame) => {
+                let place = frame.model.points.get(index).copied().unwrap_or_default();
+                let set = frame.point_sets.iter().find(|(_, points)| points.contains(&index));
+                let set = set.map_or_else(String::new, |(name, _)| format!(" of \"{name}\""));
+                format!("point {index}{set} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
+            }
+        }
+    }
+}
+
+const fn meaning(freedom: Freedom) -> &'static str {
+    match freedom {
+        Freedom::Ux => "displacement along x",
+        Freedom::Uy => "displacement along y",
+        Freedom::Uz => "displacement along z",
+        Freedom::Rx => "rotation about x",
+        Freedom::Ry => "rotation about y",
+        Freedom::Rz => "rotation about z",
+    }
+}

@@ -1,0 +1,214 @@
+//! Cells and their data: the members of the general form.
+
+use fea::{Kind, Member, Model};
+
+use super::frame::{freedoms, index_below, length};
+use super::raw::{RawCellData, RawSpec};
+use crate::check::Check;
+use crate::fault::Fault;
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// Where the members stand in the file.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cells {
+    /// Block and index of each member.
+    pub places: Vec<[usize; 2]>,
+    /// Cells a block.
+    pub counts: Vec<usize>,
+    /// Whether every cell became a member.
+    pub whole: bool,
+}
+
+impl Cells {
+    /// The member at an index of a block.
+    pub fn member(&self, block: usize, index: usize) -> Option<usize> {
+        (index < *self.counts.get(block)?).then(|| self.counts[..block].iter().sum::<usize>() + index)
+    }
+}
+
+/// One array of `cell_data`, with its place in the file.
+struct Column<'r, T> {
+    key: &'static str,
+    blocks: Option<&'r Vec<Vec<T>>>,
+}
+
+impl<'r, T> Column<'r, T> {
+    /// One array a block, one item a cell; wrong lengths are faults and leave the column out.
+    fn new(
+        key: &'static str,
+        blocks: &'r Option<Vec<Vec<T>>>,
+        counts: &[usize],
+        at: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> Self {
+        let Some(given) = blocks else { return Column { key, blocks: None } };
+        let before = check.faults.0.len();
+        let place = at.key(key);
+        let hint = "cell_data has one array for each block of `cells`, with one item for each cell";
+        if given.len() != counts.len() {
+            let fault = Fault::new(&place, format!("must have {} arrays", counts.len())).got(given.len());
+            check.faults.add(fault.hint(hint));
+        }
+        for (block, (items, count)) in given.iter().zip(counts).enumerate() {
+            if items.len() != *count {
+                let fault =
+                    Fault::new(&place.index(block), format!("must have {count} items")).got(items.len());
+                check.faults.add(fault.hint(hint));
+            }
+        }
+        Column { key, blocks: (check.faults.0.len() == before).then_some(given) }
+    }
+
+    fn get(&self, block: usize, index: usize) -> Option<&'r T> {
+        self.blocks.and_then(|blocks| blocks.get(block)).and_then(|items| items.get(index))
+    }
+}
+
+/// Reads `cells` and `cell_data` into the model.
+pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Cells {
+    let Some(blocks) = check.faults.need(&raw.cells, root, "cells") else { return Cells::default() };
+    let before = check.faults.0.len();
+    let list = root.key("cells");
+    let mut counts = Vec::new();
+    for (block, raw) in blocks.iter().enumerate() {
+        let at = list.index(block);
+        if let Some(kind) = check.faults.need(&raw.kind, &at, "type") {
+            check.faults.word(kind, &at.key("type"), &[("line", ())]);
+        }
+        counts.push(check.faults.need(&raw.data, &at, "data").map_or(0, Vec::len));
+    }
+    let none = RawCellData::default();
+    let data = raw.cell_data.as_ref().unwrap_or(&none);
+    let columns = Columns::new(data, &counts, root, check);
+    let mut cells = Cells { counts, ..Cells::default() };
+    for (block, raw) in blocks.iter().enumerate() {
+        let at = list.index(block);
+        let at = at.key("data");
+        for (index, ends) in raw.data.iter().flatten().enumerate() {
+            if let Some(member) = columns.member(*ends, block, index, &at.index(index), root, model, check) {
+                model.members.push(member);
+                cells.places.push([block, index]);
+            }
+        }
+    }
+    if model.members.is_empty() && check.faults.0.len() == before {
+        check.faults.add(Fault::new(&list, "must have at least one cell"));
+    }
+    cells.whole = cells.places.len() == cells.counts.iter().sum::<usize>();
+    cells
+}
+
+struct Columns<'r> {
+    kind: Column<'r, String>,
+    section: Column<'r, usize>,
+    orientation: Column<'r, [f64; 3]>,
+    offsets: [Column<'r, [f64; 3]>; 2],
+    releases: [Column<'r, Vec<String>>; 2],
+}
+
+impl<'r> Columns<'r> {
+    fn new(data: &'r RawCellData, counts: &[usize], root: &Place<'_>, check: &mut Check<'_>) -> Self {
+        let at = root.key("cell_data");
+        Columns {
+            kind: Column::new("kind", &data.kind, counts, &at, check),
+            section: Column::new("section", &data.section, counts, &at, check),
+            orientation: Column::new("orientation", &data.orientation, counts, &at, check),
+            offsets: [
+                Column::new("offset_a", &data.offset_a, counts, &at, check),
+                Column::new("offset_b", &data.offset_b, counts, &at, check),
+            ],
+            releases: [
+                Column::new("release_a", &data.release_a, counts, &at, check),
+                Column::new("release_b", &data.release_b, counts, &at, check),
+            ],
+        }
+    }
+
+    #[allow(clippy::too_many_arguments)]
+    fn member(
+        &self,
+        points: [usize; 2],
+        block: usize,
+        index: usize,
+        cell: &Place<'_>,
+        root: &Place<'_>,
+        model: &Model,
+        check: &mut Check<'_>,
+    ) -> Option<Member> {
+        let data = root.key("cell_data");
+        let mut known = true;
+        for (end, point) in points.into_iter().enumerate() {
+            known &= index_below(point, model.points.len(), "points", &cell.index(end), check);
+        }
+        let key = data.key(self.kind.key);
+        let place = key.index(block);
+        let kinds = [("beam", Kind::Beam), ("truss", Kind::Truss)];
+        let kind = match self.kind.get(block, index) {
+            Some(word) => check.faults.word(word, &place.index(index), &kinds).unwrap_or(Kind::Beam),
+            None => Kind::Beam,
+        };
+        let key = data.key(self.section.key);
+        let place = key.index(block);
+        let section = match self.section.get(block, index) {
+            Some(section) => {
+                let place = place.index(index);
+                index_below(*section, model.sections.len(), "sections", &place, check).then_some(*section)
+            }
+            None if model.sections.len() == 1 => Some(0),
+            None => {
+                if block == 0 && index == 0 && self.section.blocks.is_none() && !model.sections.is_empty() {
+                    let fault = Fault::new(root, "missing key `cell_data.section`");
+                    check
+                        .faults
+                        .add(fault.hint("with several sections each cell needs the index of its own"));
+                }
+                None
+            }
+        };
+        let mut offsets = [[0.0; 3]; 2];
+        let mut releases = [[false; 6]; 2];
+        for end in 0..2 {
+            let key = data.key(self.offsets[end].key);
+            let place = key.index(block);
+            if let Some(offset) = self.offsets[end].get(block, index) {
+                offsets[end] = check.vector(*offset, &place.index(index), Dimension::LENGTH);
+            }
+            let key = data.key(self.releases[end].key);
+            let place = key.index(block);
+            if let Some(words) = self.releases[end].get(block, index) {
+                releases[end] = freedoms(words, &place.index(index), check);
+            }
+        }
+        if !known {
+            return None;
+        }
+        let tip = |end: usize, axis: usize| model.points[points[end]][axis] + offsets[end][axis];
+        let along = [0, 1, 2].map(|axis| tip(1, axis) - tip(0, axis));
+        if length(along) == 0.0 {
+            let fault = Fault::new(cell, "must have a length between its flexible ends").got(0);
+            check.faults.add(fault.hint("its two ends coincide, offsets included"));
+        }
+        let given = self.orientation.get(block, index);
+        let orientation = given.copied().unwrap_or(model.up);
+        if kind == Kind::Beam && length(along) > 0.0 && parallel(orientation, along) {
+            let key = data.key(self.orientation.key);
+            let place = key.index(block);
+            let item = place.index(index);
+            let place = if given.is_some() { &item } else { cell };
+            let fault = Fault::new(place, "its orientation must not be zero or along the member");
+            check.faults.add(
+                fault.hint(
+                    "local y is the part of `orientation` normal to the member; without one it is `up`",
+                ),
+            );
+        }
+        Some(Member { points, kind, section: section?, orientation, offsets, releases })
+    }
+}
+
+/// Whether two vectors point along one line, or one is zero, up to rounding.
+pub(super) fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
+    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+    length(cross) <= 1e-9 * length(a) * length(b)
+}

@@ -1,0 +1,152 @@
+//! A beam spec as written: the members of both forms, unchecked.
+
+use serde::Deserialize;
+
+use crate::entries::Entries;
+use crate::units::RawUnits;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawSpec {
+    pub format: Option<String>,
+    pub name: Option<String>,
+    pub units: Option<RawUnits>,
+    pub theory: Option<String>,
+    pub girder: Option<RawGirder>,
+    pub stations: Option<Vec<f64>>,
+    pub up: Option<[f64; 3]>,
+    pub points: Option<Vec<[f64; 3]>>,
+    pub cells: Option<Vec<RawBlock>>,
+    pub cell_data: Option<RawCellData>,
+    pub point_sets: Option<Entries<Vec<usize>>>,
+    pub cell_sets: Option<Entries<Vec<Option<Vec<usize>>>>>,
+    pub materials: Option<Vec<RawMaterial>>,
+    pub sections: Option<Vec<RawSection>>,
+    pub supports: Option<Vec<RawSupport>>,
+    pub springs: Option<Vec<RawSpring>>,
+    pub links: Option<Vec<RawLink>>,
+    pub masses: Option<Vec<RawMass>>,
+    pub rails: Option<Entries<RawRail>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawGirder {
+    pub spans: Option<Vec<f64>>,
+    pub overhangs: Option<[f64; 2]>,
+    #[serde(rename = "E")]
+    pub e: Option<f64>,
+    #[serde(rename = "G")]
+    pub g: Option<f64>,
+    #[serde(rename = "A")]
+    pub area: Option<f64>,
+    #[serde(rename = "I_vertical")]
+    pub i_vertical: Option<f64>,
+    #[serde(rename = "I_lateral")]
+    pub i_lateral: Option<f64>,
+    #[serde(rename = "J")]
+    pub j: Option<f64>,
+    #[serde(rename = "kA_vertical")]
+    pub ka_vertical: Option<f64>,
+    #[serde(rename = "kA_lateral")]
+    pub ka_lateral: Option<f64>,
+    pub rail_height: Option<f64>,
+    pub mass_per_length: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawBlock {
+    #[serde(rename = "type")]
+    pub kind: Option<String>,
+    pub data: Option<Vec<[usize; 2]>>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawCellData {
+    pub kind: Option<Vec<Vec<String>>>,
+    pub section: Option<Vec<Vec<usize>>>,
+    pub orientation: Option<Vec<Vec<[f64; 3]>>>,
+    pub offset_a: Option<Vec<Vec<[f64; 3]>>>,
+    pub offset_b: Option<Vec<Vec<[f64; 3]>>>,
+    pub release_a: Option<Vec<Vec<Vec<String>>>>,
+    pub release_b: Option<Vec<Vec<Vec<String>>>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawMaterial {
+    pub name: Option<String>,
+    #[serde(rename = "E")]
+    pub e: Option<f64>,
+    #[serde(rename = "G")]
+    pub g: Option<f64>,
+    pub density: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawSection {
+    pub name: Option<String>,
+    pub material: Option<String>,
+    #[serde(rename = "A")]
+    pub area: Option<f64>,
+    #[serde(rename = "Iy")]
+    pub iy: Option<f64>,
+    #[serde(rename = "Iz")]
+    pub iz: Option<f64>,
+    #[serde(rename = "J")]
+    pub j: Option<f64>,
+    #[serde(rename = "Asy")]
+    pub asy: Option<f64>,
+    #[serde(rename = "Asz")]
+    pub asz: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawSupport {
+    pub point: Option<usize>,
+    pub fix: Option<Vec<String>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawSpring {
+    pub point: Option<usize>,
+    pub dof: Option<String>,
+    pub k: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawLink {
+    pub from: Option<usize>,
+    pub to: Option<usize>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawMass {
+    pub point: Option<usize>,
+    pub mass: Option<f64>,
+    pub inertia: Option<[f64; 3]>,
+    pub offset: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawRail {
+    pub origin: Option<[f64; 3]>,
+    pub axis: Option<[f64; 3]>,
+    pub segments: Option<Vec<RawSegment>>,
+    pub stations: Option<Vec<f64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawSegment {
+    pub cell: Option<[usize; 2]>,
+    pub offset: Option<[f64; 3]>,
+}

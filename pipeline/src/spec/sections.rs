@@ -1,0 +1,132 @@
+//! Materials and sections of the general form.
+
+use std::collections::BTreeMap;
+
+use fea::{Kind, Model, Section, Theory};
+
+use super::raw::{RawMaterial, RawSection, RawSpec};
+use crate::check::Check;
+use crate::fault::{Fault, nearest};
+use crate::place::Place;
+use crate::units::Dimension;
+
+struct Material {
+    e: f64,
+    g: Option<f64>,
+    density: f64,
+}
+
+/// Reads materials and sections into the model; gives the sections' names.
+pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Vec<String> {
+    let mut materials = BTreeMap::new();
+    let list = root.key("materials");
+    for (index, raw) in check.faults.need(&raw.materials, root, "materials").into_iter().flatten().enumerate()
+    {
+        let at = list.index(index);
+        let material = read_material(raw, &at, check);
+        let Some(name) = check.faults.need(&raw.name, &at, "name") else { continue };
+        if materials.insert(name.as_str(), material).is_some() {
+            check.faults.add(
+                Fault::new(&at.key("name"), "must differ from the other materials")
+                    .got(format!("\"{name}\"")),
+            );
+        }
+    }
+    let list = root.key("sections");
+    let mut names: Vec<String> = Vec::new();
+    for (index, raw) in check.faults.need(&raw.sections, root, "sections").into_iter().flatten().enumerate() {
+        let at = list.index(index);
+        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        if !name.is_empty() && names.contains(&name) {
+            check.faults.add(
+                Fault::new(&at.key("name"), "must differ from the other sections").got(format!("\"{name}\"")),
+            );
+        }
+        names.push(name);
+        model.sections.push(read_section(raw, &materials, &at, check));
+    }
+    names
+}
+
+fn read_material(raw: &RawMaterial, at: &Place<'_>, check: &mut Check<'_>) -> Material {
+    let e = check.needed(raw.e, at, "E", Dimension::STRESS, "");
+    let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
+    let density = raw.density.unwrap_or_default();
+    let density = check.not_negative(density, &at.key("density"), Dimension::DENSITY, "mass per volume");
+    Material { e, g, density }
+}
+
+fn read_section(
+    raw: &RawSection,
+    materials: &BTreeMap<&str, Material>,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Section {
+    let place = at.key("material");
+    let mut material = None;
+    if let Some(name) = check.faults.need(&raw.material, at, "material") {
+        material = materials.get(name.as_str());
+        if material.is_none() {
+            let known: Vec<&str> = materials.keys().copied().collect();
+            let hint = match nearest(name, &known) {
+                Some(near) => format!("did you mean \"{near}\"?"),
+                None => format!("known: {}", known.join(", ")),
+            };
+            let fault = Fault::new(&place, "must be the name of a material").got(format!("\"{name}\""));
+            check.faults.add(fault.hint(hint));
+        }
+    }
+    let mut plain = |value: Option<f64>, key: &str, dimension| {
+        check.optional_positive(value, &at.key(key), dimension, "").unwrap_or_default()
+    };
+    let area = plain(raw.area, "A", Dimension::AREA);
+    let (e, g) = material.map_or((1.0, 1.0), |material| (material.e, material.g.unwrap_or_default()));
+    Section {
+        e,
+        g,
+        area,
+        iy: plain(raw.iy, "Iy", Dimension::SECOND_MOMENT),
+        iz: plain(raw.iz, "Iz", Dimension::SECOND_MOMENT),
+        j: plain(raw.j, "J", Dimension::SECOND_MOMENT),
+        shear_y: check.optional_positive(
+            raw.asy,
+            &at.key("Asy"),
+            Dimension::AREA,
+            "leave it out for rigid in shear",
+        ),
+        shear_z: check.optional_positive(
+            raw.asz,
+            &at.key("Asz"),
+            Dimension::AREA,
+            "leave it out for rigid in shear",
+        ),
+        mass: material.map_or(0.0, |material| material.density * area),
+    }
+}
+
+/// Checks that sections have what their members need: an area, and for beams second moments and torsion too.
+pub(super) fn complete(raw: &RawSpec, root: &Place<'_>, model: &Model, check: &mut Check<'_>) {
+    let list = root.key("sections");
+    for (index, (section, raw)) in model.sections.iter().zip(raw.sections.iter().flatten()).enumerate() {
+        let at = list.index(index);
+        let mut users = model.members.iter().filter(|member| member.section == index).peekable();
+        if users.peek().is_none() {
+            continue;
+        }
+        let beams = users.any(|member| member.kind == Kind::Beam);
+        for (key, value) in [("A", raw.area), ("Iy", raw.iy), ("Iz", raw.iz), ("J", raw.j)] {
+            if value.is_none() && (beams || key == "A") {
+                let user = if beams { "beams" } else { "members" };
+                check.faults.add(
+                    Fault::new(&at, format!("missing key `{key}`")).hint(format!("{user} use this section")),
+                );
+            }
+        }
+        let sheared =
+            model.theory == Theory::Timoshenko && (section.shear_y.is_some() || section.shear_z.is_some());
+        if beams && section.g == 0.0 && (section.j > 0.0 || sheared) {
+            let fault = Fault::new(&at, "its material needs `G`");
+            check.faults.add(fault.hint("torsion and shear of beams depend on the shear modulus"));
+        }
+    }
+}

@@ -1,0 +1,326 @@
+//! Units of length and force, exact factors between them, and dimensions.
+//!
+//! Time is in seconds everywhere; mass is force time^2 / length.
+
+use serde::Deserialize;
+
+use crate::fault::Faults;
+use crate::place::Place;
+
+/// Unit of length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Length {
+    /// Foot, 0.3048 m.
+    Foot,
+    /// Inch, 0.0254 m.
+    Inch,
+    /// Metre.
+    Metre,
+    /// Millimetre.
+    Millimetre,
+}
+
+/// Unit of force.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Force {
+    /// Pound-force, 4.4482216152605 N.
+    Pound,
+    /// 1000 pound-force.
+    Kip,
+    /// Newton.
+    Newton,
+    /// Kilonewton.
+    Kilonewton,
+}
+
+impl Length {
+    const WORDS: [(&'static str, Length); 4] =
+        [("ft", Length::Foot), ("in", Length::Inch), ("m", Length::Metre), ("mm", Length::Millimetre)];
+
+    /// The unit as a whole number of 0.1 mm.
+    const fn count(self) -> u128 {
+        match self {
+            Length::Foot => 3048,
+            Length::Inch => 254,
+            Length::Metre => 10_000,
+            Length::Millimetre => 10,
+        }
+    }
+
+    /// Its word in files.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Length::Foot => "ft",
+            Length::Inch => "in",
+            Length::Metre => "m",
+            Length::Millimetre => "mm",
+        }
+    }
+}
+
+impl Force {
+    const WORDS: [(&'static str, Force); 4] =
+        [("lbf", Force::Pound), ("kip", Force::Kip), ("N", Force::Newton), ("kN", Force::Kilonewton)];
+
+    /// The unit as a whole number of 1e-13 N.
+    const fn count(self) -> u128 {
+        match self {
+            Force::Pound => 44_482_216_152_605,
+            Force::Kip => 44_482_216_152_605_000,
+            Force::Newton => 10_000_000_000_000,
+            Force::Kilonewton => 10_000_000_000_000_000,
+        }
+    }
+
+    /// Its word in files.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Force::Pound => "lbf",
+            Force::Kip => "kip",
+            Force::Newton => "N",
+            Force::Kilonewton => "kN",
+        }
+    }
+}
+
+/// The units of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Units {
+    /// Unit of length.
+    pub length: Length,
+    /// Unit of force.
+    pub force: Force,
+}
+
+/// The member `units` as written.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub struct RawUnits {
+    length: Option<String>,
+    force: Option<String>,
+    time: Option<String>,
+}
+
+impl Units {
+    /// Reads the member `units` of the document at `place`.
+    pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
+        let raw = faults.need(raw, place, "units")?;
+        let at = place.key("units");
+        let length = faults
+            .need(&raw.length, &at, "length")
+            .and_then(|word| faults.word(word, &at.key("length"), &Length::WORDS));
+        let force = faults
+            .need(&raw.force, &at, "force")
+            .and_then(|word| faults.word(word, &at.key("force"), &Force::WORDS));
+        if let Some(word) = faults.need(&raw.time, &at, "time") {
+            faults.word(word, &at.key("time"), &[("s", ())]);
+        }
+        Some(Units { length: length?, force: force? })
+    }
+
+    /// The member `units` of a file in these units.
+    #[must_use]
+    pub fn json(self) -> serde_json::Value {
+        serde_json::json!({ "length": self.length.word(), "force": self.force.word(), "time": "s" })
+    }
+
+    /// The unit of a quantity in words, such as `lbf s/ft`.
+    #[must_use]
+    pub fn label(self, dimension: Dimension) -> String {
+        let powers = [
+            (self.force.word(), dimension.force),
+            (self.length.word(), dimension.length),
+            ("s", dimension.time),
+        ];
+        let join = |sign: i32| {
+            let words: Vec<String> =
+                powers
+                    .iter()
+                    .filter(|(_, power)| power * sign > 0)
+                    .map(|(word, power)| {
+                        if power.abs() == 1 { (*word).to_owned() } else { format!("{word}^{}", power.abs()) }
+                    })
+                    .collect();
+            words.join(" ")
+        };
+        match (join(1), join(-1)) {
+            (over, under) if under.is_empty() => over,
+            (over, under) => {
+                let over = if over.is_empty() { "1".to_owned() } else { over };
+                if under.contains(' ') { format!("{over}/({under})") } else { format!("{over}/{under}") }
+            }
+        }
+    }
+}
+
+/// Powers of length, force and time of a quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dimension {
+    /// Power of length.
+    pub length: i32,
+    /// Power of force.
+    pub force: i32,
+    /// Power of time.
+    pub time: i32,
+}
+
+impl Dimension {
+    const fn of(length: i32, force: i32, time: i32) -> Self {
+        Dimension { length, force, time }
+    }
+
+    /// A pure number, or radians.
+    pub const NUMBER: Dimension = Dimension::of(0, 0, 0);
+    /// Length.
+    pub const LENGTH: Dimension = Dimension::of(1, 0, 0);
+    /// Area.
+    pub const AREA: Dimension = Dimension::of(2, 0, 0);
+    /// Second moment of area, torsion constant.
+    pub const SECOND_MOMENT: Dimension = Dimension::of(4, 0, 0);
+    /// Force.
+    pub const FORCE: Dimension = Dimension::of(0, 1, 0);
+    /// Moment, torque; also a rotational stiffness per radian; energy.
+    pub const MOMENT: Dimension = Dimension::of(1, 1, 0);
+    /// Modulus, stress.
+    pub const STRESS: Dimension = Dimension::of(-2, 1, 0);
+    /// Stiffness.
+    pub const STIFFNESS: Dimension = Dimension::of(-1, 1, 0);
+    /// Influence coefficient: displacement per force.
+    pub const FLEXIBILITY: Dimension = Dimension::of(1, -1, 0);
+    /// Damping: force per speed.
+    pub const DAMPING: Dimension = Dimension::of(-1, 1, 1);
+    /// Mass.
+    pub const MASS: Dimension = Dimension::of(-1, 1, 2);
+    /// Mass per length.
+    pub const LINE_MASS: Dimension = Dimension::of(-2, 1, 2);
+    /// Mass per volume.
+    pub const DENSITY: Dimension = Dimension::of(-4, 1, 2);
+    /// Moment of inertia.
+    pub const INERTIA: Dimension = Dimension::of(1, 1, 2);
+    /// Speed.
+    pub const SPEED: Dimension = Dimension::of(1, 0, -1);
+    /// Acceleration.
+    pub const ACCELERATION: Dimension = Dimension::of(1, 0, -2);
+    /// Time.
+    pub const TIME: Dimension = Dimension::of(0, 0, 1);
+}
+
+/// Conversion from the units of one file to those of another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Scale {
+    /// Units of the numbers given.
+    pub from: Units,
+    /// Units wanted.
+    pub to: Units,
+}
+
+impl Scale {
+    /// The factor of a quantity: exactly 1 between equal units, otherwise the ratio of two whole
+    /// numbers (the defining values of the units), each rounded at most once.
+    #[must_use]
+    pub fn factor(&self, dimension: Dimension) -> f64 {
+        let length = power(self.from.length.count(), self.to.length.count(), dimension.length);
+        let force = power(self.from.force.count(), self.to.force.count(), dimension.force);
+        let (over, under) = reduced(length.0 * force.0, length.1 * force.1);
+        over as f64 / under as f64
+    }
+
+    /// The factor of a stiffness in force per length^`exponent`, for a power law.
+    #[must_use]
+    pub fn power_law(&self, exponent: f64) -> f64 {
+        if exponent == 1.0 {
+            return self.factor(Dimension::STIFFNESS);
+        }
+        self.factor(Dimension::FORCE) / self.factor(Dimension::LENGTH).powf(exponent)
+    }
+}
+
+fn power(from: u128, to: u128, exponent: i32) -> (u128, u128) {
+    let (from, to) = reduced(from, to);
+    let raised = (from.pow(exponent.unsigned_abs()), to.pow(exponent.unsigned_abs()));
+    if exponent < 0 { (raised.1, raised.0) } else { raised }
+}
+
+fn reduced(a: u128, b: u128) -> (u128, u128) {
+    let (mut x, mut y) = (a, b);
+    while y != 0 {
+        (x, y) = (y, x % y);
+    }
+    (a / x, b / x)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FT_LBF: Units = Units { length: Length::Foot, force: Force::Pound };
+    const IN_KIP: Units = Units { length: Length::Inch, force: Force::Kip };
+    const M_N: Units = Units { length: Length::Metre, force: Force::Newton };
+    const MM_KN: Units = Units { length: Length::Millimetre, force: Force::Kilonewton };
+
+    const ALL: [Dimension; 6] = [
+        Dimension::LENGTH,
+        Dimension::SECOND_MOMENT,
+        Dimension::STRESS,
+        Dimension::DAMPING,
+        Dimension::DENSITY,
+        Dimension::INERTIA,
+    ];
+
+    #[test]
+    fn equal_units_have_a_factor_of_exactly_one() {
+        for units in [FT_LBF, IN_KIP, M_N, MM_KN] {
+            for dimension in ALL {
+                assert_eq!(Scale { from: units, to: units }.factor(dimension).to_bits(), 1f64.to_bits());
+            }
+        }
+    }
+
+    #[test]
+    fn factors_are_the_defining_values() {
+        let to_si = Scale { from: FT_LBF, to: M_N };
+        assert_eq!(to_si.factor(Dimension::LENGTH), 0.3048);
+        assert_eq!(to_si.factor(Dimension::FORCE), 4.4482216152605);
+        // pascals in a pound-force per square foot, from the definitions of the foot and the pound
+        let psf = 4.448_221_615_260_5 / 0.092_903_04;
+        assert!((to_si.factor(Dimension::STRESS) / psf - 1.0).abs() < 4.0 * f64::EPSILON);
+        let to_inch = Scale { from: FT_LBF, to: IN_KIP };
+        assert_eq!(to_inch.factor(Dimension::LENGTH), 12.0);
+        assert_eq!(to_inch.factor(Dimension::SECOND_MOMENT), 20736.0);
+        assert_eq!(to_inch.factor(Dimension::FORCE), 1e-3);
+        assert_eq!(to_inch.factor(Dimension::STRESS), 1.0 / 144_000.0);
+        // one slug in kilograms: 4.4482216152605 / 0.3048
+        assert_eq!(to_si.factor(Dimension::MASS), 14.593_902_937_206_364);
+    }
+
+    #[test]
+    fn there_and_back_is_one_to_a_rounding() {
+        for from in [FT_LBF, IN_KIP, M_N, MM_KN] {
+            for to in [FT_LBF, IN_KIP, M_N, MM_KN] {
+                for dimension in ALL {
+                    let there = Scale { from, to }.factor(dimension);
+                    let back = Scale { from: to, to: from }.factor(dimension);
+                    assert!((there * back - 1.0).abs() < 1e-15, "{from:?} {to:?} {dimension:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn power_law_of_exponent_one_is_a_stiffness() {
+        let scale = Scale { from: FT_LBF, to: M_N };
+        assert_eq!(scale.power_law(1.0), scale.factor(Dimension::STIFFNESS));
+        let cubic = scale.power_law(3.0);
+        assert!((cubic / (4.4482216152605 / 0.3048f64.powi(3)) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn labels_read_as_an_engineer_writes_them() {
+        assert_eq!(FT_LBF.label(Dimension::DAMPING), "lbf s/ft");
+        assert_eq!(M_N.label(Dimension::STRESS), "N/m^2");
+        assert_eq!(MM_KN.label(Dimension::FLEXIBILITY), "mm/kN");
+        assert_eq!(FT_LBF.label(Dimension::NUMBER), "");
+    }
+}
