@@ -45,6 +45,9 @@ impl Graph {
 /// minimum degree, and dissection at the places `at`.
 pub(crate) fn order(graph: &Graph, at: &[[f64; 3]]) -> Vec<usize> {
     let dissected = dissect(graph, at);
+    if graph.len() <= LEAF {
+        return dissected;
+    }
     match minimum_degree(graph) {
         Some(order) if work(graph, &order) < work(graph, &dissected) => order,
         _ => dissected,
