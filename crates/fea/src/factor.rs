@@ -238,12 +238,26 @@ impl Work {
         for other in others {
             let mut sum = 0.0;
             for (start, run) in other.runs() {
-                sum += run.iter().zip(&self.x[start..start + run.len()]).map(|(a, b)| a * b).sum::<f64>();
+                sum += dot(run, &self.x[start..start + run.len()]);
             }
             each(sum);
         }
         tail.runs().for_each(|(start, run)| self.x[start..start + run.len()].fill(0.0));
     }
+}
+
+/// Sum of products in four lanes, in an order that depends on the length alone.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (fours, rest) = a.as_chunks::<4>();
+    let (others, last) = b.as_chunks::<4>();
+    let mut lanes = [0.0; 4];
+    for (p, q) in fours.iter().zip(others) {
+        for (lane, (x, y)) in lanes.iter_mut().zip(p.iter().zip(q)) {
+            *lane += x * y;
+        }
+    }
+    let tail: f64 = rest.iter().zip(last).map(|(x, y)| x * y).sum();
+    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]) + tail
 }
 
 impl Tail {
