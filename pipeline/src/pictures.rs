@@ -3,6 +3,7 @@
 use splines::{Axis as Direction, Compliance, Influence, Probe};
 
 use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot};
+use crate::crosscheck::Quantity;
 use crate::link::Solved;
 use crate::motion::Cast;
 use crate::record::{Record, peak};
@@ -150,8 +151,11 @@ pub fn structure(name: &str, units: Units, solved: &Solved) -> Result<Vec<Plate>
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
     let supports: Vec<f64> = solved.model.supports.iter().map(|support| solved.model.points[support.point][0]).collect();
-    for (axis, word) in [(Direction::Vertical, "vertical"), (Direction::Lateral, "lateral")] {
-        let (Some(grid), true) = (solved.grids.get(&(axis, axis)), solved.rails.len() == 1) else { continue };
+    for (quantity, axis, word) in [
+        (Quantity::Vertical, Direction::Vertical, "vertical"),
+        (Quantity::Lateral, Direction::Lateral, "lateral"),
+    ] {
+        let (Some(grid), true) = (solved.grid.block(quantity), solved.rails.len() == 1) else { continue };
         let stations = &solved.rails[0].stations;
         let table = SurfacePlot {
             title: format!("{name}: {word} influence coefficients"),

@@ -167,7 +167,9 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    const fn of(length: i32, force: i32, time: i32) -> Self {
+    /// Powers of length, force and time.
+    #[must_use]
+    pub const fn of(length: i32, force: i32, time: i32) -> Self {
         Dimension { length, force, time }
     }
 

@@ -57,9 +57,6 @@ impl Plane {
     /// theta' = c (m0 - V x), v' = theta + g V; both vanish at the far clamp.
     fn green(&self, a: f64, [f, m]: [f64; 2], b: f64, [force, moment]: [f64; 2]) -> Green {
         let Plane { c, g, l, per_l, inverse } = *self;
-        if inverse == 0.0 {
-            return Green::default();
-        }
         let q = l - b;
         let v = (force * q * (c * q * (3.0 * l - 2.0 * q) + 12.0 * g) - 6.0 * c * moment * q * b) * inverse;
         let m0 = 0.5 * v * l + q * (moment - 0.5 * force * q) * per_l;
@@ -75,7 +72,36 @@ impl Plane {
         }
     }
 
+    /// v(a) under a unit force at b, where a <= b: [`Plane::green`] without moments.
+    #[inline]
+    fn force(&self, a: f64, b: f64) -> Green {
+        let Plane { c, g, l, per_l, inverse } = *self;
+        let q = l - b;
+        let v = q * (c * q * (3.0 * l - 2.0 * q) + 12.0 * g) * inverse;
+        let m0 = 0.5 * (v * l - q * q * per_l);
+        let dv = (6.0 * c * q * b + 12.0 * g) * inverse;
+        let dm0 = 0.5 * dv * l - q * per_l;
+        Green {
+            value: a * (g * v + c * a * (0.5 * m0 - v * a * (1.0 / 6.0))),
+            first: g * v + c * a * (m0 - 0.5 * v * a),
+            second: -a * (g * dv + c * a * (0.5 * dm0 - dv * a * (1.0 / 6.0))),
+        }
+    }
+
     fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Green {
+        if self.inverse == 0.0 {
+            return Green::default();
+        }
+        if p[1] == 0.0 && q[1] == 0.0 {
+            let one = if s <= t { self.force(s, t) } else { self.force(t, s).swapped() };
+            let one = if s == t { one.mean(one.swapped()) } else { one };
+            let factor = p[0] * q[0];
+            return Green {
+                value: factor * one.value,
+                first: factor * one.first,
+                second: factor * one.second,
+            };
+        }
         if s < t {
             self.green(s, p, t, q)
         } else if s > t {

@@ -39,6 +39,9 @@ struct Track {
 #[derive(Clone, Copy, Debug)]
 struct Span {
     x: [f64; 2],
+    /// Inverse of the extent in x, and the member's length.
+    scale: f64,
+    length: f64,
     cell: usize,
     /// At `x[0]` the cell before this one, listed earlier, carries the probe.
     yields: bool,
@@ -106,15 +109,12 @@ impl Line {
         if ready.free[axis] {
             return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
         }
-        let width = span.x[1] - span.x[0];
-        let r = ((p.x - span.x[0]) / width).clamp(0.0, 1.0);
-        let scale = 1.0 / width;
-        let length = self.cells[span.cell].length;
+        let r = if p.x >= span.x[1] { 1.0 } else { ((p.x - span.x[0]) * span.scale).clamp(0.0, 1.0) };
         row.cell = span.cell;
         row.axis = axis;
-        row.s = r * length;
-        row.rate = length * scale;
-        row.evaluate(&ready.terms[axis], r, scale);
+        row.s = r * span.length;
+        row.rate = span.length * span.scale;
+        row.evaluate(&ready.terms[axis], r, span.scale);
         Ok(())
     }
 
@@ -172,20 +172,20 @@ impl Line {
         }
     }
 
-    fn find(&self, rail: usize, x: f64) -> Result<Span, Error> {
+    fn find(&self, rail: usize, x: f64) -> Result<&Span, Error> {
         let Track { slack, cells, .. } = self.track(rail).ok_or(Error::NoRail { rail })?;
         let after = cells.partition_point(|span| span.x[0] <= x);
         if let Some(k) = after.checked_sub(1) {
-            let span = cells[k];
+            let span = &cells[k];
             if x == span.x[0] && span.yields {
-                return Ok(cells[k - 1]);
+                return Ok(&cells[k - 1]);
             }
             if x <= span.x[1] + slack {
                 return Ok(span);
             }
         }
         match cells.get(after) {
-            Some(span) if span.x[0] - x <= *slack => Ok(*span),
+            Some(span) if span.x[0] - x <= *slack => Ok(span),
             _ => Err(Error::OffRail { rail, x }),
         }
     }
@@ -202,14 +202,18 @@ fn tracks(cells: &[Cell]) -> Result<Vec<Track>, Error> {
         let rail = cells[same[0]].rail;
         let largest = same.iter().flat_map(|&k| cells[k].x).fold(0.0_f64, |a, x| a.max(x.abs()));
         let slack = SLACK * largest;
-        let mut spans = vec![Span { x: cells[same[0]].x, cell: same[0], yields: false }];
+        let span = |cell: usize, yields| {
+            let Cell { x, length, .. } = cells[cell];
+            Span { x, scale: 1.0 / (x[1] - x[0]), length, cell, yields }
+        };
+        let mut spans = vec![span(same[0], false)];
         for pair in same.windows(2) {
             let (before, cell) = (pair[0], pair[1]);
             let (end, start) = (cells[before].x[1], cells[cell].x[0]);
             if end > start + slack {
                 return Err(Error::Overlap { rail, first: before, second: cell, x: start });
             }
-            spans.push(Span { x: cells[cell].x, cell, yields: end >= start && before < cell });
+            spans.push(span(cell, end >= start && before < cell));
         }
         tracks.push(Track { rail, slack, cells: spans });
     }

@@ -38,15 +38,16 @@ fn table_with_all_digits_is_raised_without_loss() {
     }
 }
 
-/// Three truncated digits: EI within a percent, the surface within half a percent, where AKISPL errs by seven.
+/// Three truncated digits: the surface within half a percent, where AKISPL errs by seven. External: least
+/// squares on an independent prototype found EI 1.0020 times too large.
 #[test]
 fn printed_table_keeps_only_the_error_of_its_digits() {
     let beam = Beam::paper();
     let lift = lift(0, &table(&VERTICAL)).expect("a beam on knife edges");
-    assert!((1.0 / (lift.bending * EI) - 1.0).abs() < 0.01, "{}", 1.0 / (lift.bending * EI));
+    assert!((1.0 / (lift.bending * EI) - 1.0020).abs() < 5e-5, "{}", 1.0 / (lift.bending * EI));
     assert!(lift.misfit < 5e-3, "{}", lift.misfit);
     let error = error(&lift.surface, &beam, &STATIONS);
-    assert!(error < 6e-3, "{error:e}");
+    assert!(error < 5e-3, "{error:e}");
 }
 
 #[test]

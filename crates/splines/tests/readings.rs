@@ -103,7 +103,8 @@ fn akispl_reads_the_printed_table_as_computed_independently() {
     }
 }
 
-/// Analytic: every printed entry within one unit of its last digit of the girder's closed form.
+/// Regression (the digits were made by this rule, see `printed.rs`): every entry within one unit of its last
+/// digit of the force method.
 #[test]
 fn printed_tables_follow_from_the_girder() {
     let vertical = Beam::paper();

@@ -2,16 +2,15 @@
 
 mod parts;
 
-use std::collections::BTreeMap;
-
-use fea::{Certificate, Frame};
+use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Kind, Probe, Reading, Sheet, Surface, Table};
+use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
 
 use crate::exit::Failure;
+use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
-use crate::spec::{Form, Spec, Theory};
+use crate::spec::{Form, Spec};
 
 /// A structure's FE model, solved.
 pub struct Solved {
@@ -21,71 +20,26 @@ pub struct Solved {
     pub rails: Vec<fea::Rail>,
     /// Exact influence surface.
     pub surface: Surface,
-    /// Probes of the grid: all stations of all rails, for each available direction.
-    pub probes: BTreeMap<Axis, Vec<Probe>>,
-    /// Grids by (row direction, column direction), in the order of `probes`; couplings once.
-    pub grids: BTreeMap<(Axis, Axis), DMatrix<f64>>,
-    /// How far to trust them.
-    pub certificate: Certificate,
+    /// Grids at the stations.
+    pub grid: Grid,
     /// The girder, where the structure is one.
     pub girder: Option<fea::Girder>,
-}
-
-/// The FE girder of a spec's short form.
-#[must_use]
-pub fn girder(spec: &Spec) -> fea::Girder {
-    let Form::Girder(short) = &spec.form;
-    fea::Girder {
-        spans: short.spans.clone(),
-        overhangs: short.overhangs,
-        e: short.e,
-        g: short.g,
-        area: short.area,
-        i_vertical: short.i_vertical,
-        i_lateral: short.i_lateral,
-        j: short.j,
-        ka_vertical: short.ka_vertical,
-        ka_lateral: short.ka_lateral,
-        rail_height: short.rail_height,
-        mass_per_length: short.mass_per_length,
-        theory: match spec.theory {
-            Theory::EulerBernoulli => fea::Theory::EulerBernoulli,
-            Theory::Timoshenko => fea::Theory::Timoshenko,
-        },
-        stations: short.stations.clone(),
-    }
 }
 
 /// Solves a spec: grid at its stations and exact surface.
 ///
 /// # Errors
-/// A mechanism, or numbers that cannot be trusted.
-pub fn solve(spec: &Spec) -> Result<Solved, Failure> {
-    let girder = girder(spec);
-    let (model, rail) = girder.frame().map_err(untrusted)?;
-    let rails = vec![rail];
-    let frame = Frame::new(&model, &rails).map_err(untrusted)?;
-    let exact = frame.surface().map_err(untrusted)?;
-    let mut probes = BTreeMap::new();
-    for axis in Axis::ALL {
-        if (0..rails.len()).all(|rail| frame.available(rail, axis)) {
-            let all = rails.iter().enumerate().flat_map(|(rail, outline)| {
-                outline.stations.iter().map(move |&x| Probe { rail, x, axis })
-            });
-            probes.insert(axis, all.collect::<Vec<Probe>>());
-        }
-    }
-    let at: Vec<Probe> = probes.values().flatten().copied().collect();
-    let grid = frame.grid(&at).map_err(untrusted)?;
-    let mut grids = BTreeMap::new();
-    let stations = probes.values().next().map_or(0, Vec::len);
-    for (r, &row) in probes.keys().enumerate() {
-        for (c, &column) in probes.keys().enumerate() {
-            let block = grid.value.view((r * stations, c * stations), (stations, stations)).into_owned();
-            grids.insert((row, column), block);
-        }
-    }
-    Ok(Solved { model, rails, surface: exact.surface, probes, grids, certificate: exact.certificate, girder: Some(girder) })
+/// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
+pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
+    let (model, rails) = spec.model()?;
+    let frame = Frame::new(&model, &rails)?;
+    let exact = frame.surface()?;
+    let grid = Grid::of(spec, &frame)?;
+    let girder = match &spec.form {
+        Form::Girder(girder) => Some(girder.clone()),
+        Form::Frame(_) => None,
+    };
+    Ok(Solved { model, rails, surface: exact.surface, grid, girder })
 }
 
 /// The foundation of one structure of a scene.
@@ -139,9 +93,13 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
                 for (c, column) in solved.rails.iter().enumerate() {
                     let stations: [&[f64]; 2] = [&row.stations, &column.stations];
                     let size = stations.map(<[f64]>::len);
-                    for (&(a, b), grid) in solved.grids.iter().filter(|((a, b), _)| (r, a) <= (c, b)) {
-                        let block = grid.view((first, left), (size[0], size[1])).into_owned();
-                        add((r, a), (c, b), stations, block)?;
+                    for (quantity, grid) in &solved.grid.blocks {
+                        let (a, b) = axes(*quantity);
+                        // one of (row, column) and (column, row) is enough where both are the same block
+                        if a != b || r <= c {
+                            let block = grid.view((first, left), (size[0], size[1])).into_owned();
+                            add((r, a), (c, b), stations, block)?;
+                        }
                     }
                     left += column.stations.len();
                 }

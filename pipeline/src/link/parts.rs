@@ -59,7 +59,8 @@ fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
 /// Compliance of the parts' centres, six freedoms each.
 fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Failure> {
     let (whole, _) = girder.frame().map_err(untrusted)?;
-    let mut model = Model { up: whole.up, theory: whole.theory, sections: whole.sections.clone(), ..Model::default() };
+    let mut model =
+        Model { up: whole.up, theory: whole.theory, sections: whole.sections.clone(), ..Model::default() };
     model.points = centres.iter().map(|&x| [x, 0.0, 0.0]).collect();
     for j in 1..centres.len() {
         model.members.push(Member {
@@ -124,7 +125,8 @@ fn with_mass(
     let largest = eigen.eigenvalues.max();
     let kept: Vec<usize> = (0..size).filter(|&k| eigen.eigenvalues[k] > RIGID * largest).collect();
     let basis = DMatrix::from_fn(size, kept.len(), |i, k| eigen.eigenvectors[(i, kept[k])] / scale[i]);
-    let stiffness = DMatrix::from_diagonal(&DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]));
+    let stiffness =
+        DMatrix::from_diagonal(&DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]));
     let area = girder.area.unwrap_or(f64::INFINITY);
     let polar = (girder.i_vertical + girder.i_lateral.unwrap_or(girder.i_vertical)) / area;
     let lumped = DVector::from_fn(size, |i, _| {

@@ -1,6 +1,6 @@
 //! SPLINE statements of ADAMS data sets, as text.
 //!
-//! [`write`] makes a data set that [`read`] turns into the same numbers, bit for bit. [`read`] takes data sets
+//! [`write()`] makes a data set that [`read()`] turns into the same numbers, bit for bit. [`read()`] takes data sets
 //! of any content and keeps their SPLINE and UNITS statements.
 
 mod lexer;

@@ -1,0 +1,101 @@
+//! `summary.json`: what a run found, in numbers.
+
+use serde_json::{Map, Value, json};
+use sim::{Run, Status};
+
+use crate::record::Record;
+use crate::scene::{Analysis, Scene};
+use crate::units::Dimension;
+
+/// Word of a run's status, and what it means for the user where it is not "done".
+#[must_use]
+pub fn status(status: &Status) -> (&'static str, Option<String>) {
+    match status {
+        Status::Done => ("done", None),
+        Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
+        Status::StepTooSmall(t) => {
+            ("step too small", Some(format!("no step was small enough at t = {t} s: the motion cannot be followed")))
+        }
+        Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
+    }
+}
+
+/// One run as JSON.
+#[must_use]
+pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
+    let (word, why) = status(&run.status);
+    let structures: Map<String, Value> = scene
+        .structures
+        .iter()
+        .map(|structure| {
+            let reason = if structure.auto { "auto: the lowest rung that gives way; mass of the structure left out" } else { "asked for" };
+            let entry = json!({
+                "foundation": structure.foundation.word(),
+                "reading": structure.reading.word(),
+                "reason": reason,
+            });
+            (structure.name.clone(), entry)
+        })
+        .collect();
+    let mut result = json!({
+        "status": word,
+        "analysis": match scene.analysis { Analysis::Dynamic => "dynamic", Analysis::QuasiStatic => "quasi-static" },
+        "foundation": structures,
+        "peaks": peaks(record),
+        "steps": {
+            "accepted": run.counts.steps,
+            "rejected": run.counts.rejected,
+            "stages": run.counts.stages,
+            "events": run.counts.events,
+        },
+    });
+    if let Some(why) = why {
+        result["why"] = json!(why);
+    }
+    if scene.analysis == Analysis::Dynamic {
+        let lost = &run.audit.exchanged;
+        result["energy"] = json!({
+            "residual": run.audit.residual(),
+            "peak_stored": run.audit.peak_stored,
+            "lost": {
+                "dampers": lost.dampers,
+                "friction": lost.friction,
+                "flanges": lost.flanges,
+                "handover": lost.handover,
+                "structure": lost.structure,
+                "switches": lost.switches,
+            },
+            "put_in": lost.drives,
+        });
+    }
+    result
+}
+
+/// Largest and smallest value of every column, and when.
+fn peaks(record: &Record) -> Value {
+    let time = record.values("time");
+    let mut peaks = Map::new();
+    for column in record.columns.iter().skip(1).filter(|column| !column.values.is_empty()) {
+        let mut at = [0, 0];
+        for (i, value) in column.values.iter().enumerate() {
+            if *value > column.values[at[0]] {
+                at[0] = i;
+            }
+            if *value < column.values[at[1]] {
+                at[1] = i;
+            }
+        }
+        let [most, least] = at.map(|i| json!({ "value": column.values[i] + 0.0, "time": time[i] }));
+        peaks.insert(column.name.clone(), json!({ "max": most, "min": least }));
+    }
+    Value::Object(peaks)
+}
+
+/// Units of the columns.
+#[must_use]
+pub fn units(scene: &Scene, record: &Record) -> Value {
+    let label = |dimension: Dimension| {
+        if dimension == Dimension::NUMBER { "rad".to_owned() } else { scene.units.label(dimension) }
+    };
+    Value::Object(record.columns.iter().map(|column| (column.name.clone(), json!(label(column.dimension)))).collect())
+}
