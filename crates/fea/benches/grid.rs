@@ -1,6 +1,6 @@
 //! Time from a model to its influence grid.
 
-use fea::{Girder, Theory, grid, surface};
+use fea::{Girder, Kind, Member, Model, Rail, Section, Segment, Support, Theory, grid, surface};
 use splines::{Axis, Probe};
 
 fn main() {
@@ -42,4 +42,57 @@ fn paper_surface(bencher: divan::Bencher) {
     let (model, rail) = girder().frame().expect("the numbers are sound");
     let rails = [rail];
     bencher.bench(|| surface(&model, &rails));
+}
+
+/// A runway of ten elements a bay on columns of four, all ends rigid.
+fn runway(bays: usize) -> (Model, Rail) {
+    let section = |i: f64| Section {
+        e: 4.32e9,
+        g: 1.66e9,
+        area: 0.6,
+        iy: 0.3 * i,
+        iz: i,
+        j: 0.02,
+        ..Section::default()
+    };
+    let mut model =
+        Model { sections: vec![section(4.0), section(1.5)], up: [0.0, 1.0, 0.0], ..Model::default() };
+    let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
+    let member = |points, section, orientation| Member {
+        points,
+        kind: Kind::Beam,
+        section,
+        orientation,
+        offsets: [[0.0; 3]; 2],
+        releases: [[false; 6]; 2],
+    };
+    for k in 0..=10 * bays {
+        model.points.push([4.0 * k as f64, 40.0, 0.0]);
+        if k > 0 {
+            rail.segments.push(Segment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
+            model.members.push(member([k - 1, k], 0, [0.0, 1.0, 0.0]));
+        }
+    }
+    for bay in 0..=bays {
+        let mut above = 10 * bay;
+        for level in (0..4).rev() {
+            model.points.push([40.0 * bay as f64, 10.0 * f64::from(level), 0.0]);
+            let below = model.points.len() - 1;
+            model.members.push(member([below, above], 1, [0.0, 0.0, 1.0]));
+            above = below;
+        }
+        model.supports.push(Support { point: above, fix: [true; 6] });
+    }
+    (model, rail)
+}
+
+#[divan::bench(args = [10, 104, 1040], sample_count = 10)]
+fn runway_400_loads(bencher: divan::Bencher, bays: usize) {
+    let (model, rail) = runway(bays);
+    let rails = [rail];
+    let end = 40.0 * bays as f64;
+    let at: Vec<Probe> = (0..400)
+        .map(|k| Probe { rail: 0, x: end * (f64::from(k) + 0.5) / 400.0, axis: Axis::Vertical })
+        .collect();
+    bencher.bench(|| grid(&model, &rails, &at));
 }

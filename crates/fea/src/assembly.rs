@@ -6,7 +6,7 @@ use sprs::{CsMat, TriMat};
 use crate::element::{Element, Matrix12};
 use crate::freedoms::Freedoms;
 use crate::model::Model;
-use crate::order::order;
+use crate::order::{Graph, order};
 
 /// The scaled stiffness S K S of the unknowns, S diagonal, powers of two.
 #[derive(Debug)]
@@ -97,7 +97,8 @@ impl Assembly {
 
         let mut unknown = vec![None; columns];
         let mut column = Vec::new();
-        for body in order(freedoms.bodies.len(), &edges) {
+        let at: Vec<[f64; 3]> = freedoms.bodies.iter().map(|body| m.points[body.reference]).collect();
+        for body in order(&Graph::new(at.len(), &edges), &at) {
             for k in (0..6).filter(|&k| freedoms.bodies[body].free[k] && diagonal[6 * body + k] > 0.0) {
                 unknown[6 * body + k] = Some(column.len());
                 column.push(6 * body + k);

@@ -26,16 +26,23 @@ pub(crate) struct Element {
     pub axes: Matrix3<f64>,
     pub length: f64,
     pub flexibility: Flexibility,
-    /// Whether anything is released at each end.
-    pub released: [bool; 2],
     /// Local stiffness between the tips of the arms, releases condensed.
     pub stiffness: Matrix12,
     /// Diagonal of the stiffness before releases: the scale of its rounding.
     pub scale: [f64; 12],
-    /// Local displacements of the flexible ends by those of the tips of the arms.
+    /// What its releases do; `None` without any.
+    pub released: Option<Box<Released>>,
+}
+
+/// Motion of the flexible ends of a member with releases, local.
+#[derive(Clone, Debug)]
+pub(crate) struct Released {
+    /// Whether anything is released at each end.
+    pub ends: [bool; 2],
+    /// Displacements of the flexible ends by those of the tips of the arms.
     pub recovery: Matrix12,
-    /// Local displacements of the flexible ends per load on them while the tips of the arms are held:
-    /// zero but between released freedoms.
+    /// Displacements of the flexible ends per load on them while the tips of the arms are held: zero
+    /// but between released freedoms.
     pub slack: Matrix12,
 }
 
@@ -62,25 +69,17 @@ impl Element {
         }
         let mut stiffness = stiffness(&flexibility, length);
         let scale = std::array::from_fn(|k| stiffness[(k, k)]);
-        let (recovery, slack) = condense(&mut stiffness, &member.releases).map_err(|k| Error::Released {
-            member: index,
-            end: k / 6,
-            freedom: Freedom::ALL[k % 6],
-        })?;
-        let released = member.releases.map(|set| set.contains(&true));
-        Ok(Element {
-            points: member.points,
-            ends,
-            offsets,
-            axes,
-            length,
-            flexibility,
-            released,
-            stiffness,
-            scale,
-            recovery,
-            slack,
-        })
+        let ends_released = member.releases.map(|set| set.contains(&true));
+        let released = if ends_released.contains(&true) {
+            let named =
+                |k: usize| Error::Released { member: index, end: k / 6, freedom: Freedom::ALL[k % 6] };
+            let (recovery, slack) = condense(&mut stiffness, &member.releases).map_err(named)?;
+            Some(Box::new(Released { ends: ends_released, recovery, slack }))
+        } else {
+            None
+        };
+        let points = member.points;
+        Ok(Element { points, ends, offsets, axes, length, flexibility, stiffness, scale, released })
     }
 
     /// Rotation of a vector pair into local axes.
@@ -167,9 +166,7 @@ fn condense(k: &mut Matrix12, releases: &[[bool; 6]; 2]) -> Result<(Matrix12, Ma
     let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)]);
     let mut recovery = Matrix12::identity();
     let mut slack = Matrix12::zeros();
-    let mut any = false;
     for r in (0..12).filter(|&r| releases[r / 6][r % 6]) {
-        any = true;
         let pivot = k[(r, r)];
         if before[r] == 0.0 {
             recovery.row_mut(r).fill(0.0);
@@ -190,15 +187,13 @@ fn condense(k: &mut Matrix12, releases: &[[bool; 6]; 2]) -> Result<(Matrix12, Ma
         recovery.column_mut(r).fill(0.0);
         recovery += share * row;
     }
-    if any {
-        for i in 0..12 {
-            if k[(i, i)] <= GONE * before[i] {
-                k.row_mut(i).fill(0.0);
-                k.column_mut(i).fill(0.0);
-            }
+    for i in 0..12 {
+        if k[(i, i)] <= GONE * before[i] {
+            k.row_mut(i).fill(0.0);
+            k.column_mut(i).fill(0.0);
         }
-        // To the last bit, whatever the order of the products above.
-        *k = (*k + k.transpose()) * 0.5;
     }
+    // To the last bit, whatever the order of the products above.
+    *k = (*k + k.transpose()) * 0.5;
     Ok((recovery, slack))
 }

@@ -192,28 +192,31 @@ impl Factor {
         Work { x: vec![0.0; self.len()], seen: vec![false; self.panels] }
     }
 
-    /// Row and column sums of |L|: bound on | |L| |L^T| | and longest row.
+    /// Largest row sum of |L| |L^T|, and the most entries of a row of L.
     pub fn growth(&self) -> (f64, usize) {
         let n = self.len();
+        let mut columns = vec![0.0_f64; n];
+        self.entries(|_, column, size| columns[column] += size);
         let (mut rows, mut lengths) = (vec![0.0_f64; n], vec![0_usize; n]);
-        let mut column_norm = 0.0_f64;
+        self.entries(|row, column, size| {
+            rows[row] += size * columns[column];
+            lengths[row] += 1;
+        });
+        (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
+    }
+
+    /// Row, column and size of every entry.
+    fn entries(&self, mut each: impl FnMut(usize, usize, f64)) {
         for k in 0..self.panels {
             let panel = self.panel(k);
             let height = panel.width + panel.below.len();
             for j in 0..panel.width {
-                let mut sum = 0.0;
                 for i in j..height {
                     let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
-                    let size = panel.values[j * height + i].abs();
-                    sum += size;
-                    rows[row] += size;
-                    lengths[row] += 1;
+                    each(row, panel.start + j, panel.values[j * height + i].abs());
                 }
-                column_norm = column_norm.max(sum);
             }
         }
-        let row_norm = rows.iter().fold(0.0_f64, |a, &b| a.max(b));
-        (column_norm * row_norm, lengths.into_iter().max().unwrap_or(0))
     }
 }
 
@@ -235,12 +238,26 @@ impl Work {
         for other in others {
             let mut sum = 0.0;
             for (start, run) in other.runs() {
-                sum += run.iter().zip(&self.x[start..start + run.len()]).map(|(a, b)| a * b).sum::<f64>();
+                sum += dot(run, &self.x[start..start + run.len()]);
             }
             each(sum);
         }
         tail.runs().for_each(|(start, run)| self.x[start..start + run.len()].fill(0.0));
     }
+}
+
+/// Sum of products in four lanes, in an order that depends on the length alone.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let (fours, rest) = a.as_chunks::<4>();
+    let (others, last) = b.as_chunks::<4>();
+    let mut lanes = [0.0; 4];
+    for (p, q) in fours.iter().zip(others) {
+        for (lane, (x, y)) in lanes.iter_mut().zip(p.iter().zip(q)) {
+            *lane += x * y;
+        }
+    }
+    let tail: f64 = rest.iter().zip(last).map(|(x, y)| x * y).sum();
+    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]) + tail
 }
 
 impl Tail {
@@ -290,5 +307,78 @@ impl Panel<'_> {
             }
             x[self.start + j] = value / pivot[0];
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{DMatrix, DVector};
+    use sprs::TriMat;
+
+    use super::*;
+
+    /// Positive definite matrix with the given half bandwidth, and its upper triangle.
+    fn banded(n: usize, width: usize) -> (DMatrix<f64>, CsMat<f64>) {
+        let entry = |i: usize, j: usize| match i.abs_diff(j) {
+            0 => 2.0 * width as f64 + 0.1 * (i % 7) as f64,
+            gap if gap <= width => -1.0 + 0.01 * ((i * j) % 13) as f64,
+            _ => 0.0,
+        };
+        let dense = DMatrix::from_fn(n, n, entry);
+        let mut upper = TriMat::new((n, n));
+        for j in 0..n {
+            (j.saturating_sub(width)..=j).for_each(|i| upper.add_triplet(i, j, dense[(i, j)]));
+        }
+        (dense, upper.to_csc())
+    }
+
+    #[test]
+    fn solves_agree_with_a_dense_factor_in_single_columns_and_in_panels() {
+        for (n, width, panels) in [(40, 1, false), (300, 299, true)] {
+            let (dense, upper) = banded(n, width);
+            let factor = Factor::new(&upper).expect("positive definite");
+            assert_eq!(factor.panels < n, panels, "another kind of factor than meant");
+            let inverse = dense.clone().try_inverse().expect("positive definite");
+            let scale = inverse.amax();
+            let mut work = factor.work();
+            let loads = [vec![(3, 1.0)], vec![(n - 1, 1.0), (7, -2.0)]];
+            let tails = loads.each_ref().map(|load| factor.forward(load, &mut work));
+            let full = loads.each_ref().map(|load| {
+                let mut x = DVector::zeros(n);
+                load.iter().for_each(|&(k, value)| x[k] = value);
+                x
+            });
+            for i in 0..2 {
+                let mut products = Vec::new();
+                work.dots(&tails[i], tails.iter(), |product| products.push(product));
+                for j in 0..2 {
+                    let exact = (full[i].transpose() * &inverse * &full[j])[0];
+                    assert!((products[j] - exact).abs() < 1e-13 * scale);
+                }
+                let mut x = full[i].as_slice().to_vec();
+                factor.solve(&mut x);
+                assert!((DVector::from_vec(x) - &inverse * &full[i]).amax() < 1e-13 * scale);
+            }
+        }
+    }
+
+    #[test]
+    fn growth_is_the_norm_of_the_products_and_pivots_the_diagonal() {
+        let (dense, upper) = banded(300, 299);
+        let factor = Factor::new(&upper).expect("positive definite");
+        let l = dense.cholesky().expect("positive definite").l();
+        let bound = (l.abs() * l.abs().transpose()).column_sum().amax();
+        let (growth, longest) = factor.growth();
+        assert!((growth / bound - 1.0).abs() < 1e-12);
+        assert_eq!(longest, 300);
+        let least = l.diagonal().min().powi(2);
+        assert!((factor.least_pivot() / least - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn indefinite_matrices_are_refused() {
+        let (_, upper) = banded(10, 1);
+        let shifted = &upper + &CsMat::eye_csc(10).map(|one: &f64| -5.0 * one);
+        assert_eq!(Factor::new(&shifted).err(), Some(Refusal::Indefinite));
     }
 }

@@ -66,6 +66,8 @@ struct Builder<'a> {
     states: Vec<[Sum; 6]>,
     known: HashMap<(usize, usize, [u64; 3]), usize>,
     slack: BTreeMap<usize, Matrix12>,
+    /// Rail that each member carries.
+    carried: HashMap<usize, usize>,
 }
 
 /// Lays all rails.
@@ -75,8 +77,14 @@ pub(crate) fn lay(
     elements: &[Element],
     freedoms: &Freedoms,
 ) -> Result<Layout, Error> {
-    let mut builder =
-        Builder { elements, freedoms, states: Vec::new(), known: HashMap::new(), slack: BTreeMap::new() };
+    let mut builder = Builder {
+        elements,
+        freedoms,
+        states: Vec::new(),
+        known: HashMap::new(),
+        slack: BTreeMap::new(),
+        carried: HashMap::new(),
+    };
     let mut cells = Vec::new();
     for (index, rail) in rails.iter().enumerate() {
         builder.rail(m, index, rail, &mut cells)?;
@@ -106,6 +114,10 @@ impl Builder<'_> {
             let element =
                 self.elements.get(given.member).ok_or(at(Fault::NoMember { member: given.member }))?;
             finite(Quantity::Offset, &given.offset).map_err(at)?;
+            let other = *self.carried.entry(given.member).or_insert(index);
+            if other != index {
+                return Err(at(Fault::Shared { member: given.member, rail: other }));
+            }
             let along = |k: usize| (frame * (element.ends[k] - origin))[0];
             let (mut x, mut order) = ([along(0), along(1)], [0, 1]);
             if x[1] < x[0] {
@@ -124,8 +136,8 @@ impl Builder<'_> {
             let (length, flexibility) = (element.length, element.flexibility);
             let tips = order.map(|end| self.tip(index, given.member, end, &frame));
             let ends = [0, 1].map(|k| self.end(given.member, order[k], tips[k], &frame));
-            if element.released.contains(&true) {
-                self.slack.insert(cells.len(), slack(element, order, &frame));
+            if let Some(released) = &element.released {
+                self.slack.insert(cells.len(), slack(element, &released.slack, order, &frame));
             }
             cells.push(Cell {
                 rail: index,
@@ -164,10 +176,10 @@ impl Builder<'_> {
     /// State of an end of a member, after its releases.
     fn end(&mut self, member: usize, end: usize, tip: usize, frame: &Matrix3<f64>) -> usize {
         let element = &self.elements[member];
-        if !element.released[end] {
+        let Some(released) = element.released.as_deref().filter(|released| released.ends[end]) else {
             return tip;
-        }
-        let local = element.recovery * reach(element, self.freedoms);
+        };
+        let local = released.recovery * reach(element, self.freedoms);
         let back: Matrix6 = blocks(frame) * element.rotation().transpose();
         let motion = back * local.fixed_rows::<6>(6 * end);
         self.states.push(std::array::from_fn(|i| {
@@ -182,12 +194,12 @@ impl Builder<'_> {
 }
 
 /// The slack of a member in the frame of a rail, ends in the order given.
-fn slack(element: &Element, order: [usize; 2], frame: &Matrix3<f64>) -> Matrix12 {
+fn slack(element: &Element, local: &Matrix12, order: [usize; 2], frame: &Matrix3<f64>) -> Matrix12 {
     let back: Matrix6 = blocks(frame) * element.rotation().transpose();
     let mut out = Matrix12::zeros();
     for (i, a) in order.into_iter().enumerate() {
         for (j, b) in order.into_iter().enumerate() {
-            let block = back * element.slack.fixed_view::<6, 6>(6 * a, 6 * b) * back.transpose();
+            let block = back * local.fixed_view::<6, 6>(6 * a, 6 * b) * back.transpose();
             out.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
         }
     }

@@ -50,45 +50,41 @@ fn bound_is_never_below_the_true_error_of_even_chains() {
     let mut trusted = 0;
     for elements in [2, 3, 16, 64, 256, 1024, 2048, 8192, 32_768] {
         let cuts: Vec<f64> = (0..=elements).map(|k| 60.0 * f64::from(k) / f64::from(elements)).collect();
-        let Some((error, bound)) = check(&cuts) else {
-            println!("{elements} elements: refused");
-            continue;
-        };
-        println!("{elements} elements: error {error:.1e}, bound {bound:.1e}");
-        assert!(error <= bound, "{elements} elements: {error:.1e} > {bound:.1e}");
-        assert!(bound < 1.0);
-        trusted += 1;
+        if let Some((error, bound)) = check(&cuts) {
+            assert!(error <= bound && bound < 1.0, "{elements} elements: {error:.1e} > {bound:.1e}");
+            trusted += 1;
+        }
     }
     assert!(trusted >= 6, "{trusted}");
 }
 
 #[test]
 fn bound_is_never_below_the_true_error_of_chains_with_a_short_element() {
+    let mut trusted = 0;
     for power in 1..12 {
         let short = 60.0 * 10f64.powi(-power);
-        let Some((error, bound)) = check(&[0.0, 20.0, 20.0 + short, 60.0]) else {
-            println!("short element {short:.0e}: refused");
-            continue;
-        };
-        println!("short element {short:.0e}: error {error:.1e}, bound {bound:.1e}");
-        assert!(error <= bound, "{short:.0e}: {error:.1e} > {bound:.1e}");
+        if let Some((error, bound)) = check(&[0.0, 20.0, 20.0 + short, 60.0]) {
+            assert!(error <= bound, "{short:.0e}: {error:.1e} > {bound:.1e}");
+            trusted += 1;
+        }
     }
+    assert!(trusted >= 4, "{trusted}");
 }
 
 #[test]
 fn bound_is_never_below_the_true_error_of_random_chains() {
     let mut stream = common::Stream(3);
+    let mut trusted = 0;
     for elements in [5, 20, 50, 200] {
         let mut cuts: Vec<f64> = (1..elements).map(|_| stream.between(0.0, 60.0)).collect();
         cuts.extend([0.0, 60.0]);
         cuts.sort_by(f64::total_cmp);
-        let Some((error, bound)) = check(&cuts) else {
-            println!("{elements} random elements: refused");
-            continue;
-        };
-        println!("{elements} random elements: error {error:.1e}, bound {bound:.1e}");
-        assert!(error <= bound, "{elements}: {error:.1e} > {bound:.1e}");
+        if let Some((error, bound)) = check(&cuts) {
+            assert!(error <= bound, "{elements}: {error:.1e} > {bound:.1e}");
+            trusted += 1;
+        }
     }
+    assert!(trusted >= 2, "{trusted}");
 }
 
 #[test]
@@ -98,7 +94,6 @@ fn short_girders_are_certified_to_ten_digits() {
             Girder { spans, overhangs: [15.0; 2], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
         let (model, rail) = girder.frame().expect("sound");
         let certificate = Frame::new(&model, &[rail]).expect("solvable").certificate();
-        println!("{certificate:?}");
         assert!(certificate.error_bound < 1e-10, "{certificate:?}");
     }
 }

@@ -42,7 +42,6 @@ fn worst(theory: Theory, expected: &str) -> f64 {
                 part = part.max((found[(i, j)] - entry).abs() / scale);
             }
         }
-        println!("{theory:?} {name}: {part:.1e}");
         worst = worst.max(part);
     }
     worst
@@ -82,6 +81,5 @@ fn surface_and_grid_are_the_same_function() {
 fn certificate_of_a_real_structure_leaves_seven_digits() {
     let (model, rail) = mill(Theory::Timoshenko);
     let certificate = surface(&model, &[rail]).expect("solvable").certificate;
-    println!("{certificate:?}");
     assert!(certificate.error_bound < 1e-7, "{certificate:?}");
 }

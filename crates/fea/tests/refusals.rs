@@ -7,7 +7,7 @@ use fea::{Error, Fault, Frame, Freedom, Girder, Item, Quantity, Theory, grid, no
 use splines::{Axis, Compliance, Influence, Probe};
 
 fn refusal(model: &fea::Model) -> Error {
-    Frame::new(model, &[]).err().expect("a refusal")
+    Frame::new(model, &[]).expect_err("a refusal")
 }
 
 #[test]
@@ -73,8 +73,8 @@ fn released_sets_with_an_inner_mechanism_are_refused() {
         [([[Freedom::Ux], [Freedom::Ux]], 1, Freedom::Ux), ([[Freedom::Rx], [Freedom::Rx]], 1, Freedom::Rx)]
     {
         let mut model = model.clone();
-        for k in 0..2 {
-            releases[k].iter().for_each(|f| model.members[1].releases[k][*f as usize] = true);
+        for (k, set) in releases.iter().enumerate() {
+            set.iter().for_each(|f| model.members[1].releases[k][*f as usize] = true);
         }
         assert_eq!(refusal(&model), Error::Released { member: 1, end, freedom });
     }

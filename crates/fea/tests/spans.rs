@@ -32,7 +32,7 @@ impl Primary {
     }
 
     fn simple(&self, x: f64, z: f64) -> f64 {
-        let mut cuts = vec![0.0, self.length(), x, z];
+        let mut cuts = [0.0, self.length(), x, z];
         cuts.sort_by(f64::total_cmp);
         let mut sum = 0.0;
         for pair in cuts.windows(2) {
@@ -101,7 +101,6 @@ fn worst(theory: Theory) -> f64 {
         surface(&model, &rails).expect("solvable").surface.fill(&probes, &mut out).expect("on the rail");
         let grid_error = (&value - &exact).amax() / exact.amax();
         let surface_error = (&out.value - &exact).amax() / exact.amax();
-        println!("{theory:?} {} spans: grid {grid_error:.1e}, surface {surface_error:.1e}", spans.len());
         worst = worst.max(grid_error).max(surface_error);
     }
     worst
