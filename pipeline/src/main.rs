@@ -21,7 +21,9 @@ fn main() -> ExitCode {
     let result = panic::catch_unwind(|| dispatch(cli));
     let result = result.unwrap_or_else(|_| {
         let version = env!("CARGO_PKG_VERSION");
-        Err(Failure::Untrusted(format!("internal error in version {version}: please report it with its input")))
+        Err(Failure::Untrusted(format!(
+            "internal error in version {version}: please report it with its input"
+        )))
     });
     result.unwrap_or_else(|failure| tell(&failure, json)).into()
 }
