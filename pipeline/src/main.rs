@@ -31,6 +31,7 @@ fn main() -> ExitCode {
 fn dispatch(cli: Cli) -> Result<Exit, Failure> {
     match cli.command {
         Command::Run(args) => commands::run::run(&args, cli.global),
+        Command::Sim(args) => commands::sim::run(&args, cli.global),
         Command::Fea(args) => commands::fea::run(&args, cli.global),
         Command::Splines(args) => commands::splines::run(&args, cli.global),
         Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),

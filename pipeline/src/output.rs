@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::diagnostic::Diagnostic;
+use crate::exit::Failure;
 use crate::inputs::sha256;
 use crate::manifest::{MANIFEST, Manifest, Output};
 
@@ -14,7 +15,7 @@ use crate::manifest::{MANIFEST, Manifest, Output};
 ///
 /// # Errors
 /// What the file system refuses, naming the file.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     put(path, bytes).map_err(|error| cannot_write(path, &error))
 }
 
@@ -52,25 +53,25 @@ fn folder_of(path: &Path) -> PathBuf {
     }
 }
 
-fn cannot_write(path: &Path, error: &io::Error) -> Diagnostic {
+fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     let why = match error.kind() {
         io::ErrorKind::NotFound => "its folder does not exist".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
         io::ErrorKind::NotADirectory => "part of its path is not a folder".to_owned(),
         _ => error.to_string(),
     };
-    Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}"))
+    Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}")).into()
 }
 
 /// Writes to standard output; a reader who has gone away is no error.
 ///
 /// # Errors
 /// What the file system refuses.
-pub fn print(text: &str) -> Result<(), Diagnostic> {
+pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")))
+            Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")).into())
         }
         _ => Ok(()),
     }
@@ -88,11 +89,11 @@ impl Folder {
     ///
     /// # Errors
     /// A path where no folder can be: found before any work is done.
-    pub fn new(path: &Path) -> Result<Folder, Diagnostic> {
+    pub fn new(path: &Path) -> Result<Folder, Failure> {
         let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
         if let Some(part) = there.filter(|part| !part.is_dir()) {
             let expected = format!("cannot be an output folder: {} is a file", part.display());
-            return Err(Diagnostic::of_file(path.display().to_string(), expected));
+            return Err(Diagnostic::of_file(path.display().to_string(), expected).into());
         }
         Ok(Folder { path: path.to_path_buf(), files: Vec::new() })
     }
@@ -120,7 +121,7 @@ impl Folder {
     ///
     /// # Errors
     /// What the file system refuses, naming the file.
-    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Diagnostic> {
+    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Failure> {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
         for (name, bytes, fixed) in &self.files {
             let sha256 = fixed.then(|| sha256(bytes));

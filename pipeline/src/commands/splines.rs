@@ -22,7 +22,7 @@ use crate::tables;
 pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     let format = args.output.as_deref().map_or(Ok(Format::Adams), format)?;
     let (_, source) = Inputs::open(&args.grid).map_err(|error| Failure::from(*error))?;
-    let grid = grid_file::read(&source)?;
+    let (grid, _) = grid_file::read(&source)?;
     let progress = Progress::new(global);
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
         progress
@@ -59,10 +59,10 @@ enum Format {
     Csv,
 }
 
-fn format(path: &Path) -> Result<Format, Diagnostic> {
+fn format(path: &Path) -> Result<Format, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     let refuse = |expected: String| {
-        Err(Diagnostic::of_file(path.display().to_string(), expected).hint("use .adm, .json or .csv"))
+        Err(Diagnostic::of_file(path.display().to_string(), expected).hint("use .adm, .json or .csv").into())
     };
     match ending.as_str() {
         "adm" => Ok(Format::Adams),
