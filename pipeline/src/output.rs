@@ -192,3 +192,75 @@ impl Folder {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inputs::Inputs;
+    use serde_json::json;
+
+    fn commit(path: &Path, files: &[(&str, &str)]) {
+        let mut folder = Folder::new(path).expect("no file is in the way");
+        for (name, text) in files {
+            folder.add(name, *text);
+        }
+        folder.add_varying("timing.json", "0.1");
+        folder.commit(Manifest::new("run", &Inputs::default(), json!({}))).expect("a writable folder");
+    }
+
+    fn manifest(path: &Path) -> Value {
+        let text = fs::read(path.join(MANIFEST)).expect("a manifest");
+        serde_json::from_slice(&text).expect("JSON")
+    }
+
+    fn names(path: &Path) -> Vec<String> {
+        let entries = fs::read_dir(path).expect("a folder");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_folder_has_its_files_and_a_manifest_and_nothing_else() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let path = temporary.path().join("deep/out");
+        commit(&path, &[("b.csv", "1,2"), ("plots/a.svg", "<svg/>")]);
+        assert_eq!(names(&path), ["b.csv", "manifest.json", "plots", "timing.json"]);
+        let outputs = manifest(&path)["outputs"].clone();
+        assert_eq!(outputs[0], json!({ "name": "b.csv", "bytes": 3, "sha256": sha256(b"1,2") }));
+        assert_eq!(outputs[2], json!({ "name": "timing.json" }));
+    }
+
+    #[test]
+    fn a_new_run_takes_away_what_the_old_one_left_but_not_what_a_user_changed() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let path = temporary.path();
+        commit(path, &[("history.csv", "1"), ("history-old.csv", "2"), ("history-mine.csv", "3")]);
+        fs::write(path.join("history-mine.csv"), "edited").expect("writable");
+        fs::write(path.join("notes.txt"), "mine").expect("writable");
+        commit(path, &[("history.csv", "4")]);
+        let left = ["history-mine.csv", "history.csv", "manifest.json", "notes.txt", "timing.json"];
+        assert_eq!(names(path), left);
+        assert_eq!(fs::read(path.join("history.csv")).expect("written"), b"4");
+    }
+
+    #[test]
+    fn a_folder_under_a_file_is_refused_before_any_work() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let file = temporary.path().join("file");
+        fs::write(&file, "x").expect("writable");
+        assert!(Folder::new(&file.join("out")).is_err());
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_replaced_leaves_no_trace() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let path = temporary.path().join("folder");
+        fs::create_dir(&path).expect("writable");
+        assert!(write(&path, b"x").is_err());
+        assert_eq!(names(temporary.path()), ["folder"]);
+        assert!(names(&path).is_empty());
+    }
+}
