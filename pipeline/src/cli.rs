@@ -36,6 +36,9 @@ pub enum Command {
     /// Solve the structures, write their tables, simulate, draw and report: the main job
     #[command(after_help = "Example:\n  girderway run examples/bogie/scene.json -o out")]
     Run(Scene),
+    /// Simulate alone, on the tables that an earlier run has left in the output folder
+    #[command(after_help = "Example:\n  girderway sim examples/bogie/scene.json -o out")]
+    Sim(Scene),
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(Fea),

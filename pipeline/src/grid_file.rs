@@ -6,6 +6,7 @@ use fea::Certificate;
 use nalgebra::DMatrix;
 use serde::Deserialize;
 use serde_json::json;
+use splines::Surface;
 
 use crate::crosscheck::Quantity;
 use crate::diagnostic::Diagnostic;
@@ -14,14 +15,16 @@ use crate::grid::{Grid, GridRail};
 use crate::place::Place;
 use crate::source::Source;
 use crate::spec::THEORIES;
+use crate::surface_file::RawSurface;
 use crate::units::{RawUnits, Units};
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-grid/1";
 
 /// The text of a grid file: one row of a matrix a line, every number in the fewest digits that give it back.
+/// With `surface`, the influence between the stations too, exactly.
 #[must_use]
-pub fn write(grid: &Grid) -> String {
+pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
     let mut head = serde_json::Map::new();
     head.insert("format".into(), json!(FORMAT));
     head.insert("name".into(), json!(grid.name));
@@ -55,7 +58,11 @@ pub fn write(grid: &Grid) -> String {
         }
         text.push_str("\n    ]");
     }
-    text.push_str("\n  }\n}\n");
+    text.push_str("\n  }");
+    if let Some(surface) = surface {
+        let _ = write!(text, ",\n  \"surface\": {}", json!(RawSurface::new(surface)));
+    }
+    text.push_str("\n}\n");
     text
 }
 
@@ -71,6 +78,7 @@ struct RawGrid {
     #[serde(default)]
     notes: Vec<String>,
     influence: Option<RawInfluence>,
+    surface: Option<RawSurface>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -111,17 +119,19 @@ impl RawInfluence {
     }
 }
 
-/// Reads a grid file.
+/// Reads a grid file, and its exact surface where it has one.
 ///
 /// # Errors
 /// The first syntax or type error, or everything else that is wrong: a block of another size than the stations,
 /// a direct grid that is not symmetric to the last bit.
-pub fn read(source: &Source) -> Result<Grid, Vec<Diagnostic>> {
+pub fn read(source: &Source) -> Result<(Grid, Option<Surface>), Vec<Diagnostic>> {
     let raw: RawGrid = source.parse().map_err(|error| vec![*error])?;
     let mut faults = Faults::default();
     let grid = check(&raw, source, &mut faults);
+    let place = Place::root();
+    let surface = raw.surface.as_ref().and_then(|raw| raw.surface(&place.key("surface"), &mut faults));
     match grid {
-        Some(grid) if faults.0.is_empty() => Ok(grid),
+        Some(grid) if faults.0.is_empty() => Ok((grid, surface)),
         _ => Err(source.diagnose(&faults)),
     }
 }
@@ -240,14 +250,16 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_bit_for_bit() {
-        assert_eq!(read(&source(write(&grid()))), Ok(grid()));
+        let (read, surface) = read(&source(write(&grid(), None))).expect("our own file");
+        assert_eq!(read, grid());
+        assert!(surface.is_none());
     }
 
     #[test]
     fn an_unsymmetric_direct_grid_is_refused_by_its_first_pair() {
         let mut given = grid();
         given.blocks[0].1[(1, 0)] = f64::from_bits(2.5e-310f64.to_bits() + 1);
-        let wrong = read(&source(write(&given))).expect_err("one bit differs");
+        let wrong = read(&source(write(&given, None))).expect_err("one bit differs");
         assert_eq!(wrong.len(), 1);
         assert_eq!(wrong[0].path, "influence.vertical[1][0]");
     }
@@ -256,7 +268,7 @@ mod tests {
     fn a_block_of_another_size_than_the_stations_is_refused() {
         let mut given = grid();
         given.rails[0].stations.push(0.5);
-        let wrong = read(&source(write(&given))).expect_err("three stations, two rows");
+        let wrong = read(&source(write(&given, None))).expect_err("three stations, two rows");
         let paths: Vec<&str> = wrong.iter().map(|found| found.path.as_str()).collect();
         assert_eq!(paths, ["influence.vertical", "influence.vertical_lateral"]);
     }

@@ -29,5 +29,6 @@ pub mod source;
 pub mod spec;
 pub mod story;
 pub mod summary;
+pub mod surface_file;
 pub mod tables;
 pub mod units;

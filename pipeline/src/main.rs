@@ -21,7 +21,9 @@ fn main() -> ExitCode {
     let result = panic::catch_unwind(|| dispatch(cli));
     let result = result.unwrap_or_else(|_| {
         let version = env!("CARGO_PKG_VERSION");
-        Err(Failure::Untrusted(format!("internal error in version {version}: please report it with its input")))
+        Err(Failure::Untrusted(format!(
+            "internal error in version {version}: please report it with its input"
+        )))
     });
     result.unwrap_or_else(|failure| tell(&failure, json)).into()
 }
@@ -29,6 +31,7 @@ fn main() -> ExitCode {
 fn dispatch(cli: Cli) -> Result<Exit, Failure> {
     match cli.command {
         Command::Run(args) => commands::run::run(&args, cli.global),
+        Command::Sim(args) => commands::sim::run(&args, cli.global),
         Command::Fea(args) => commands::fea::run(&args, cli.global),
         Command::Splines(args) => commands::splines::run(&args, cli.global),
         Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),

@@ -79,7 +79,8 @@ pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
             let style = if index == 0 { Style::Line } else { Style::Dashed };
             chart = chart.with(Series::new(&run.label, style, points));
         }
-        let caption = format!("Deflection of {} below the unloaded rail, over its place along the rail.", body.name);
+        let caption =
+            format!("Deflection of {} below the unloaded rail, over its place along the rail.", body.name);
         plates.push(Plate::chart(format!("path-{}", body.name), caption, chart));
     }
     plates
@@ -90,10 +91,12 @@ pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
 pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
     let units = run.scene.units;
     let time = || Axis::new("time", "s");
-    let mut forces = Chart::new("Wheel forces", time(), Axis::new("vertical force", units.label(Dimension::FORCE)));
+    let mut forces =
+        Chart::new("Wheel forces", time(), Axis::new("vertical force", units.label(Dimension::FORCE)));
     for (index, name) in cast.wheels.iter().enumerate() {
         let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
-        forces = forces.with(Series::new(name, style, run.record.points("time", &format!("{name}.vertical"))));
+        forces =
+            forces.with(Series::new(name, style, run.record.points("time", &format!("{name}.vertical"))));
     }
     let caption = format!("Vertical force of each wheel on its rail ({}).", run.label);
     let mut plates = vec![Plate::chart("wheel-forces", caption, forces)];
@@ -109,20 +112,31 @@ fn rolling(run: &Labelled, cast: &Cast, w: usize, name: &str) -> Vec<Plate> {
     let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
     let record = run.record;
     let values = |part: &str| record.values(&format!("{name}.{part}"));
-    let radius = cast.scene.wheels[cast.scene.contacts.iter().flat_map(|c| c.offsets.iter().map(|_| c.wheel)).nth(w).unwrap_or(0)].radius;
+    let radius = cast.scene.wheels
+        [cast.scene.contacts.iter().flat_map(|c| c.offsets.iter().map(|_| c.wheel)).nth(w).unwrap_or(0)]
+    .radius;
     let (time, x) = (record.values("time"), values("x"));
     let (spin, angle, depth) = (values("spin_speed"), values("spin_angle"), values("penetration"));
     let body = run.scene.bodies.iter().find(|body| name.starts_with(&format!("{}.", body.name)));
     let hub = body.map_or_else(
-        || run.scene.bodies.first().map_or_else(Vec::new, |body| record.values(&format!("{}.speed", body.name)).to_vec()),
+        || {
+            run.scene
+                .bodies
+                .first()
+                .map_or_else(Vec::new, |body| record.values(&format!("{}.speed", body.name)).to_vec())
+        },
         |body| record.values(&format!("{}.speed", body.name)).to_vec(),
     );
     let pairs = |f: &dyn Fn(usize) -> f64| (0..time.len()).map(|i| [time[i], f(i)]).collect::<Vec<_>>();
     let rim = |i: usize| -spin[i] * (radius - depth[i]);
-    let speeds = Chart::new(format!("{name}: from sliding to rolling"), Axis::new("time", "s"), Axis::new("speed", &speed))
-        .with(Series::new("hub", Style::Line, pairs(&|i| hub[i])))
-        .with(Series::new("rim, backwards at the rail", Style::Dashed, pairs(&rim)))
-        .with(Series::new("sliding", Style::Line, pairs(&|i| hub[i] - rim(i))));
+    let speeds = Chart::new(
+        format!("{name}: from sliding to rolling"),
+        Axis::new("time", "s"),
+        Axis::new("speed", &speed),
+    )
+    .with(Series::new("hub", Style::Line, pairs(&|i| hub[i])))
+    .with(Series::new("rim, backwards at the rail", Style::Dashed, pairs(&rim)))
+    .with(Series::new("sliding", Style::Line, pairs(&|i| hub[i] - rim(i))));
     let deepest = depth.first().copied().unwrap_or(0.0);
     let point = |i: usize| [x[i] + radius * angle[i].sin(), radius - deepest - radius * angle[i].cos()];
     let mut trochoid = Chart::new(
@@ -131,10 +145,18 @@ fn rolling(run: &Labelled, cast: &Cast, w: usize, name: &str) -> Vec<Plate> {
         Axis::new("height above the rail", &length),
     )
     .with(Series::new("point of the rim", Style::Line, (0..time.len()).map(point).collect()))
-    .with(Series::new("hub", Style::Dashed, (0..time.len()).map(|i| [x[i], radius - depth[i]]).collect()));
+    .with(Series::new(
+        "hub",
+        Style::Dashed,
+        (0..time.len()).map(|i| [x[i], radius - depth[i]]).collect(),
+    ));
     trochoid.equal_aspect = true;
     vec![
-        Plate::chart(format!("speeds-{name}"), "Speed of the hub, of the rim at the rail, and their difference.", speeds),
+        Plate::chart(
+            format!("speeds-{name}"),
+            "Speed of the hub, of the rim at the rail, and their difference.",
+            speeds,
+        ),
         Plate::chart(
             format!("trochoid-{name}"),
             "A point of the rim: a line drawn out while the wheel slides, a cycloid once it rolls.",
@@ -147,10 +169,15 @@ fn rolling(run: &Labelled, cast: &Cast, w: usize, name: &str) -> Vec<Plate> {
 ///
 /// # Errors
 /// What cannot be drawn, or evaluated.
-pub fn structure(name: &str, units: Units, solved: &Solved) -> Result<Vec<Plate>, Box<dyn std::error::Error>> {
+pub fn structure(
+    name: &str,
+    units: Units,
+    solved: &Solved,
+) -> Result<Vec<Plate>, Box<dyn std::error::Error>> {
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
-    let supports: Vec<f64> = solved.model.supports.iter().map(|support| solved.model.points[support.point][0]).collect();
+    let supports: Vec<f64> =
+        solved.model.supports.iter().map(|support| solved.model.points[support.point][0]).collect();
     for (quantity, axis, word) in [
         (Quantity::Vertical, Direction::Vertical, "vertical"),
         (Quantity::Lateral, Direction::Lateral, "lateral"),
@@ -168,7 +195,9 @@ pub fn structure(name: &str, units: Units, solved: &Solved) -> Result<Vec<Plate>
             supports: supports.clone(),
             note: String::new(),
         };
-        let caption = format!("The {word} grid at the stations: deflection at a row's station per unit load at a column's.");
+        let caption = format!(
+            "The {word} grid at the stations: deflection at a row's station per unit load at a column's."
+        );
         plates.push(Plate::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
         let Some([from, to]) = solved.surface.range(0) else { continue };
         let places: Vec<f64> =
@@ -220,10 +249,13 @@ pub fn girder(
         .max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((instant, _)) = deepest else { return Ok(None) };
     let value = |wheel: &str, part: &str| run.record.values(&format!("{wheel}.{part}"))[instant];
-    let loads: Vec<(f64, f64)> = on.iter().map(|wheel| (value(wheel, "x"), value(wheel, "vertical"))).collect();
-    let places: Vec<f64> = (0..=4 * SAMPLES).map(|i| from + (to - from) * i as f64 / (4 * SAMPLES) as f64).collect();
+    let loads: Vec<(f64, f64)> =
+        on.iter().map(|wheel| (value(wheel, "x"), value(wheel, "vertical"))).collect();
+    let places: Vec<f64> =
+        (0..=4 * SAMPLES).map(|i| from + (to - from) * i as f64 / (4 * SAMPLES) as f64).collect();
     let probe = |x: f64| Probe { rail: 0, x, axis: Direction::Vertical };
-    let at: Vec<Probe> = places.iter().map(|&x| probe(x)).chain(loads.iter().map(|&(x, _)| probe(x))).collect();
+    let at: Vec<Probe> =
+        places.iter().map(|&x| probe(x)).chain(loads.iter().map(|&(x, _)| probe(x))).collect();
     let mut influence = Influence::zeros(at.len());
     solved.surface.fill(&at, &mut influence)?;
     let down = |i: usize| -> f64 {
@@ -239,7 +271,10 @@ pub fn girder(
             .model
             .supports
             .iter()
-            .map(|support| Support { at: [solved.model.points[support.point][0], 0.0], holds_length: support.fix[0] })
+            .map(|support| Support {
+                at: [solved.model.points[support.point][0], 0.0],
+                holds_length: support.fix[0],
+            })
             .collect(),
         stations: solved.rails[0].stations.iter().map(|&x| [x, height]).collect(),
         loads: loads.iter().map(|&(x, _)| [x, height]).collect(),
@@ -253,7 +288,8 @@ pub fn girder(
     };
     let caption = format!(
         "The girder and its rail when the rail is deepest under a wheel, t = {:.3} s ({}).",
-        run.record.values("time")[instant], run.label
+        run.record.values("time")[instant],
+        run.label
     );
     Ok(Some(Plate::drawing(format!("girder-{name}"), caption, plot.svg()?)))
 }

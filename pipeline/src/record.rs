@@ -32,15 +32,27 @@ impl Record {
         record.push("time", Dimension::TIME, history.column(Channel::Time));
         for (b, body) in scene.bodies.iter().enumerate() {
             let name = &body.name;
-            record.push(format!("{name}.x"), Dimension::LENGTH, history.column(Channel::Displacement(b, Freedom::X)));
+            record.push(
+                format!("{name}.x"),
+                Dimension::LENGTH,
+                history.column(Channel::Displacement(b, Freedom::X)),
+            );
             let lift = history.column(Channel::Displacement(b, Freedom::Y));
-            record.push(format!("{name}.deflection"), Dimension::LENGTH, lift.into_iter().map(|y| 0.0 - y).collect());
+            record.push(
+                format!("{name}.deflection"),
+                Dimension::LENGTH,
+                lift.into_iter().map(|y| 0.0 - y).collect(),
+            );
             for (i, freedom) in Freedom::ALL.into_iter().enumerate().skip(2).filter(|(i, _)| body.free[*i]) {
                 let dimension = if i == 2 { Dimension::LENGTH } else { Dimension::NUMBER };
                 let values = history.column(Channel::Displacement(b, freedom));
                 record.push(format!("{name}.{}", FREEDOMS[i]), dimension, values);
             }
-            record.push(format!("{name}.speed"), Dimension::SPEED, history.column(Channel::Speed(b, Freedom::X)));
+            record.push(
+                format!("{name}.speed"),
+                Dimension::SPEED,
+                history.column(Channel::Speed(b, Freedom::X)),
+            );
             if matches!(body.motion, Along::Prescribed(_)) {
                 record.push(format!("{name}.drive"), Dimension::FORCE, history.column(Channel::Drive(b)));
             }
@@ -58,7 +70,11 @@ impl Record {
                 record.push(format!("{name}.{part}"), dimension, history.column(channel));
             }
             if cast.spins[w] {
-                record.push(format!("{name}.spin_angle"), Dimension::NUMBER, history.column(Channel::SpinAngle(w)));
+                record.push(
+                    format!("{name}.spin_angle"),
+                    Dimension::NUMBER,
+                    history.column(Channel::SpinAngle(w)),
+                );
                 let rate = Dimension::of(0, 0, -1);
                 record.push(format!("{name}.spin_speed"), rate, history.column(Channel::SpinSpeed(w)));
             }

@@ -13,12 +13,19 @@ use crate::units::Dimension;
 
 /// Assembles the report.
 #[must_use]
-pub fn report(document: &Document, outcomes: &[Outcome], solved: &[Option<&Solved>], plates: Vec<Plate>) -> Report {
+pub fn report(
+    document: &Document,
+    outcomes: &[Outcome],
+    solved: &[Option<&Solved>],
+    plates: Vec<Plate>,
+) -> Report {
     let scene = document.scene();
     let mut sections = vec![results(document, outcomes), structures(scene, solved)];
-    let (mut motion, mut influence) = (Section::new("Pictures of the motion"), Section::new("Pictures of the structures"));
+    let (mut motion, mut influence) =
+        (Section::new("Pictures of the motion"), Section::new("Pictures of the structures"));
     for plate in plates {
-        let of_structure = ["grid-", "influence-", "girder-"].iter().any(|start| plate.name.starts_with(start));
+        let of_structure =
+            ["grid-", "influence-", "girder-"].iter().any(|start| plate.name.starts_with(start));
         let target = if of_structure { &mut influence } else { &mut motion };
         let section = std::mem::take(target);
         *target = match plate.picture {
@@ -58,7 +65,9 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
     for body in &scene.bodies {
         let mut first = None;
         for outcome in outcomes {
-            let Some((i, deepest)) = peak(outcome.record.values(&format!("{}.deflection", body.name))) else { continue };
+            let Some((i, deepest)) = peak(outcome.record.values(&format!("{}.deflection", body.name))) else {
+                continue;
+            };
             let base = *first.get_or_insert(deepest);
             let change = if base == 0.0 { 0.0 } else { 100.0 * (deepest / base - 1.0) };
             let (status, _) = summary::status(&outcome.run.status);
@@ -74,7 +83,9 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
         }
     }
     let how = match scene.analysis {
-        Analysis::Dynamic => "the equations of motion, integrated in contact-force form by a method of order four with adaptive steps; wheels that leave or meet the rail are located in time",
+        Analysis::Dynamic => {
+            "the equations of motion, integrated in contact-force form by a method of order four with adaptive steps; wheels that leave or meet the rail are located in time"
+        }
         Analysis::QuasiStatic => "a sequence of static equilibria over the prescribed motion",
     };
     Section::new("Results")
@@ -172,5 +183,9 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
         }
     }
     let section = Section::new("Energy");
-    if table.rows.is_empty() { section.say("No run of this scene is dynamic: there is no energy to audit.") } else { section.table(table) }
+    if table.rows.is_empty() {
+        section.say("No run of this scene is dynamic: there is no energy to audit.")
+    } else {
+        section.table(table)
+    }
 }

@@ -13,9 +13,10 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
     match status {
         Status::Done => ("done", None),
         Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
-        Status::StepTooSmall(t) => {
-            ("step too small", Some(format!("no step was small enough at t = {t} s: the motion cannot be followed")))
-        }
+        Status::StepTooSmall(t) => (
+            "step too small",
+            Some(format!("no step was small enough at t = {t} s: the motion cannot be followed")),
+        ),
         Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
     }
 }
@@ -28,7 +29,11 @@ pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
         .structures
         .iter()
         .map(|structure| {
-            let reason = if structure.auto { "auto: the lowest rung that gives way; mass of the structure left out" } else { "asked for" };
+            let reason = if structure.auto {
+                "auto: the lowest rung that gives way; mass of the structure left out"
+            } else {
+                "asked for"
+            };
             let entry = json!({
                 "foundation": structure.foundation.word(),
                 "reading": structure.reading.word(),
@@ -97,5 +102,7 @@ pub fn units(scene: &Scene, record: &Record) -> Value {
     let label = |dimension: Dimension| {
         if dimension == Dimension::NUMBER { "rad".to_owned() } else { scene.units.label(dimension) }
     };
-    Value::Object(record.columns.iter().map(|column| (column.name.clone(), json!(label(column.dimension)))).collect())
+    Value::Object(
+        record.columns.iter().map(|column| (column.name.clone(), json!(label(column.dimension)))).collect(),
+    )
 }

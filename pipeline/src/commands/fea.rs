@@ -1,12 +1,10 @@
 //! `girderway fea`: the influence grid of a beam spec.
 
-use fea::Frame;
-
 use crate::cli::{Fea, Global};
 use crate::exit::{Exit, Failure};
-use crate::grid::Grid;
 use crate::grid_file;
 use crate::inputs::Inputs;
+use crate::link;
 use crate::output;
 use crate::progress::Progress;
 use crate::spec::Spec;
@@ -23,16 +21,13 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = spec
-        .model()
-        .and_then(|(model, rails)| Frame::new(&model, &rails))
-        .and_then(|frame| Grid::of(&spec, &frame));
+    let solved = link::solve(&spec);
     drop(stage);
-    let grid = solved.map_err(|error| spec.refuse(&source, &error))?;
-    for note in &grid.notes {
+    let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
+    for note in &solved.grid.notes {
         progress.say(&format!("note: {note}"));
     }
-    let text = grid_file::write(&grid);
+    let text = grid_file::write(&solved.grid, Some(&solved.surface));
     match &args.output {
         Some(path) => {
             output::write(path, text.as_bytes())?;

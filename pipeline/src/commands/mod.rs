@@ -3,4 +3,5 @@
 pub mod crosscheck;
 pub mod fea;
 pub mod run;
+pub mod sim;
 pub mod splines;

@@ -1,7 +1,7 @@
 //! `girderway run` and `girderway sim`: structures, tables, simulation, pictures and report.
 
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
@@ -61,9 +61,9 @@ impl Clock {
 }
 
 /// A spec that was solved, and what came of it.
-struct Known {
-    spec: Arc<Spec>,
-    solved: Solved,
+pub(super) struct Known {
+    pub spec: Arc<Spec>,
+    pub solved: Solved,
 }
 
 /// The main job: from a scene to its output folder.
@@ -72,6 +72,14 @@ struct Known {
 /// What is wrong with the scene or the files it names; a structure that does not stand; a scene that cannot
 /// start; a file that cannot be written.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
+    job("run", args, global, solve)
+}
+
+/// Where the structures' solutions come from: the document, and the output folder.
+type Source = fn(&Document, &Path, &Progress) -> Result<Vec<Known>, Failure>;
+
+/// `run` and `sim` alike, on what `structures` brings.
+pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Source) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let mut clock = Clock::new();
     let document = Document::open(&args.scene)?;
@@ -80,7 +88,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let mut folder = Folder::new(&path)?;
     clock.lap("read");
 
-    let known = solve(&document, &progress)?;
+    let known = structures(&document, &path, &progress)?;
     clock.lap("fea");
     let mut outcomes = Vec::new();
     for case in &document.cases {
@@ -90,14 +98,22 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 
     for structure in &scene.structures {
         if let Some(solved) = solved_of(&known, &structure.origin) {
-            folder.add(&format!("grid-{}.json", structure.name), grid_file::write(&solved.grid));
-            if let Some(text) = tables::adm(&structure.name, &solved.grid).map_err(|error| Failure::Untrusted(error.to_string()))? {
+            folder.add(
+                &format!("grid-{}.json", structure.name),
+                grid_file::write(&solved.grid, Some(&solved.surface)),
+            );
+            if let Some(text) = tables::adm(&structure.name, &solved.grid)
+                .map_err(|error| Failure::Untrusted(error.to_string()))?
+            {
                 folder.add(&format!("{}.adm", structure.name), text);
             }
         }
     }
     for (case, outcome) in document.cases.iter().zip(&outcomes) {
-        let name = case.label.as_ref().map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
+        let name = case
+            .label
+            .as_ref()
+            .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
         folder.add(&name, outcome.record.csv().map_err(trouble)?);
     }
     folder.add("summary.json", output_json(&summary_of(&document, &outcomes)));
@@ -115,39 +131,47 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     clock.lap("report");
     folder.add_varying("timing.json", output_json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
-    let written = folder.commit(Manifest::new("run", &document.inputs, settings))?;
+    let written = folder.commit(Manifest::new(name, &document.inputs, settings))?;
     finish(&outcomes, &written, &document, global, &progress)
 }
 
 /// Says how it went; the exit status is that of the worst run.
 fn finish(
     outcomes: &[Outcome],
-    written: &std::path::Path,
+    written: &Path,
     document: &Document,
     global: Global,
     progress: &Progress,
 ) -> Result<Exit, Failure> {
     for outcome in outcomes {
         for body in &document.scene().bodies {
-            let deepest = outcome.record.values(&format!("{}.deflection", body.name)).iter().copied().fold(f64::MIN, f64::max);
+            let deepest = outcome
+                .record
+                .values(&format!("{}.deflection", body.name))
+                .iter()
+                .copied()
+                .fold(f64::MIN, f64::max);
             let unit = document.scene().units.length.word();
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
-        let result = json!({ "output": written.display().to_string(), "summary": summary_of(document, outcomes) });
+        let result =
+            json!({ "output": written.display().to_string(), "summary": summary_of(document, outcomes) });
         output::print(&output_json(&result))?;
     }
     let failed = outcomes.iter().find(|outcome| outcome.run.status != Status::Done);
-    match failed.and_then(|outcome| summary::status(&outcome.run.status).1.map(|why| format!("{}: {why}", outcome.label))) {
+    match failed.and_then(|outcome| {
+        summary::status(&outcome.run.status).1.map(|why| format!("{}: {why}", outcome.label))
+    }) {
         Some(why) => Err(Failure::Untrusted(why)),
         None => Ok(Exit::Done),
     }
 }
 
 /// Solves every spec of every case once.
-fn solve(document: &Document, progress: &Progress) -> Result<Vec<Known>, Failure> {
+fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<Known>, Failure> {
     let mut known: Vec<Known> = Vec::new();
     let stage = progress.stage("solving the structures");
     for structure in document.cases.iter().flat_map(|case| &case.scene.structures) {
@@ -169,7 +193,9 @@ fn solve(document: &Document, progress: &Progress) -> Result<Vec<Known>, Failure
 
 fn solved_of<'a>(known: &'a [Known], origin: &Origin) -> Option<&'a Solved> {
     match origin {
-        Origin::Spec { spec, .. } => known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solved),
+        Origin::Spec { spec, .. } => {
+            known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solved)
+        }
         Origin::Tables { .. } => None,
     }
 }
@@ -212,7 +238,9 @@ fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
         .iter()
         .zip(outcomes)
         .skip(1)
-        .map(|(case, outcome)| (outcome.label.clone(), summary::run(&case.scene, &outcome.record, &outcome.run)))
+        .map(|(case, outcome)| {
+            (outcome.label.clone(), summary::run(&case.scene, &outcome.record, &outcome.run))
+        })
         .collect();
     if !compare.is_empty() {
         result["compare"] = Value::Object(compare);
@@ -230,14 +258,19 @@ fn plates(
         .cases
         .iter()
         .zip(outcomes)
-        .map(|(case, outcome)| Labelled { label: outcome.label.clone(), scene: &case.scene, record: &outcome.record })
+        .map(|(case, outcome)| Labelled {
+            label: outcome.label.clone(),
+            scene: &case.scene,
+            record: &outcome.record,
+        })
         .collect();
     let mut plates = pictures::paths(&labelled);
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solved_of(known, &structure.origin) else { continue };
         plates.extend(
-            pictures::girder(&structure.name, index, &labelled[0], &outcomes[0].cast, solved).map_err(trouble)?,
+            pictures::girder(&structure.name, index, &labelled[0], &outcomes[0].cast, solved)
+                .map_err(trouble)?,
         );
         plates.extend(pictures::structure(&structure.name, scene.units, solved).map_err(trouble)?);
     }

@@ -22,7 +22,7 @@ use crate::tables;
 pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     let format = args.output.as_deref().map_or(Ok(Format::Adams), format)?;
     let (_, source) = Inputs::open(&args.grid).map_err(|error| Failure::from(*error))?;
-    let grid = grid_file::read(&source)?;
+    let (grid, _) = grid_file::read(&source)?;
     let progress = Progress::new(global);
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
         progress

@@ -1,0 +1,81 @@
+//! `girderway sim`: the simulation alone, on tables that an earlier `run` has left in the output folder.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use serde_json::Value;
+
+use super::run::{Known, job};
+use crate::cli::{Global, Scene as Arguments};
+use crate::diagnostic::Diagnostic;
+use crate::exit::{Exit, Failure};
+use crate::grid_file;
+use crate::inputs::Inputs;
+use crate::link::Solved;
+use crate::manifest::MANIFEST;
+use crate::progress::Progress;
+use crate::scene::{Document, Origin};
+use crate::spec::{Form, Spec};
+
+/// Simulates on the grids of the output folder, and writes the folder anew.
+///
+/// # Errors
+/// As [`super::run::run`]; tables that are missing, or made from other specs than the scene names now.
+pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
+    job("sim", args, global, load)
+}
+
+/// The grids and surfaces of the folder, one for each spec.
+fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<Known>, Failure> {
+    let mut known: Vec<Known> = Vec::new();
+    for structure in document.cases.iter().flat_map(|case| &case.scene.structures) {
+        let Origin::Spec { file, spec } = &structure.origin else { continue };
+        if known.iter().any(|entry| entry.spec == *spec) {
+            continue;
+        }
+        unchanged(document, folder, file)?;
+        let path = folder.join(format!("grid-{}.json", structure.name));
+        known.push(Known { spec: Arc::clone(spec), solved: solved(spec, &path)? });
+    }
+    Ok(known)
+}
+
+/// The spec must be the one that the folder's tables were made from.
+fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failure> {
+    let path = folder.join(MANIFEST);
+    let refuse = |why: &str| {
+        let wrong = Diagnostic::of_file(
+            path.display().to_string(),
+            format!("{why}  hint: `girderway run` makes the tables"),
+        );
+        Failure::Input(vec![wrong])
+    };
+    let text = std::fs::read(&path).map_err(|_| refuse("there are no tables yet"))?;
+    let manifest: Value = serde_json::from_slice(&text).map_err(|_| refuse("is not a manifest"))?;
+    let entries = manifest["inputs"].as_array().map(Vec::as_slice).unwrap_or_default();
+    let then = entries.iter().find(|entry| entry["name"] == file).and_then(|entry| entry["sha256"].as_str());
+    let now =
+        document.inputs.all().iter().find(|input| input.name == file).map(|input| input.sha256.as_str());
+    if then.is_some() && then == now {
+        Ok(())
+    } else {
+        Err(refuse(&format!("its tables were not made from {file} as it is now")))
+    }
+}
+
+/// Grid and exact surface from a grid file.
+fn solved(spec: &Spec, path: &Path) -> Result<Solved, Failure> {
+    let (_, source) = Inputs::open(path).map_err(|error| Failure::from(*error))?;
+    let (grid, surface) = grid_file::read(&source)?;
+    let wrong = |why: &str| Failure::Input(vec![Diagnostic::of_file(source.name.clone(), why.to_owned())]);
+    if grid.units != spec.units {
+        return Err(wrong("is in other units than the scene"));
+    }
+    let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
+    let (model, rails) = spec.model().map_err(|error| Failure::Untrusted(error.to_string()))?;
+    let girder = match &spec.form {
+        Form::Girder(girder) => Some(girder.clone()),
+        Form::Frame(_) => None,
+    };
+    Ok(Solved { model, rails, surface, grid, girder })
+}

@@ -1,0 +1,98 @@
+//! The exact surface in a grid file: cells of the rails and the compliance of their end states.
+//!
+//! Member `surface` of a grid: `cells`, and `compliance` over the states, six freedoms each (ux uy uz rx ry rz,
+//! in the frame of the state's rail). `null` stands for a flexibility that nothing resists.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+use splines::{Cell, Flexibility, Line, Surface};
+
+use crate::fault::{Fault, Faults};
+use crate::place::Place;
+
+/// The member `surface` as it stands in the file.
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawSurface {
+    cells: Vec<RawCell>,
+    compliance: Vec<Vec<Option<f64>>>,
+}
+
+#[derive(Clone, Debug, Deserialize, Serialize)]
+#[serde(deny_unknown_fields, expecting = "an object")]
+struct RawCell {
+    rail: usize,
+    x: [f64; 2],
+    ends: [usize; 2],
+    length: f64,
+    frame: [[f64; 3]; 3],
+    offset: [f64; 3],
+    /// 1/EA, 1/GJ, 1/EIy, 1/EIz, 1/(G Asy), 1/(G Asz).
+    flexibility: [Option<f64>; 6],
+}
+
+impl RawSurface {
+    /// A surface as its file member.
+    pub fn new(surface: &Surface) -> RawSurface {
+        let some = |value: f64| value.is_finite().then_some(value);
+        let cells = surface.line().cells().iter().map(|cell| {
+            let f = &cell.flexibility;
+            RawCell {
+                rail: cell.rail,
+                x: cell.x,
+                ends: cell.ends,
+                length: cell.length,
+                frame: cell.frame,
+                offset: cell.offset,
+                flexibility: [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z].map(some),
+            }
+        });
+        let nodal = surface.nodal();
+        let compliance = nodal.row_iter().map(|row| row.iter().map(|&value| some(value)).collect()).collect();
+        RawSurface { cells: cells.collect(), compliance }
+    }
+
+    /// The surface of a file member.
+    pub fn surface(&self, place: &Place<'_>, faults: &mut Faults) -> Option<Surface> {
+        let some = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
+        let cells: Vec<Cell> = self
+            .cells
+            .iter()
+            .map(|raw| {
+                let [axial, torsion, bending_y, bending_z, shear_y, shear_z] = raw.flexibility.map(some);
+                Cell {
+                    rail: raw.rail,
+                    x: raw.x,
+                    ends: raw.ends,
+                    length: raw.length,
+                    frame: raw.frame,
+                    offset: raw.offset,
+                    flexibility: Flexibility { axial, torsion, bending_y, bending_z, shear_y, shear_z },
+                }
+            })
+            .collect();
+        let line = match Line::new(cells) {
+            Ok(line) => Arc::new(line),
+            Err(error) => {
+                faults.add(Fault::new(&place.key("cells"), error.to_string()));
+                return None;
+            }
+        };
+        let size = 6 * line.states();
+        let at = place.key("compliance");
+        if self.compliance.len() != size || self.compliance.iter().any(|row| row.len() != size) {
+            faults.add(Fault::new(&at, format!("must be {size} x {size}: six freedoms a state")));
+            return None;
+        }
+        let nodal = DMatrix::from_fn(size, size, |i, j| some(self.compliance[i][j]));
+        match Surface::new(line, nodal) {
+            Ok(surface) => Some(surface),
+            Err(error) => {
+                faults.add(Fault::new(&at, error.to_string()));
+                None
+            }
+        }
+    }
+}

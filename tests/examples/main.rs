@@ -1,0 +1,133 @@
+//! Every example runs as it stands and gives the numbers beside it.
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use serde_json::Value;
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn json(path: &Path) -> Value {
+    let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// Columns of a history file by name.
+struct History(Vec<(String, Vec<f64>)>);
+
+impl History {
+    fn read(path: &Path) -> History {
+        let mut reader = csv::Reader::from_path(path).expect("the history is there");
+        let mut columns: Vec<(String, Vec<f64>)> =
+            reader.headers().expect("a header").iter().map(|name| (name.to_owned(), Vec::new())).collect();
+        for row in reader.records() {
+            for (column, value) in columns.iter_mut().zip(row.expect("a row").iter()) {
+                column.1.push(value.parse().expect("a number"));
+            }
+        }
+        History(columns)
+    }
+
+    fn column(&self, name: &str) -> &[f64] {
+        let found = self.0.iter().find(|(known, _)| known == name);
+        &found.unwrap_or_else(|| panic!("no column {name}")).1
+    }
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().expect("a number")
+}
+
+/// Runs an example into a folder of its own and checks its `expected.json`.
+fn check(name: &str) {
+    let example = root().join("examples").join(name);
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .arg("run")
+        .arg(example.join("scene.json"))
+        .arg("-o")
+        .arg(out.path())
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(output.stdout.is_empty(), "standard output is for --json alone");
+    for file in ["history.csv", "summary.json", "report.html", "manifest.json", "timing.json"] {
+        assert!(out.path().join(file).is_file(), "{file} is missing");
+    }
+    let checks = json(&example.join("expected.json"));
+    let checks = checks["checks"].as_array().expect("a list of checks");
+    assert!(!checks.is_empty());
+    for check in checks {
+        let file = match check["run"].as_str() {
+            Some(label) => format!("history-{label}.csv"),
+            None => "history.csv".to_owned(),
+        };
+        let history = History::read(&out.path().join(file));
+        let column = history.column(check["column"].as_str().expect("a column"));
+        let found = match check["where"].as_object() {
+            Some(place) => {
+                let (key, at) = place.iter().next().expect("one place");
+                let along = history.column(key);
+                let nearest = (0..along.len())
+                    .min_by(|&a, &b| (along[a] - number(at)).abs().total_cmp(&(along[b] - number(at)).abs()))
+                    .expect("rows");
+                assert!((along[nearest] - number(at)).abs() < 1e-9, "no row where {key} = {at}");
+                column[nearest]
+            }
+            None => column.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        };
+        let (value, tolerance) = (number(&check["value"]), number(&check["tolerance"]));
+        assert!(
+            check["source"].as_str().is_some_and(|source| !source.is_empty()),
+            "every number has a source"
+        );
+        assert!((found - value).abs() <= tolerance, "{name}: {check}: found {found}");
+    }
+}
+
+#[test]
+fn bogie_gives_its_expected_numbers() {
+    check("bogie");
+}
+
+#[test]
+fn wheel_gives_its_expected_numbers() {
+    check("wheel");
+}
+
+#[test]
+fn every_example_is_checked() {
+    for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
+        let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
+        assert!(["bogie", "wheel"].contains(&name.as_str()), "examples/{name} has no test");
+        for file in ["scene.json", "README.md", "expected.json"] {
+            assert!(
+                root().join("examples").join(&name).join(file).is_file(),
+                "examples/{name}/{file} is missing"
+            );
+        }
+    }
+}
+
+#[test]
+fn equal_runs_give_equal_bytes() {
+    let folders =
+        [tempfile::tempdir(), tempfile::tempdir()].map(|folder| folder.expect("a temporary folder"));
+    for (folder, threads) in folders.iter().zip(["1", "2"]) {
+        let status = Command::new(env!("CARGO_BIN_EXE_girderway"))
+            .args(["run", "--quiet", "--threads", threads])
+            .arg(root().join("examples/bogie/scene.json"))
+            .arg("-o")
+            .arg(folder.path())
+            .status()
+            .expect("the program starts");
+        assert!(status.success());
+    }
+    let manifests = folders
+        .each_ref()
+        .map(|folder| std::fs::read(folder.path().join("manifest.json")).expect("a manifest"));
+    assert!(!manifests[0].is_empty());
+    assert_eq!(manifests[0], manifests[1]);
+}
