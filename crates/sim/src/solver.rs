@@ -285,11 +285,8 @@ impl<'a> Solver<'a> {
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         let share = |i: usize| self.geometry.share[i][0];
         let felt: Vec<usize> = (0..count).filter(|&i| share(i) > 0.0).collect();
-        let mut matrix: Vec<f64> = felt
-            .iter()
-            .flat_map(|&i| felt.iter().map(move |&j| i * m + j))
-            .map(|at| self.geometry.compliance[at])
-            .collect();
+        let mut matrix: Vec<f64> =
+            felt.iter().flat_map(|&i| felt.iter().map(move |&j| i * m + j)).map(|at| self.geometry.compliance[at]).collect();
         let mut reach = vec![0.0; felt.len()];
         for (r, &i) in felt.iter().enumerate() {
             let per_wheel = law(i).stiffness * system.normals[i].count() * share(i);

@@ -474,12 +474,7 @@ impl Geometry {
     }
 
     /// Slope of the deflected rail under each component, for the forces and freedoms given.
-    pub fn update_rail_slope(
-        &mut self,
-        system: &System,
-        q: &DVector<f64>,
-        force: &[f64],
-    ) -> Result<(), Error> {
+    pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
         let m = system.components();
         for i in 0..m {
             self.rail_slope[i] = self.slope[i * m..(i + 1) * m].iter().zip(force).map(|(g, f)| g * f).sum();
