@@ -1,12 +1,12 @@
 //! `girderway crosscheck`: the same girder in an independent FE code.
 
-use fea::{Frame, Girder, Theory};
+use fea::{Girder, Theory};
 
 use crate::cli::{Crosscheck, Global};
 use crate::crosscheck::{self, Environment};
 use crate::exit::{Exit, Failure};
-use crate::grid::Grid;
 use crate::inputs::Inputs;
+use crate::link;
 use crate::output;
 use crate::progress::Progress;
 use crate::spec::{Form, Spec};
@@ -26,12 +26,9 @@ pub fn run(args: &Crosscheck, global: Global) -> Result<Exit, Failure> {
         let why = "nothing to compare: the cross-check takes straight girders, the short form of a spec";
         return Err(Failure::Differs(format!("{}: {why}", source.name)));
     };
-    let solved = spec
-        .model()
-        .and_then(|(model, rails)| Frame::new(&model, &rails))
-        .and_then(|frame| Grid::of(&spec, &frame))
-        .map_err(|error| spec.refuse(&source, &error))?;
+    let solved = link::solve(&spec).map_err(|error| spec.refuse(&source, &error))?;
     let ours: Vec<_> = solved
+        .grid
         .blocks
         .iter()
         .map(|(quantity, block)| {

@@ -61,6 +61,9 @@ impl Body {
 /// Words of a body's freedoms, in the order of [`Body::free`].
 pub const FREEDOMS: [&str; 6] = ["x", "y", "z", "roll", "yaw", "pitch"];
 
+/// Words of the freedoms of a body in space.
+pub(super) const SPACE: [&str; 3] = ["X", "Y", "Z"];
+
 pub(super) fn read(
     name: &str,
     raw: &RawBody,
@@ -114,7 +117,7 @@ fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool;
                 check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
             }
             Some(known) => free[known] = true,
-            None if ["X", "Y", "Z"].contains(&word.as_str()) => {
+            None if SPACE.contains(&word.as_str()) => {
                 check
                     .faults
                     .add(Fault::new(&item, "a body in space (X, Y, Z) is not available in this version"));

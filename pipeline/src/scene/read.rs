@@ -212,7 +212,9 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
     let place = root.key("bodies");
     let owned: usize = counts.iter().sum();
     for (index, body) in scene.bodies.iter_mut().enumerate() {
-        if counts[index] == 0 && owned == raw.trucks.len() && owned > 0 {
+        let dof = raw.bodies.0[index].1.dof.iter().flatten();
+        let in_space = dof.into_iter().any(|word| body::SPACE.contains(&word.as_str()));
+        if counts[index] == 0 && owned == raw.trucks.len() && owned > 0 && !in_space {
             let fault = Fault::new(&place.key(&body.name), "no truck carries this body").at_key();
             check.faults.add(fault.hint(format!("add a truck with \"body\": \"{}\"", body.name)));
         }

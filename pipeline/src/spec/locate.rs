@@ -1,6 +1,6 @@
 //! What the solver refuses, back at its place in the file.
 
-use fea::{Error, Fault as Refusal, Freedom, Item};
+use fea::{Error, Freedom, Item};
 
 use super::{Form, Spec};
 use crate::exit::Failure;
@@ -18,7 +18,7 @@ impl Spec {
                 let fault = Fault {
                     path: self.path(*item),
                     at_key: false,
-                    expected: self.words(fault),
+                    expected: fault.to_string(),
                     found: None,
                     hint: None,
                 };
@@ -93,13 +93,6 @@ impl Spec {
             steps.extend([Step::Key(key.to_owned()), Step::Index(index)]);
         }
         Path(steps)
-    }
-
-    fn words(&self, refusal: &Refusal) -> String {
-        match (refusal, &self.form) {
-            (Refusal::NoMember { member }, _) => format!("cell {member} does not exist"),
-            _ => refusal.to_string(),
-        }
     }
 
     /// A point as users know it: by index, coordinates and the set it is in; of a girder, by its place.
