@@ -25,7 +25,7 @@ pub struct Global {
     /// A machine-readable result on standard output, errors as JSON on standard error
     #[arg(long, global = true)]
     pub json: bool,
-    /// Number of threads [default: one a processor]
+    /// Most threads to use [default: one a processor]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub threads: Option<u16>,
 }
@@ -103,7 +103,7 @@ impl From<Theory> for fea::Theory {
 pub struct Scene {
     /// Scene file
     pub scene: PathBuf,
-    /// Output folder [default: girderway-out/<scene name>]
+    /// Output folder [default: girderway-out/NAME, the scene's name]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
 }

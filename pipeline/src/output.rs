@@ -7,14 +7,16 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 
 use crate::diagnostic::Diagnostic;
+use crate::exit::Failure;
 use crate::inputs::sha256;
 use crate::manifest::{MANIFEST, Manifest, Output};
+use crate::progress::Progress;
 
 /// Writes a file whole or not at all: into a temporary file beside it, to the disk, then under its name.
 ///
 /// # Errors
 /// What the file system refuses, naming the file.
-pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     put(path, bytes).map_err(|error| cannot_write(path, &error))
 }
 
@@ -52,28 +54,39 @@ fn folder_of(path: &Path) -> PathBuf {
     }
 }
 
-fn cannot_write(path: &Path, error: &io::Error) -> Diagnostic {
+fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     let why = match error.kind() {
         io::ErrorKind::NotFound => "its folder does not exist".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
         io::ErrorKind::NotADirectory => "part of its path is not a folder".to_owned(),
         _ => error.to_string(),
     };
-    Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}"))
+    Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}")).into()
 }
 
 /// Writes to standard output; a reader who has gone away is no error.
 ///
 /// # Errors
 /// What the file system refuses.
-pub fn print(text: &str) -> Result<(), Diagnostic> {
+pub fn print(text: &str) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")))
+            Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")).into())
         }
         _ => Ok(()),
     }
+}
+
+/// Writes `text` to the file asked for, and says so, or to standard output.
+///
+/// # Errors
+/// What the file system refuses, naming the file.
+pub fn deliver(path: Option<&Path>, text: &str, progress: &Progress) -> Result<(), Failure> {
+    let Some(path) = path else { return print(text) };
+    write(path, text.as_bytes())?;
+    progress.say(&format!("wrote {}", path.display()));
+    Ok(())
 }
 
 /// An output folder in the making: nothing touches the disk before [`Folder::commit`].
@@ -88,11 +101,11 @@ impl Folder {
     ///
     /// # Errors
     /// A path where no folder can be: found before any work is done.
-    pub fn new(path: &Path) -> Result<Folder, Diagnostic> {
+    pub fn new(path: &Path) -> Result<Folder, Failure> {
         let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
         if let Some(part) = there.filter(|part| !part.is_dir()) {
             let expected = format!("cannot be an output folder: {} is a file", part.display());
-            return Err(Diagnostic::of_file(path.display().to_string(), expected));
+            return Err(Diagnostic::of_file(path.display().to_string(), expected).into());
         }
         Ok(Folder { path: path.to_path_buf(), files: Vec::new() })
     }
@@ -120,7 +133,7 @@ impl Folder {
     ///
     /// # Errors
     /// What the file system refuses, naming the file.
-    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Diagnostic> {
+    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Failure> {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
         for (name, bytes, fixed) in &self.files {
             let sha256 = fixed.then(|| sha256(bytes));
@@ -189,5 +202,77 @@ impl Folder {
                 let _ = fs::remove_file(&path);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::inputs::Inputs;
+    use serde_json::json;
+
+    fn commit(path: &Path, files: &[(&str, &str)]) {
+        let mut folder = Folder::new(path).expect("no file is in the way");
+        for (name, text) in files {
+            folder.add(name, *text);
+        }
+        folder.add_varying("timing.json", "0.1");
+        folder.commit(Manifest::new("run", &Inputs::default(), json!({}))).expect("a writable folder");
+    }
+
+    fn manifest(path: &Path) -> Value {
+        let text = fs::read(path.join(MANIFEST)).expect("a manifest");
+        serde_json::from_slice(&text).expect("JSON")
+    }
+
+    fn names(path: &Path) -> Vec<String> {
+        let entries = fs::read_dir(path).expect("a folder");
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_folder_has_its_files_and_a_manifest_and_nothing_else() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let path = temporary.path().join("deep/out");
+        commit(&path, &[("b.csv", "1,2"), ("plots/a.svg", "<svg/>")]);
+        assert_eq!(names(&path), ["b.csv", "manifest.json", "plots", "timing.json"]);
+        let outputs = manifest(&path)["outputs"].clone();
+        assert_eq!(outputs[0], json!({ "name": "b.csv", "bytes": 3, "sha256": sha256(b"1,2") }));
+        assert_eq!(outputs[2], json!({ "name": "timing.json" }));
+    }
+
+    #[test]
+    fn a_new_run_takes_away_what_the_old_one_left_but_not_what_a_user_changed() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let path = temporary.path();
+        commit(path, &[("history.csv", "1"), ("history-old.csv", "2"), ("history-mine.csv", "3")]);
+        fs::write(path.join("history-mine.csv"), "edited").expect("writable");
+        fs::write(path.join("notes.txt"), "mine").expect("writable");
+        commit(path, &[("history.csv", "4")]);
+        let left = ["history-mine.csv", "history.csv", "manifest.json", "notes.txt", "timing.json"];
+        assert_eq!(names(path), left);
+        assert_eq!(fs::read(path.join("history.csv")).expect("written"), b"4");
+    }
+
+    #[test]
+    fn a_folder_under_a_file_is_refused_before_any_work() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let file = temporary.path().join("file");
+        fs::write(&file, "x").expect("writable");
+        assert!(Folder::new(&file.join("out")).is_err());
+    }
+
+    #[test]
+    fn a_file_that_cannot_be_replaced_leaves_no_trace() {
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let path = temporary.path().join("folder");
+        fs::create_dir(&path).expect("writable");
+        assert!(write(&path, b"x").is_err());
+        assert_eq!(names(temporary.path()), ["folder"]);
+        assert!(names(&path).is_empty());
     }
 }

@@ -2,7 +2,7 @@
 
 use sim::Status;
 
-use crate::commands::run::Outcome;
+use crate::cases::Outcome;
 use crate::link::Solved;
 use crate::pictures::{Picture, Plate};
 use crate::record::peak;

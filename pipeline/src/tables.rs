@@ -132,7 +132,7 @@ pub fn to_json(grid: &Grid, set: &DataSet) -> String {
 pub fn to_csv(set: &DataSet) -> String {
     let mut text = String::from("id,name,z,x,value\n");
     for spline in &set.splines {
-        let name = spline.name.as_deref().unwrap_or_default().replace(',', "_").replace('"', "_");
+        let name = spline.name.as_deref().unwrap_or_default().replace([',', '"'], "_");
         for (i, z) in spline.table.z().iter().enumerate() {
             for (j, x) in spline.table.x().iter().enumerate() {
                 let value = json!(spline.table.values()[(i, j)]);

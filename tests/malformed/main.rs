@@ -12,6 +12,8 @@
 //! ```
 //! In texts `\x0a` stands for the byte 0x0a.
 
+mod mutate;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};

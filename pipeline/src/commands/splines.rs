@@ -42,13 +42,7 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
         Format::Json => tables::to_json(&grid, &set),
         Format::Csv => tables::to_csv(&set),
     };
-    match &args.output {
-        Some(path) => {
-            output::write(path, text.as_bytes())?;
-            progress.say(&format!("wrote {}", path.display()));
-        }
-        None => output::print(&text)?,
-    }
+    output::deliver(args.output.as_deref(), &text, &progress)?;
     Ok(Exit::Done)
 }
 
@@ -59,10 +53,10 @@ enum Format {
     Csv,
 }
 
-fn format(path: &Path) -> Result<Format, Diagnostic> {
+fn format(path: &Path) -> Result<Format, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     let refuse = |expected: String| {
-        Err(Diagnostic::of_file(path.display().to_string(), expected).hint("use .adm, .json or .csv"))
+        Err(Diagnostic::of_file(path.display().to_string(), expected).hint("use .adm, .json or .csv").into())
     };
     match ending.as_str() {
         "adm" => Ok(Format::Adams),

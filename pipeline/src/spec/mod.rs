@@ -7,6 +7,8 @@ mod members;
 mod rails;
 mod raw;
 mod sections;
+#[cfg(test)]
+mod tests;
 
 use fea::{Girder, Model, Rail, Theory};
 
