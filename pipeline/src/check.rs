@@ -1,6 +1,6 @@
 //! Checks of single numbers, with conversion to the units wanted.
 
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, number};
 use crate::place::Place;
 use crate::units::{Dimension, Scale};
 
@@ -26,7 +26,7 @@ impl Check<'_> {
         let converted = value * factor;
         if !converted.is_finite() || (value != 0.0 && converted == 0.0) {
             let expected = "must stay within double precision after conversion of its unit";
-            self.faults.add(Fault::new(place, expected).got(value));
+            self.faults.add(Fault::new(place, expected).got(number(value)));
         }
         converted
     }
@@ -34,7 +34,7 @@ impl Check<'_> {
     /// A number above zero.
     pub fn positive(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
         if value <= 0.0 {
-            self.faults.add(hinted(Fault::new(place, "must be positive").got(value), hint));
+            self.faults.add(hinted(Fault::new(place, "must be positive").got(number(value)), hint));
         }
         self.number(value, place, dimension)
     }
@@ -42,7 +42,7 @@ impl Check<'_> {
     /// A number that is zero or above.
     pub fn not_negative(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
         if value < 0.0 {
-            self.faults.add(hinted(Fault::new(place, "must not be negative").got(value), hint));
+            self.faults.add(hinted(Fault::new(place, "must not be negative").got(number(value)), hint));
         }
         self.number(value, place, dimension)
     }

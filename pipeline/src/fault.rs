@@ -72,7 +72,7 @@ impl Faults {
         let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         let mut fault =
             Fault::new(place, format!("must be {}", alternatives(&known))).got(format!("\"{found}\""));
-        if let Some(near) = nearest(found, &known) {
+        if let Some(near) = nearest(found, &known).filter(|_| known.len() > 1) {
             fault = fault.hint(format!("did you mean \"{near}\"?"));
         }
         self.add(fault);
@@ -91,7 +91,7 @@ impl Faults {
             self.add(
                 Fault::new(
                     &place.index(first + 1),
-                    format!("must be above the one before it, {}", numbers[first]),
+                    format!("must be above the one before it, {}", number(numbers[first])),
                 )
                 .got(numbers[first + 1])
                 .hint("list them in increasing order, each once"),
@@ -112,6 +112,13 @@ pub fn alternatives(words: &[&str]) -> String {
     }
 }
 
+/// A number as a person writes it: plain where it is of ordinary size, with an exponent otherwise.
+#[must_use]
+pub fn number(value: f64) -> String {
+    let plain = value == 0.0 || (1e-5..1e15).contains(&value.abs());
+    if plain { value.to_string() } else { format!("{value:e}") }
+}
+
 /// The known word nearest to a misspelt one, where one is near enough to be meant.
 #[must_use]
 pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
@@ -121,6 +128,11 @@ pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
         _ => 3,
     };
     let lower = word.to_lowercase();
+    let begun =
+        known.iter().find(|candidate| lower.len() > 2 && candidate.to_lowercase().starts_with(&lower));
+    if let Some(candidate) = begun {
+        return Some(candidate);
+    }
     known
         .iter()
         .map(|candidate| (distance(&lower, &candidate.to_lowercase()), *candidate))
@@ -162,8 +174,18 @@ mod tests {
         assert_eq!(nearest("span", &known), Some("spans"));
         assert_eq!(nearest("i_vertical", &known), Some("I_vertical"));
         assert_eq!(nearest("overhang", &known), Some("overhangs"));
+        assert_eq!(nearest("over", &known), Some("overhangs"));
         assert_eq!(nearest("colour", &known), None);
         assert_eq!(nearest("q", &known), None);
+    }
+
+    #[test]
+    fn numbers_are_written_as_people_write_them() {
+        for (value, text) in
+            [(-60.0, "-60"), (0.0, "0"), (4.32e307, "4.32e307"), (2e-9, "2e-9"), (0.1, "0.1")]
+        {
+            assert_eq!(number(value), text);
+        }
     }
 
     #[test]

@@ -10,13 +10,15 @@ use splines::Surface;
 
 use crate::crosscheck::Quantity;
 use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, number};
 use crate::grid::{Grid, GridRail};
 use crate::place::Place;
 use crate::source::Source;
 use crate::spec::THEORIES;
 use crate::surface_file::RawSurface;
 use crate::units::{RawUnits, Units};
+
+crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-grid/1";
@@ -67,7 +69,7 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawGrid {
     format: Option<String>,
     name: Option<String>,
@@ -82,21 +84,21 @@ struct RawGrid {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawRail {
     name: Option<String>,
     stations: Option<Vec<f64>>,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawCertificate {
     condition: f64,
     error_bound: f64,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawInfluence {
     vertical: Option<Vec<Vec<f64>>>,
     lateral: Option<Vec<Vec<f64>>>,
@@ -125,7 +127,7 @@ impl RawInfluence {
 /// The first syntax or type error, or everything else that is wrong: a block of another size than the stations,
 /// a direct grid that is not symmetric to the last bit.
 pub fn read(source: &Source) -> Result<(Grid, Option<Surface>), Vec<Diagnostic>> {
-    let raw: RawGrid = source.parse().map_err(|error| vec![*error])?;
+    let raw: RawGrid = source.parse(FORMAT).map_err(|error| vec![*error])?;
     let mut faults = Faults::default();
     let grid = check(&raw, source, &mut faults);
     let place = Place::root();
@@ -217,8 +219,9 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
         for column in 0..row {
             if block[(row, column)] != block[(column, row)] {
                 let line = place.index(row);
-                let expected = format!("must be symmetric: [{column}][{row}] is {}", block[(column, row)]);
-                let fault = Fault::new(&line.index(column), expected).got(block[(row, column)]);
+                let expected =
+                    format!("must be symmetric: [{column}][{row}] is {}", number(block[(column, row)]));
+                let fault = Fault::new(&line.index(column), expected).got(number(block[(row, column)]));
                 faults.add(fault.hint("a displacement at i from a load at j is the same as at j from i"));
                 return;
             }

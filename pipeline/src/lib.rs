@@ -18,6 +18,7 @@ pub mod inputs;
 pub mod link;
 pub mod manifest;
 pub mod motion;
+mod object;
 pub mod output;
 pub mod pictures;
 pub mod place;

@@ -6,8 +6,8 @@ use jsonc_parser::{CollectOptions, ParseOptions};
 use serde::de::DeserializeOwned;
 
 use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults, alternatives, nearest};
-use crate::place::{Path, Step};
+use crate::fault::{Fault, Faults, nearest};
+use crate::place::{Path, Place, Step};
 
 /// An input file's name, as users know it, and its text.
 #[derive(Clone, Debug)]
@@ -43,24 +43,37 @@ impl Source {
         }
     }
 
-    /// Parses the text as `T`.
+    /// Parses the text as `T`, the contents of a file of this format.
     ///
     /// # Errors
-    /// The first syntax or type error, placed.
-    pub fn parse<T: DeserializeOwned>(&self) -> Result<T, Box<Diagnostic>> {
+    /// The first syntax or type error, placed; another `format`, where that explains it.
+    pub fn parse<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
         let mut deserializer = serde_json::Deserializer::from_str(&self.text);
         let parsed = serde_path_to_error::deserialize(&mut deserializer);
         let value = match parsed {
             Ok(value) => value,
             Err(error) => {
                 let path = path_of(error.path());
-                return Err(Box::new(self.parse_error(path, error.inner())));
+                let other = if error.inner().is_data() { self.other_format(format) } else { None };
+                return Err(Box::new(other.unwrap_or_else(|| self.parse_error(path, error.inner()))));
             }
         };
         match deserializer.end() {
             Ok(()) => Ok(value),
             Err(error) => Err(Box::new(self.parse_error(Path::default(), &error))),
         }
+    }
+
+    /// What to say of a file whose `format` is another one.
+    fn other_format(&self, format: &str) -> Option<Diagnostic> {
+        let tree = Tree::of(&self.text);
+        let root = Place::root();
+        let place = root.key("format");
+        let hit = tree.find(&place.path()).filter(|hit| hit.whole)?;
+        let found = hit.node.as_string_lit()?.value.clone();
+        let mut faults = Faults::default();
+        faults.word(&found, &place, &[(format, ())]);
+        self.diagnose(&faults).pop()
     }
 
     fn parse_error(&self, path: Path, error: &serde_json::Error) -> Diagnostic {
@@ -86,10 +99,11 @@ impl Source {
         }
         let (line, column) = line_and_column(&self.text, self.offset(error.line(), error.column()));
         let (expected, hint) = syntax_hint(message, &self.text);
+        let deep = message == "recursion limit exceeded";
         Diagnostic {
             line: Some(line),
             column: Some(column),
-            path: path.to_string(),
+            path: if deep { String::new() } else { path.to_string() },
             hint,
             ..Diagnostic::of_file(&self.name, expected)
         }
@@ -176,8 +190,7 @@ fn walk(node: &Value<'_>, path: Path, faults: &mut Faults) {
     match node {
         Value::Object(object) => {
             if let Some((key, _)) = second(object) {
-                let expected = format!("{DUPLICATE}`{key}`");
-                faults.add(Fault { path: path.clone(), at_key: false, expected, found: None, hint: None });
+                faults.add(type_fault(path.clone(), &format!("duplicate field `{key}`")));
             }
             for property in &object.properties {
                 walk(&property.value, below(Step::Key(property.name.as_str().to_owned())), faults);
@@ -305,7 +318,11 @@ pub fn type_fault(path: Path, message: &str) -> Fault {
         if let Some((prefix, found)) = found {
             let count = prefix == "invalid length ";
             fault.expected = format!("must be {}", plain_type(expected));
-            fault.found = Some(if count { format!("{found} items") } else { plain_found(found) });
+            fault.found = Some(if count {
+                format!("{found} item{}", if found == "1" { "" } else { "s" })
+            } else {
+                plain_found(found)
+            });
         }
     }
     fault
@@ -354,17 +371,15 @@ fn syntax_hint(message: &str, text: &str) -> (String, Option<String>) {
         let hint = "double precision ends at 1.8e308";
         return ("the number is too large".to_owned(), Some(hint.to_owned()));
     }
+    if message.starts_with("EOF while parsing") {
+        return ("not valid JSON: the file ends too early".to_owned(), None);
+    }
     let hint = match message {
+        "key must be a string" => Some("JSON has no comments, and keys stand in double quotes"),
         "trailing comma" => Some("JSON has no comma after the last item"),
         "expected value" => Some("JSON has no NaN, Infinity, comments or single quotes"),
         "recursion limit exceeded" => Some("lists and objects may be nested 128 deep"),
         _ => None,
     };
     (format!("not valid JSON: {message}"), hint.map(str::to_owned))
-}
-
-/// The words of a list as `"a", "b" or "c"`, or what to say where there are none.
-#[must_use]
-pub fn known_names(names: &[&str], none: &str) -> String {
-    if names.is_empty() { none.to_owned() } else { format!("known: {}", alternatives(names)) }
 }

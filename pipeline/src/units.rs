@@ -7,6 +7,8 @@ use serde::Deserialize;
 use crate::fault::Faults;
 use crate::place::Place;
 
+crate::object::objects!(RawUnits);
+
 /// Unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {
@@ -96,7 +98,7 @@ pub struct Units {
 
 /// The member `units` as written.
 #[derive(Clone, Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub struct RawUnits {
     length: Option<String>,
     force: Option<String>,

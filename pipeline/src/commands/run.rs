@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::time::Instant;
 
 use serde_json::{Value, json};
@@ -90,10 +91,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
 
     let known = structures(&document, &path, &progress)?;
     clock.lap("fea");
-    let mut outcomes = Vec::new();
-    for case in &document.cases {
-        outcomes.push(simulate(case, &known, &progress)?);
-    }
+    let outcomes = simulate(&document, &known, global.threads, &progress)?;
     clock.lap("simulation");
 
     for structure in &scene.structures {
@@ -200,21 +198,62 @@ fn solved_of<'a>(known: &'a [Known], origin: &Origin) -> Option<&'a Solved> {
     }
 }
 
-fn simulate(case: &Case, known: &[Known], progress: &Progress) -> Result<Outcome, Failure> {
+/// Runs every case, on as many threads as asked for.
+fn simulate(
+    document: &Document,
+    known: &[Known],
+    threads: Option<u16>,
+    progress: &Progress,
+) -> Result<Vec<Outcome>, Failure> {
+    let cases = &document.cases;
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads.map_or(available, usize::from).min(cases.len());
+    let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
+    let bar = progress.bar("simulating", 1000 * cases.len() as u64);
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut own = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(case) = cases.get(index) else { return own };
+            let mut watch = |t: f64| {
+                done[index].store((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+                bar.set(done.iter().map(|share| share.load(Ordering::Relaxed)).sum());
+                ControlFlow::Continue(())
+            };
+            own.push((index, one(case, known, &mut watch)));
+        }
+    };
+    let mut outcomes: Vec<(usize, Result<Outcome, Failure>)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(&work)).collect();
+        let mut all = work();
+        for other in others {
+            match other.join() {
+                Ok(own) => all.extend(own),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    outcomes.sort_by_key(|(index, _)| *index);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+fn one(
+    case: &Case,
+    known: &[Known],
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Outcome, Failure> {
     let scene = &case.scene;
+    let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
     let foundations = scene
         .structures
         .iter()
-        .map(|structure| link::foundation(structure, solved_of(known, &structure.origin)))
+        .map(|structure| link::foundation(structure, solved_of(known, &structure.origin), lateral))
         .collect::<Result<Vec<Foundation>, Failure>>()?;
     let label = case.label.clone().unwrap_or_else(|| own_label(scene));
     let cast = cast(scene)?;
-    let bar = progress.bar(&label, 1000);
-    let mut watch = |t: f64| {
-        bar.set((1000.0 * t / scene.end) as u64);
-        ControlFlow::Continue(())
-    };
-    let run = sim::run(&cast.scene, &foundations, &mut watch)
+    let run = sim::run(&cast.scene, &foundations, watch)
         .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
     let record = Record::new(scene, &cast, &run.history);
     Ok(Outcome { label, cast, run, record })

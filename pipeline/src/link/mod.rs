@@ -42,11 +42,15 @@ pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
     Ok(Solved { model, rails, surface: exact.surface, grid, girder })
 }
 
-/// The foundation of one structure of a scene.
+/// The foundation of one structure of a scene; `lateral`: whether wheels push sideways.
 ///
 /// # Errors
 /// What the tables or the FE model refuse.
-pub fn foundation(structure: &Structure, solved: Option<&Solved>) -> Result<Foundation, Failure> {
+pub fn foundation(
+    structure: &Structure,
+    solved: Option<&Solved>,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
@@ -58,7 +62,7 @@ pub fn foundation(structure: &Structure, solved: Option<&Solved>) -> Result<Foun
             let girder = solved.and_then(|solved| solved.girder.as_ref()).ok_or_else(|| {
                 Failure::Untrusted(format!("{}: parts need a beam spec of a straight girder", structure.name))
             })?;
-            parts::foundation(girder, count, handover)
+            parts::foundation(girder, count, handover, lateral)
         }
     }
 }

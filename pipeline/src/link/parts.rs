@@ -15,11 +15,17 @@ use crate::scene::Handover;
 const RIGID: f64 = 1e-13;
 
 /// `count` rigid parts of equal length, beams between their centres, supports on the parts above them; where
-/// the girder has mass, each part has its share.
+/// the girder has mass, each part has its share. `lateral`: whether wheels push sideways; otherwise parts with
+/// mass move in the vertical plane alone.
 ///
 /// # Errors
 /// What the FE model refuses.
-pub fn foundation(girder: &Girder, count: usize, handover: Handover) -> Result<Foundation, Failure> {
+pub fn foundation(
+    girder: &Girder,
+    count: usize,
+    handover: Handover,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or_else(|| {
         Failure::Untrusted("the hand-over windows of neighbouring parts overlap: shorten `blend`".to_owned())
@@ -38,7 +44,13 @@ pub fn foundation(girder: &Girder, count: usize, handover: Handover) -> Result<F
         foundation.parts = Some(vec![chain.clone()]);
     }
     if let Some(mass) = girder.mass_per_length {
-        foundation.structure = Some(with_mass(girder, mass, &ends, &nodal, line, vec![chain], separate));
+        let motion = Motion::new(girder, mass, &ends, &nodal, lateral);
+        foundation.structure = Some(motion.structure(PartShapes {
+            line,
+            basis: motion.basis.clone(),
+            chains: vec![chain],
+            separate,
+        }));
     } else {
         let surface = Surface::new(line, nodal).map_err(|error| Failure::Untrusted(error.to_string()))?;
         foundation.compliance = Some(if separate {
@@ -106,39 +118,56 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Failure>
     Line::new(cells.collect()).map_err(|error| Failure::Untrusted(error.to_string()))
 }
 
-/// Parts with mass: the compliance's principal combinations as freedoms, so that what supports hold is left out.
-fn with_mass(
-    girder: &Girder,
-    mass: f64,
-    ends: &[f64],
-    nodal: &DMatrix<f64>,
-    line: Arc<Line>,
-    chains: Vec<PartChain>,
-    separate: bool,
-) -> Structure {
-    // Rotations are scaled by a part's length, so that one eigenproblem measures all freedoms alike.
-    let length = ends[1] - ends[0];
-    let size = nodal.nrows();
-    let scale = DVector::from_fn(size, |i, _| if i % 6 < 3 { 1.0 } else { length });
-    let scaled = DMatrix::from_fn(size, size, |i, j| scale[i] * nodal[(i, j)] * scale[j]);
-    let eigen = scaled.symmetric_eigen();
-    let largest = eigen.eigenvalues.max();
-    let kept: Vec<usize> = (0..size).filter(|&k| eigen.eigenvalues[k] > RIGID * largest).collect();
-    let basis = DMatrix::from_fn(size, kept.len(), |i, k| eigen.eigenvectors[(i, kept[k])] / scale[i]);
-    let stiffness =
-        DMatrix::from_diagonal(&DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]));
-    let area = girder.area.unwrap_or(f64::INFINITY);
-    let polar = (girder.i_vertical + girder.i_lateral.unwrap_or(girder.i_vertical)) / area;
-    let lumped = DVector::from_fn(size, |i, _| {
+/// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports
+/// hold is left out, K = diag(1/compliance), M = basis^T (lumped masses) basis.
+struct Motion {
+    /// States of the parts (six each) x freedoms.
+    basis: DMatrix<f64>,
+    mass: DMatrix<f64>,
+    stiffness: DMatrix<f64>,
+}
+
+impl Motion {
+    fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> Motion {
+        // Rotations are scaled by a part's length, so that one eigenproblem measures all freedoms alike.
+        let length = ends[1] - ends[0];
+        let wanted: &[usize] = if lateral { &[1, 5, 2, 3, 4] } else { &[1, 5] };
+        let used: Vec<usize> = (0..nodal.nrows()).filter(|i| wanted.contains(&(i % 6))).collect();
+        let scale = |i: usize| if i % 6 < 3 { 1.0 } else { length };
+        let scaled = DMatrix::from_fn(used.len(), used.len(), |r, c| {
+            scale(used[r]) * nodal[(used[r], used[c])] * scale(used[c])
+        });
+        let eigen = scaled.symmetric_eigen();
+        let largest = eigen.eigenvalues.max();
+        let kept: Vec<usize> = (0..used.len()).filter(|&k| eigen.eigenvalues[k] > RIGID * largest).collect();
+        let mut basis = DMatrix::zeros(nodal.nrows(), kept.len());
+        for (r, &i) in used.iter().enumerate() {
+            for (k, &mode) in kept.iter().enumerate() {
+                basis[(i, k)] = eigen.eigenvectors[(r, mode)] / scale(i);
+            }
+        }
         let part = mass * length;
-        match i % 6 {
+        let polar =
+            girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+        let lumped = |i: usize| match i % 6 {
             0..=2 => part,
+            // a thin bar resists twist a little
             3 => part * polar.max(1e-6 * length * length),
             _ => part * length * length / 12.0,
+        };
+        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped(i) * basis[(i, k)]);
+        let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
+        Motion { mass: basis.transpose() * weighted, stiffness: DMatrix::from_diagonal(&stiffness), basis }
+    }
+
+    /// As a structure of the simulation; undamped.
+    fn structure(&self, shapes: PartShapes) -> Structure {
+        let size = self.mass.nrows();
+        Structure {
+            mass: self.mass.clone(),
+            damping: DMatrix::zeros(size, size),
+            stiffness: self.stiffness.clone(),
+            shapes: Box::new(shapes),
         }
-    });
-    let weighted = DMatrix::from_fn(size, kept.len(), |i, k| lumped[i] * basis[(i, k)]);
-    let mass = basis.transpose() * weighted;
-    let damping = DMatrix::zeros(kept.len(), kept.len());
-    Structure { mass, damping, stiffness, shapes: Box::new(PartShapes { line, basis, chains, separate }) }
+    }
 }

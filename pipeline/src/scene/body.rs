@@ -5,7 +5,7 @@ use sim::{Given, Profile};
 
 use crate::check::Check;
 use crate::entries::Entries;
-use crate::fault::{Fault, alternatives, nearest};
+use crate::fault::{Fault, alternatives, nearest, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -275,8 +275,8 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
             let root = Place::root();
             let at = root.key("bodies");
             let at = at.key(&body.name);
-            let expected = format!("must be {table}, as the motion prescribes at time 0");
-            check.faults.add(Fault::new(&at.key(key), expected).got(own).hint("or leave it out"));
+            let expected = format!("must be {}, as the motion prescribes at time 0", number(table));
+            check.faults.add(Fault::new(&at.key(key), expected).got(number(own)).hint("or leave it out"));
         }
     }
     (body.x0, body.v0) = (begin.x, begin.v);

@@ -5,7 +5,7 @@ use std::path::Path;
 use serde_json::Value;
 
 use super::raw::RawScene;
-use super::{Scene, read};
+use super::{FORMAT, Scene, read};
 use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, Faults};
 use crate::inputs::Inputs;
@@ -37,7 +37,7 @@ impl Document {
     /// The first syntax or type error, or everything else that is wrong, in all files.
     pub fn open(path: &Path) -> Result<Document, Vec<Diagnostic>> {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
-        let raw: RawScene = source.parse().map_err(|error| vec![*error])?;
+        let raw: RawScene = source.parse(FORMAT).map_err(|error| vec![*error])?;
         let mut faults = source.duplicates_below("compare");
         let mut elsewhere = Vec::new();
         let scene = read::scene(&raw, &source.name, &mut inputs, &mut faults, &mut elsewhere);
@@ -47,7 +47,7 @@ impl Document {
         let base_is_right = wrong.is_empty();
         let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
         if !raw.compare.is_empty() && base_is_right {
-            let document: Value = source.parse().map_err(|error| vec![*error])?;
+            let document: Value = source.parse(FORMAT).map_err(|error| vec![*error])?;
             for (index, entry) in raw.compare.iter().enumerate() {
                 match case(&source, &document, index, entry, &mut inputs) {
                     Ok(case) => cases.push(case),

@@ -9,8 +9,24 @@ use serde_json::Value;
 use crate::entries::Entries;
 use crate::units::RawUnits;
 
+crate::object::objects!(
+    RawScene,
+    RawStructure,
+    RawTables,
+    RawBody,
+    RawStart,
+    RawWheel,
+    RawVertical,
+    RawLateral,
+    RawFriction,
+    RawTruck,
+    RawMotion,
+    RawEnd,
+    RawOutput
+);
+
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawScene {
     pub format: Option<String>,
     pub name: Option<String>,
@@ -43,7 +59,7 @@ pub(crate) struct RawScene {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawStructure {
     pub spec: Option<String>,
     pub tables: Option<RawTables>,
@@ -58,7 +74,7 @@ pub(crate) struct RawStructure {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTables {
     pub file: Option<String>,
     pub vertical: Option<u32>,
@@ -66,7 +82,7 @@ pub(crate) struct RawTables {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawBody {
     pub mass: Option<f64>,
     pub weight: Option<f64>,
@@ -80,7 +96,7 @@ pub(crate) struct RawBody {
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawStart {
     pub y: Option<f64>,
     pub z: Option<f64>,
@@ -90,7 +106,7 @@ pub(crate) struct RawStart {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawWheel {
     pub radius: Option<f64>,
     pub vertical: Option<RawVertical>,
@@ -104,7 +120,7 @@ pub(crate) struct RawWheel {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawVertical {
     pub law: Option<String>,
     pub k: Option<f64>,
@@ -116,7 +132,7 @@ pub(crate) struct RawVertical {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLateral {
     pub k: Option<f64>,
     pub clearance: Option<f64>,
@@ -124,7 +140,7 @@ pub(crate) struct RawLateral {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawFriction {
     pub law: Option<String>,
     pub mu: Option<f64>,
@@ -132,7 +148,7 @@ pub(crate) struct RawFriction {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTruck {
     pub name: Option<String>,
     pub body: Option<String>,
@@ -186,7 +202,7 @@ impl<'de> Visitor<'de> for NodeVisitor {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMotion {
     pub body: Option<String>,
     pub dof: Option<String>,
@@ -199,13 +215,13 @@ pub(crate) struct RawMotion {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawEnd {
     pub time: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawOutput {
     pub dt: Option<f64>,
 }

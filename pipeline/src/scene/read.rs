@@ -6,7 +6,7 @@ use super::{
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults};
+use crate::fault::{Fault, Faults, number};
 use crate::inputs::Inputs;
 use crate::place::Place;
 use crate::units::{Dimension, Force, Length, Scale, Units};
@@ -173,7 +173,8 @@ fn read_interval(raw: &RawScene, end: f64, root: &Place<'_>, check: &mut Check<'
     let place = output.key("dt");
     let dt = check.positive(dt, &place, Dimension::TIME, "time between two rows of the history");
     if dt > 0.0 && end / dt > MOST_ROWS {
-        let fault = Fault::new(&place, format!("must be at least {}", end / MOST_ROWS)).got(dt);
+        let fault =
+            Fault::new(&place, format!("must be at least {}", number(end / MOST_ROWS))).got(number(dt));
         check.faults.add(fault.hint("a history has 10 million rows at most"));
     }
     dt
@@ -209,8 +210,9 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
         trucks.push(truck);
     }
     let place = root.key("bodies");
+    let owned: usize = counts.iter().sum();
     for (index, body) in scene.bodies.iter_mut().enumerate() {
-        if counts[index] == 0 && !raw.trucks.is_empty() {
+        if counts[index] == 0 && owned == raw.trucks.len() && owned > 0 {
             let fault = Fault::new(&place.key(&body.name), "no truck carries this body").at_key();
             check.faults.add(fault.hint(format!("add a truck with \"body\": \"{}\"", body.name)));
         }
@@ -239,11 +241,11 @@ fn stay_on_rails(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut F
         let body = &scene.bodies[truck.body];
         let rail = &scene.rails[truck.rail];
         let at = trucks.index(index);
-        let left = truck.wheel_offsets().into_iter().enumerate().filter_map(|(number, offset)| {
+        let left = truck.wheel_offsets().into_iter().enumerate().filter_map(|(index, offset)| {
             let (time, x) = leaves(body, [rail.range[0] - offset, rail.range[1] - offset], scene.end)?;
-            Some((number + 1, time, x + offset))
+            Some((index + 1, time, x + offset))
         });
-        let Some((number, time, x)) = left.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
+        let Some((wheel, time, x)) = left.min_by(|a, b| a.1.total_cmp(&b.1)) else { continue };
         let own = bodies.key(&body.name);
         let (x0, tree) = (own.key("x0"), at.key("tree"));
         let motion = raw.motions.iter().position(|motion| motion.body.as_ref() == Some(&body.name));
@@ -255,11 +257,15 @@ fn stay_on_rails(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut F
             _ => at,
         };
         let expected = format!(
-            "wheel {number} of truck \"{}\" must stay on rail {}, from x = {} to {}",
+            "wheel {wheel} of truck \"{}\" must stay on rail {}, from x = {} to {}",
             truck.name, rail.name, rail.range[0], rail.range[1]
         );
-        let when = if time > 0.0 { format!("t = {time:.4}") } else { "the start".to_owned() };
-        let found = format!("x = {x:.6} at {when}");
+        let found = if time > 0.0 {
+            let end = if x < rail.range[0] { rail.range[0] } else { rail.range[1] };
+            format!("x beyond {end} from t = {time:.4}")
+        } else {
+            format!("x = {} at the start", number(x))
+        };
         faults.add(Fault::new(&place, expected).got(found).hint("check x0, the motion and end.time"));
     }
 }

@@ -144,7 +144,6 @@ enum Word {
     Parts,
     Influence,
     Auto,
-    Later,
 }
 
 pub(super) fn read(
@@ -197,7 +196,7 @@ pub(super) fn read(
     let foundation = match word {
         Word::Rigid => Foundation::Rigid,
         Word::Parts => Foundation::Parts { count, handover },
-        Word::Influence | Word::Auto | Word::Later => Foundation::Influence,
+        Word::Influence | Word::Auto => Foundation::Influence,
     };
     let origin = origin?;
     if let (Word::Parts, Origin::Spec { spec, .. }) = (word, &origin)
@@ -226,23 +225,20 @@ pub(super) fn read(
 }
 
 fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Word {
+    let Some(word) = &raw.foundation else { return Word::Auto };
+    let place = at.key("foundation");
+    if ["modal", "full", "ties"].contains(&word.as_str()) {
+        let fault = Fault::new(&place, format!("the foundation \"{word}\" is not available in this version"));
+        check.faults.add(fault.hint("\"rigid\", \"parts\", \"influence\" and \"auto\" are"));
+        return Word::Auto;
+    }
     let words = [
         ("rigid", Word::Rigid),
         ("parts", Word::Parts),
         ("influence", Word::Influence),
         ("auto", Word::Auto),
-        ("modal", Word::Later),
-        ("full", Word::Later),
-        ("ties", Word::Later),
     ];
-    let Some(word) = &raw.foundation else { return Word::Auto };
-    let place = at.key("foundation");
-    let known = check.faults.word(word, &place, &words).unwrap_or(Word::Auto);
-    if matches!(known, Word::Later) {
-        let fault = Fault::new(&place, format!("the foundation \"{word}\" is not available in this version"));
-        check.faults.add(fault.hint("\"rigid\", \"parts\", \"influence\" and \"auto\" are"));
-    }
-    known
+    check.faults.word(word, &place, &words).unwrap_or(Word::Auto)
 }
 
 fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Handover {

@@ -3,7 +3,7 @@
 use super::raw::{RawNode, RawTruck};
 use super::{Body, SceneRail, Wheel, resolve};
 use crate::check::Check;
-use crate::fault::Fault;
+use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -145,8 +145,8 @@ fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
             match <[Node; 2]>::try_from(nodes) {
                 Ok(ends) => {
                     if ends[0].offset() == ends[1].offset() {
-                        let fault =
-                            Fault::new(at, "an equaliser's two ends must be apart").got(ends[0].offset());
+                        let fault = Fault::new(at, "an equaliser's two ends must be apart")
+                            .got(number(ends[0].offset()));
                         check.faults.add(fault);
                     }
                     Node::Equaliser(Box::new(ends))

@@ -2,7 +2,7 @@
 
 use super::raw::{RawFriction, RawLateral, RawVertical, RawWheel};
 use crate::check::Check;
-use crate::fault::Fault;
+use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -123,7 +123,7 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Ve
     };
     let exponent = if impact { raw.exponent.unwrap_or(IMPACT_EXPONENT) } else { 1.0 };
     if impact && exponent < 1.0 {
-        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(exponent);
+        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(number(exponent));
         check.faults.add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
     }
     let k = match check.faults.need(&raw.k, at, "k") {

@@ -54,7 +54,9 @@ pub(super) fn read(raw: &RawSpec, theory: Theory, root: &Place<'_>, check: &mut 
     }
     let sections = sections::read(raw, root, &mut model, check);
     let cells = members::read(raw, root, &mut model, check);
-    sections::complete(raw, root, &model, check);
+    if cells.whole {
+        sections::complete(raw, root, &model, check);
+    }
     read_supports(raw, root, &mut model, check);
     read_springs(raw, root, &mut model, check);
     read_links(raw, root, &mut model, check);

@@ -4,7 +4,7 @@ use fea::{Girder, Theory};
 
 use super::raw::RawGirder;
 use crate::check::Check;
-use crate::fault::Fault;
+use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -113,7 +113,7 @@ fn read_stations(
             if station < first - slack || station > last + slack {
                 let expected = format!("must be on the rail, from {first} to {last}");
                 let hint = "stations are coordinates from the first support, overhangs included";
-                check.faults.add(Fault::new(&item, expected).got(station).hint(hint));
+                check.faults.add(Fault::new(&item, expected).got(number(station)).hint(hint));
             }
             station = station.max(first).min(last);
         }

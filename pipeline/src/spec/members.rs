@@ -16,7 +16,7 @@ pub(super) struct Cells {
     pub places: Vec<[usize; 2]>,
     /// Cells a block.
     pub counts: Vec<usize>,
-    /// Whether every cell became a member.
+    /// Whether every cell became a member, of the kind meant.
     pub whole: bool,
 }
 
@@ -30,6 +30,7 @@ impl Cells {
 /// One array of `cell_data`, with its place in the file.
 struct Column<'r, T> {
     key: &'static str,
+    given: bool,
     blocks: Option<&'r Vec<Vec<T>>>,
 }
 
@@ -42,7 +43,7 @@ impl<'r, T> Column<'r, T> {
         at: &Place<'_>,
         check: &mut Check<'_>,
     ) -> Self {
-        let Some(given) = blocks else { return Column { key, blocks: None } };
+        let Some(given) = blocks else { return Column { key, given: false, blocks: None } };
         let before = check.faults.0.len();
         let place = at.key(key);
         let hint = "cell_data has one array for each block of `cells`, with one item for each cell";
@@ -57,7 +58,7 @@ impl<'r, T> Column<'r, T> {
                 check.faults.add(fault.hint(hint));
             }
         }
-        Column { key, blocks: (check.faults.0.len() == before).then_some(given) }
+        Column { key, given: true, blocks: (check.faults.0.len() == before).then_some(given) }
     }
 
     fn get(&self, block: usize, index: usize) -> Option<&'r T> {
@@ -95,7 +96,7 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
     if model.members.is_empty() && check.faults.0.len() == before {
         check.faults.add(Fault::new(&list, "must have at least one cell"));
     }
-    cells.whole = cells.places.len() == cells.counts.iter().sum::<usize>();
+    cells.whole = check.faults.0.len() == before;
     cells
 }
 
@@ -157,7 +158,7 @@ impl<'r> Columns<'r> {
             }
             None if model.sections.len() == 1 => Some(0),
             None => {
-                if block == 0 && index == 0 && self.section.blocks.is_none() && !model.sections.is_empty() {
+                if block == 0 && index == 0 && !self.section.given && !model.sections.is_empty() {
                     let fault = Fault::new(root, "missing key `cell_data.section`");
                     check
                         .faults

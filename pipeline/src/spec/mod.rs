@@ -78,7 +78,7 @@ impl Spec {
     /// # Errors
     /// The first syntax or type error, or everything else that is wrong.
     pub fn read(source: &Source, target: Option<Units>) -> Result<Spec, Vec<Diagnostic>> {
-        let raw: RawSpec = source.parse().map_err(|error| vec![*error])?;
+        let raw: RawSpec = source.parse(FORMAT).map_err(|error| vec![*error])?;
         let mut faults = Faults::default();
         let spec = Spec::check(&raw, &source.name, target, &mut faults);
         match spec {

@@ -6,7 +6,7 @@ use super::frame::length;
 use super::members::{Cells, parallel};
 use super::raw::{RawRail, RawSpec};
 use crate::check::Check;
-use crate::fault::Fault;
+use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -96,13 +96,16 @@ fn read_rail(
         return (rail, [0.0; 2]);
     }
     let range = cover(&rail, &places, model, &place, check);
+    if check.faults.0.len() > before {
+        return (rail, range);
+    }
     let slack = 1e-12 * range[0].abs().max(range[1].abs());
     for (index, station) in rail.stations.iter_mut().enumerate() {
         if *station < range[0] - slack || *station > range[1] + slack {
             let factor = check.scale.factor(Dimension::LENGTH);
             let expected =
                 format!("must be on the rail, from {} to {}", range[0] / factor, range[1] / factor);
-            let fault = Fault::new(&line.index(index), expected).got(stations[index]);
+            let fault = Fault::new(&line.index(index), expected).got(number(stations[index]));
             check.faults.add(fault.hint("a station is a distance from `origin` along `axis`"));
         }
         *station = station.max(range[0]).min(range[1]);

@@ -5,8 +5,23 @@ use serde::Deserialize;
 use crate::entries::Entries;
 use crate::units::RawUnits;
 
+crate::object::objects!(
+    RawSpec,
+    RawGirder,
+    RawBlock,
+    RawCellData,
+    RawMaterial,
+    RawSection,
+    RawSupport,
+    RawSpring,
+    RawLink,
+    RawMass,
+    RawRail,
+    RawSegment
+);
+
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpec {
     pub format: Option<String>,
     pub name: Option<String>,
@@ -30,7 +45,7 @@ pub(crate) struct RawSpec {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawGirder {
     pub spans: Option<Vec<f64>>,
     pub overhangs: Option<[f64; 2]>,
@@ -55,7 +70,7 @@ pub(crate) struct RawGirder {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawBlock {
     #[serde(rename = "type")]
     pub kind: Option<String>,
@@ -63,7 +78,7 @@ pub(crate) struct RawBlock {
 }
 
 #[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
     pub kind: Option<Vec<Vec<String>>>,
     pub section: Option<Vec<Vec<usize>>>,
@@ -75,7 +90,7 @@ pub(crate) struct RawCellData {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMaterial {
     pub name: Option<String>,
     #[serde(rename = "E")]
@@ -86,7 +101,7 @@ pub(crate) struct RawMaterial {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSection {
     pub name: Option<String>,
     pub material: Option<String>,
@@ -105,14 +120,14 @@ pub(crate) struct RawSection {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSupport {
     pub point: Option<usize>,
     pub fix: Option<Vec<String>>,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpring {
     pub point: Option<usize>,
     pub dof: Option<String>,
@@ -120,14 +135,14 @@ pub(crate) struct RawSpring {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLink {
     pub from: Option<usize>,
     pub to: Option<usize>,
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMass {
     pub point: Option<usize>,
     pub mass: Option<f64>,
@@ -136,7 +151,7 @@ pub(crate) struct RawMass {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawRail {
     pub origin: Option<[f64; 3]>,
     pub axis: Option<[f64; 3]>,
@@ -145,7 +160,7 @@ pub(crate) struct RawRail {
 }
 
 #[derive(Debug, Deserialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSegment {
     pub cell: Option<[usize; 2]>,
     pub offset: Option<[f64; 3]>,
