@@ -75,7 +75,7 @@ pub fn simulate(
         }
     };
     let mut outcomes: Vec<(usize, Result<Outcome, Failure>)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(&work)).collect();
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
         let mut all = work();
         for other in others {
             match other.join() {

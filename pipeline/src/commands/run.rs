@@ -16,7 +16,6 @@ use crate::output::{self, Folder};
 use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
 use crate::scene::{Document, Origin, Scene};
-use crate::spec::Spec;
 use crate::{grid_file, story, summary, tables};
 
 /// The main job: from a scene to its output folder.
