@@ -15,7 +15,7 @@ use crate::grid::{Grid, GridRail};
 use crate::place::Place;
 use crate::source::Source;
 use crate::spec::THEORIES;
-use crate::surface_file::RawSurface;
+use crate::surface_file::{self, RawSurface};
 use crate::units::{RawUnits, Units};
 
 crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
@@ -62,7 +62,7 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
     }
     text.push_str("\n  }");
     if let Some(surface) = surface {
-        let _ = write!(text, ",\n  \"surface\": {}", json!(RawSurface::new(surface)));
+        let _ = write!(text, ",\n  \"surface\": {}", surface_file::to_json(surface));
     }
     text.push_str("\n}\n");
     text

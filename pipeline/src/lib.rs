@@ -3,9 +3,11 @@
 //! [`spec`] and [`scene`] read and check input files; [`commands`] do the work; every number that reaches them is
 //! finite, checked and in the units asked for.
 
+pub mod cases;
 pub mod chart;
 pub mod check;
 pub mod cli;
+pub mod clock;
 pub mod commands;
 pub mod crosscheck;
 pub mod diagnostic;

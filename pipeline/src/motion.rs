@@ -5,16 +5,26 @@ use sim::{Contact, NormalLaw};
 use crate::exit::Failure;
 use crate::scene::{Along, Analysis, Damper, Law, Scene};
 
-/// The simulator's scene, and the names of its wheels in the simulator's order.
+/// The simulator's scene, and its wheels by name.
 pub struct Cast {
     /// The scene.
     pub scene: sim::Scene,
+    /// The wheels, in the simulator's order.
+    pub wheels: Vec<CastWheel>,
+}
+
+/// One wheel of a scene.
+pub struct CastWheel {
     /// `<truck>.wheel<n>`, counted from 1.
-    pub wheels: Vec<String>,
-    /// Rail of each wheel, as an index into the scene's rails.
-    pub rails: Vec<usize>,
-    /// Whether each wheel's spin is a freedom.
-    pub spins: Vec<bool>,
+    pub name: String,
+    /// Its body.
+    pub body: usize,
+    /// Its rail, as an index into the scene's rails.
+    pub rail: usize,
+    /// Its kind.
+    pub kind: usize,
+    /// Whether its spin is a freedom.
+    pub spins: bool,
 }
 
 /// Resolves `scene` for the simulator.
@@ -24,7 +34,7 @@ pub struct Cast {
 pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     let bodies = scene.bodies.iter().map(body).collect();
     let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
-    let (mut contacts, mut names, mut rails, mut spins) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let (mut contacts, mut cast) = (Vec::new(), Vec::new());
     for truck in &scene.trucks {
         let rail = &scene.rails[truck.rail];
         let mut number = 0;
@@ -38,10 +48,14 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
             }
             for _ in &below {
                 number += 1;
-                names.push(format!("{}.wheel{number}", truck.name));
-                rails.push(truck.rail);
                 let kind = &wheels[truck.wheel];
-                spins.push(kind.spin_inertia.is_some() && kind.friction.is_some());
+                cast.push(CastWheel {
+                    name: format!("{}.wheel{number}", truck.name),
+                    body: truck.body,
+                    rail: truck.rail,
+                    kind: truck.wheel,
+                    spins: kind.spin_inertia.is_some() && kind.friction.is_some(),
+                });
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -66,7 +80,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         output_dt: scene.dt,
         accuracy: scene.accuracy,
     };
-    Ok(Cast { scene, wheels: names, rails, spins })
+    Ok(Cast { scene, wheels: cast })
 }
 
 fn body(body: &crate::scene::Body) -> sim::Body {

@@ -10,6 +10,7 @@ use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
 use crate::inputs::sha256;
 use crate::manifest::{MANIFEST, Manifest, Output};
+use crate::progress::Progress;
 
 /// Writes a file whole or not at all: into a temporary file beside it, to the disk, then under its name.
 ///
@@ -75,6 +76,17 @@ pub fn print(text: &str) -> Result<(), Failure> {
         }
         _ => Ok(()),
     }
+}
+
+/// Writes `text` to the file asked for, and says so, or to standard output.
+///
+/// # Errors
+/// What the file system refuses, naming the file.
+pub fn deliver(path: Option<&Path>, text: &str, progress: &Progress) -> Result<(), Failure> {
+    let Some(path) = path else { return print(text) };
+    write(path, text.as_bytes())?;
+    progress.say(&format!("wrote {}", path.display()));
+    Ok(())
 }
 
 /// An output folder in the making: nothing touches the disk before [`Folder::commit`].

@@ -5,21 +5,14 @@ use splines::{Axis as Direction, Compliance, Influence, Probe};
 use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot};
 use crate::crosscheck::Quantity;
 use crate::link::Solved;
-use crate::motion::Cast;
+use crate::motion::{Cast, CastWheel};
 use crate::record::{Record, peak};
+use crate::report::Picture;
 use crate::scene::Scene;
 use crate::units::{Dimension, Units};
 
 /// Points along a rail at which smooth pictures are sampled.
 const SAMPLES: usize = 61;
-
-/// One picture: a chart, or a drawing that is ready.
-pub enum Picture {
-    /// A chart of curves.
-    Chart(Chart),
-    /// Finished SVG.
-    Svg(String),
-}
 
 /// A named picture with a caption.
 pub struct Plate {
@@ -33,11 +26,11 @@ pub struct Plate {
 
 impl Plate {
     fn chart(name: impl Into<String>, caption: impl Into<String>, chart: Chart) -> Plate {
-        Plate { name: name.into(), caption: caption.into(), picture: Picture::Chart(chart) }
+        Plate { name: name.into(), caption: caption.into(), picture: chart.into() }
     }
 
     fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: String) -> Plate {
-        Plate { name: name.into(), caption: caption.into(), picture: Picture::Svg(svg) }
+        Plate { name: name.into(), caption: caption.into(), picture: svg.into() }
     }
 
     /// As SVG.
@@ -93,40 +86,29 @@ pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
     let time = || Axis::new("time", "s");
     let mut forces =
         Chart::new("Wheel forces", time(), Axis::new("vertical force", units.label(Dimension::FORCE)));
-    for (index, name) in cast.wheels.iter().enumerate() {
+    for (index, wheel) in cast.wheels.iter().enumerate() {
+        let name = &wheel.name;
         let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
         forces =
             forces.with(Series::new(name, style, run.record.points("time", &format!("{name}.vertical"))));
     }
     let caption = format!("Vertical force of each wheel on its rail ({}).", run.label);
     let mut plates = vec![Plate::chart("wheel-forces", caption, forces)];
-    for (w, name) in cast.wheels.iter().enumerate().filter(|(w, _)| cast.spins[*w]) {
-        plates.extend(rolling(run, cast, w, name));
+    for wheel in cast.wheels.iter().filter(|wheel| wheel.spins) {
+        plates.extend(rolling(run, wheel));
     }
     plates
 }
 
 /// Speeds of hub and rim, and the path of a point of the rim.
-fn rolling(run: &Labelled, cast: &Cast, w: usize, name: &str) -> Vec<Plate> {
-    let units = run.scene.units;
+fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
+    let (units, record, name) = (run.scene.units, run.record, &wheel.name);
     let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
-    let record = run.record;
     let values = |part: &str| record.values(&format!("{name}.{part}"));
-    let radius = cast.scene.wheels
-        [cast.scene.contacts.iter().flat_map(|c| c.offsets.iter().map(|_| c.wheel)).nth(w).unwrap_or(0)]
-    .radius;
+    let radius = run.scene.wheels[wheel.kind].radius;
     let (time, x) = (record.values("time"), values("x"));
     let (spin, angle, depth) = (values("spin_speed"), values("spin_angle"), values("penetration"));
-    let body = run.scene.bodies.iter().find(|body| name.starts_with(&format!("{}.", body.name)));
-    let hub = body.map_or_else(
-        || {
-            run.scene
-                .bodies
-                .first()
-                .map_or_else(Vec::new, |body| record.values(&format!("{}.speed", body.name)).to_vec())
-        },
-        |body| record.values(&format!("{}.speed", body.name)).to_vec(),
-    );
+    let hub = record.values(&format!("{}.speed", run.scene.bodies[wheel.body].name));
     let pairs = |f: &dyn Fn(usize) -> f64| (0..time.len()).map(|i| [time[i], f(i)]).collect::<Vec<_>>();
     let rim = |i: usize| -spin[i] * (radius - depth[i]);
     let speeds = Chart::new(
@@ -239,9 +221,11 @@ pub fn girder(
     solved: &Solved,
 ) -> Result<Option<Plate>, Box<dyn std::error::Error>> {
     let (Some(short), Some([from, to])) = (&solved.girder, solved.surface.range(0)) else { return Ok(None) };
-    let on: Vec<&String> = (0..cast.wheels.len())
-        .filter(|&w| run.scene.rails[cast.rails[w]].structure == structure)
-        .map(|w| &cast.wheels[w])
+    let on: Vec<&String> = cast
+        .wheels
+        .iter()
+        .filter(|wheel| run.scene.rails[wheel.rail].structure == structure)
+        .map(|wheel| &wheel.name)
         .collect();
     let deepest = on
         .iter()

@@ -57,7 +57,8 @@ impl Record {
                 record.push(format!("{name}.drive"), Dimension::FORCE, history.column(Channel::Drive(b)));
             }
         }
-        for (w, name) in cast.wheels.iter().enumerate() {
+        for (w, wheel) in cast.wheels.iter().enumerate() {
+            let name = &wheel.name;
             let parts = [
                 ("x", Dimension::LENGTH, Channel::Place(w)),
                 ("vertical", Dimension::FORCE, Channel::Vertical(w)),
@@ -69,7 +70,7 @@ impl Record {
             for (part, dimension, channel) in parts {
                 record.push(format!("{name}.{part}"), dimension, history.column(channel));
             }
-            if cast.spins[w] {
+            if wheel.spins {
                 record.push(
                     format!("{name}.spin_angle"),
                     Dimension::NUMBER,
@@ -81,7 +82,7 @@ impl Record {
         }
         for (r, rail) in scene.rails.iter().enumerate() {
             let on_rail: Vec<Vec<f64>> = (0..cast.wheels.len())
-                .filter(|&w| cast.rails[w] == r)
+                .filter(|&w| cast.wheels[w].rail == r)
                 .map(|w| history.column(Channel::Vertical(w)))
                 .collect();
             if !on_rail.is_empty() {

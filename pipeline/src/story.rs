@@ -2,9 +2,9 @@
 
 use sim::Status;
 
-use crate::commands::run::Outcome;
+use crate::cases::Outcome;
 use crate::link::Solved;
-use crate::pictures::{Picture, Plate};
+use crate::pictures::Plate;
 use crate::record::peak;
 use crate::report::{Cell, Column, Report, Section, Table};
 use crate::scene::{Analysis, Document, Scene};
@@ -28,10 +28,7 @@ pub fn report(
             ["grid-", "influence-", "girder-"].iter().any(|start| plate.name.starts_with(start));
         let target = if of_structure { &mut influence } else { &mut motion };
         let section = std::mem::take(target);
-        *target = match plate.picture {
-            Picture::Chart(chart) => section.figure(chart, plate.caption),
-            Picture::Svg(svg) => section.figure(svg, plate.caption),
-        };
+        *target = section.figure(plate.picture, plate.caption);
     }
     // pictures after the results, tables of the structures after them
     sections.insert(1, motion);
@@ -138,7 +135,8 @@ fn forces(scene: &Scene, outcomes: &[Outcome]) -> Section {
         ],
         rows: Vec::new(),
     };
-    for name in &outcomes[0].cast.wheels {
+    for wheel in &outcomes[0].cast.wheels {
+        let name = &wheel.name;
         let values = |part: &str| outcomes[0].record.values(&format!("{name}.{part}"));
         let largest = |part: &str| values(part).iter().fold(0.0_f64, |max, value| max.max(value.abs()));
         let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);

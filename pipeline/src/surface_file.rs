@@ -6,22 +6,25 @@
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
+use serde_json::{Value, json};
 use splines::{Cell, Flexibility, Line, Surface};
 
 use crate::fault::{Fault, Faults};
 use crate::place::Place;
 
+crate::object::objects!(RawSurface, RawCell);
+
 /// The member `surface` as it stands in the file.
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawSurface {
     cells: Vec<RawCell>,
     compliance: Vec<Vec<Option<f64>>>,
 }
 
-#[derive(Clone, Debug, Deserialize, Serialize)]
-#[serde(deny_unknown_fields, expecting = "an object")]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawCell {
     rail: usize,
     x: [f64; 2],
@@ -33,27 +36,32 @@ struct RawCell {
     flexibility: [Option<f64>; 6],
 }
 
-impl RawSurface {
-    /// A surface as its file member.
-    pub fn new(surface: &Surface) -> RawSurface {
-        let some = |value: f64| value.is_finite().then_some(value);
-        let cells = surface.line().cells().iter().map(|cell| {
+/// A surface as its file member.
+pub(crate) fn to_json(surface: &Surface) -> Value {
+    // infinite numbers become null
+    let cells: Vec<Value> = surface
+        .line()
+        .cells()
+        .iter()
+        .map(|cell| {
             let f = &cell.flexibility;
-            RawCell {
-                rail: cell.rail,
-                x: cell.x,
-                ends: cell.ends,
-                length: cell.length,
-                frame: cell.frame,
-                offset: cell.offset,
-                flexibility: [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z].map(some),
-            }
-        });
-        let nodal = surface.nodal();
-        let compliance = nodal.row_iter().map(|row| row.iter().map(|&value| some(value)).collect()).collect();
-        RawSurface { cells: cells.collect(), compliance }
-    }
+            json!({
+                "rail": cell.rail,
+                "x": cell.x,
+                "ends": cell.ends,
+                "length": cell.length,
+                "frame": cell.frame,
+                "offset": cell.offset,
+                "flexibility": [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
+            })
+        })
+        .collect();
+    let rows = surface.nodal().row_iter().map(|row| row.iter().copied().collect());
+    let compliance: Vec<Vec<f64>> = rows.collect();
+    json!({ "cells": cells, "compliance": compliance })
+}
 
+impl RawSurface {
     /// The surface of a file member.
     pub fn surface(&self, place: &Place<'_>, faults: &mut Faults) -> Option<Surface> {
         let some = |value: Option<f64>| value.unwrap_or(f64::INFINITY);

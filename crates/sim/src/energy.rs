@@ -1,7 +1,8 @@
 //! The energy audit: what is stored, what was lost, what was put in.
 
+use crate::geometry::Geometry;
 use crate::state::State;
-use crate::system::{Geometry, System};
+use crate::system::System;
 use crate::wheel::Damper;
 
 /// Energy stored in a scene at one time.

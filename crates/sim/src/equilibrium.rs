@@ -4,10 +4,15 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::solver::Solver;
 use crate::state::State;
-use crate::{Error, Freedom};
+use crate::system::System;
+use crate::{Error, Freedom, NormalLaw};
 
+/// Sweeps of the active set.
 const SWEEPS: usize = 60;
+/// Newton iterations on the laws of one active set.
 const ITERATIONS: usize = 50;
+/// Relative error of the balance beyond which the wheels cannot carry the weight.
+const BALANCE: f64 = 1e-6;
 
 impl Solver<'_> {
     /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the freedoms of
@@ -21,138 +26,39 @@ impl Solver<'_> {
     pub fn equilibrate(&mut self, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let none = Error::NoEquilibrium { time: at.t };
-        let (n, m, count) = (system.freedoms, system.components(), system.normals.len());
         at.v.fill(0.0);
         at.force.fill(0.0);
         self.geometry.update(system, at.t, &at.q, &at.force)?;
+        let moving = self.balancing();
+        if moving.is_empty() {
+            return if self.settle(at)? { Ok(()) } else { Err(none) };
+        }
+        let mut balance = Balance::new(self, moving, at)?;
+        if !balance.solve() {
+            return Err(none);
+        }
+        for (&number, &q) in balance.moving.iter().zip(balance.q.iter()) {
+            at.q[number] = q;
+        }
+        at.force[..system.normals.len()].copy_from_slice(&balance.force);
+        at.p.copy_from_slice(&balance.p);
+        at.p_rate.fill(0.0);
+        self.active.fill(false);
+        for &i in &balance.active {
+            self.active[i] = true;
+        }
+        self.settle_structures(at)
+    }
 
-        // Freedoms of the bodies that balance the weights.
-        let moving: Vec<usize> = system
-            .freedom
-            .iter()
+    /// Freedoms of the bodies that balance the weights: those of y, roll and pitch that some wheel resists.
+    fn balancing(&self) -> Vec<usize> {
+        let (n, count) = (self.system.freedoms, self.system.normals.len());
+        let numbers = self.system.freedom.iter();
+        numbers
             .flat_map(|numbers| [Freedom::Y, Freedom::Roll, Freedom::Pitch].map(|f| numbers[f as usize]))
             .flatten()
             .filter(|&number| (0..count).any(|i| self.geometry.rows[i * n + number] != 0.0))
-            .collect();
-        if moving.is_empty() {
-            return self.settle_all(at, none);
-        }
-        let compliance = self.static_compliance()?;
-        let rows = DMatrix::from_fn(count, moving.len(), |i, j| self.geometry.rows[i * n + moving[j]]);
-        let held: Vec<f64> = (0..count)
-            .map(|i| {
-                self.geometry.held[i]
-                    + (0..n)
-                        .filter(|k| {
-                            !moving.contains(k) && !system.structure.iter().any(|range| range.contains(k))
-                        })
-                        .map(|k| self.geometry.rows[i * n + k] * at.q[k])
-                        .sum::<f64>()
-            })
-            .collect();
-        let weight = DVector::from_fn(moving.len(), |j, _| system.gravity[moving[j]]);
-        let share = |i: usize| system.normals[i].count() * self.geometry.share[i][0];
-        let law = |i: usize| &system.scene.wheels[system.normals[i].kind].normal;
-
-        let total = weight.iter().fold(0.0_f64, |max, w| max.max(w.abs()));
-        let mut active: Vec<usize> = (0..count).filter(|&i| share(i) > 0.0).collect();
-        let mut p = vec![0.0; count];
-        for (i, entry) in p.iter_mut().enumerate() {
-            *entry = law(i).penetration(total / active.len().max(1) as f64);
-        }
-        let mut force = vec![0.0; count];
-        let mut q = DVector::zeros(moving.len());
-        let mut settled = false;
-        for _ in 0..SWEEPS {
-            let mut converged = false;
-            for _ in 0..ITERATIONS {
-                // Linearised: (G + 1/k) F = R q + held - p + f/k,  R^T F = weight.
-                let size = active.len();
-                let mut matrix = DMatrix::zeros(size, size);
-                let mut free = DVector::zeros(size);
-                for (r, &i) in active.iter().enumerate() {
-                    let point = law(i).at(p[i], 0.0);
-                    let stiffness = share(i) * point.by_penetration;
-                    for (c, &j) in active.iter().enumerate() {
-                        matrix[(r, c)] = compliance[(i, j)];
-                    }
-                    matrix[(r, r)] += 1.0 / stiffness;
-                    free[r] = held[i] - p[i] + share(i) * point.force / stiffness;
-                }
-                let lever = DMatrix::from_fn(size, moving.len(), |r, j| rows[(active[r], j)]);
-                let lu = matrix.lu();
-                let (Some(by_lever), Some(by_free)) = (lu.solve(&lever), lu.solve(&free)) else {
-                    return Err(none);
-                };
-                let stiffness = lever.transpose() * &by_lever;
-                let balance = &weight - lever.transpose() * &by_free;
-                let Some(next) = stiffness.clone().lu().solve(&balance) else { return Err(none) };
-                if !next.iter().all(|x| x.is_finite())
-                    || (&stiffness * &next - &balance).amax() > 1e-6 * total.max(1e-300)
-                {
-                    return Err(none);
-                }
-                let solved = &by_lever * &next + &by_free;
-                let mut change = 0.0_f64;
-                force.fill(0.0);
-                for (r, &i) in active.iter().enumerate() {
-                    let point = law(i).at(p[i], 0.0);
-                    let step = (solved[r] - share(i) * point.force) / (share(i) * point.by_penetration);
-                    let floor = 0.1 * p[i].abs();
-                    let bounded =
-                        if law(i).exponent == 1.0 || p[i] + step > floor { p[i] + step } else { floor };
-                    change = change.max((bounded - p[i]).abs());
-                    p[i] = bounded;
-                    force[i] = solved[r];
-                }
-                q = next;
-                let depth = p.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
-                if change <= 1e-14 * depth {
-                    converged = true;
-                    break;
-                }
-            }
-            let stiffest = p.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
-            let gap = |i: usize, force: &[f64], q: &DVector<f64>| {
-                let reach: f64 = (0..moving.len()).map(|j| rows[(i, j)] * q[j]).sum();
-                held[i] + reach - (0..count).map(|j| compliance[(i, j)] * force[j]).sum::<f64>()
-            };
-            let before = active.clone();
-            active.retain(|&i| force[i] >= 0.0 || law(i).bilateral);
-            for i in (0..count).filter(|i| !before.contains(i) && share(*i) > 0.0) {
-                p[i] = gap(i, &force, &q);
-                if p[i] > 1e-13 * stiffest {
-                    active.push(i);
-                }
-            }
-            active.sort_unstable();
-            if active == before {
-                settled = converged;
-                break;
-            }
-            if active.is_empty() {
-                return Err(none);
-            }
-        }
-        if !settled {
-            return Err(none);
-        }
-        for (j, &number) in moving.iter().enumerate() {
-            at.q[number] = q[j];
-        }
-        at.force[..count].copy_from_slice(&force);
-        at.p.copy_from_slice(&p);
-        at.p_rate.fill(0.0);
-        for (i, flag) in self.active.iter_mut().enumerate() {
-            *flag = active.contains(&i);
-        }
-        self.settle_structures(at)?;
-        debug_assert!(m >= count, "vertical contacts are components");
-        Ok(())
-    }
-
-    fn settle_all(&mut self, at: &mut State, none: Error) -> Result<(), Error> {
-        if self.settle(at)? { Ok(()) } else { Err(none) }
+            .collect()
     }
 
     /// G + Phi K^-1 Phi^T over the vertical contacts.
@@ -191,5 +97,154 @@ impl Solver<'_> {
             }
         }
         Ok(())
+    }
+}
+
+/// The balance of the vertical contacts at one place: p + A F = `held` + `rows` q, F = law(p), `rows`^T F = weight.
+struct Balance<'a> {
+    system: &'a System<'a>,
+    /// Share of each contact's law that acts, times its wheels.
+    share: Vec<f64>,
+    /// Numbers of the freedoms q.
+    moving: Vec<usize>,
+    /// A, contacts x contacts.
+    compliance: DMatrix<f64>,
+    /// Contacts x freedoms.
+    rows: DMatrix<f64>,
+    held: Vec<f64>,
+    weight: DVector<f64>,
+    active: Vec<usize>,
+    q: DVector<f64>,
+    p: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl<'a> Balance<'a> {
+    /// The balance of `moving` where the solver's geometry is; every wheel that may act is taken to carry alike.
+    fn new(solver: &Solver<'a>, moving: Vec<usize>, at: &State) -> Result<Self, Error> {
+        let (system, geometry) = (solver.system, &solver.geometry);
+        let (n, count) = (system.freedoms, system.normals.len());
+        let stays =
+            |k: usize| !moving.contains(&k) && !system.structure.iter().any(|range| range.contains(&k));
+        let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
+        let held = (0..count)
+            .map(|i| {
+                geometry.held[i] + staying.iter().map(|&k| geometry.rows[i * n + k] * at.q[k]).sum::<f64>()
+            })
+            .collect();
+        let share: Vec<f64> =
+            system.normals.iter().zip(&geometry.share).map(|(normal, s)| normal.count() * s[0]).collect();
+        let active: Vec<usize> = (0..count).filter(|&i| share[i] > 0.0).collect();
+        let weight = DVector::from_fn(moving.len(), |j, _| system.gravity[moving[j]]);
+        let each = weight.amax() / active.len().max(1) as f64;
+        Ok(Balance {
+            compliance: solver.static_compliance()?,
+            rows: DMatrix::from_fn(count, moving.len(), |i, j| geometry.rows[i * n + moving[j]]),
+            p: (0..count).map(|i| system.law(i).penetration(each)).collect(),
+            q: DVector::zeros(moving.len()),
+            force: vec![0.0; count],
+            system,
+            share,
+            moving,
+            held,
+            weight,
+            active,
+        })
+    }
+
+    fn law(&self, i: usize) -> &'a NormalLaw {
+        self.system.law(i)
+    }
+
+    /// Sweeps of the active set; false where no set balances the weights.
+    fn solve(&mut self) -> bool {
+        for _ in 0..SWEEPS {
+            let Some(converged) = self.iterate() else { return false };
+            if !self.sweep() {
+                return converged;
+            }
+            if self.active.is_empty() {
+                return false;
+            }
+        }
+        false
+    }
+
+    /// Newton's method with the active contacts; `None` where they cannot carry the weight, else whether it
+    /// converged.
+    fn iterate(&mut self) -> Option<bool> {
+        for _ in 0..ITERATIONS {
+            let solved = self.linearised()?;
+            let change = self.advance(&solved);
+            let depth = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
+            if change <= 1e-14 * depth {
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    /// Forces of the active contacts from (A + 1/k) F = R q + held - p + f/k, R^T F = weight, with f and k force
+    /// and stiffness of the laws at p; sets q.
+    fn linearised(&mut self) -> Option<DVector<f64>> {
+        let size = self.active.len();
+        let mut matrix =
+            DMatrix::from_fn(size, size, |r, c| self.compliance[(self.active[r], self.active[c])]);
+        let mut free = DVector::zeros(size);
+        for (r, &i) in self.active.iter().enumerate() {
+            let point = self.law(i).at(self.p[i], 0.0);
+            matrix[(r, r)] += 1.0 / (self.share[i] * point.by_penetration);
+            free[r] = self.held[i] - self.p[i] + point.force / point.by_penetration;
+        }
+        let lever = DMatrix::from_fn(size, self.moving.len(), |r, j| self.rows[(self.active[r], j)]);
+        let lu = matrix.lu();
+        let (by_lever, by_free) = (lu.solve(&lever)?, lu.solve(&free)?);
+        let stiffness = lever.transpose() * &by_lever;
+        let balance = &self.weight - lever.transpose() * &by_free;
+        let next = stiffness.clone().lu().solve(&balance)?;
+        let scale = self.weight.amax().max(f64::MIN_POSITIVE);
+        let balanced = (&stiffness * &next - &balance).amax() <= BALANCE * scale;
+        if !(balanced && next.iter().all(|q| q.is_finite())) {
+            return None;
+        }
+        let solved = by_lever * &next + by_free;
+        self.q = next;
+        Some(solved)
+    }
+
+    /// Moves the penetrations to the forces `solved`, kept positive for curved laws; returns the largest change.
+    fn advance(&mut self, solved: &DVector<f64>) -> f64 {
+        let mut change = 0.0_f64;
+        self.force.fill(0.0);
+        for (r, &i) in self.active.iter().enumerate() {
+            let (law, share) = (self.law(i), self.share[i]);
+            let point = law.at(self.p[i], 0.0);
+            let wanted = self.p[i] + (solved[r] - share * point.force) / (share * point.by_penetration);
+            let floor = 0.1 * self.p[i].abs();
+            let bounded = if law.exponent == 1.0 { wanted } else { wanted.max(floor) };
+            change = change.max((bounded - self.p[i]).abs());
+            self.p[i] = bounded;
+            self.force[i] = solved[r];
+        }
+        change
+    }
+
+    /// Drops the contacts that pull, adds those that are pressed; returns whether the active set changed.
+    fn sweep(&mut self) -> bool {
+        let deepest = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
+        let before = self.active.clone();
+        let system = self.system;
+        let force = &self.force;
+        self.active.retain(|&i| force[i] >= 0.0 || system.law(i).bilateral);
+        for i in (0..self.share.len()).filter(|i| !before.contains(i) && self.share[*i] > 0.0) {
+            let reach: f64 = self.rows.row(i).iter().zip(self.q.iter()).map(|(r, q)| r * q).sum();
+            let give: f64 = self.compliance.row(i).iter().zip(&self.force).map(|(g, f)| g * f).sum();
+            self.p[i] = self.held[i] + reach - give;
+            if self.p[i] > 1e-13 * deepest {
+                self.active.push(i);
+            }
+        }
+        self.active.sort_unstable();
+        self.active != before
     }
 }

@@ -5,7 +5,8 @@
 //! act is given; the caller checks that they push and that the others stay open.
 
 use crate::dense::{solve_general, solve_spd};
-use crate::system::{Geometry, System};
+use crate::geometry::Geometry;
+use crate::system::System;
 use crate::wheel::LawPoint;
 
 /// Relative change of the forces at which Newton's method ends.

@@ -58,7 +58,11 @@ impl Profile {
             return Err(Error::Number { what: "motion table", wanted: "finite", found: *found });
         }
         if let Some(pair) = table.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            return Err(Error::Number { what: "time of a motion table", wanted: "increasing", found: pair[1][0] });
+            return Err(Error::Number {
+                what: "time of a motion table",
+                wanted: "increasing",
+                found: pair[1][0],
+            });
         }
         let mut pieces: Vec<Piece> = Vec::new();
         for start in starts(table) {
@@ -194,14 +198,16 @@ mod tests {
     #[test]
     fn acceleration_table_is_integrated_exactly() {
         // a = 6 t: x = x0 + v0 t + t^3
-        let travel = Profile::new(Given::Acceleration, &[[0.0, 0.0], [2.0, 12.0]], 1.0, 0.5).expect("a valid table");
+        let travel =
+            Profile::new(Given::Acceleration, &[[0.0, 0.0], [2.0, 12.0]], 1.0, 0.5).expect("a valid table");
         assert_eq!(travel.at(2.0), Moving { x: 10.0, v: 12.5, a: 12.0 });
         assert_eq!(travel.at(1.0), Moving { x: 2.5, v: 3.5, a: 6.0 });
     }
 
     #[test]
     fn position_table_keeps_its_rows_and_its_ends() {
-        let travel = Profile::new(Given::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0).expect("a valid table");
+        let travel =
+            Profile::new(Given::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0).expect("a valid table");
         for (t, x) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 6.0), (9.0, 6.0)] {
             assert_eq!(travel.at(t).x, x, "t = {t}");
         }
@@ -210,7 +216,8 @@ mod tests {
     #[test]
     fn leaving_is_found_between_rows_and_at_turning_points() {
         // x = 10 t - t^2 from a speed of 10 falling by 2 a second: turns at t = 5 with x = 25
-        let travel = Profile::new(Given::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
+        let travel =
+            Profile::new(Given::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
         assert_eq!(travel.leaves([0.0, 25.0], 10.0), None);
         let (t, x) = travel.leaves([-1.0, 24.0], 10.0).expect("25 is beyond 24");
         assert!((t - 4.0).abs() < 1e-12 && (x - 24.0).abs() < 1e-11, "{t} {x}");

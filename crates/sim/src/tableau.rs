@@ -9,8 +9,6 @@ pub(crate) struct Tableau {
     pub a: &'static [&'static [f64]],
     /// Weights less those of the embedded method.
     pub error: &'static [f64],
-    /// Order of the method.
-    pub order: u8,
 }
 
 impl Tableau {
@@ -41,7 +39,6 @@ pub(crate) const SDIRK4: Tableau = Tableau {
         &[25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
     ],
     error: &[-3.0 / 16.0, -27.0 / 32.0, 25.0 / 32.0, 0.0, 0.25],
-    order: 4,
 };
 
 #[cfg(test)]

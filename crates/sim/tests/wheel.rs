@@ -6,13 +6,21 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, bogie, girder};
 use sim::{
-    Analysis, Body, Channel, Contact, Damper, Flange, Foundation, Freedom, Friction, NormalLaw, Run, Scene, Status, Wheel,
+    Analysis, Body, Channel, Contact, Damper, Flange, Foundation, Freedom, Friction, NormalLaw, Run, Scene,
+    Status, Wheel,
 };
 
 const LOAD: f64 = 5e6;
 
 fn impact() -> NormalLaw {
-    NormalLaw { stiffness: 1e8, exponent: 1.1, damping: 0.0, depth: 0.0, damper: Damper::Rail, bilateral: false }
+    NormalLaw {
+        stiffness: 1e8,
+        exponent: 1.1,
+        damping: 0.0,
+        depth: 0.0,
+        damper: Damper::Rail,
+        bilateral: false,
+    }
 }
 
 /// W = 5e6 lb, radius 1.25 ft, mu 0.2, slip 0.1 ft/s, starting at 10 ft/s without spin.
@@ -36,7 +44,14 @@ fn wheel() -> Scene {
             friction: Some(Friction { coefficient: 0.2, slip: 0.1 }),
             spin_inertia: Some(mass * 1.25 * 1.25 / 2.0),
         }],
-        contacts: vec![Contact { body: 0, structure: 0, rail: 0, at: [0.0; 3], offsets: vec![0.0], wheel: 0 }],
+        contacts: vec![Contact {
+            body: 0,
+            structure: 0,
+            rail: 0,
+            at: [0.0; 3],
+            offsets: vec![0.0],
+            wheel: 0,
+        }],
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1e-3,
@@ -118,7 +133,9 @@ fn free_flight_lasts_as_long_as_its_closed_form() {
     let run = run(&scene, Foundation::rigid());
     let (time, depth) = (run.history.column(Channel::Time), run.history.column(Channel::Penetration(0)));
     let crossing = |from: usize, rising: bool| {
-        let i = (from..depth.len() - 1).find(|&i| if rising { depth[i] < 0.0 && depth[i + 1] >= 0.0 } else { depth[i] >= 0.0 && depth[i + 1] < 0.0 });
+        let i = (from..depth.len() - 1).find(|&i| {
+            if rising { depth[i] < 0.0 && depth[i + 1] >= 0.0 } else { depth[i] >= 0.0 && depth[i + 1] < 0.0 }
+        });
         let i = i.expect("the wheel crosses the rail's level");
         (i, time[i] + (time[i + 1] - time[i]) * depth[i] / (depth[i] - depth[i + 1]))
     };
@@ -163,7 +180,8 @@ fn flange_lets_go_between_the_release_heights() {
         let mut scene = wheel();
         scene.gravity = 1e-9;
         scene.wheels[0].friction = None;
-        scene.wheels[0].flange = Some(Flange { stiffness: 1e6, clearance: 0.04, release: Some([1.25, 1.385]) });
+        scene.wheels[0].flange =
+            Some(Flange { stiffness: 1e6, clearance: 0.04, release: Some([1.25, 1.385]) });
         scene.bodies[0].free = [false, true, true, false, false, false];
         scene.bodies[0].start = [0.0, lift.max(1e-12), 0.05, 0.0, 0.0, 0.0];
         scene.bodies[0].start_speed = [0.0; 6];

@@ -28,12 +28,6 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
         progress.say(&format!("note: {note}"));
     }
     let text = grid_file::write(&solved.grid, Some(&solved.surface));
-    match &args.output {
-        Some(path) => {
-            output::write(path, text.as_bytes())?;
-            progress.say(&format!("wrote {}", path.display()));
-        }
-        None => output::print(&text)?,
-    }
+    output::deliver(args.output.as_deref(), &text, &progress)?;
     Ok(Exit::Done)
 }

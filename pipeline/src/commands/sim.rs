@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use serde_json::Value;
 
-use super::run::{Known, job};
+use super::run::job;
+use crate::cases::Known;
 use crate::cli::{Global, Scene as Arguments};
 use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};

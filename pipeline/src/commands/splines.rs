@@ -42,13 +42,7 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
         Format::Json => tables::to_json(&grid, &set),
         Format::Csv => tables::to_csv(&set),
     };
-    match &args.output {
-        Some(path) => {
-            output::write(path, text.as_bytes())?;
-            progress.say(&format!("wrote {}", path.display()));
-        }
-        None => output::print(&text)?,
-    }
+    output::deliver(args.output.as_deref(), &text, &progress)?;
     Ok(Exit::Done)
 }
 

@@ -1,0 +1,253 @@
+//! The contacts where the wheels are now: places, compliance, and the rows between freedoms and components.
+
+use nalgebra::DVector;
+use splines::{Influence, Probe};
+
+use crate::Error;
+use crate::scene::arm_rows;
+use crate::system::System;
+
+/// Everything about the contacts that depends on where the wheels are.
+#[derive(Clone)]
+pub(crate) struct Geometry {
+    /// Rail coordinate of each wheel.
+    pub x: Vec<f64>,
+    /// Height of each wheel's centre above its rail, from the last solution.
+    pub height: Vec<f64>,
+    /// Share of each vertical contact's law that acts, and its slope along the rail.
+    pub share: Vec<[f64; 2]>,
+    /// G over components, row-major.
+    pub compliance: Vec<f64>,
+    /// d G(i, j)/d x_i over components, row-major.
+    pub slope: Vec<f64>,
+    /// Approach e = `held` + `rows` q, before the give of G.
+    pub rows: Vec<f64>,
+    pub held: Vec<f64>,
+    /// Rows of the forces, `rows` and the force along the rail from its slope: f = -`force_rows`^T F.
+    pub force_rows: Vec<f64>,
+    /// Rates that dampers and friction feel: `rate_held` + `rate_rows` v.
+    pub rate_rows: Vec<f64>,
+    pub rate_held: Vec<f64>,
+    /// Slope of the deflected rail under each component, d u/d x.
+    pub rail_slope: Vec<f64>,
+    influence: Vec<Influence>,
+    probes: Vec<Vec<Probe>>,
+    shape: Vec<f64>,
+    shape_slope: Vec<f64>,
+    built: bool,
+}
+
+impl Geometry {
+    pub fn new(system: &System) -> Self {
+        let (m, n) = (system.components(), system.freedoms);
+        Geometry {
+            x: vec![0.0; system.wheels.len()],
+            height: system.wheels.iter().map(|wheel| system.scene.wheels[wheel.kind].radius).collect(),
+            share: vec![[1.0, 0.0]; system.normals.len()],
+            compliance: vec![0.0; m * m],
+            slope: vec![0.0; m * m],
+            rows: vec![0.0; m * n],
+            held: vec![0.0; m],
+            force_rows: vec![0.0; m * n],
+            rate_rows: vec![0.0; m * n],
+            rate_held: vec![0.0; m],
+            rail_slope: vec![0.0; m],
+            influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
+            probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
+            shape: vec![0.0; n],
+            shape_slope: vec![0.0; n],
+            built: false,
+        }
+    }
+
+    /// Updates everything for the wheels' places at (t, q); `force` are the latest forces, for the rail's slope.
+    pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+        let speed_is_needed = !system.tractions.is_empty();
+        for (w, wheel) in system.wheels.iter().enumerate() {
+            let body = &system.scene.bodies[wheel.body];
+            let numbers = &system.freedom[wheel.body];
+            let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
+            let x = body.motion.as_ref().map_or_else(|| value(0), |profile| profile.at(t).x);
+            self.x[w] = x + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1];
+        }
+        self.update_compliance(system)?;
+        if !(self.built && system.constant_rows) {
+            self.update_rows(system)?;
+            self.built = true;
+        }
+        if speed_is_needed {
+            for (i, &w) in system.tractions.iter().enumerate() {
+                let body = &system.scene.bodies[system.wheels[w].body];
+                self.rate_held[system.traction(i)] =
+                    body.motion.as_ref().map_or(0.0, |profile| profile.at(t).v);
+            }
+        }
+        self.update_force_rows(system, q, force)
+    }
+
+    fn update_compliance(&mut self, system: &System) -> Result<(), Error> {
+        let m = system.components();
+        for (s, entries) in system.entries.iter().enumerate() {
+            let foundation = &system.foundations[s];
+            if let Some(chains) = &foundation.parts {
+                for (normal, share) in system.normals.iter().zip(&mut self.share) {
+                    let contact = &system.scene.contacts[normal.contact];
+                    if let (true, Some(part)) = (contact.structure == s, normal.part) {
+                        let chain = &chains[contact.rail];
+                        let mean = normal.wheels.clone().map(|w| self.x[w]).sum::<f64>() / normal.count();
+                        *share = chain.share(part, mean);
+                    }
+                }
+            }
+            let Some(compliance) = &foundation.compliance else { continue };
+            for (probe, entry) in self.probes[s].iter_mut().zip(entries) {
+                probe.x = self.x[entry.wheel];
+            }
+            let influence = &mut self.influence[s];
+            compliance
+                .fill(&self.probes[s], influence)
+                .map_err(|source| Error::Compliance { structure: s, source })?;
+            for row in entries {
+                self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
+                self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
+            }
+            for (i, row) in entries.iter().enumerate() {
+                for (j, column) in entries.iter().enumerate() {
+                    let weight = row.weight * column.weight;
+                    let at = row.component * m + column.component;
+                    self.compliance[at] += weight * influence.value[(i, j)];
+                    self.slope[at] += weight * influence.slope[(i, j)];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn update_rows(&mut self, system: &System) -> Result<(), Error> {
+        let n = system.freedoms;
+        self.rows.fill(0.0);
+        self.rate_rows.fill(0.0);
+        self.held.fill(0.0);
+        let put =
+            |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
+                for i in 0..6 {
+                    match system.freedom[body][i] {
+                        Some(number) => rows[component * n + number] += scale * row[i],
+                        None if i > 0 => *held += scale * row[i] * system.scene.bodies[body].start[i],
+                        None => {}
+                    }
+                }
+            };
+        for (component, normal) in system.normals.iter().enumerate() {
+            for w in normal.wheels.clone() {
+                let wheel = &system.wheels[w];
+                let row = arm_rows(wheel.hub)[1];
+                put(
+                    &mut self.rows,
+                    &mut self.held[component],
+                    component,
+                    wheel.body,
+                    row,
+                    -1.0 / normal.count(),
+                );
+            }
+            let span = component * n..(component + 1) * n;
+            self.rate_rows[span.clone()].copy_from_slice(&self.rows[span]);
+        }
+        for (i, &w) in system.laterals.iter().enumerate() {
+            let (component, wheel) = (system.lateral(i), &system.wheels[w]);
+            let [x, y, z] = wheel.hub;
+            let row = arm_rows([x, y - self.height[w], z])[2];
+            put(&mut self.rows, &mut self.held[component], component, wheel.body, row, 1.0);
+        }
+        let mut unused = 0.0;
+        for (i, &w) in system.tractions.iter().enumerate() {
+            let (component, wheel) = (system.traction(i), &system.wheels[w]);
+            put(&mut self.rate_rows, &mut unused, component, wheel.body, arm_rows(wheel.hub)[0], 1.0);
+            if let Some(spin) = wheel.spin {
+                self.rate_rows[component * n + spin] += self.height[w];
+            }
+        }
+        for (s, entries) in system.entries.iter().enumerate() {
+            let Some(structure) = &system.foundations[s].structure else { continue };
+            let range = system.structure[s].clone();
+            let size = range.len();
+            for entry in entries {
+                let at = Probe { x: self.x[entry.wheel], ..entry.probe };
+                let (value, slope) = (&mut self.shape[..size], &mut self.shape_slope[..size]);
+                structure
+                    .shapes
+                    .row(at, value, slope)
+                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                let row = &mut self.rows[entry.component * n + range.start..entry.component * n + range.end];
+                for (target, shape) in row.iter_mut().zip(value.iter()) {
+                    *target -= entry.weight * shape;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Slope of the deflected rail under each component, for the forces and freedoms given.
+    pub fn update_rail_slope(
+        &mut self,
+        system: &System,
+        q: &DVector<f64>,
+        force: &[f64],
+    ) -> Result<(), Error> {
+        let m = system.components();
+        for i in 0..m {
+            self.rail_slope[i] = self.slope[i * m..(i + 1) * m].iter().zip(force).map(|(g, f)| g * f).sum();
+        }
+        for (s, entries) in system.entries.iter().enumerate() {
+            let Some(structure) = &system.foundations[s].structure else { continue };
+            let range = system.structure[s].clone();
+            let size = range.len();
+            for entry in entries {
+                let at = Probe { x: self.x[entry.wheel], ..entry.probe };
+                let (value, slope) = (&mut self.shape[..size], &mut self.shape_slope[..size]);
+                structure
+                    .shapes
+                    .row(at, value, slope)
+                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                self.rail_slope[entry.component] += entry.weight
+                    * slope.iter().zip(range.clone()).map(|(shape, number)| shape * q[number]).sum::<f64>();
+            }
+        }
+        Ok(())
+    }
+
+    /// Rows of the forces: those of the approach, less the rail's slope times the rows of the wheel's x.
+    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+        let n = system.freedoms;
+        if system.constant_rows {
+            if self.force_rows != self.rows {
+                self.force_rows.copy_from_slice(&self.rows);
+            }
+            return Ok(());
+        }
+        let first_traction = system.traction(0);
+        self.force_rows.copy_from_slice(&self.rows);
+        self.force_rows[first_traction * n..].copy_from_slice(&self.rate_rows[first_traction * n..]);
+        if !system.moves_freely {
+            return Ok(());
+        }
+        self.update_rail_slope(system, q, force)?;
+        let mut along = |component: usize, w: usize| {
+            let wheel = &system.wheels[w];
+            let row = arm_rows(wheel.hub)[0];
+            for (i, coefficient) in row.iter().enumerate() {
+                if let Some(number) = system.freedom[wheel.body][i] {
+                    self.force_rows[component * n + number] -= self.rail_slope[component] * coefficient;
+                }
+            }
+        };
+        for (component, normal) in system.normals.iter().enumerate() {
+            along(component, normal.wheels.start);
+        }
+        for (i, &w) in system.laterals.iter().enumerate() {
+            along(system.lateral(i), w);
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,117 @@
+//! The cases of a scene, each simulated on its own foundations.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+
+use sim::{Foundation, Run};
+
+use crate::exit::Failure;
+use crate::link::{self, Solved};
+use crate::motion::{Cast, cast};
+use crate::progress::Progress;
+use crate::record::Record;
+use crate::scene::{Case, Document, Origin, Scene};
+use crate::spec::Spec;
+
+/// One case, run.
+pub struct Outcome {
+    /// Its label; the scene's own run is named by its foundations.
+    pub label: String,
+    /// What was simulated.
+    pub cast: Cast,
+    /// How it went.
+    pub run: Run,
+    /// Its named columns.
+    pub record: Record,
+}
+
+/// A spec that was solved, and what came of it.
+pub struct Known {
+    /// The spec.
+    pub spec: Arc<Spec>,
+    /// Its grids and surface.
+    pub solved: Solved,
+}
+
+/// The solution of a structure that has a spec.
+#[must_use]
+pub fn solved_of<'a>(known: &'a [Known], origin: &Origin) -> Option<&'a Solved> {
+    match origin {
+        Origin::Spec { spec, .. } => {
+            known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solved)
+        }
+        Origin::Tables { .. } => None,
+    }
+}
+
+/// Runs every case, on as many threads as asked for.
+///
+/// # Errors
+/// A foundation that cannot be made; a scene that cannot start.
+pub fn simulate(
+    document: &Document,
+    known: &[Known],
+    threads: Option<u16>,
+    progress: &Progress,
+) -> Result<Vec<Outcome>, Failure> {
+    let cases = &document.cases;
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads.map_or(available, usize::from).min(cases.len());
+    let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
+    let bar = progress.bar("simulating", 1000 * cases.len() as u64);
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut own = Vec::new();
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(case) = cases.get(index) else { return own };
+            let mut watch = |t: f64| {
+                done[index].store((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+                bar.set(done.iter().map(|share| share.load(Ordering::Relaxed)).sum());
+                ControlFlow::Continue(())
+            };
+            own.push((index, one(case, known, &mut watch)));
+        }
+    };
+    let mut outcomes: Vec<(usize, Result<Outcome, Failure>)> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut all = work();
+        for other in others {
+            match other.join() {
+                Ok(own) => all.extend(own),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        all
+    });
+    outcomes.sort_by_key(|(index, _)| *index);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+fn one(
+    case: &Case,
+    known: &[Known],
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Outcome, Failure> {
+    let scene = &case.scene;
+    let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
+    let foundations = scene
+        .structures
+        .iter()
+        .map(|structure| link::foundation(structure, solved_of(known, &structure.origin), lateral))
+        .collect::<Result<Vec<Foundation>, Failure>>()?;
+    let label = case.label.clone().unwrap_or_else(|| own_label(scene));
+    let cast = cast(scene)?;
+    let run = sim::run(&cast.scene, &foundations, watch)
+        .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
+    let record = Record::new(scene, &cast, &run.history);
+    Ok(Outcome { label, cast, run, record })
+}
+
+/// The scene's own run is labelled by what carries it.
+fn own_label(scene: &Scene) -> String {
+    let mut words: Vec<&str> = scene.structures.iter().map(|structure| structure.foundation.word()).collect();
+    words.dedup();
+    words.join(" and ")
+}
