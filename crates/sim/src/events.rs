@@ -4,6 +4,9 @@ use crate::Error;
 use crate::state::State;
 use crate::stepper::Stepper;
 
+/// Force by which a step may end beyond an event, relative to the largest contact force.
+pub(crate) const OVERSHOOT: f64 = 1e-9;
+
 impl Stepper<'_, '_> {
     /// Length of the step that ends where a wheel with prescribed motion meets a break of its rail, if the
     /// step of length `h` would pass it.
@@ -31,37 +34,34 @@ impl Stepper<'_, '_> {
         best
     }
 
-    /// Share of the step at which the first contact opens or closes, if one does.
-    pub(crate) fn first_event(&mut self) -> Result<Option<f64>, Error> {
+    /// The first contact that opens or closes within the step, if one does: the share of the step at which it does,
+    /// and the force by which the step has gone too far.
+    ///
+    /// Forces of contacts that remember their penetration relax faster than the interpolant follows: for them the
+    /// share is the secant of the forces at both ends, for all others the root on the interpolant. Repeated, both
+    /// end within [`OVERSHOOT`] beyond the event.
+    pub(crate) fn first_event(&mut self) -> Result<Option<(f64, f64)>, Error> {
         let count = self.solver.system.normals.len();
-        self.probe.copy_from(&self.to);
-        let mut first: Option<f64> = None;
+        let aim = 0.5 * OVERSHOOT * self.largest_force();
+        let mut first: Option<(f64, f64)> = None;
+        let mut interpolated = false;
         for i in 0..count {
-            if self.event(i, &self.to) <= 0.0 {
+            let excess = self.event(i, &self.to);
+            if excess <= 0.0 {
                 continue;
             }
-            // Bisection and secant on the interpolant; the event function is negative at the start.
-            let (mut low, mut high) = (0.0_f64, 1.0_f64);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                self.probe.interpolate(&self.from, &self.to, middle);
-                if !self.solver.instant(&mut self.probe)? {
-                    break;
-                }
-                if self.event(i, &self.probe) > 0.0 {
-                    high = middle
-                } else {
-                    low = middle
-                }
-                if high - low < 1e-12 {
-                    break;
-                }
-            }
-            if first.is_none_or(|known| high < known) {
-                first = Some(high);
+            let share = if self.solver.remembers(i) {
+                let start = self.from.force[i].max(0.0);
+                ((start + aim) / (start + excess)).min(1.0)
+            } else {
+                interpolated = true;
+                self.root_on_interpolant(i, aim)?
+            };
+            if first.is_none_or(|(known, _)| share < known) {
+                first = Some((share, excess));
             }
         }
-        if first.is_some() {
+        if interpolated {
             // Leave the solver's geometry at the end of the step.
             self.probe.copy_from(&self.to);
             self.solver.instant(&mut self.probe)?;
@@ -69,13 +69,35 @@ impl Stepper<'_, '_> {
         Ok(first)
     }
 
-    /// Positive where contact `i` must open (if it acts) or close (if it does not).
+    /// Share of the step at which the event function of contact `i` reaches `aim` on the interpolant.
+    fn root_on_interpolant(&mut self, i: usize, aim: f64) -> Result<f64, Error> {
+        self.probe.copy_from(&self.to);
+        let (mut low, mut high) = (0.0_f64, 1.0_f64);
+        while high - low > 1e-12 {
+            let middle = 0.5 * (low + high);
+            self.probe.interpolate(&self.from, &self.to, middle);
+            if !self.solver.instant(&mut self.probe)? {
+                break;
+            }
+            if self.event(i, &self.probe) > aim { high = middle } else { low = middle }
+        }
+        Ok(high)
+    }
+
+    /// Largest contact force so far.
+    pub(crate) fn largest_force(&self) -> f64 {
+        self.to.force.iter().fold(self.force_scale, |max, force| max.max(force.abs()))
+    }
+
+    /// Positive where contact `i` must open (if it acts) or close (if it does not): the force by which it has gone
+    /// too far. A contact closes where its spring is pressed and its law pushes: the lesser of the two, since the
+    /// damper's force may jump where wheel and rail meet, the spring's where a pressed contact begins to push.
     pub(crate) fn event(&self, i: usize, at: &State) -> f64 {
         if self.solver.active[i] {
-            if self.solver.bilateral(i) { -1.0 } else { -at.force[i] }
-        } else {
-            self.solver.closing(i, at)
+            return if self.solver.bilateral(i) { -1.0 } else { -at.force[i] };
         }
+        let closing = self.solver.closing(i, at);
+        if closing > 0.0 { closing.min(self.solver.system.law(i).spring(at.p[i])) } else { closing }
     }
 }
 

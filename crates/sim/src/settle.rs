@@ -6,6 +6,9 @@ use crate::energy;
 use crate::solver::Solver;
 use crate::state::State;
 
+/// Give of a rail, relative to the wheel's, below which it counts as rigid.
+const RIGID: f64 = 1e-9;
+
 impl Solver<'_> {
     /// Finds which vertical contacts act at (t, q, v), and the forces: the complementarity problem, by sweeps
     /// of the active set. Returns whether it settled.
@@ -21,7 +24,6 @@ impl Solver<'_> {
                 .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
             if let Some(i) = weakest {
                 self.active[i] = false;
-                at.p_rate[i] = 0.0;
                 continue;
             }
             let deepest = (0..count)
@@ -29,16 +31,33 @@ impl Solver<'_> {
                 .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
             let Some(i) = deepest else { return Ok(true) };
             self.active[i] = true;
+            at.p_rate[i] = self.closing_rate(i, at);
         }
         Ok(false)
     }
 
-    /// Active contacts of the complementarity problem (G + 1/k) F - (e + (c/k) r) >= 0, F >= 0, where every law is
-    /// linear and none remembers its penetration: the sweeps of [`Solver::settle`] start from its solution.
+    /// Rate of penetration of a contact that closes now. Where the rail gives, its penetration and so its force go
+    /// on without a jump: the force starts at zero. A rigid rail takes the wheel's own rate.
+    fn closing_rate(&self, i: usize, at: &State) -> f64 {
+        let system = self.system;
+        let law = &system.scene.wheels[system.normals[i].kind].normal;
+        let give = self.geometry.compliance[i * system.components() + i];
+        if give * law.stiffness > RIGID {
+            let point = law.at(at.p[i], 0.0);
+            if point.by_rate > 0.0 { -point.force / point.by_rate } else { 0.0 }
+        } else {
+            let n = system.freedoms;
+            let row = &self.geometry.rows[i * n..(i + 1) * n];
+            row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum()
+        }
+    }
+
+    /// Active contacts of the complementarity problem (G + 1/k) F - e >= 0, F >= 0, where every law is
+    /// linear and undamped: the sweeps of [`Solver::settle`] start from its solution.
     fn guess_active(&mut self, at: &mut State) -> Result<(), Error> {
         let system = self.system;
-        let (n, m, count) = (system.freedoms, system.components(), system.normals.len());
-        if !system.linear_normals || (0..count).any(|i| system.law(i).has_memory() || system.law(i).bilateral)
+        let (m, count) = (system.components(), system.normals.len());
+        if !system.linear_normals || (0..count).any(|i| system.law(i).damping > 0.0 || system.law(i).bilateral)
         {
             return Ok(());
         }
@@ -54,10 +73,7 @@ impl Solver<'_> {
         for (r, &i) in felt.iter().enumerate() {
             let per_wheel = system.law(i).stiffness * system.normals[i].count() * share(i);
             matrix[r * felt.len() + r] += 1.0 / per_wheel;
-            let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
-            let rate: f64 = row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum();
-            reach[r] = energy::approach(system, &self.geometry, at, i)
-                + system.law(i).damping / system.law(i).stiffness * rate;
+            reach[r] = energy::approach(system, &self.geometry, at, i);
         }
         let mut force: Vec<f64> = felt.iter().map(|&i| at.force[i]).collect();
         if complementarity(&matrix, &reach, &mut force).is_some() {
@@ -85,9 +101,13 @@ impl Solver<'_> {
         if law.bilateral {
             return 1.0;
         }
-        let n = self.system.freedoms;
-        let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
-        let rate: f64 = row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum();
+        let rate = if law.has_memory() {
+            at.p_rate[i]
+        } else {
+            let n = self.system.freedoms;
+            let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
+            row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum()
+        };
         let spring = law.spring(at.p[i]);
         if at.p[i] <= 0.0 { spring } else { law.at(at.p[i], rate).force }
     }

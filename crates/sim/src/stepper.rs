@@ -8,6 +8,7 @@ use nalgebra::DVector;
 
 use crate::energy::{Exchanged, boundary, power, stored};
 use crate::solver::{Known, Solver};
+use crate::events::OVERSHOOT;
 use crate::state::State;
 use crate::tableau::{SDIRK4, Tableau};
 use crate::{Audit, Error};
@@ -24,6 +25,9 @@ pub struct Counts {
     /// Instants at which a wheel left or met the rail.
     pub events: usize,
 }
+
+/// How often a step is taken again to end at an event.
+const REFINEMENTS: usize = 40;
 
 /// Why a step could not be taken.
 pub(crate) enum Failure {
@@ -50,6 +54,11 @@ pub(crate) struct Stepper<'a, 'b> {
     rate_scale: DVector<f64>,
     h: f64,
     last_error: f64,
+    limit: f64,
+    /// Largest contact force so far, at least the weight.
+    pub(crate) force_scale: f64,
+    /// Smallest steps in a row.
+    stalled: usize,
     stage: State,
     known: Known,
     accelerations: Vec<DVector<f64>>,
@@ -81,6 +90,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
             rate_scale,
             h: first,
             last_error: 1.0,
+            limit: f64::INFINITY,
+            force_scale: system.scene.bodies.iter().map(|body| body.mass * system.scene.gravity).sum(),
+            stalled: 0,
             known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
             accelerations: vec![DVector::zeros(n); tableau.stages()],
             rates: vec![DVector::zeros(n); tableau.stages()],
@@ -93,6 +105,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Takes one accepted step, at most to `limit`; `from` and `to` are its ends.
     pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
+        self.limit = limit;
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
@@ -102,6 +115,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             h = limit - start;
         }
         let mut ends_at_event = false;
+        let mut refined = 0;
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -116,13 +130,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 ends_at_event = false;
                 continue;
             }
-            if !ends_at_event && let Some(share) = self.first_event()? {
-                if share * h > smallest && share < 1.0 - 1e-9 {
-                    h *= share;
-                    ends_at_event = true;
+            if let Some((share, excess)) = self.first_event()? {
+                ends_at_event = true;
+                if excess > OVERSHOOT * self.largest_force() && refined < REFINEMENTS {
+                    refined += 1;
+                    h = if refined < REFINEMENTS { (h * share).max(2.0 * smallest) } else { 2.0 * smallest };
                     continue;
                 }
-                ends_at_event = true;
             }
             let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
             self.last_error = error.max(1e-4);
@@ -132,6 +146,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 self.h = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
             }
             break;
+        }
+        self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
+        if self.stalled > REFINEMENTS {
+            return Err(Failure::TooSmall);
         }
         self.accept(h)?;
         Ok(())
@@ -153,7 +171,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
                     *p += h * weight * rate;
                 }
             }
-            self.stage.t = self.from.t + tableau.c[i] * h;
+            // just before the end: a prescribed motion may jump there
+            self.stage.t = (self.from.t + tableau.c[i] * h).min(self.limit.next_down());
             self.counts.stages += 1;
             if !self.solver.stage(gamma_h, &self.known, &mut self.stage)? {
                 return Ok(false);
@@ -165,7 +184,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
         }
         self.to.copy_from(&self.stage);
-        self.to.t = self.from.t + h;
+        self.to.t = (self.from.t + h).min(self.limit);
+        if self.limit - self.to.t < 1e-14 * self.limit {
+            self.to.t = self.limit;
+        }
         Ok(self.to.q.iter().chain(self.to.v.iter()).all(|x| x.is_finite()))
     }
 
@@ -190,6 +212,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     fn accept(&mut self, h: f64) -> Result<(), Error> {
         let system = self.solver.system;
         self.counts.steps += 1;
+        self.force_scale = self.largest_force();
         let mut booked = Exchanged::default();
         for (i, power) in self.powers.iter().enumerate() {
             booked.add(power, h * self.tableau.weight(i));
@@ -201,6 +224,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         for i in 0..self.to.q.len() {
             self.scale[i] = self.scale[i].max(self.to.q[i].abs());
             self.rate_scale[i] = self.rate_scale[i].max(self.to.v[i].abs());
+        }
+        if self.to.t >= self.limit {
+            self.turn()?;
         }
         let before = stored(system, &self.solver.geometry, &self.to);
         let due = (0..system.normals.len()).any(|i| {
@@ -220,6 +246,20 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
         let imbalance = (after.total() + self.audit.exchanged.net_loss() - self.begun).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
+        Ok(())
+    }
+
+    /// Passes a break of the prescribed motions: what a jump of speed does to the energy is their work, and
+    /// accelerations are those after the break.
+    fn turn(&mut self) -> Result<(), Error> {
+        let system = self.solver.system;
+        let after = stored(system, &self.solver.geometry, &self.to).kinetic;
+        let t = self.to.t;
+        self.to.t = t.next_down();
+        let before = stored(system, &self.solver.geometry, &self.to).kinetic;
+        self.to.t = t;
+        self.audit.exchanged.drives += after - before;
+        self.solver.instant(&mut self.to)?;
         Ok(())
     }
 
