@@ -179,4 +179,32 @@ mod tests {
         let mut guess = force.clone();
         assert_eq!(complementarity(&a, &b, &mut guess), Some(1));
     }
+
+    /// Forces by trying every active set: the one with F >= 0 and s >= 0.
+    fn brute(n: usize, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
+        (0..1_u32 << n).find_map(|set| {
+            let active: Vec<bool> = (0..n).map(|i| set >> i & 1 == 1).collect();
+            let mut force = vec![0.0; n];
+            super::solve_active(a, b, &active, &mut force)?;
+            let slack = |i: usize| (0..n).map(|j| a[i * n + j] * force[j]).sum::<f64>() - b[i];
+            (0..n).all(|i| force[i] >= 0.0 && (active[i] || slack(i) >= 0.0)).then_some(force)
+        })
+    }
+
+    #[test]
+    fn active_set_and_lemke_agree_with_every_set_tried() {
+        for n in 1..=6 {
+            for seed in 50..90 {
+                let (a, mut b, _) = planted(n, seed);
+                // A right-hand side without a planted answer.
+                b.reverse();
+                let wanted = brute(n, &a, &b).expect("one set solves it");
+                let (mut found, mut pivoted) = (vec![0.0; n], vec![0.0; n]);
+                assert!(complementarity(&a, &b, &mut found).is_some() && lemke(&a, &b, &mut pivoted));
+                for i in 0..n {
+                    assert!((found[i] - wanted[i]).abs() < 1e-9 && (pivoted[i] - wanted[i]).abs() < 1e-9);
+                }
+            }
+        }
+    }
 }

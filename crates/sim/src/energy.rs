@@ -211,10 +211,8 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
     let Some(profile) = &body.motion else { return 0.0 };
     let line = body.mass_matrix()[0];
     let mut force = line[0] * profile.at(state.t).a;
-    for i in 1..6 {
-        if let Some(number) = system.freedom[b][i] {
-            force += line[i] * state.a[number];
-        }
+    for (number, inertia) in system.freedom[b].iter().zip(line).skip(1) {
+        force += number.map_or(0.0, |number| inertia * state.a[number]);
     }
     for (i, normal) in system.normals.iter().enumerate() {
         if system.scene.contacts[normal.contact].body == b {

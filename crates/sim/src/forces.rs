@@ -124,7 +124,6 @@ impl Problem {
         active: &[bool],
         force: &mut [f64],
     ) -> bool {
-        let m = force.len();
         for (i, normal_active) in active.iter().enumerate() {
             if !normal_active {
                 force[i] = 0.0;
@@ -141,8 +140,8 @@ impl Problem {
             self.newton.copy_from_slice(&self.residual);
             let mut damping = 1.0;
             loop {
-                for i in 0..m {
-                    force[i] = self.start[i] - damping * self.newton[i];
+                for (f, (start, newton)) in force.iter_mut().zip(self.start.iter().zip(&self.newton)) {
+                    *f = start - damping * newton;
                 }
                 let now = self.evaluate(system, geometry, active, force);
                 if now <= size || now <= TOLERANCE * scale || damping < 1e-3 {

@@ -130,10 +130,10 @@ impl Geometry {
         self.held.fill(0.0);
         let put =
             |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
-                for i in 0..6 {
+                for (i, entry) in row.into_iter().enumerate() {
                     match system.freedom[body][i] {
-                        Some(number) => rows[component * n + number] += scale * row[i],
-                        None if i > 0 => *held += scale * row[i] * system.scene.bodies[body].start[i],
+                        Some(number) => rows[component * n + number] += scale * entry,
+                        None if i > 0 => *held += scale * entry * system.scene.bodies[body].start[i],
                         None => {}
                     }
                 }

@@ -105,8 +105,11 @@ pub struct BlendedParts {
     pub chains: Vec<PartChain>,
 }
 
+/// Which probe a part carries, with the part's share and its slope.
+type Owner = (usize, [f64; 2]);
+
 /// Probes of the parts that carry `at`, with their shares.
-fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<(usize, [f64; 2])>), Error> {
+fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<Owner>), Error> {
     let (mut probes, mut owners) = (Vec::with_capacity(2 * at.len()), Vec::with_capacity(2 * at.len()));
     for (i, probe) in at.iter().enumerate() {
         let chain = chains.get(probe.rail).ok_or(Error::NoRail { rail: probe.rail })?;

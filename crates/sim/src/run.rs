@@ -68,9 +68,9 @@ pub fn run(
 /// Starting values of the freedoms.
 fn start(system: &System, state: &mut State) {
     for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
-        for i in 0..6 {
-            if let Some(number) = numbers[i] {
-                state.q[number] = body.start[i];
+        for (number, start) in numbers.iter().zip(body.start) {
+            if let Some(number) = *number {
+                state.q[number] = start;
             }
         }
     }
@@ -148,9 +148,9 @@ fn integrate(
 
 fn start_speeds(system: &System, state: &mut State) {
     for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
-        for i in 0..6 {
-            if let Some(number) = numbers[i] {
-                state.v[number] = body.start_speed[i];
+        for (number, speed) in numbers.iter().zip(body.start_speed) {
+            if let Some(number) = *number {
+                state.v[number] = speed;
             }
         }
     }

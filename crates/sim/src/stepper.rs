@@ -299,3 +299,6 @@ fn floors(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let rates = &scale * frequency;
     (scale, rates)
 }
+
+#[cfg(test)]
+mod tests;

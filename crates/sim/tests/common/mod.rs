@@ -1,7 +1,13 @@
 //! The paper's girder in closed form, and its bogie.
 
+#![allow(dead_code)]
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use serde_json::Value;
 use sim::{Analysis, Body, Contact, Damper, Foundation, Given, NormalLaw, Profile, Scene, Wheel};
-use splines::{Axis, Compliance, Error, Influence, Probe};
+use splines::{Axis, Cell, Compliance, Error, Flexibility, Influence, Line, Probe, Surface};
 
 /// Span, ft, and bending stiffness, lb ft^2, of the paper's girder.
 pub const SPAN: f64 = 60.0;
@@ -93,4 +99,55 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
         output_dt: 0.01 * end,
         accuracy: 1e-6,
     }
+}
+
+/// Columns time, z, pitch and both wheel forces of a reference.
+///
+/// External: scipy DOP853 at rtol 1e-12 on a closed-form influence function, `fea/bogie_reference.py`.
+pub fn reference(text: &str) -> Vec<[f64; 5]> {
+    let json: Value = serde_json::from_str(text).expect("the file is JSON");
+    let column = |name: &str| -> Vec<f64> {
+        json[name].as_array().expect("an array").iter().map(|v| v.as_f64().expect("a number")).collect()
+    };
+    let (t, z, pitch, f1, f2) = (column("time"), column("z"), column("pitch"), column("F1"), column("F2"));
+    (0..t.len()).map(|i| [t[i], z[i], pitch[i], f1[i], f2[i]]).collect()
+}
+
+/// Stations of the exact surface.
+const STATIONS: [f64; 4] = [-15.0, 0.0, SPAN, 75.0];
+
+/// The girder as an exact surface: compliance of the states from the closed form [`give`] and its derivatives.
+pub fn surface() -> Surface {
+    let mut nodal = DMatrix::zeros(24, 24);
+    for (i, &x) in STATIONS.iter().enumerate() {
+        for (j, &z) in STATIONS.iter().enumerate() {
+            nodal[(6 * i + 1, 6 * j + 1)] = give(x, z).0;
+            nodal[(6 * i + 5, 6 * j + 1)] = give(x, z).1;
+            nodal[(6 * i + 1, 6 * j + 5)] = give(z, x).1;
+            nodal[(6 * i + 5, 6 * j + 5)] = turn(x, z);
+        }
+    }
+    let flexibility = Flexibility { bending_z: 1.0 / EI, ..Flexibility::default() };
+    let cells = STATIONS.windows(2).enumerate().map(|(k, x)| Cell {
+        rail: 0,
+        x: [x[0], x[1]],
+        ends: [k, k + 1],
+        length: x[1] - x[0],
+        frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        offset: [0.0; 3],
+        flexibility,
+    });
+    Surface::new(Arc::new(Line::new(cells.collect()).expect("valid cells")), nodal).expect("the shape fits")
+}
+
+/// Rotation at x for a unit moment at z: the derivative of [`give`]'s slope by z.
+fn turn(x: f64, z: f64) -> f64 {
+    let (square, beyond) = (|a: f64| a.max(0.0).powi(2), |a: f64| a.max(0.0));
+    // d/dz of w and w' with reactions (L - z)/L and z/L.
+    let shape = |x: f64| {
+        let cubes = (beyond(x).powi(3) - beyond(x - SPAN).powi(3)) / SPAN;
+        let squares = 3.0 * (square(x) - square(x - SPAN)) / SPAN;
+        ((cubes - 3.0 * square(x - z)) / (6.0 * EI), (squares - 6.0 * beyond(x - z)) / (6.0 * EI))
+    };
+    shape(x).1 - (shape(SPAN).0 - shape(0.0).0) / SPAN
 }
