@@ -86,7 +86,7 @@ fn instant_at_which_a_wheel_leaves_converges_with_the_step() -> Result<(), Error
             loop {
                 stepper.from.copy_from(&stepper.to);
                 assert!(stepper.attempt(h)?);
-                if let Some(share) = stepper.first_event()? {
+                if let Some((share, _)) = stepper.first_event()? {
                     return Ok((stepper.from.t + share * h - wanted).abs());
                 }
             }
