@@ -34,6 +34,28 @@ pub struct Known {
     pub solved: Solved,
 }
 
+/// Every different spec of the document, once: the name of its tables (the structure's, with the label of the
+/// comparison that brings it), its file, and itself.
+#[must_use]
+pub fn specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
+    let mut all: Vec<(String, &str, &Arc<Spec>)> = Vec::new();
+    for case in &document.cases {
+        for structure in &case.scene.structures {
+            let Origin::Spec { file, spec } = &structure.origin else { continue };
+            let is_new = all.iter().all(|(_, _, known)| *known != spec);
+            let of_scene = case.label.is_none();
+            if is_new || (of_scene && all.iter().all(|(name, ..)| *name != structure.name)) {
+                let name = match &case.label {
+                    Some(label) => format!("{}-{label}", structure.name),
+                    None => structure.name.clone(),
+                };
+                all.push((name, file, spec));
+            }
+        }
+    }
+    all
+}
+
 /// The solution of a structure that has a spec.
 #[must_use]
 pub fn solved_of<'a>(known: &'a [Known], origin: &Origin) -> Option<&'a Solved> {

@@ -180,7 +180,12 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
             ]);
         }
     }
-    let section = Section::new("Energy");
+    let mut section = Section::new("Energy");
+    for outcome in outcomes {
+        for warning in summary::warnings(&outcome.run) {
+            section = section.say(format!("Warning, {}: {warning}.", outcome.label));
+        }
+    }
     if table.rows.is_empty() {
         section.say("No run of this scene is dynamic: there is no energy to audit.")
     } else {

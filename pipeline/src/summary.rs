@@ -21,6 +21,23 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
     }
 }
 
+/// Energy residual above which a run's forces are not to be trusted blindly.
+const RESIDUAL: f64 = 1e-3;
+
+/// What a user should know before believing a run.
+#[must_use]
+pub fn warnings(run: &Run) -> Vec<String> {
+    let residual = run.audit.residual();
+    if residual > RESIDUAL {
+        vec![format!(
+            "the energy audit leaves {residual:.1e} of the peak stored energy open: a table that is not symmetric does \
+             so, and so does a flange that takes hold at once"
+        )]
+    } else {
+        Vec::new()
+    }
+}
+
 /// One run as JSON.
 #[must_use]
 pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
@@ -56,6 +73,10 @@ pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
     });
     if let Some(why) = why {
         result["why"] = json!(why);
+    }
+    let warnings = warnings(run);
+    if !warnings.is_empty() {
+        result["warnings"] = json!(warnings);
     }
     if scene.analysis == Analysis::Dynamic {
         let lost = &run.audit.exchanged;

@@ -177,6 +177,17 @@ fn simulation_on_existing_tables_gives_the_same_history() {
     let first = std::fs::read(&file).expect("a history");
     run("sim", &scene, folder.path());
     assert_eq!(first, std::fs::read(&file).expect("a history"));
+    // a comparison with a spec of its own has tables of its own
+    let mut other = scene.clone();
+    other["compare"] = json!([{"label": "stiff", "structures": {"girder": {"spec": "stiff.json"}}}]);
+    let stiff = text("examples/bogie/spec.json").replace("9.528", "95.28");
+    std::fs::write(folder.path().join("stiff.json"), stiff).expect("a spec");
+    let file = folder.path().join("out/history-stiff.csv");
+    run("run", &other, folder.path());
+    let first = std::fs::read(&file).expect("a history");
+    run("sim", &other, folder.path());
+    assert_eq!(first, std::fs::read(&file).expect("a history"));
+    assert!(folder.path().join("out/grid-girder-stiff.json").is_file());
     // other numbers in the spec: the tables no longer fit
     let spec = text("examples/bogie/spec.json").replace("9.528", "9.5");
     std::fs::write(folder.path().join("spec.json"), spec).expect("a spec");

@@ -57,7 +57,8 @@ impl Solver<'_> {
     fn guess_active(&mut self, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let (m, count) = (system.components(), system.normals.len());
-        if !system.linear_normals || (0..count).any(|i| system.law(i).damping > 0.0 || system.law(i).bilateral)
+        if !system.linear_normals
+            || (0..count).any(|i| system.law(i).damping > 0.0 || system.law(i).bilateral)
         {
             return Ok(());
         }

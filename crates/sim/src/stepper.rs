@@ -7,8 +7,8 @@
 use nalgebra::DVector;
 
 use crate::energy::{Exchanged, boundary, power, stored};
-use crate::solver::{Known, Solver};
 use crate::events::OVERSHOOT;
+use crate::solver::{Known, Solver};
 use crate::state::State;
 use crate::tableau::{SDIRK4, Tableau};
 use crate::{Audit, Error};

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde_json::{Value, json};
 use sim::Status;
 
-use crate::cases::{Known, Outcome, simulate, solved_of};
+use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
 use crate::clock::Clock;
 use crate::exit::{Exit, Failure};
@@ -15,7 +15,7 @@ use crate::manifest::Manifest;
 use crate::output::{self, Folder};
 use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
-use crate::scene::{Document, Origin, Scene};
+use crate::scene::{Document, Scene};
 use crate::{grid_file, story, summary, tables};
 
 /// The main job: from a scene to its output folder.
@@ -45,17 +45,11 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let outcomes = simulate(&document, &known, global.threads, &progress)?;
     clock.lap("simulation");
 
-    for structure in &scene.structures {
-        if let Some(solved) = solved_of(&known, &structure.origin) {
-            folder.add(
-                &format!("grid-{}.json", structure.name),
-                grid_file::write(&solved.grid, Some(&solved.surface)),
-            );
-            if let Some(text) = tables::adm(&structure.name, &solved.grid)
-                .map_err(|error| Failure::Untrusted(error.to_string()))?
-            {
-                folder.add(&format!("{}.adm", structure.name), text);
-            }
+    for ((name, ..), entry) in specs(&document).iter().zip(&known) {
+        let solved = &entry.solved;
+        folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, Some(&solved.surface)));
+        if let Some(text) = tables::adm(name, &solved.grid).map_err(trouble)? {
+            folder.add(&format!("{name}.adm"), text);
         }
     }
     for (case, outcome) in document.cases.iter().zip(&outcomes) {
@@ -104,6 +98,11 @@ fn finish(
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
+    for outcome in outcomes {
+        for warning in summary::warnings(&outcome.run) {
+            progress.say(&format!("warning: {}: {warning}", outcome.label));
+        }
+    }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
         let result =
@@ -123,13 +122,9 @@ fn finish(
 fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<Known>, Failure> {
     let mut known: Vec<Known> = Vec::new();
     let stage = progress.stage("solving the structures");
-    for structure in document.cases.iter().flat_map(|case| &case.scene.structures) {
-        let Origin::Spec { file, spec } = &structure.origin else { continue };
-        if known.iter().any(|entry| entry.spec == *spec) {
-            continue;
-        }
+    for (_, file, spec) in specs(document) {
         let solved = link::solve(spec).map_err(|error| {
-            match document.inputs.all().iter().find(|input| input.name == *file) {
+            match document.inputs.all().iter().find(|input| input.name == file) {
                 Some(input) => spec.refuse(&input.source, &error),
                 None => Failure::Untrusted(error.to_string()),
             }

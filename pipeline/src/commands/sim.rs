@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::run::job;
-use crate::cases::Known;
+use crate::cases::{Known, specs};
 use crate::cli::{Global, Scene as Arguments};
 use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
@@ -15,7 +15,7 @@ use crate::inputs::Inputs;
 use crate::link::Solved;
 use crate::manifest::MANIFEST;
 use crate::progress::Progress;
-use crate::scene::{Document, Origin};
+use crate::scene::Document;
 use crate::spec::{Form, Spec};
 
 /// Simulates on the grids of the output folder, and writes the folder anew.
@@ -29,13 +29,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 /// The grids and surfaces of the folder, one for each spec.
 fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<Known>, Failure> {
     let mut known: Vec<Known> = Vec::new();
-    for structure in document.cases.iter().flat_map(|case| &case.scene.structures) {
-        let Origin::Spec { file, spec } = &structure.origin else { continue };
-        if known.iter().any(|entry| entry.spec == *spec) {
-            continue;
-        }
+    for (name, file, spec) in specs(document) {
         unchanged(document, folder, file)?;
-        let path = folder.join(format!("grid-{}.json", structure.name));
+        let path = folder.join(format!("grid-{name}.json"));
         known.push(Known { spec: Arc::clone(spec), solved: solved(spec, &path)? });
     }
     Ok(known)
@@ -45,10 +41,8 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<Known>, 
 fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failure> {
     let path = folder.join(MANIFEST);
     let refuse = |why: &str| {
-        let wrong = Diagnostic::of_file(
-            path.display().to_string(),
-            format!("{why}  hint: `girderway run` makes the tables"),
-        );
+        let mut wrong = Diagnostic::of_file(path.display().to_string(), why.to_owned());
+        wrong.hint = Some("`girderway run` makes the tables".to_owned());
         Failure::Input(vec![wrong])
     };
     let text = std::fs::read(&path).map_err(|_| refuse("there are no tables yet"))?;
