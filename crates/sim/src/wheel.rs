@@ -93,6 +93,9 @@ impl NormalLaw {
     /// Elastic energy at penetration `p`: k |p|^(e+1)/(e+1).
     #[must_use]
     pub fn energy(&self, p: f64) -> f64 {
+        if self.exponent == 1.0 {
+            return 0.5 * self.stiffness * p * p;
+        }
         self.stiffness * p.abs().powf(self.exponent + 1.0) / (self.exponent + 1.0)
     }
 
