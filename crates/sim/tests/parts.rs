@@ -225,7 +225,7 @@ fn many(count: usize) -> BlendedParts {
         }
     }
     let flexible = bordered.try_inverse().expect("two supports hold the chain") / EI;
-    let state = |i: usize| 6 * (i / 2) + if i % 2 == 0 { 1 } else { 5 };
+    let state = |i: usize| 6 * (i / 2) + [1, 5][i % 2];
     let mut nodal = DMatrix::zeros(6 * count, 6 * count);
     for i in 0..2 * count {
         for j in 0..2 * count {
