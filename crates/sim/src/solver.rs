@@ -73,9 +73,9 @@ impl<'a> Solver<'a> {
             if acceleration == 0.0 {
                 continue;
             }
-            for i in 1..6 {
-                if let Some(number) = self.system.freedom[b][i] {
-                    self.load[number] -= line[i] * acceleration;
+            for (number, inertia) in self.system.freedom[b].iter().zip(line).skip(1) {
+                if let Some(number) = *number {
+                    self.load[number] -= inertia * acceleration;
                 }
             }
         }

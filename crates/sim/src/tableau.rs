@@ -57,8 +57,8 @@ mod tests {
         let c = SDIRK4.c;
         let sum = |f: &dyn Fn(usize) -> f64| (0..s).map(|i| SDIRK4.weight(i) * f(i)).sum::<f64>();
         let inner = |i: usize, f: &dyn Fn(usize) -> f64| (0..s).map(|j| a(i, j) * f(j)).sum::<f64>();
-        for i in 0..s {
-            assert!((inner(i, &|_| 1.0) - c[i]).abs() < 1e-14);
+        for (i, abscissa) in c.iter().enumerate() {
+            assert!((inner(i, &|_| 1.0) - abscissa).abs() < 1e-14);
         }
         let conditions: [(f64, f64); 8] = [
             (sum(&|_| 1.0), 1.0),

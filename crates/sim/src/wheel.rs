@@ -93,6 +93,9 @@ impl NormalLaw {
     /// Elastic energy at penetration `p`: k |p|^(e+1)/(e+1).
     #[must_use]
     pub fn energy(&self, p: f64) -> f64 {
+        if self.exponent == 1.0 {
+            return 0.5 * self.stiffness * p * p;
+        }
         self.stiffness * p.abs().powf(self.exponent + 1.0) / (self.exponent + 1.0)
     }
 
@@ -106,7 +109,7 @@ impl NormalLaw {
 /// Flange: beyond a clearance the rail head pushes back, until the wheel has climbed off it.
 ///
 /// L = k S(h) (|e| - clearance) sign(e), e the wheel's lateral displacement from the rail, h the height of
-/// the wheel's centre above the rail, S(h) = STEP(h, release[0], 1, release[1], 0).
+/// the wheel's centre above the rail, S(h) = `STEP(h, release[0], 1, release[1], 0)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flange {
     /// k, force per length, > 0.

@@ -1,5 +1,7 @@
 //! The paper's bogie against references computed by other codes.
 
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
 mod common;
 
 use std::ops::ControlFlow;

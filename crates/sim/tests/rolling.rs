@@ -1,5 +1,7 @@
 //! The force along the rail, scenes that cannot stand, and scenes nobody would draw.
 
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
 mod common;
 
 use std::ops::ControlFlow;

@@ -1,5 +1,7 @@
 //! The wheel of the paper's Fig. 1, lift-off, and the flange.
 
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
 mod common;
 
 use std::ops::ControlFlow;

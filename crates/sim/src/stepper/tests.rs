@@ -70,7 +70,6 @@ fn error_of_an_oscillation_falls_with_the_fourth_power_of_the_step() -> Result<(
         // Analytic: y = -0.1 + 0.05 cos(10 t).
         errors.push((end - (-0.1 + 0.05 * 10.0_f64.cos())).abs());
     }
-    println!("errors {errors:?}, order {}", slope(&errors));
     assert!((slope(&errors) - 4.0).abs() < 0.1, "{errors:?}");
     Ok(())
 }
@@ -92,7 +91,6 @@ fn instant_at_which_a_wheel_leaves_converges_with_the_step() -> Result<(), Error
             }
         })?);
     }
-    println!("errors {errors:?}, order {}", slope(&errors));
     assert!(slope(&errors) > 3.5, "{errors:?}");
     Ok(())
 }
