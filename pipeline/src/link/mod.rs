@@ -124,6 +124,15 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
     Ok(Foundation::influence(Box::new(reading), rails))
 }
 
+/// A girder as massless rigid parts with one contact a wheel on a datum blended over `window` (none: from centre
+/// to centre): see [`sim::BlendedParts`].
+///
+/// # Errors
+/// A girder that does not stand; windows that overlap.
+pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
+    parts::foundation(girder, count, Handover::Blend { length: window }, false)
+}
+
 pub(crate) fn untrusted(error: fea::Error) -> Failure {
     Failure::Untrusted(error.to_string())
 }
