@@ -4,7 +4,9 @@ use std::ops::ControlFlow;
 
 use fea::{Girder, Theory};
 use girderway::link::parts_of;
-use sim::{Analysis, Body, Channel, Contact, Damper, Foundation, Freedom, Given, NormalLaw, Profile, Scene, Wheel};
+use sim::{
+    Analysis, Body, Channel, Contact, Damper, Foundation, Freedom, Given, NormalLaw, Profile, Scene, Wheel,
+};
 
 const WEIGHT: f64 = 4.8e6;
 const GRAVITY: f64 = 32.174;
@@ -43,14 +45,22 @@ fn crossing(foundation: Foundation) -> Vec<f64> {
             spin_inertia: None,
         }],
         contacts: [-4.0 / 3.0, 4.0 / 3.0]
-            .map(|offset| Contact { body: 0, structure: 0, rail: 0, at: [0.0; 3], offsets: vec![offset], wheel: 0 })
+            .map(|offset| Contact {
+                body: 0,
+                structure: 0,
+                rail: 0,
+                at: [0.0; 3],
+                offsets: vec![offset],
+                wheel: 0,
+            })
             .to_vec(),
         analysis: Analysis::QuasiStatic,
         end: 12.0,
         output_dt: 0.08,
         accuracy: 1e-6,
     };
-    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a bogie on two wheels stands");
+    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()))
+        .expect("a bogie on two wheels stands");
     run.history.column(Channel::Displacement(0, Freedom::Y))
 }
 
