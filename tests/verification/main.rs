@@ -1,15 +1,14 @@
 //! Orders of convergence through the whole chain.
 
+#[path = "../../crates/sim/tests/common/mod.rs"]
+mod common;
+
 use std::ops::ControlFlow;
 
+use common::bogie;
 use fea::{Girder, Theory};
 use girderway::link::parts_of;
-use sim::{
-    Analysis, Body, Channel, Contact, Damper, Foundation, Freedom, Given, NormalLaw, Profile, Scene, Wheel,
-};
-
-const WEIGHT: f64 = 4.8e6;
-const GRAVITY: f64 = 32.174;
+use sim::{Analysis, Channel, Damper, Foundation, Freedom};
 
 fn girder() -> Girder {
     Girder {
@@ -25,42 +24,10 @@ fn girder() -> Girder {
 
 /// The paper's bogie at 150 places of a quasi-static crossing.
 fn crossing(foundation: Foundation) -> Vec<f64> {
-    let mass = WEIGHT / GRAVITY;
-    let scene = Scene {
-        gravity: GRAVITY,
-        bodies: vec![Body {
-            mass,
-            inertia: [0.0, 0.0, mass],
-            cg: [0.0; 3],
-            free: [false, true, false, false, false, true],
-            start: [0.0; 6],
-            start_speed: [0.0; 6],
-            motion: Some(Profile::new(Given::Speed, &[[0.0, 5.0]], 0.0, 0.0).expect("a valid table")),
-        }],
-        wheels: vec![Wheel {
-            radius: 1.25,
-            normal: NormalLaw::linear(1e8, 0.0, Damper::Rail),
-            flange: None,
-            friction: None,
-            spin_inertia: None,
-        }],
-        contacts: [-4.0 / 3.0, 4.0 / 3.0]
-            .map(|offset| Contact {
-                body: 0,
-                structure: 0,
-                rail: 0,
-                at: [0.0; 3],
-                offsets: vec![offset],
-                wheel: 0,
-            })
-            .to_vec(),
-        analysis: Analysis::QuasiStatic,
-        end: 12.0,
-        output_dt: 0.08,
-        accuracy: 1e-6,
-    };
-    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()))
-        .expect("a bogie on two wheels stands");
+    let mut scene = bogie(5.0, 12.0, Damper::Rail);
+    scene.analysis = Analysis::QuasiStatic;
+    scene.output_dt = 0.08;
+    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("the bogie stands");
     run.history.column(Channel::Displacement(0, Freedom::Y))
 }
 

@@ -34,6 +34,8 @@ pub(crate) struct Geometry {
     probes: Vec<Vec<Probe>>,
     shape: Vec<f64>,
     shape_slope: Vec<f64>,
+    /// Slopes of the structures' shapes under each component, over the freedoms, row-major.
+    shape_slopes: Vec<f64>,
     built: bool,
 }
 
@@ -56,6 +58,7 @@ impl Geometry {
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
             shape: vec![0.0; n],
             shape_slope: vec![0.0; n],
+            shape_slopes: vec![0.0; m * n],
             built: false,
         }
     }
@@ -127,6 +130,7 @@ impl Geometry {
         let n = system.freedoms;
         self.rows.fill(0.0);
         self.rate_rows.fill(0.0);
+        self.shape_slopes.fill(0.0);
         self.held.fill(0.0);
         let put =
             |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
@@ -179,42 +183,29 @@ impl Geometry {
                     .shapes
                     .row(at, value, slope)
                     .map_err(|source| Error::Compliance { structure: s, source })?;
-                let row = &mut self.rows[entry.component * n + range.start..entry.component * n + range.end];
-                for (target, shape) in row.iter_mut().zip(value.iter()) {
+                let span = entry.component * n + range.start..entry.component * n + range.end;
+                for (target, shape) in self.rows[span.clone()].iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
+                }
+                for (target, shape) in self.shape_slopes[span].iter_mut().zip(slope.iter()) {
+                    *target += entry.weight * shape;
                 }
             }
         }
         Ok(())
     }
 
-    /// Slope of the deflected rail under each component, for the forces and freedoms given.
-    pub fn update_rail_slope(
-        &mut self,
-        system: &System,
-        q: &DVector<f64>,
-        force: &[f64],
-    ) -> Result<(), Error> {
-        let m = system.components();
+    /// Slope of the deflected rail under each component, for the forces and freedoms given and the wheels where the
+    /// last update found them.
+    pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
+        let (m, n) = (system.components(), system.freedoms);
         for i in 0..m {
             self.rail_slope[i] = self.slope[i * m..(i + 1) * m].iter().zip(force).map(|(g, f)| g * f).sum();
-        }
-        for (s, entries) in system.entries.iter().enumerate() {
-            let Some(structure) = &system.foundations[s].structure else { continue };
-            let range = system.structure[s].clone();
-            let size = range.len();
-            for entry in entries {
-                let at = Probe { x: self.x[entry.wheel], ..entry.probe };
-                let (value, slope) = (&mut self.shape[..size], &mut self.shape_slope[..size]);
-                structure
-                    .shapes
-                    .row(at, value, slope)
-                    .map_err(|source| Error::Compliance { structure: s, source })?;
-                self.rail_slope[entry.component] += entry.weight
-                    * slope.iter().zip(range.clone()).map(|(shape, number)| shape * q[number]).sum::<f64>();
+            if !system.constant_rows {
+                let row = &self.shape_slopes[i * n..(i + 1) * n];
+                self.rail_slope[i] += row.iter().zip(q.iter()).map(|(shape, q)| shape * q).sum::<f64>();
             }
         }
-        Ok(())
     }
 
     /// Rows of the forces: those of the approach, less the rail's slope times the rows of the wheel's x.
@@ -232,7 +223,7 @@ impl Geometry {
         if !system.moves_freely {
             return Ok(());
         }
-        self.update_rail_slope(system, q, force)?;
+        self.update_rail_slope(system, q, force);
         let mut along = |component: usize, w: usize| {
             let wheel = &system.wheels[w];
             let row = arm_rows(wheel.hub)[0];

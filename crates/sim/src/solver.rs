@@ -227,7 +227,7 @@ impl<'a> Solver<'a> {
             }
         }
         self.geometry.update(system, at.t, &at.q, &at.force)?;
-        self.geometry.update_rail_slope(system, &at.q, &at.force)?;
+        self.geometry.update_rail_slope(system, &at.q, &at.force);
         self.fill_load(at.t);
         for j in 0..n {
             let (q, v) = (at.q[j], at.v[j]);

@@ -180,7 +180,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.accelerations[i].copy_from(&self.stage.a);
             self.rates[i].copy_from(&self.stage.v);
             self.p_rates[i].copy_from_slice(&self.stage.p_rate);
-            self.solver.geometry.update_rail_slope(self.solver.system, &self.stage.q, &self.stage.force)?;
+            self.solver.geometry.update_rail_slope(self.solver.system, &self.stage.q, &self.stage.force);
             self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
         }
         self.to.copy_from(&self.stage);

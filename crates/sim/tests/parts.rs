@@ -20,28 +20,15 @@ fn basis() -> Matrix4x2<f64> {
     Matrix4x2::new(7.5, 0.0, 1.0, 0.0, 0.0, -7.5, 0.0, 1.0)
 }
 
-/// Stiffness of the parts' rotations: the Euler-Bernoulli beam of 45 ft between the centres.
+/// Euler-Bernoulli beam of length `l`: v and slope at both ends.
+fn beam(l: f64) -> Matrix4<f64> {
+    let (a, b, c) = (6.0 * l, 4.0 * l * l, 2.0 * l * l);
+    Matrix4::new(12.0, a, -12.0, a, a, b, -a, c, -12.0, -a, 12.0, -a, a, c, -a, b) * (EI / l.powi(3))
+}
+
+/// Stiffness of the parts' rotations: the beam of 45 ft between the centres.
 fn stiffness() -> Matrix2<f64> {
-    let l = 45.0_f64;
-    let beam = Matrix4::new(
-        12.0,
-        6.0 * l,
-        -12.0,
-        6.0 * l, //
-        6.0 * l,
-        4.0 * l * l,
-        -6.0 * l,
-        2.0 * l * l, //
-        -12.0,
-        -6.0 * l,
-        12.0,
-        -6.0 * l, //
-        6.0 * l,
-        2.0 * l * l,
-        -6.0 * l,
-        4.0 * l * l,
-    ) * (EI / l.powi(3));
-    basis().transpose() * beam * basis()
+    basis().transpose() * beam(45.0) * basis()
 }
 
 /// Places of v and rotation of both centres among the twelve states.
@@ -191,24 +178,7 @@ fn many(count: usize) -> BlendedParts {
     let ends: Vec<f64> = (0..=count).map(|j| -15.0 + 90.0 * j as f64 / count as f64).collect();
     let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
     let l = 90.0 / count as f64;
-    let beam = Matrix4::new(
-        12.0,
-        6.0 * l,
-        -12.0,
-        6.0 * l, //
-        6.0 * l,
-        4.0 * l * l,
-        -6.0 * l,
-        2.0 * l * l, //
-        -12.0,
-        -6.0 * l,
-        12.0,
-        -6.0 * l, //
-        6.0 * l,
-        2.0 * l * l,
-        -6.0 * l,
-        4.0 * l * l,
-    ) * (EI / l.powi(3));
+    let beam = beam(l);
     let mut chain = DMatrix::zeros(2 * count, 2 * count);
     for j in 0..count - 1 {
         let mut block = chain.view_mut((2 * j, 2 * j), (4, 4));
