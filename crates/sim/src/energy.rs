@@ -97,7 +97,7 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         let lift: f64 = row.iter().zip(displacement).map(|(r, d)| r * d).sum();
         energy.gravity += body.mass * system.scene.gravity * lift;
         if body.motion.is_some() {
-            let line = body.mass_matrix()[0];
+            let line = system.body_mass[b][0];
             energy.kinetic += 0.5 * line[0] * speed[0] * speed[0];
             energy.kinetic +=
                 (1..6).filter(|&i| body.free[i]).map(|i| line[i] * speed[0] * speed[i]).sum::<f64>();
@@ -209,7 +209,7 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
 pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
     let body = &system.scene.bodies[b];
     let Some(profile) = &body.motion else { return 0.0 };
-    let line = body.mass_matrix()[0];
+    let line = system.body_mass[b][0];
     let mut force = line[0] * profile.at(state.t).a;
     for (number, inertia) in system.freedom[b].iter().zip(line).skip(1) {
         force += number.map_or(0.0, |number| inertia * state.a[number]);

@@ -69,7 +69,7 @@ impl<'a> Solver<'a> {
         self.load.copy_from(&self.system.gravity);
         for (b, body) in self.system.scene.bodies.iter().enumerate() {
             let Some(profile) = &body.motion else { continue };
-            let (acceleration, line) = (profile.at(t).a, body.mass_matrix()[0]);
+            let (acceleration, line) = (profile.at(t).a, self.system.body_mass[b][0]);
             if acceleration == 0.0 {
                 continue;
             }

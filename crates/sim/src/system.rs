@@ -9,7 +9,7 @@ use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
 use crate::scene::arm_rows;
-use crate::{Error, Foundation, Freedom, NormalLaw, Scene};
+use crate::{Body, Error, Foundation, Freedom, NormalLaw, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint {
@@ -61,6 +61,8 @@ pub(crate) struct System<'a> {
     /// Freedom numbers of each structure.
     pub structure: Vec<Range<usize>>,
     pub freedoms: usize,
+    /// Mass matrix of each body over its six freedoms.
+    pub body_mass: Vec<[[f64; 6]; 6]>,
     pub mass: DMatrix<f64>,
     pub damping: DMatrix<f64>,
     pub stiffness: DMatrix<f64>,
@@ -155,6 +157,7 @@ impl<'a> System<'a> {
             freedom,
             structure,
             freedoms,
+            body_mass: scene.bodies.iter().map(Body::mass_matrix).collect(),
             mass: DMatrix::zeros(freedoms, freedoms),
             damping: DMatrix::zeros(freedoms, freedoms),
             stiffness: DMatrix::zeros(freedoms, freedoms),
@@ -235,7 +238,7 @@ impl<'a> System<'a> {
 
     fn fill_matrices(&mut self) -> Result<(), Error> {
         for (b, body) in self.scene.bodies.iter().enumerate() {
-            let matrix = body.mass_matrix();
+            let matrix = self.body_mass[b];
             let numbers = self.freedom[b];
             for i in 0..6 {
                 let Some(row) = numbers[i] else { continue };
