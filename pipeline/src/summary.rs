@@ -15,7 +15,10 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
         Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
         Status::StepTooSmall(t) => (
             "step too small",
-            Some(format!("no step was small enough at t = {t} s: the motion cannot be followed")),
+            Some(format!(
+                "no step was small enough at t = {t} s, or contacts opened and closed without end: the motion cannot be \
+                 followed"
+            )),
         ),
         Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
     }
@@ -30,8 +33,8 @@ pub fn warnings(run: &Run) -> Vec<String> {
     let residual = run.audit.residual();
     if residual > RESIDUAL {
         vec![format!(
-            "the energy audit leaves {residual:.1e} of the peak stored energy open: a table that is not symmetric does \
-             so, and so does a flange that takes hold at once"
+            "the energy audit leaves {residual:.1e} of the peak stored energy open; a smaller \"accuracy\" closes it, but \
+             for a table that is not symmetric and a flange that takes hold at once"
         )]
     } else {
         Vec::new()

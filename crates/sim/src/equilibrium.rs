@@ -30,9 +30,6 @@ impl Solver<'_> {
         at.force.fill(0.0);
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         let moving = self.balancing();
-        if moving.is_empty() {
-            return if self.settle(at)? { Ok(()) } else { Err(none) };
-        }
         let mut balance = Balance::new(self, moving, at)?;
         if !balance.solve() {
             return Err(none);
@@ -121,26 +118,29 @@ struct Balance<'a> {
 
 impl<'a> Balance<'a> {
     /// The balance of `moving` where the solver's geometry is; every wheel that may act is taken to carry alike.
+    /// Where nothing moves, the wheels that reach into their rails carry.
     fn new(solver: &Solver<'a>, moving: Vec<usize>, at: &State) -> Result<Self, Error> {
         let (system, geometry) = (solver.system, &solver.geometry);
         let (n, count) = (system.freedoms, system.normals.len());
         let stays =
             |k: usize| !moving.contains(&k) && !system.structure.iter().any(|range| range.contains(&k));
         let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
-        let held = (0..count)
+        let held: Vec<f64> = (0..count)
             .map(|i| {
                 geometry.held[i] + staying.iter().map(|&k| geometry.rows[i * n + k] * at.q[k]).sum::<f64>()
             })
             .collect();
         let share: Vec<f64> =
             system.normals.iter().zip(&geometry.share).map(|(normal, s)| normal.count() * s[0]).collect();
-        let active: Vec<usize> = (0..count).filter(|&i| share[i] > 0.0).collect();
+        let reach = |i: usize| if moving.is_empty() { Some(held[i]) } else { None };
+        let active: Vec<usize> =
+            (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
         let weight = DVector::from_fn(moving.len(), |j, _| system.gravity[moving[j]]);
         let each = weight.amax() / active.len().max(1) as f64;
         Ok(Balance {
             compliance: solver.static_compliance()?,
             rows: DMatrix::from_fn(count, moving.len(), |i, j| geometry.rows[i * n + moving[j]]),
-            p: (0..count).map(|i| system.law(i).penetration(each)).collect(),
+            p: (0..count).map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each))).collect(),
             q: DVector::zeros(moving.len()),
             force: vec![0.0; count],
             system,
@@ -159,12 +159,12 @@ impl<'a> Balance<'a> {
     /// Sweeps of the active set; false where no set balances the weights.
     fn solve(&mut self) -> bool {
         for _ in 0..SWEEPS {
+            if self.active.is_empty() {
+                return self.moving.is_empty();
+            }
             let Some(converged) = self.iterate() else { return false };
             if !self.sweep() {
                 return converged;
-            }
-            if self.active.is_empty() {
-                return false;
             }
         }
         false
@@ -198,6 +198,9 @@ impl<'a> Balance<'a> {
         }
         let lever = DMatrix::from_fn(size, self.moving.len(), |r, j| self.rows[(self.active[r], j)]);
         let lu = matrix.lu();
+        if self.moving.is_empty() {
+            return lu.solve(&free);
+        }
         let (by_lever, by_free) = (lu.solve(&lever)?, lu.solve(&free)?);
         let stiffness = lever.transpose() * &by_lever;
         let balance = &self.weight - lever.transpose() * &by_free;

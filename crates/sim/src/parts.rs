@@ -149,6 +149,10 @@ impl Compliance for BlendedParts {
     fn range(&self, rail: usize) -> Option<[f64; 2]> {
         self.chains.get(rail).map(PartChain::range)
     }
+
+    fn is_symmetric(&self) -> bool {
+        true
+    }
 }
 
 /// Shapes of the parts' freedoms: the state of every part is `basis` times the freedoms.

@@ -58,6 +58,7 @@ impl Solver<'_> {
         let system = self.system;
         let (m, count) = (system.components(), system.normals.len());
         if !system.linear_normals
+            || !system.symmetric
             || (0..count).any(|i| system.law(i).damping > 0.0 || system.law(i).bilateral)
         {
             return Ok(());

@@ -29,6 +29,9 @@ pub struct Counts {
 /// How often a step is taken again to end at an event.
 const REFINEMENTS: usize = 40;
 
+/// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
+const CHATTER: usize = 1000;
+
 /// Why a step could not be taken.
 pub(crate) enum Failure {
     TooSmall,
@@ -59,6 +62,8 @@ pub(crate) struct Stepper<'a, 'b> {
     pub(crate) force_scale: f64,
     /// Smallest steps in a row.
     stalled: usize,
+    /// Steps in a row that ended at an event.
+    chatter: usize,
     stage: State,
     known: Known,
     accelerations: Vec<DVector<f64>>,
@@ -93,6 +98,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             limit: f64::INFINITY,
             force_scale: system.scene.bodies.iter().map(|body| body.mass * system.scene.gravity).sum(),
             stalled: 0,
+            chatter: 0,
             known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
             accelerations: vec![DVector::zeros(n); tableau.stages()],
             rates: vec![DVector::zeros(n); tableau.stages()],
@@ -148,7 +154,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             break;
         }
         self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
-        if self.stalled > REFINEMENTS {
+        self.chatter = if ends_at_event { self.chatter + 1 } else { 0 };
+        if self.stalled > REFINEMENTS || self.chatter > CHATTER {
             return Err(Failure::TooSmall);
         }
         self.accept(h)?;

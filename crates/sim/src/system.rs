@@ -185,6 +185,7 @@ impl<'a> System<'a> {
         let ratio = |law: &NormalLaw| law.damping / law.stiffness;
         let grounded = laws().find(|law| !law.has_memory());
         system.symmetric = !system.moves_freely
+            && foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
             && grounded.is_none_or(|first| {
                 laws().all(
                     |law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) },

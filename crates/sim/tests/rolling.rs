@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{Analysis, Channel, Damper, Error, Flange, Foundation, Freedom, Friction, Run, Scene, Status};
-use splines::{Axis, Kind, Reading, Sheet, Table};
+use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet, Table};
 
 fn run(scene: &Scene, foundation: Foundation) -> Result<Run, Error> {
     sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(()))
@@ -46,6 +46,56 @@ fn freely_rolling_bogie_keeps_its_energy_on_the_exact_surface_and_not_on_akispl(
     assert!(x.iter().any(|&x| x > 0.5 * SPAN), "it rolls through the sag");
     assert!(exact.audit.residual() < 1e-6, "{}", exact.audit.residual());
     assert!(akispl.audit.imbalance > 1e3 * exact.audit.imbalance);
+}
+
+/// A give that is the same everywhere and not symmetric, as tables read by AKISPL are.
+struct Skew;
+
+const SKEW: [[f64; 2]; 2] = [[2e-8, 1.2e-8], [0.3e-8, 1e-8]];
+
+impl Compliance for Skew {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), splines::Error> {
+        out.slope.fill(0.0);
+        for i in 0..at.len() {
+            for j in 0..at.len() {
+                out.value[(i, j)] = SKEW[i][j];
+            }
+        }
+        Ok(())
+    }
+
+    fn breaks(&self, _: usize) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn range(&self, _: usize) -> Option<[f64; 2]> {
+        None
+    }
+
+    fn is_symmetric(&self) -> bool {
+        false
+    }
+}
+
+#[test]
+fn forces_on_a_table_that_is_not_symmetric_use_all_of_it() {
+    let mut scene = bogie(5.0, 1.0, Damper::Rail);
+    let body = &mut scene.bodies[0];
+    body.free = [false; 6];
+    body.start = [0.0, -0.1, 0.0, 0.0, 0.0, 0.03];
+    // Analytic: (I/k + G) F = e, by Cramer's rule; the dampers of k/c = 1000/s have come to rest.
+    let e = [-4.0 / 3.0, 4.0 / 3.0].map(|x: f64| 0.1 - 0.03 * x);
+    let [[a, b], [c, d]] = [[SKEW[0][0] + 1e-8, SKEW[0][1]], [SKEW[1][0], SKEW[1][1] + 1e-8]];
+    let wanted = [(d * e[0] - b * e[1]) / (a * d - b * c), (a * e[1] - c * e[0]) / (a * d - b * c)];
+    for analysis in [Analysis::Dynamic, Analysis::QuasiStatic] {
+        scene.analysis = analysis;
+        let run = run(&scene, Foundation::influence(Box::new(Skew), 1)).expect("valid");
+        for (wheel, wanted) in wanted.into_iter().enumerate() {
+            let force = run.history.column(Channel::Vertical(wheel));
+            let last = force[force.len() - 1];
+            assert!((last / wanted - 1.0).abs() < 1e-12, "{analysis:?}: {last} for {wanted}");
+        }
+    }
 }
 
 #[test]

@@ -45,4 +45,7 @@ pub trait Compliance: Send + Sync {
 
     /// First and last coordinate of `rail`; `None` where the rail has no end.
     fn range(&self, rail: usize) -> Option<[f64; 2]>;
+
+    /// Whether `value[(i, j)]` = `value[(j, i)]` everywhere, Maxwell's law: a solver may then use half of it.
+    fn is_symmetric(&self) -> bool;
 }

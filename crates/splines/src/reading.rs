@@ -187,6 +187,10 @@ impl Compliance for Reading {
     fn range(&self, rail: usize) -> Option<[f64; 2]> {
         self.of_rail(rail, &self.ranges).copied().reduce(|a, b| [a[0].max(b[0]), a[1].min(b[1])])
     }
+
+    fn is_symmetric(&self) -> bool {
+        self.kind == Kind::Natural
+    }
 }
 
 impl Family {

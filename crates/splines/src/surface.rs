@@ -167,4 +167,8 @@ impl Compliance for Surface {
     fn range(&self, rail: usize) -> Option<[f64; 2]> {
         self.line.range(rail)
     }
+
+    fn is_symmetric(&self) -> bool {
+        true
+    }
 }

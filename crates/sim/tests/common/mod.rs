@@ -57,6 +57,10 @@ impl Compliance for ClosedForm {
     fn range(&self, _: usize) -> Option<[f64; 2]> {
         Some([-15.0, 75.0])
     }
+
+    fn is_symmetric(&self) -> bool {
+        true
+    }
 }
 
 pub fn girder() -> Foundation {
