@@ -17,13 +17,16 @@ mod mechanism;
 pub mod model;
 mod order;
 pub mod rail;
+mod real;
 pub mod reaction;
+mod rounding;
 pub mod section;
+mod solver;
 pub mod surface;
 
 pub use certificate::Certificate;
 pub use error::{Error, Fault, Item, Quantity};
-pub use frame::Frame;
+pub use frame::{ACCURACY, Frame};
 pub use girder::Girder;
 pub use grid::{Grid, grid};
 pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Support};

@@ -41,8 +41,8 @@ fn check(cuts: &[f64]) -> Option<(f64, f64)> {
     };
     let x = 31.0_f64;
     let exact = x * x * (60.0 - x).powi(2) / (3.0 * 60.0 * 4.32e9 * 9.528);
-    let found = frame.grid(&probes(Axis::Vertical, &[x])).expect("solvable").value[(0, 0)];
-    Some(((found / exact - 1.0).abs(), frame.certificate().error_bound))
+    let grid = frame.grid(&probes(Axis::Vertical, &[x])).expect("solvable");
+    Some(((grid.value[(0, 0)] / exact - 1.0).abs(), grid.certificate.error_bound))
 }
 
 #[test]
