@@ -2,9 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use crate::dense::dot;
 use crate::energy::{Audit, drive_force};
 use crate::history::{Channel, History};
-use crate::scene::Analysis;
+use crate::scene::{Analysis, arm_rows};
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
@@ -245,14 +246,8 @@ impl Recorder {
                 system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
-            let down = {
-                let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-                -crate::scene::arm_rows(wheel.hub)[1]
-                    .iter()
-                    .zip(displacement)
-                    .map(|(r, d)| r * d)
-                    .sum::<f64>()
-            };
+            let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
+            let down = -dot(&arm_rows(wheel.hub)[1], &displacement);
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
             values.extend([
                 solver.geometry.x[w],
