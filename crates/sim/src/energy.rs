@@ -176,7 +176,7 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
     let mut sum = 0.0;
     for (i, normal) in system.normals.iter().enumerate() {
         let law = system.law(i);
-        if law.damper == Damper::Ground && law.damping > 0.0 && state.force[i] != 0.0 {
+        if law.is_grounded() && state.force[i] != 0.0 {
             sum += normal.count()
                 * geometry.share[i][0]
                 * law.damping
