@@ -59,7 +59,7 @@ impl Failure {
     }
 
     /// Numbers that cannot be trusted, for the reason that a library gives.
-    pub fn untrusted(error: impl std::fmt::Display) -> Failure {
+    pub(crate) fn untrusted(error: impl std::fmt::Display) -> Failure {
         Failure::Untrusted(error.to_string())
     }
 

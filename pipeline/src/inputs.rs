@@ -66,7 +66,7 @@ impl Inputs {
 
     /// The file that was read under this name.
     #[must_use]
-    pub fn find(&self, name: &str) -> Option<&Input> {
+    pub(crate) fn find(&self, name: &str) -> Option<&Input> {
         self.read.iter().find(|input| input.name == name)
     }
 

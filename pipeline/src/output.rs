@@ -66,7 +66,7 @@ fn cannot_write(path: &Path, error: &io::Error) -> Failure {
 
 /// JSON as files and standard output show it: indented, with a newline at its end.
 #[must_use]
-pub fn json(value: &Value) -> String {
+pub(crate) fn json(value: &Value) -> String {
     format!("{value:#}\n")
 }
 

@@ -105,7 +105,7 @@ impl Record {
 
     /// The column `<owner>.<part>`, such as a body's deflection; empty where there is none.
     #[must_use]
-    pub fn part(&self, owner: &str, part: &str) -> &[f64] {
+    pub(crate) fn part(&self, owner: &str, part: &str) -> &[f64] {
         self.values(&format!("{owner}.{part}"))
     }
 

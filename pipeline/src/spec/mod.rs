@@ -91,7 +91,7 @@ impl Spec {
 
     /// The straight girder; none where the spec is a frame.
     #[must_use]
-    pub const fn girder(&self) -> Option<&Girder> {
+    pub(crate) const fn girder(&self) -> Option<&Girder> {
         match &self.form {
             Form::Girder(girder) => Some(girder),
             Form::Frame(_) => None,
