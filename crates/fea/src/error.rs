@@ -172,14 +172,6 @@ pub enum Fault {
         /// Where the overlap begins.
         x: f64,
     },
-    /// A member that carries a segment of another rail: their local coupling has no cell.
-    #[error("member {member} already carries rail {rail}")]
-    Shared {
-        /// The member.
-        member: usize,
-        /// The other rail.
-        rail: usize,
-    },
     /// A station that is not beyond the one before it.
     #[error("stations must increase, got {value}")]
     Unsorted {

@@ -1,6 +1,5 @@
 //! A frame, factored once.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::{SVector, Vector3};
@@ -8,7 +7,7 @@ use splines::{Axis, Line, Probe};
 
 use crate::assembly::Assembly;
 use crate::certificate::Certificate;
-use crate::element::{Element, Matrix12};
+use crate::element::Element;
 use crate::error::{Error, Fault, Item};
 use crate::factor::{Factor, Refusal, Tail, Work};
 use crate::freedoms::{Freedoms, Sum};
@@ -26,7 +25,6 @@ pub struct Frame {
     certificate: Certificate,
     line: Option<Arc<Line>>,
     states: Vec<[Sum; 6]>,
-    slack: BTreeMap<usize, Matrix12>,
 }
 
 impl Frame {
@@ -62,11 +60,11 @@ impl Frame {
             let (point, freedom) = weakest(&assembly, &freedoms);
             return Err(Error::Ill { condition: certificate.condition, point, freedom });
         }
-        let (line, states, slack) = match layout {
-            Some(layout) => (Some(Arc::new(layout.line)), layout.states, layout.slack),
+        let (line, states) = match layout {
+            Some(layout) => (Some(Arc::new(layout.line)), layout.states),
             None => Default::default(),
         };
-        Ok(Frame { elements, freedoms, assembly, factor, certificate, line, states, slack })
+        Ok(Frame { elements, freedoms, assembly, factor, certificate, line, states })
     }
 
     /// How far compliances of this frame can be trusted.
@@ -105,11 +103,6 @@ impl Frame {
 
     pub(crate) fn states(&self) -> &[[Sum; 6]] {
         &self.states
-    }
-
-    /// What releases add to the compliance between the end states of cells.
-    pub(crate) fn slack(&self) -> &BTreeMap<usize, Matrix12> {
-        &self.slack
     }
 
     /// Shape row of a probe over the motions of the bodies, and its cell.

@@ -43,6 +43,7 @@ fn line() -> Arc<Line> {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [-15.0 - centre, 0.0, 0.0],
         flexibility: Flexibility::default(),
+        carrier: None,
     });
     Arc::new(Line::new(cells.collect()).expect("two rigid arms"))
 }
@@ -210,6 +211,7 @@ fn many(count: usize) -> BlendedParts {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [-15.0 - centre, 0.0, 0.0],
         flexibility: Flexibility::default(),
+        carrier: None,
     });
     let line = Arc::new(Line::new(cells.collect()).expect("rigid arms"));
     BlendedParts {

@@ -66,6 +66,14 @@ pub enum Error {
         /// Index of the cell.
         cell: usize,
     },
+    /// Cells of one member that differ in length or flexibility.
+    #[error("cells {first} and {second} of one member differ in length or flexibility")]
+    CellCarrier {
+        /// Index of the first cell of the member.
+        first: usize,
+        /// Index of the cell that differs.
+        second: usize,
+    },
     /// Two cells that claim the same place.
     #[error("cells {first} and {second} of rail {rail} overlap at x = {x}")]
     Overlap {

@@ -19,7 +19,7 @@ pub mod surface;
 pub mod table;
 
 pub use akima::akima;
-pub use cell::{Cell, Flexibility};
+pub use cell::{Carrier, Cell, Flexibility};
 pub use compliance::{Compliance, Influence};
 pub use cubic::natural;
 pub use curve::{Curve, Jet};
