@@ -134,6 +134,17 @@ impl Frame {
         Some(load)
     }
 
+    /// A sum over motions of the bodies as a load on the scaled unknowns, less what acts on freedoms that
+    /// nothing stiffens.
+    pub(crate) fn stiffened(&self, sum: &Sum) -> Vec<(usize, f64)> {
+        let supported = self.freedoms.supported(sum);
+        let known = supported.significant().filter_map(|(column, value)| {
+            let k = self.assembly.unknown[column]?;
+            Some((k, value * self.assembly.scale[k]))
+        });
+        known.collect()
+    }
+
     /// Motion of the references of all bodies, six each, under a scaled load.
     pub(crate) fn motions(&self, load: &[(usize, f64)]) -> Vec<SVector<f64, 6>> {
         let mut x = vec![0.0; self.factor.len()];

@@ -6,6 +6,7 @@
 
 mod assembly;
 pub mod certificate;
+pub mod effect;
 mod element;
 pub mod error;
 mod factor;
@@ -22,6 +23,7 @@ pub mod section;
 pub mod surface;
 
 pub use certificate::Certificate;
+pub use effect::Effect;
 pub use error::{Error, Fault, Item, Quantity};
 pub use frame::Frame;
 pub use girder::Girder;
@@ -30,4 +32,5 @@ pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Sup
 pub use rail::{Rail, Segment};
 pub use reaction::{Hold, Reactions, reactions};
 pub use section::{Section, Theory};
+pub use splines::Component;
 pub use surface::{Exact, nodal, surface};

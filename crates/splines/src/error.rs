@@ -104,6 +104,22 @@ pub enum Error {
         /// Column of the entry.
         column: usize,
     },
+    /// Effects of another shape than what they belong to.
+    #[error("effects are {rows} x {columns}, expected {} x {}", expected[0], expected[1])]
+    EffectShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Effects, and six freedoms a state.
+        expected: [usize; 2],
+    },
+    /// An effect with a number that cannot be used.
+    #[error("effect {effect} has a number that cannot be used")]
+    EffectNumber {
+        /// Index of the effect.
+        effect: usize,
+    },
     /// An influence matrix of another size than the probes.
     #[error("influence matrices are {rows} x {columns}, expected {expected} x {expected}")]
     OutputShape {
