@@ -21,6 +21,7 @@ pub mod rail;
 pub mod reaction;
 pub mod section;
 pub mod surface;
+pub mod taper;
 
 pub use certificate::Certificate;
 pub use effect::Effect;
@@ -34,3 +35,4 @@ pub use reaction::{Hold, Reactions, reactions};
 pub use section::{Section, Theory};
 pub use splines::Component;
 pub use surface::{Exact, nodal, surface};
+pub use taper::Taper;
