@@ -1,6 +1,5 @@
 //! A frame, factored once.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::{SVector, Vector3};
@@ -8,7 +7,7 @@ use splines::{Axis, Line, Probe};
 
 use crate::assembly::{Assembly, Numbering};
 use crate::certificate::Certificate;
-use crate::element::{Element, Matrix12};
+use crate::element::Element;
 use crate::error::{Error, Fault, Item};
 use crate::factor::{Factor, Refusal, Tail};
 use crate::freedoms::{Freedoms, Sum};
@@ -33,7 +32,6 @@ pub struct Frame {
     certificate: Certificate,
     line: Option<Arc<Line>>,
     states: Vec<[Sum; 6]>,
-    slack: BTreeMap<usize, Matrix12>,
 }
 
 impl Frame {
@@ -62,8 +60,8 @@ impl Frame {
         }
         let assembly = Assembly::new(m, &elements, &freedoms);
         let (solver, certificate) = certified(m, &assembly, &freedoms, accuracy)?;
-        let (line, states, slack) = match layout {
-            Some(layout) => (Some(Arc::new(layout.line)), layout.states, layout.slack),
+        let (line, states) = match layout {
+            Some(layout) => (Some(Arc::new(layout.line)), layout.states),
             None => Default::default(),
         };
         Ok(Frame {
@@ -74,7 +72,6 @@ impl Frame {
             certificate,
             line,
             states,
-            slack,
         })
     }
 
@@ -116,11 +113,6 @@ impl Frame {
         &self.states
     }
 
-    /// What releases add to the compliance between the end states of cells.
-    pub(crate) fn slack(&self) -> &BTreeMap<usize, Matrix12> {
-        &self.slack
-    }
-
     /// Shape row of a probe over the motions of the bodies, and its cell.
     pub(crate) fn row(&self, probe: Probe) -> Result<(Sum, usize), Error> {
         let row = self.line()?.row(probe)?;
@@ -148,6 +140,17 @@ impl Frame {
             load.push((k, value * self.numbering.scale[k]));
         }
         Some(load)
+    }
+
+    /// A sum over motions of the bodies as a load on the scaled unknowns, less what acts on freedoms that
+    /// nothing stiffens.
+    pub(crate) fn stiffened(&self, sum: &Sum) -> Vec<(usize, f64)> {
+        let supported = self.freedoms.supported(sum);
+        let known = supported.significant().filter_map(|(column, value)| {
+            let k = self.numbering.unknown[column]?;
+            Some((k, value * self.numbering.scale[k]))
+        });
+        known.collect()
     }
 
     /// Motion of the references of all bodies, six each, under a scaled load.

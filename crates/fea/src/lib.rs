@@ -6,6 +6,7 @@
 
 mod assembly;
 pub mod certificate;
+pub mod effect;
 mod element;
 pub mod error;
 mod factor;
@@ -23,8 +24,10 @@ mod rounding;
 pub mod section;
 mod solver;
 pub mod surface;
+pub mod taper;
 
 pub use certificate::Certificate;
+pub use effect::Effect;
 pub use error::{Error, Fault, Item, Quantity};
 pub use frame::{ACCURACY, Frame};
 pub use girder::Girder;
@@ -33,4 +36,6 @@ pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Sup
 pub use rail::{Rail, Segment};
 pub use reaction::{Hold, Reactions, reactions};
 pub use section::{Section, Theory};
+pub use splines::Component;
 pub use surface::{Exact, nodal, surface};
+pub use taper::Taper;

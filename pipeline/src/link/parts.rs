@@ -107,6 +107,7 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Failure>
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [from - centre, girder.rail_height, 0.0],
         flexibility: Flexibility::default(),
+        carrier: None,
     });
     Line::new(cells.collect()).map_err(Failure::untrusted)
 }

@@ -37,6 +37,7 @@ pub fn arms(centres: &[f64]) -> Arc<Line> {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [-15.0 - centre, 0.0, 0.0],
         flexibility: Flexibility::default(),
+        carrier: None,
     });
     Arc::new(Line::new(cells.collect()).expect("rigid arms"))
 }
