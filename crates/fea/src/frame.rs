@@ -247,3 +247,10 @@ fn covered(line: &Line, rails: &[Rail]) -> Result<(), Error> {
     }
     Ok(())
 }
+
+impl Frame {
+    /// The scaled stiffness and its factor.
+    pub(crate) fn system(&self) -> (&Assembly, &Factor) {
+        (&self.assembly, &self.factor)
+    }
+}
