@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{SVector, Vector3};
 use splines::{Axis, Line, Probe};
 
-use crate::assembly::{Assembly, Numbering};
+use crate::assembly::Assembly;
 use crate::certificate::Certificate;
 use crate::element::Element;
 use crate::error::{Error, Fault, Item};
@@ -27,7 +27,7 @@ const SMALL: usize = 100;
 pub struct Frame {
     pub(crate) elements: Vec<Element>,
     pub(crate) freedoms: Freedoms,
-    numbering: Numbering,
+    assembly: Assembly,
     pub(crate) solver: Solver,
     certificate: Certificate,
     line: Option<Arc<Line>>,
@@ -67,7 +67,7 @@ impl Frame {
         Ok(Frame {
             elements,
             freedoms,
-            numbering: assembly.numbering,
+            assembly,
             solver,
             certificate,
             line,
@@ -136,8 +136,8 @@ impl Frame {
     pub(crate) fn scaled(&self, sum: &Sum) -> Option<Vec<(usize, f64)>> {
         let mut load = Vec::with_capacity(sum.terms.len());
         for (column, value) in self.freedoms.supported(sum).significant() {
-            let k = self.numbering.unknown[column]?;
-            load.push((k, value * self.numbering.scale[k]));
+            let k = self.assembly.numbering.unknown[column]?;
+            load.push((k, value * self.assembly.numbering.scale[k]));
         }
         Some(load)
     }
@@ -147,8 +147,8 @@ impl Frame {
     pub(crate) fn stiffened(&self, sum: &Sum) -> Vec<(usize, f64)> {
         let supported = self.freedoms.supported(sum);
         let known = supported.significant().filter_map(|(column, value)| {
-            let k = self.numbering.unknown[column]?;
-            Some((k, value * self.numbering.scale[k]))
+            let k = self.assembly.numbering.unknown[column]?;
+            Some((k, value * self.assembly.numbering.scale[k]))
         });
         known.collect()
     }
@@ -160,20 +160,20 @@ impl Frame {
         self.solver.solve(&mut x);
         let mut motions = vec![SVector::<f64, 6>::zeros(); self.freedoms.bodies.len()];
         for (k, value) in x.into_iter().enumerate() {
-            let column = self.numbering.column[k];
-            motions[column / 6][column % 6] = value * self.numbering.scale[k];
+            let column = self.assembly.numbering.column[k];
+            motions[column / 6][column % 6] = value * self.assembly.numbering.scale[k];
         }
         motions.iter().zip(&self.freedoms.bodies).map(|(motion, body)| body.basis * motion).collect()
     }
 
     /// Unknown of a column of the bodies, if it is one.
     pub(crate) fn unknown(&self, column: usize) -> Option<usize> {
-        self.numbering.unknown[column]
+        self.assembly.numbering.unknown[column]
     }
 
     /// Scale of an unknown.
     pub(crate) fn scale(&self, unknown: usize) -> f64 {
-        self.numbering.scale[unknown]
+        self.assembly.numbering.scale[unknown]
     }
 
     pub(crate) fn scratch(&self) -> Scratch {
@@ -250,7 +250,7 @@ fn covered(line: &Line, rails: &[Rail]) -> Result<(), Error> {
 
 impl Frame {
     /// The scaled stiffness and its factor.
-    pub(crate) fn system(&self) -> (&Assembly, &Factor) {
-        (&self.assembly, &self.factor)
+    pub(crate) fn system(&self) -> (&Assembly, &Solver) {
+        (&self.assembly, &self.solver)
     }
 }

@@ -4,7 +4,8 @@ use faer::{Mat, Side};
 use nalgebra::{DMatrix, DVector, DVectorView};
 use sprs::CsMat;
 
-use crate::factor::{Factor, Refusal};
+use crate::factor::Refusal;
+use crate::solver::Solver;
 use crate::inertia::negatives;
 
 /// Vectors of a block.
@@ -23,7 +24,7 @@ pub(crate) struct Pencil<'a> {
     pub stiffness: &'a CsMat<f64>,
     /// Upper triangle.
     pub mass: &'a CsMat<f64>,
-    pub factor: &'a Factor,
+    pub factor: &'a Solver,
 }
 
 impl Pencil<'_> {
