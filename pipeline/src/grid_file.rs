@@ -164,8 +164,7 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
         faults.add(Fault::new(&at, "must have at least one grid"));
     }
     let certificate = raw.certificate.as_ref();
-    let certificate =
-        certificate.map(|given| Certificate::given(given.condition, given.error_bound));
+    let certificate = certificate.map(|given| Certificate::given(given.condition, given.error_bound));
     Some(Grid {
         name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,

@@ -45,9 +45,8 @@ fn reach_and_size<T: Real>(element: &Element<T>, freedoms: &Freedoms<T>) -> (Mat
         let motion = freedoms.motion(element.points[end], &element.offsets[end]);
         let value = product(&rotation, &motion);
         let bulk = bulk_of(rotation) * bulk_of(motion);
-        let clean = value.zip_map(&bulk, |v, b| {
-            if v.double().abs() <= 8.0 * T::ROUNDING * b { T::zero() } else { v }
-        });
+        let clean = value
+            .zip_map(&bulk, |v, b| if v.double().abs() <= 8.0 * T::ROUNDING * b { T::zero() } else { v });
         out.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(&clean);
         size.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(&bulk);
     }

@@ -47,7 +47,12 @@ impl Certificate {
         let factored = 3.0 * (longest + 1) as f64 * growth;
         let shift = T::ROUNDING * (formed + factored) * room;
         let error_bound = if shift < 0.5 { shift / (1.0 - shift) } else { f64::INFINITY };
-        Certificate { condition: norm * inverse, error_bound, extended: T::ROUNDING < f64::EPSILON, inverse: room }
+        Certificate {
+            condition: norm * inverse,
+            error_bound,
+            extended: T::ROUNDING < f64::EPSILON,
+            inverse: room,
+        }
     }
 }
 

@@ -147,8 +147,7 @@ fn axes<T: Real>(x: Vector3<T>, orientation: Vector3<T>, kind: Kind) -> Option<M
 /// # Source
 /// Przemieniecki, Theory of Matrix Structural Analysis (1968), section 5.6.
 fn stiffness<T: Real>(f: &Flexibility, length: T) -> Matrix12<T> {
-    let inverse =
-        |x: f64, times: T| if x.is_finite() { T::one() / (T::from(x) * times) } else { T::zero() };
+    let inverse = |x: f64, times: T| if x.is_finite() { T::one() / (T::from(x) * times) } else { T::zero() };
     let number = T::from;
     let mut k = Matrix12::zeros();
     for (at, stiffness) in [(0, inverse(f.axial, length)), (3, inverse(f.torsion, length))] {

@@ -64,15 +64,7 @@ impl Frame {
             Some(layout) => (Some(Arc::new(layout.line)), layout.states),
             None => Default::default(),
         };
-        Ok(Frame {
-            elements,
-            freedoms,
-            assembly,
-            solver,
-            certificate,
-            line,
-            states,
-        })
+        Ok(Frame { elements, freedoms, assembly, solver, certificate, line, states })
     }
 
     /// How far compliances of this frame can be trusted.
@@ -230,7 +222,13 @@ fn certified(
     let certificate = Certificate::new(&extended, &factor);
     if certificate.error_bound > accuracy {
         let (point, freedom) = weakest(assembly, freedoms);
-        return Err(Error::Ill { condition: certificate.condition, point, freedom });
+        return Err(Error::Ill {
+            condition: certificate.condition,
+            bound: certificate.error_bound,
+            asked: accuracy,
+            point,
+            freedom,
+        });
     }
     Ok((Solver::Extended(factor), certificate))
 }

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 use sprs::CsMat;
 
 use crate::factor::Refusal;
-use crate::solver::Solver;
 use crate::inertia::negatives;
+use crate::solver::Solver;
 
 /// Vectors of a block.
 const BLOCK: usize = 8;

@@ -29,7 +29,8 @@ pub(crate) fn weakest(assembly: &Assembly, freedoms: &Freedoms) -> (usize, Freed
     for (k, value) in x.iter().enumerate() {
         // The lower column among equals.
         let gain = value.abs() - x[largest].abs();
-        if gain > 1e-9 || (gain > -1e-9 && assembly.numbering.column[k] < assembly.numbering.column[largest]) {
+        if gain > 1e-9 || (gain > -1e-9 && assembly.numbering.column[k] < assembly.numbering.column[largest])
+        {
             largest = k;
         }
     }

@@ -85,7 +85,8 @@ impl<'a> Lengths<'a> {
             return self.frame.certificate().inverse.sqrt();
         }
         let (frame, scratch) = (self.frame, &mut self.scratch);
-        let work = || frame.forward(&[(unknown, 1.0)], scratch).values.iter().map(|w| w * w).sum::<f64>().sqrt();
+        let work =
+            || frame.forward(&[(unknown, 1.0)], scratch).values.iter().map(|w| w * w).sum::<f64>().sqrt();
         *self.known.entry(unknown).or_insert_with(work)
     }
 }
