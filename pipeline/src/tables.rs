@@ -163,6 +163,7 @@ mod tests {
             rails,
             blocks: vec![(Quantity::Vertical, vertical), (Quantity::VerticalLateral, coupling)],
             certificate: None,
+            effects: None,
             notes: Vec::new(),
         }
     }
