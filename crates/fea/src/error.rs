@@ -49,6 +49,17 @@ pub enum Error {
         /// Number of unknown freedoms.
         unknowns: usize,
     },
+    /// Modes of a structure without mass.
+    #[error("no mass is on a freedom that can move")]
+    NoMass,
+    /// Modes that could not all be found, or not shown to be all.
+    #[error("only {found} of {asked} modes could be shown to be the lowest")]
+    Modes {
+        /// How many were asked for.
+        asked: usize,
+        /// How many were found and proven.
+        found: usize,
+    },
     /// A rail was asked for where none was given.
     #[error("no rail was given")]
     NoRails,

@@ -9,7 +9,7 @@ use splines::{Cell, Compliance, Influence, Line, Probe, Surface};
 use crate::certificate::Certificate;
 use crate::element::{Matrix12, blocks};
 use crate::error::Error;
-use crate::factor::Tail;
+use crate::factor::{Tail, dots};
 use crate::frame::Frame;
 use crate::model::Model;
 use crate::rail::Rail;
@@ -42,12 +42,12 @@ impl Frame {
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists.
     pub fn grid(&self, at: &[Probe]) -> Result<Grid, Error> {
-        let mut work = self.work();
+        let mut scratch = self.scratch();
         let mut tails = Vec::with_capacity(at.len());
         let mut cells = Vec::with_capacity(at.len());
         for (k, &probe) in at.iter().enumerate() {
             let (load, cell) = self.load(probe)?;
-            tails.push(self.forward(&load, &mut work));
+            tails.push(self.forward(&load, &mut scratch));
             if let Some(carrier) = self.line()?.cells()[cell].carrier {
                 cells.push((carrier.member, cell, k));
             }
@@ -63,17 +63,20 @@ impl Frame {
                 }
             }
         }
-        Ok(Grid { value, certificate: self.certificate() })
+        let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
+        let mut certificate = self.certificate();
+        certificate.error_bound += self.rounding(at, &tails, &diagonal)?;
+        Ok(Grid { value, certificate })
     }
 
     /// Products of all pairs of forward solves.
     pub(crate) fn gram(&self, tails: &[Tail]) -> DMatrix<f64> {
         let n = tails.len();
         let mut value = DMatrix::zeros(n, n);
-        let mut work = self.work();
+        let mut scratch = vec![0.0; self.unknowns()];
         for (i, tail) in tails.iter().enumerate() {
             let mut j = 0;
-            work.dots(tail, tails[..=i].iter(), |product| {
+            dots(&mut scratch, tail, tails[..=i].iter(), |product| {
                 value[(i, j)] = product;
                 value[(j, i)] = product;
                 j += 1;

@@ -79,7 +79,7 @@ impl Frame {
 
     /// Compliance between sums over the columns of the bodies.
     fn compliance(&self, sums: &[&Sum]) -> DMatrix<f64> {
-        let mut work = self.work();
+        let mut scratch = self.scratch();
         let mut loose = Vec::new();
         let mut tails = Vec::with_capacity(sums.len());
         for (k, sum) in sums.iter().enumerate() {
@@ -87,7 +87,7 @@ impl Frame {
                 loose.push(k);
                 Vec::new()
             });
-            tails.push(self.forward(&load, &mut work));
+            tails.push(self.forward(&load, &mut scratch));
         }
         let mut out = self.gram(&tails);
         for k in loose {

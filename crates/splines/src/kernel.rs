@@ -88,6 +88,15 @@ impl Plane {
         }
     }
 
+    /// What `green` of a place with itself is added up from.
+    fn magnitude(&self, s: f64, [f, m]: [f64; 2]) -> f64 {
+        let Plane { c, g, l, per_l, inverse } = *self;
+        let (q, f, m) = (l - s, f.abs(), m.abs());
+        let v = (f * q * (c * q * 3.0 * l + 12.0 * g) + 6.0 * c * m * q * s) * inverse;
+        let m0 = 0.5 * v * l + q * (m + 0.5 * f * q) * per_l;
+        f * s * (g * v + c * s * (0.5 * m0 + v * s * (1.0 / 6.0))) + m * c * s * (m0 + 0.5 * v * s)
+    }
+
     fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Green {
         if self.inverse == 0.0 {
             return Green::default();
@@ -227,6 +236,15 @@ impl Kernel {
             sum.add(bar(twist, self.length, s, t));
         }
         sum
+    }
+
+    /// What the displacement along axis `a` at s under a unit force there is added up from, s in 0..=length.
+    pub fn magnitude(&self, a: usize, s: f64) -> f64 {
+        let p = &self.arms[a];
+        let bar = s * (self.length - s) / self.length;
+        self.xy.magnitude(s, p.xy)
+            + self.xz.magnitude(s, p.xz)
+            + (self.axial * p.axial * p.axial + self.torsion * p.twist * p.twist) * bar
     }
 
     /// Whether both forces act where nothing resists.

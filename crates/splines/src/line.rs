@@ -134,6 +134,19 @@ impl Line {
         Ok(())
     }
 
+    /// What rounding can spoil at a probe: the magnitudes behind each value of [`Line::row`], in their order, and
+    /// the magnitude behind the clamped cell's own give there. A value errs by some roundings of its magnitude.
+    ///
+    /// # Errors
+    /// As [`Line::row`].
+    pub fn magnitudes(&self, p: Probe) -> Result<(Vec<f64>, f64), Error> {
+        let row = self.row(p)?;
+        let ready = &self.ready[row.cell];
+        let r = row.s / self.cells[row.cell].length;
+        let own = ready.kernel.as_ref().map_or(0.0, |kernel| kernel.magnitude(row.axis, row.s));
+        Ok((ready.terms[row.axis].magnitudes(r).collect(), own))
+    }
+
     /// Green's function of the cell clamped at both ends: `[i][j]` is the displacement along axis i at rail
     /// coordinate x per unit force along axis j at z, with the rail's offset.
     ///

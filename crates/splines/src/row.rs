@@ -25,6 +25,16 @@ pub struct Row {
     slope: [f64; 12],
 }
 
+impl Terms {
+    /// What each value is added up from, in the order of [`Row::values`]: sums of |coefficient| r^p.
+    pub(crate) fn magnitudes(&self, r: f64) -> impl Iterator<Item = f64> + '_ {
+        let one = move |group: &Group, k: usize| {
+            group.cubic.iter().rev().fold(0.0, |sum, terms| terms[k].abs() + r * sum)
+        };
+        (0..self.len).map(move |k| one(&self.groups[k / 4], k % 4))
+    }
+}
+
 impl Row {
     pub(crate) const EMPTY: Row = Row {
         cell: 0,

@@ -42,7 +42,7 @@ impl Spec {
                 self.path(Item::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
             )),
-            Error::Factor { .. } | Error::NoRails | Error::Rail(_) => {
+            Error::Factor { .. } | Error::NoRails | Error::Rail(_) | Error::NoMass | Error::Modes { .. } => {
                 Failure::Untrusted(format!("{}: {error}", source.name))
             }
         }

@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod parts;
+
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
