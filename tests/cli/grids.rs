@@ -234,3 +234,65 @@ fn paired_rails_on_one_girder_are_solved_and_read_back() {
     let run = girderway(&folder, &["splines", "grid.json", "-o", "tables.json"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
 }
+
+/// Source: files of different units are converted: the same girder in metres gives the same motion in feet.
+#[test]
+fn a_scene_in_feet_takes_a_spec_in_metres() {
+    let folder = folder();
+    for name in ["scene.json", "spec.json"] {
+        fs::copy(base(name), folder.path().join(name)).expect("writable");
+    }
+    let mut scene = parsed(&fs::read(base("scene.json")).expect("the base scene"));
+    scene["analysis"] = json!("quasi-static");
+    scene["structures"]["bridge"]["spec"] = json!("metres.json");
+    let (l, f) = (unit("ft"), unit("lbf"));
+    let mut spec = parsed(&fs::read(base("spec.json")).expect("the base spec"));
+    spec["units"] = json!({"length": "m", "force": "N", "time": "s"});
+    let girder = spec["girder"].as_object_mut().expect("an object");
+    for (key, value) in girder.iter_mut() {
+        let factor = match key.as_str() {
+            "spans" | "overhangs" | "rail_height" => l,
+            "E" | "G" => f / (l * l),
+            "A" => l * l,
+            _ => l.powi(4),
+        };
+        *value = match &*value {
+            Value::Array(items) => {
+                items.iter().map(|x| json!(x.as_f64().expect("a number") * factor)).collect()
+            }
+            one => json!(one.as_f64().expect("a number") * factor),
+        };
+    }
+    let stations: Vec<f64> = numbers(&spec["stations"]).iter().map(|x| x * l).collect();
+    spec["stations"] = json!(stations);
+    let peaks = |scene: &Value| {
+        fs::write(folder.path().join("own.json"), scene.to_string()).expect("writable");
+        let run = girderway(&folder, &["run", "own.json", "-o", "out", "--quiet"]);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        let summary = parsed(&fs::read(folder.path().join("out/summary.json")).expect("written"));
+        summary["peaks"].clone()
+    };
+    fs::write(folder.path().join("metres.json"), spec.to_string()).expect("writable");
+    let mixed = peaks(&scene);
+    scene["structures"]["bridge"]["spec"] = json!("spec.json");
+    let own = peaks(&scene);
+    assert!(own.as_object().is_some_and(|peaks| peaks.contains_key("bogie.deflection")), "{own}");
+    near(&mixed, &own);
+}
+
+/// The same numbers at the same keys, to rounding.
+fn near(a: &Value, b: &Value) {
+    match (a, b) {
+        (Value::Object(a), Value::Object(b)) => {
+            assert!(a.keys().eq(b.keys()));
+            // When a peak comes says nothing where a column is level.
+            let pairs = a.iter().zip(b.values()).filter(|((key, _), _)| !key.ends_with("time"));
+            pairs.for_each(|((_, a), b)| near(a, b));
+        }
+        (Value::Number(a), Value::Number(b)) => {
+            let (a, b) = (a.as_f64().expect("finite"), b.as_f64().expect("finite"));
+            assert!((a - b).abs() <= 1e-8 * b.abs().max(1e-6), "{a} {b}");
+        }
+        (a, b) => assert_eq!(a, b),
+    }
+}
