@@ -33,11 +33,17 @@ pub enum Error {
         /// Its freedom that moves most.
         freedom: Freedom,
     },
-    /// Rounding may have eaten every digit.
-    #[error("condition {condition:.1e} leaves no digit; weakest is point {point} in {freedom}")]
+    /// Rounding may have eaten more digits than asked, even in double-doubles.
+    #[error(
+        "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {freedom}"
+    )]
     Ill {
         /// Estimate of the condition of the scaled stiffness.
         condition: f64,
+        /// Relative bound that can be given, infinite where there is none.
+        bound: f64,
+        /// Relative bound asked.
+        asked: f64,
         /// Point that moves most in the weakest pattern.
         point: usize,
         /// Its freedom that moves most.

@@ -222,7 +222,13 @@ fn certified(
     let certificate = Certificate::new(&extended, &factor);
     if certificate.error_bound > accuracy {
         let (point, freedom) = weakest(assembly, freedoms);
-        return Err(Error::Ill { condition: certificate.condition, point, freedom });
+        return Err(Error::Ill {
+            condition: certificate.condition,
+            bound: certificate.error_bound,
+            asked: accuracy,
+            point,
+            freedom,
+        });
     }
     Ok((Solver::Extended(factor), certificate))
 }

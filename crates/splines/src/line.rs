@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::kernel::{Arm, Kernel, free};
-use crate::row::{Row, Terms, terms};
+use crate::row::{Fraction, Row, Terms, terms};
 use crate::{Cell, Error, Probe};
 
 /// Rounding allowed in coordinates and frames, relative.
@@ -51,6 +51,19 @@ struct Span {
     cell: usize,
     /// At `x[0]` the cell before this one, listed earlier, carries the probe.
     yields: bool,
+}
+
+impl Span {
+    /// Where in the cell x is, taken within it.
+    #[inline]
+    fn fraction(&self, x: f64) -> Fraction {
+        let r = ((x - self.x[0]) * self.scale).max(0.0);
+        if r <= 0.5 {
+            Fraction { end: 0, r }
+        } else {
+            Fraction { end: 1, r: ((self.x[1] - x) * self.scale).max(0.0) }
+        }
+    }
 }
 
 impl Line {
@@ -124,13 +137,13 @@ impl Line {
         if ready.free[axis] {
             return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
         }
-        let r = if p.x >= span.x[1] { 1.0 } else { ((p.x - span.x[0]) * span.scale).clamp(0.0, 1.0) };
+        let place = span.fraction(p.x);
         row.cell = span.cell;
         row.axis = axis;
         row.group = ready.group;
-        row.s = span.start + r * span.length;
+        row.s = span.start + place.from_first() * span.length;
         row.rate = span.length * span.scale;
-        row.evaluate(&ready.terms[axis], r, span.scale);
+        row.evaluate(&ready.terms[axis], place, span.scale);
         Ok(())
     }
 
@@ -142,9 +155,9 @@ impl Line {
     pub fn magnitudes(&self, p: Probe) -> Result<(Vec<f64>, f64), Error> {
         let row = self.row(p)?;
         let ready = &self.ready[row.cell];
-        let r = row.s / self.cells[row.cell].length;
+        let place = self.find(p.rail, p.x)?.fraction(p.x);
         let own = ready.kernel.as_ref().map_or(0.0, |kernel| kernel.magnitude(row.axis, row.s));
-        Ok((ready.terms[row.axis].magnitudes(r).collect(), own))
+        Ok((ready.terms[row.axis].magnitudes(place).collect(), own))
     }
 
     /// Green's function of the cell clamped at both ends: `[i][j]` is the displacement along axis i at rail
