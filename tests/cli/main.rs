@@ -1,5 +1,7 @@
 //! The command line: help, exit status, what goes where.
 
+mod grids;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
