@@ -71,6 +71,10 @@ pub fn cards(lines: &[Line], findings: &mut Findings) -> Vec<Card> {
                 continue;
             }
         };
+        if line.gap && parts.head.is_empty() {
+            let finding = Finding::new(line.at, &card.name, "must not continue over a blank line");
+            findings.error(finding.hint("mark a blank continuation with + in its first column"));
+        }
         let expected = tail.trim_start_matches(['+', '*']).trim();
         if !expected.is_empty() && !marker.is_empty() && expected != marker {
             let finding =
@@ -151,6 +155,7 @@ mod tests {
             .map(|(index, text)| Line {
                 at: Spot { file: 0, line: index + 1, column: 1 },
                 text: text.to_owned(),
+                gap: false,
             })
             .collect();
         (cards(&lines, &mut findings), findings)

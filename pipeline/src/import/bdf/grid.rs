@@ -82,6 +82,7 @@ pub fn grid(card: &mut Fields<'_, '_>) -> Option<(u64, Grid)> {
         _ => card.whole(6, "CD").map(Some),
     };
     let fix = if card.blank(7) { Some(None) } else { card.freedoms(7, "PS").map(Some) };
+    card.zero(8, "SEID", "superelements cannot be taken");
     card.end(9);
     let spots = [card.at(2), card.at(6)];
     Some((id, Grid { card: card.card.at, at: at?, cp: cp?, cd: cd?, fix: fix?, spots }))
@@ -92,6 +93,7 @@ pub fn defaults(card: &mut Fields<'_, '_>) -> Option<Defaults> {
     let cp = card.whole(2, "CP");
     let cd = card.whole(6, "CD");
     let fix = card.freedoms(7, "PS");
+    card.zero(8, "SEID", "superelements cannot be taken");
     card.end(9);
     Some(Defaults { cp: cp?, cd: cd?, fix: fix? })
 }

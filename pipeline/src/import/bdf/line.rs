@@ -19,6 +19,8 @@ pub struct Line {
     pub at: Spot,
     /// Its characters.
     pub text: String,
+    /// Whether the line above is blank.
+    pub gap: bool,
 }
 
 /// The lines of a deck and of what it includes, up to ENDDATA.
@@ -51,10 +53,12 @@ impl Reader<'_> {
         self.stack.push(path.to_path_buf());
         // comments may be in any encoding; what is left of a bad byte in a field is refused there
         let text = String::from_utf8_lossy(bytes);
+        let mut gap = false;
         for (index, raw) in text.lines().enumerate() {
             let at = Spot { file, line: index + 1, column: 1 };
             let text = raw.split('$').next().unwrap_or_default().trim_end();
             if text.trim().is_empty() {
+                gap |= raw.trim().is_empty();
                 continue;
             }
             if let Some(name) = included(text) {
@@ -62,8 +66,9 @@ impl Reader<'_> {
             } else if text.trim_start().to_ascii_uppercase().starts_with("ENDDATA") {
                 self.ended = true;
             } else {
-                self.lines.push(Line { at, text: expanded(text) });
+                self.lines.push(Line { at, text: expanded(text), gap });
             }
+            gap = false;
             if self.ended {
                 break;
             }

@@ -42,5 +42,9 @@ pub fn read(
 ) -> io::Result<Structure> {
     let lines = line::read(path, open, findings)?;
     let deck = deck::Deck::new(&lines, skip, findings);
+    // what refers to a card that could not be read is no fault of its own
+    if findings.wrong() {
+        return Ok(empty);
+    }
     Ok(resolve::resolve(&deck, empty, spc, findings))
 }

@@ -81,7 +81,7 @@ impl Resolver<'_, '_> {
 
     fn members(&mut self) {
         let deck = self.deck;
-        if deck.elements.is_empty() && !self.findings.wrong() {
+        if deck.elements.is_empty() {
             let finding = Finding::new(Spot { line: 1, column: 1, file: 0 }, "", "has no member");
             self.findings.error(finding.hint("members are CBAR, CBEAM, CROD and CONROD"));
         }

@@ -225,7 +225,8 @@ fn groups(
         groups.insert(name.clone(), group);
     }
     for (index, section) in sections.iter().enumerate() {
-        if !groups.contains_key(&section.name) {
+        // a section that `members` does not speak of is for the group of its own name
+        if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
             groups.insert(section.name.clone(), Group { section: index, ..Group::default() });
         }
         // what a beam needs; a truss has its length alone
