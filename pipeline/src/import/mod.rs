@@ -17,7 +17,7 @@ use std::path::Path;
 pub use write::write;
 
 use crate::diagnostic::Diagnostic;
-use crate::import::findings::{Finding, Findings, Spot};
+use crate::import::findings::Findings;
 use crate::import::structure::Structure;
 use crate::inputs::cannot_read;
 use crate::source::Source;
@@ -108,15 +108,14 @@ pub fn import(path: &Path, open: bdf::Open<'_>, options: &Options) -> Result<Imp
     if !wrong.is_empty() {
         return Err(wrong);
     }
+    let mut warnings = findings.warnings();
     if structure.rails.is_empty() {
-        let whole = Spot { file: 0, line: 0, column: 0 };
-        let finding = Finding::new(whole, "", "the spec has no rail, and cannot be solved without one");
-        findings
-            .warn(finding.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
+        let told = Diagnostic::of_file(&name, "the spec has no rail, and cannot be solved without one");
+        warnings.push(told.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
     }
     let text = write(&structure);
     sound(&name, &text, &structure)?;
-    Ok(Imported { text, structure, warnings: findings.warnings() })
+    Ok(Imported { text, structure, warnings })
 }
 
 fn refused(flag: &str, [expected, hint]: [String; 2]) -> Diagnostic {

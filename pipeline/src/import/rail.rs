@@ -77,8 +77,8 @@ impl Item {
     }
 }
 
-/// Lays a rail on members: its axis leads from the first of them to the last (of one: from its end a to b), its
-/// coordinate is 0 where the first begins, its stations are at the members' points.
+/// Lays a rail on members: its axis is level and leads from the first of them to the last (of one: from its end a
+/// to b), its coordinate is 0 where the first begins, its stations are at the members' points.
 ///
 /// # Errors
 /// What must be otherwise, and a hint.
@@ -93,11 +93,9 @@ pub fn lay(asked: &Asked, up: [f64; 3], structure: &Structure) -> Result<Rail, [
     };
     let [a, b] = structure.ends(first);
     let along = if first == last { minus(b, a) } else { minus(middle(last), middle(first)) };
-    let axis = asked.axis.unwrap_or(along);
     let hint = "give it as /axis=X,Y,Z";
-    let axis = unit(axis)
-        .filter(|axis| !parallel(*axis, up))
-        .ok_or_else(|| ["must have an axis that is not along up".to_owned(), hint.to_owned()])?;
+    let axis = asked.axis.or_else(|| level(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
+    let axis = axis.ok_or_else(|| ["must have an axis that is not along up".to_owned(), hint.to_owned()])?;
     let mut ends: Vec<[f64; 3]> = Vec::new();
     for &member in &members {
         let [a, b] = structure.ends(member);
@@ -124,6 +122,14 @@ pub fn lay(asked: &Asked, up: [f64; 3], structure: &Structure) -> Result<Rail, [
         return Err(["must have coordinates that a double can hold".to_owned(), hint.to_owned()]);
     }
     Ok(Rail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
+}
+
+/// The part of a direction that is normal to up; `None` where that is less than a tenth of it.
+fn level(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
+    let up = unit(up)?;
+    let rise = dot(along, up);
+    let level = minus(along, up.map(|part| part * rise));
+    (length(level) > 0.1 * length(along)).then_some(level)
 }
 
 /// The members of a rail in the order given, each once.

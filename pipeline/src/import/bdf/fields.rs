@@ -16,6 +16,12 @@ pub struct Fields<'c, 'f> {
 
 static BLANK: Field = Field { at: Spot { file: 0, line: 0, column: 0 }, text: String::new() };
 
+/// A text with everything that is not ASCII as `\u{...}`.
+fn ascii(text: &str) -> String {
+    let escape = |c: char| if c.is_ascii_graphic() { c.to_string() } else { c.escape_unicode().to_string() };
+    text.chars().map(escape).collect()
+}
+
 impl Fields<'_, '_> {
     /// The text of a field; empty where it is blank or beyond the card's end.
     #[must_use]
@@ -52,7 +58,7 @@ impl Fields<'_, '_> {
     pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> Finding {
         let about = if name.is_empty() { self.label() } else { format!("{}: {name}", self.label()) };
         let finding = Finding::new(self.at(index), about, expected);
-        if self.blank(index) { finding } else { finding.got(self.text(index)) }
+        if self.blank(index) { finding } else { finding.got(ascii(self.text(index))) }
     }
 
     /// Refuses a field.
