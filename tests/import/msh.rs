@@ -55,7 +55,7 @@ fn physical_names_become_sections_and_sets() {
     assert_eq!(rail.axis, [1.0, 0.0, 0.0]);
     assert_eq!((rail.stations.len(), frame.ranges[0]), (9, [0.0, 12.0]));
     // it can be solved
-    let solved = fea::Frame::new(&frame.model, &[rail.clone()]).expect("a structure that stands");
+    let solved = fea::Frame::new(&frame.model, std::slice::from_ref(rail)).expect("a structure that stands");
     assert!(solved.certificate().error_bound < 1e-6);
 }
 

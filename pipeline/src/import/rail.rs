@@ -135,6 +135,7 @@ fn level(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
 /// The members of a rail in the order given, each once.
 fn members(asked: &Asked, structure: &Structure) -> Result<Vec<usize>, [String; 2]> {
     let mut members: Vec<usize> = Vec::new();
+    let mut named = vec![false; structure.members.len()];
     for item in &asked.items {
         let found: Vec<usize> = match item {
             Item::Elements([from, to]) => (0..structure.members.len())
@@ -159,7 +160,7 @@ fn members(asked: &Asked, structure: &Structure) -> Result<Vec<usize>, [String; 
             return Err([what, format!("sets of cells: {}", names.join(", "))]);
         }
         for member in found {
-            if !members.contains(&member) {
+            if !std::mem::replace(&mut named[member], true) {
                 members.push(member);
             }
         }

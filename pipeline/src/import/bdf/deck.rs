@@ -16,18 +16,18 @@ use super::support::{self, Hold};
 use crate::import::findings::{Finding, Findings, Spot};
 
 /// Cards that change nothing of a structure at rest, or nothing that a beam spec says: left out with a warning.
-const LEFT_OUT: [&str; 67] = [
+const LEFT_OUT: &[&str] = &[
     "PARAM", "DEBUG", "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD", "PLOAD", "PLOAD1",
     "PLOAD2", "PLOAD4", "PLOADX1", "SLOAD", "GRAV", "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPRB",
     "TEMPP1", "DAREA", "DLOAD", "DELAY", "DPHASE", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "LSEQ", "TABLED1",
     "TABLED2", "TABLED3", "TABLED4", "TABLEM1", "TABDMP1", "TABRND1", "RANDPS", "EIGR", "EIGRL", "EIGC",
     "EIGB", "FREQ", "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TSTEPNL", "NLPARM", "NLPCI", "ASET",
-    "ASET1", "OMIT", "OMIT1", "USET", "USET1", "SET1", "SET3", "PLOTEL", "SEQGP", "ECHOON", "ECHOOFF",
-    "DCONADD", "MATT1",
+    "ASET1", "OMIT", "OMIT1", "USET", "USET1", "SET1", "SET3", "PLOTEL", "SEQGP", "CBARAO", "ECHOON",
+    "ECHOOFF", "DCONADD", "MATT1",
 ];
 
 /// Properties and materials of elements that are refused themselves.
-const UNUSED: [&str; 12] = [
+const UNUSED: &[&str] = &[
     "PSHELL", "PSOLID", "PCOMP", "PCOMPG", "PSHEAR", "PBUSH", "PGAP", "PMASS", "MAT2", "MAT8", "MAT9",
     "MAT10",
 ];
@@ -59,6 +59,8 @@ pub struct Deck {
     pub holds: Vec<Hold>,
     /// SPCADD by number.
     pub adds: BTreeMap<u64, Vec<u64>>,
+    /// Whether there is case control.
+    pub controlled: bool,
     /// Sets that case control chooses.
     pub control: Vec<(u64, Spot)>,
     /// Factor of all masses.
@@ -139,6 +141,7 @@ impl Deck {
                     .hint("superelements cannot be taken"),
             );
         }
+        self.controlled = lines[..begin].iter().any(|line| word(line, 0) == "CEND");
         for line in &lines[..begin] {
             let key = word(line, 0);
             let set = match number(&word(line, 1)) {

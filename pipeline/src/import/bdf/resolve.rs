@@ -325,7 +325,8 @@ impl Resolver<'_, '_> {
                 self.structure.supports.insert(*point, grid.fix);
             }
         }
-        let sets = support::chosen(&deck.holds, &deck.adds, asked, &deck.control, self.findings);
+        let sets =
+            support::chosen(&deck.holds, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
         let mut idle: BTreeMap<u64, Spot> = BTreeMap::new();
         for hold in &deck.holds {
             if !sets.contains(&hold.set) {

@@ -46,9 +46,10 @@ pub enum Refusal {
 }
 
 /// Shapes that are known, with the number of their dimensions.
-pub const SHAPES: [(&str, usize); 15] = [
+pub const SHAPES: [(&str, usize); 16] = [
     ("ROD", 1),
     ("TUBE", 2),
+    ("TUBE2", 2),
     ("BAR", 2),
     ("BOX", 4),
     ("BOX1", 6),
@@ -107,12 +108,15 @@ struct Drawing {
 /// A shape that is not known; dimensions that do not fit; principal axes that are turned.
 pub fn properties(shape: &str, d: &[f64]) -> Result<Properties, Refusal> {
     let circle = |r: f64, inner: f64, k: f64| {
+        // a negative radius inside would be taken for a positive one
+        let inner = if inner < 0.0 { r } else { inner };
         let [two, four] = [r.powi(2) - inner.powi(2), r.powi(4) - inner.powi(4)].map(|value| PI * value);
         Properties { area: two, i1: four / 4.0, i2: four / 4.0, j: four / 2.0, k1: k, k2: k }
     };
     let found = match (shape, d) {
         ("ROD", &[r]) => circle(r, 0.0, 0.9),
         ("TUBE", &[r, inner]) => circle(r, inner, 0.5),
+        ("TUBE2", &[r, wall]) => circle(r, r - wall, 0.5),
         ("BAR", &[b, h]) => of_drawing(&bar(b, h))?,
         ("BOX", &[b, h, t1, t2]) => of_drawing(&boxed(b, h, [t1, t1], [t2, t2]))?,
         ("BOX1", &[b, h, top, bottom, left, right]) => {

@@ -87,11 +87,13 @@ pub fn spcadd(card: &mut Fields<'_, '_>) -> Option<(u64, Vec<u64>)> {
 
 /// The sets that hold the structure.
 ///
-/// `asked`: by the user; `control`: by case control, with its place. Where neither chooses, the only one.
+/// `asked`: by the user; `controlled`: whether the deck has case control; `control`: what that chooses, with its place.
+/// Where neither chooses, the only one.
 pub fn chosen(
     holds: &[Hold],
     adds: &BTreeMap<u64, Vec<u64>>,
     asked: Option<u64>,
+    controlled: bool,
     control: &[(u64, Spot)],
     findings: &mut Findings,
 ) -> BTreeSet<u64> {
@@ -112,7 +114,15 @@ pub fn chosen(
             };
             match tops.as_slice() {
                 [] => return BTreeSet::new(),
-                [only] => (*only, Spot::default()),
+                [only] => {
+                    if controlled {
+                        let at = holds.first().map_or(first, |hold| hold.card);
+                        let told =
+                            format!("set {only} is taken: case control chooses none, and there is no other");
+                        findings.warn(Finding::new(at, "SPC", told));
+                    }
+                    (*only, Spot::default())
+                }
                 _ => {
                     let at = holds.first().map_or(first, |hold| hold.card);
                     let finding =

@@ -85,14 +85,17 @@ fn torsion_of_a_square_and_of_a_strip_have_their_known_values() {
     assert!((of("BAR", &[2.0, 1.0]).j - 0.229 * 2.0).abs() < 1e-3);
     close(of("ROD", &[2.0]).j, 8.0 * PI, "rod");
     close(of("TUBE", &[2.0, 1.0]).i1, 15.0 / 4.0 * PI, "tube");
+    assert_eq!(of("TUBE2", &[2.0, 1.0]), of("TUBE", &[2.0, 1.0]));
 }
 
 #[test]
 fn dimensions_that_do_not_fit_are_refused() {
-    let wrong: [(&str, &[f64]); 14] = [
+    let wrong: [(&str, &[f64]); 16] = [
         ("ROD", &[0.0]),
         ("TUBE", &[1.0, 1.0]),
         ("TUBE", &[1.0, 2.0]),
+        ("TUBE", &[1.0, -0.5]),
+        ("TUBE2", &[1.0, 1.5]),
         ("BAR", &[1.0, -1.0]),
         ("BOX", &[1.0, 1.0, 0.5, 0.1]),
         ("BOX", &[1.0, 1.0, 0.1, 0.5]),
