@@ -1,6 +1,6 @@
 //! Models of other programs as beam specs.
 //!
-//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give a [`structure::Structure`], which [`write`]
+//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give a [`structure::Structure`], which [`write()`]
 //! turns into the text of a spec.
 
 pub mod bdf;
