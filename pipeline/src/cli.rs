@@ -45,7 +45,7 @@ pub enum Command {
     /// Write the tables of a grid, as an ADAMS data set or in the format of the file's ending
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
-    /// Compare a beam spec's grids with those of an independent FE code, scikit-fem
+    /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(Crosscheck),
 }
@@ -55,6 +55,12 @@ pub enum Command {
 pub struct Crosscheck {
     /// Beam spec
     pub spec: PathBuf,
+    /// Folder for the result as text and JSON, with plots of the differences [default: console alone]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Beam theory in place of the spec's
+    #[arg(long)]
+    pub theory: Option<Theory>,
 }
 
 /// Arguments of `splines`.
