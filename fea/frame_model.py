@@ -81,8 +81,7 @@ def general(spec):
         "materials": [{"name": "girder", "E": girder["E"], "G": girder.get("G", girder["E"])}],
         "sections": [section],
         "supports": [
-            {"point": first + k, "fix": (["ux"] if k == 0 else []) + ["uy", "uz", "rx"]}
-            for k in range(len(supports))
+            {"point": first + k, "fix": (["ux"] if k == 0 else []) + ["uy", "uz", "rx"]} for k in range(len(supports))
         ],
         "rails": {
             "rail": {
@@ -190,7 +189,7 @@ class Frame:
         for block, cells in enumerate(self.spec["cells"]):
             for index, points in enumerate(cells["data"]):
 
-                def get(key, default):
+                def get(key, default, block=block, index=index):
                     return data[key][block][index] if key in data else default
 
                 section = dict(self.spec["sections"][get("section", 0)])
@@ -219,7 +218,7 @@ class Frame:
         """Heads of all stations; cuts members where stations lie inside."""
         up = np.array(self.spec.get("up", [0.0, 1.0, 0.0]), dtype=float)
         wanted, count = [], 0
-        for name, rail in self.spec["rails"].items():
+        for rail in self.spec["rails"].values():
             axes = triad(rail["axis"], up)
             origin = np.array(rail.get("origin", [0.0, 0.0, 0.0]), dtype=float)
             segments = []
@@ -259,7 +258,7 @@ class Frame:
                 cuts.setdefault(member, []).append((t, number, offset, axes))
             return
         # Only a gap is left: the nearer end of the segments on both sides.
-        distance, end, edge, offset = min(
+        _, end, edge, offset = min(
             (
                 (abs(x - edge), self.members[member].nodes[k], edge, offset)
                 for member, along, offset in segments
@@ -341,6 +340,13 @@ class Frame:
             if size > 1e-9 * np.linalg.norm(scale):
                 kept.setdefault(body, []).append(row / size)
                 self.fixed.append((node, freedom))
+        # Supports away from the root are the same as supports there where they hold whole freedoms of it.
+        for body, rows in kept.items():
+            basis, root = np.array(rows), self.root[body]
+            whole = [k for k in range(6) if np.linalg.norm(basis[:, k]) > 1.0 - 1e-9]
+            if len(whole) == len(rows):
+                self.fixed = [(n, f) for n, f in self.fixed if self.body[n] != body]
+                self.fixed += [(root, k) for k in whole]
 
     def reach_of(self, node):
         return np.linalg.norm(self.position[node] - self.position[self.root[self.body[node]]])

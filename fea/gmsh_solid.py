@@ -39,7 +39,7 @@ MOST = 17
 TOLERANCE, SHORT = 1e-3, 0.05
 # Elements across height and width, the longest one by the smaller of height and width, and most along the bar.
 ACROSS = (4, 4)
-LONGEST, ALONG = 0.5, 400
+LONGEST, ALONG = 0.5, 240
 
 
 def load():
@@ -226,7 +226,7 @@ def solve(question):
     found = np.zeros_like(columns)
     found[free] = factor.solve(columns[free])
     flexible, moved = columns.T @ found, columns.T @ modes
-    s, n = held.shape[1], loads.shape[1]
+    s = held.shape[1]
     size = 1.0 / np.abs(flexible).max()
     system = np.block([[size * flexible[:s, :s], moved[:s]], [moved[:s].T, np.zeros((6, 6))]])
     right = -np.vstack([size * flexible[:s, s:], moved[s:].T])
@@ -237,10 +237,8 @@ def solve(question):
     if bar.lateral:
         influence["lateral"] = grid[count:, count:].tolist()
         influence["vertical_lateral"] = grid[:count, count:].tolist()
-    notes = [
-        f"rectangle {bar.b:.4g} x {bar.h:.4g}, shortest span {bar.slender:.3g} depths, {m.t.shape[1]} hexahedra, {3 * basis.N} "
-        "freedoms"
-    ]
+    shape = f"rectangle {bar.b:.4g} x {bar.h:.4g}, shortest span {bar.slender:.3g} depths"
+    notes = [f"{shape}, {m.t.shape[1]} hexahedra, {3 * basis.N} freedoms"]
     if count < bar.total:
         notes.append(f"compared at {count} of {bar.total} stations")
     return {

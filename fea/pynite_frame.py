@@ -10,8 +10,8 @@ import importlib.metadata
 import math
 
 import numpy as np
-import scipy.sparse as sparse
 from Pynite import Analysis, FEModel3D
+from scipy import sparse
 from scipy.sparse.linalg import splu
 
 import frame_model
@@ -20,9 +20,7 @@ from frame_model import Refused
 
 def rotation(model, name, axes):
     """Turns PyNite's member about its axis until its local y is ours."""
-    member = model.members[name].sub_members[name + "a"] if model.members[name].sub_members else None
-    member = member or model.members[name]
-    own = member.T()[:3, :3]
+    own = model.members[name].T()[:3, :3]
     return math.degrees(math.atan2(axes[1] @ own[2], axes[1] @ own[1]))
 
 

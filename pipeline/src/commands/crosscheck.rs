@@ -136,7 +136,8 @@ impl<'a> Check<'a> {
                 .filter(|d| d.quantity.direct() == [d.quantity; 2])
                 .map(|d| format!("{} {:.1e}", d.quantity, d.relative))
                 .collect();
-            notes.push(format!("Euler-Bernoulli beams differ by {}, no part of the verdict", list.join(", ")));
+            notes
+                .push(format!("Euler-Bernoulli beams differ by {}, no part of the verdict", list.join(", ")));
         }
         outcome.notes.extend(notes);
         Ok(Ok(outcome))
@@ -155,7 +156,8 @@ fn sheared(spec: &mut Spec) -> Option<String> {
 
 /// A code or an environment that does not work is a matter of the machine.
 fn broken(error: &Error) -> Failure {
-    let hint = "the first use needs python3 (3.11 or newer, with venv) and PyPI; later ones need neither network";
+    let hint =
+        "the first use needs python3 (3.11 or newer, with venv) and PyPI; later ones need neither network";
     Diagnostic::of_file("python3", format!("nothing compared: {error}")).hint(hint).into()
 }
 

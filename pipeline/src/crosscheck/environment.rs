@@ -54,7 +54,10 @@ impl Environment {
             return Ok(program(&folder));
         }
         self.check_version()?;
-        say(&format!("making a Python environment with scikit-fem, gmsh, OpenSees and PyNite in {} (once, about 650 MB)", folder.display()));
+        say(&format!(
+            "making a Python environment with scikit-fem, gmsh, OpenSees and PyNite in {} (once, about 650 MB)",
+            folder.display()
+        ));
         let file = |path: &Path| {
             let path = path.to_owned();
             move |source| Error::File { path, source }

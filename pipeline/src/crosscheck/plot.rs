@@ -30,5 +30,10 @@ pub fn charts(outcome: &Outcome, rails: &[String], unit: &str) -> Vec<Chart> {
         let limit = ends.map(|k| [x(k), outcome.tolerance]).collect();
         chart.with(Series::new("tolerance", Style::Dashed, limit))
     };
-    rails.iter().enumerate().map(of_rail).filter(|chart| chart.series.iter().any(|s| !s.points.is_empty())).collect()
+    rails
+        .iter()
+        .enumerate()
+        .map(of_rail)
+        .filter(|chart| chart.series.iter().any(|s| !s.points.is_empty()))
+        .collect()
 }

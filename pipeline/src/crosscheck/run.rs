@@ -104,7 +104,10 @@ pub fn ask(
 #[must_use]
 pub fn part(grids: &[(Quantity, Grid)], chosen: &[usize]) -> Vec<(Quantity, Grid)> {
     let pick = |row: &Vec<f64>| chosen.iter().map(|j| row[*j]).collect();
-    grids.iter().map(|(quantity, grid)| (*quantity, chosen.iter().map(|i| pick(&grid[*i])).collect())).collect()
+    grids
+        .iter()
+        .map(|(quantity, grid)| (*quantity, chosen.iter().map(|i| pick(&grid[*i])).collect()))
+        .collect()
 }
 
 fn check(grids: &[(Quantity, Grid)], stations: usize) -> Result<(), Error> {
@@ -132,8 +135,7 @@ struct Scale {
 impl Scale {
     fn new(quantity: Quantity, grids: &[(Quantity, Grid)], measure: Measure) -> Scale {
         let find = |q| grids.iter().find(|(known, _)| *known == q).map(|(_, grid)| grid);
-        let largest =
-            |q| find(q).into_iter().flatten().flatten().fold(0.0, |a: f64, v: &f64| a.max(v.abs()));
+        let largest = |q| find(q).into_iter().flatten().flatten().fold(0.0, |a: f64, v: &f64| a.max(v.abs()));
         let [row, column] = quantity.direct();
         let whole = match (largest(row), largest(column)) {
             (a, b) if a > 0.0 && b > 0.0 => (a * b).sqrt(),
