@@ -54,7 +54,7 @@ pub enum Command {
         after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
     )]
     Import(Import),
-    /// Compare a beam spec's grids with those of an independent FE code, scikit-fem
+    /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(Crosscheck),
 }
@@ -64,6 +64,12 @@ pub enum Command {
 pub struct Crosscheck {
     /// Beam spec
     pub spec: PathBuf,
+    /// Folder for the result as text and JSON, with plots of the differences [default: console alone]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Beam theory in place of the spec's
+    #[arg(long)]
+    pub theory: Option<Theory>,
 }
 
 /// Arguments of `splines`.
