@@ -19,6 +19,7 @@ pub mod exit;
 pub mod fault;
 pub mod grid;
 pub mod grid_file;
+pub mod import;
 pub mod inputs;
 pub mod link;
 pub mod manifest;
