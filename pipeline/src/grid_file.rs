@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::json;
 use splines::Surface;
 
-use crate::coupling::Coupling;
+use crate::coupling::{Coupling, RawCoupling};
 use crate::crosscheck::Quantity;
 use crate::diagnostic::Diagnostic;
 use crate::effect_file::{self, RawEffects};
@@ -20,7 +20,7 @@ use crate::spec::THEORIES;
 use crate::surface_file::{self, RawSurface};
 use crate::units::{RawUnits, Units};
 
-crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence, RawCoupling, RawDropped, RawChange);
+crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-grid/1";
@@ -123,39 +123,6 @@ enum Precision {
     #[default]
     Double,
     DoubleDouble,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawCoupling {
-    #[serde(rename = "vertical_lateral")]
-    _vertical_lateral: Option<f64>,
-    #[serde(rename = "vertical_longitudinal")]
-    _vertical_longitudinal: Option<f64>,
-    #[serde(rename = "lateral_longitudinal")]
-    _lateral_longitudinal: Option<f64>,
-    #[serde(rename = "dropped")]
-    _dropped: Option<RawDropped>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawDropped {
-    #[serde(rename = "side_load")]
-    _side_load: f64,
-    #[serde(rename = "vertical")]
-    _vertical: RawChange,
-    #[serde(rename = "lateral")]
-    _lateral: RawChange,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawChange {
-    #[serde(rename = "median")]
-    _median: f64,
-    #[serde(rename = "largest")]
-    _largest: f64,
 }
 
 #[derive(Debug, Deserialize)]
