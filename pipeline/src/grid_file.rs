@@ -164,8 +164,7 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
         faults.add(Fault::new(&at, "must have at least one grid"));
     }
     let certificate = raw.certificate.as_ref();
-    let certificate =
-        certificate.map(|given| Certificate { condition: given.condition, error_bound: given.error_bound });
+    let certificate = certificate.map(|given| Certificate::given(given.condition, given.error_bound));
     Some(Grid {
         name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
@@ -242,7 +241,7 @@ mod tests {
             theory: Some("timoshenko".to_owned()),
             rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
             blocks: vec![(Quantity::Vertical, block.clone()), (Quantity::VerticalLateral, block * 2.0)],
-            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0 }),
+            certificate: Some(Certificate::given(12.5, 1.0 / 7.0)),
             notes: vec!["no longitudinal grids".to_owned()],
         }
     }

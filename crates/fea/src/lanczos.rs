@@ -4,8 +4,9 @@ use faer::{Mat, Side};
 use nalgebra::{DMatrix, DVector, DVectorView};
 use sprs::CsMat;
 
-use crate::factor::{Factor, Refusal};
+use crate::factor::Refusal;
 use crate::inertia::negatives;
+use crate::solver::Solver;
 
 /// Vectors of a block.
 const BLOCK: usize = 8;
@@ -27,7 +28,7 @@ pub(crate) struct Pencil<'a> {
     pub stiffness: &'a CsMat<f64>,
     /// Upper triangle.
     pub mass: &'a CsMat<f64>,
-    pub factor: &'a Factor,
+    pub factor: &'a Solver,
 }
 
 impl Pencil<'_> {

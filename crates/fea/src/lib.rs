@@ -6,6 +6,7 @@
 
 mod assembly;
 pub mod certificate;
+pub mod effect;
 mod element;
 pub mod error;
 mod factor;
@@ -22,12 +23,17 @@ pub mod modes;
 mod order;
 pub mod rail;
 pub mod reaction;
+mod real;
+mod rounding;
 pub mod section;
+mod solver;
 pub mod surface;
+pub mod taper;
 
 pub use certificate::Certificate;
+pub use effect::Effect;
 pub use error::{Error, Fault, Item, Quantity};
-pub use frame::Frame;
+pub use frame::{ACCURACY, Frame};
 pub use girder::Girder;
 pub use grid::{Grid, grid};
 pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Support};
@@ -35,4 +41,6 @@ pub use modes::{Mode, Modes, modes};
 pub use rail::{Rail, Segment};
 pub use reaction::{Hold, Reactions, reactions};
 pub use section::{Section, Theory};
+pub use splines::Component;
 pub use surface::{Exact, nodal, surface};
+pub use taper::Taper;

@@ -3,7 +3,7 @@
 use nalgebra::{SMatrix, Vector3};
 use sprs::{CsMat, TriMat};
 
-use crate::assembly::{Assembly, reach};
+use crate::assembly::{Assembly, Numbering, reach};
 use crate::element::{Element, Matrix6, Matrix12, arm};
 use crate::error::Error;
 use crate::freedoms::Freedoms;
@@ -48,14 +48,14 @@ impl Mass {
         freedoms: &Freedoms,
         assembly: &Assembly,
     ) -> Result<Mass, Error> {
-        let n = assembly.column.len();
+        let n = assembly.numbering.column.len();
         let mut sum = Sum {
             freedoms,
             assembly,
             triplets: TriMat::with_capacity((n, n), 78 * elements.len() + 21 * m.masses.len()),
             rigid: std::array::from_fn(|_| vec![0.0; n]),
             total: Matrix6::zeros(),
-            idle: vec![[0.0; 2]; assembly.unknown.len()],
+            idle: vec![[0.0; 2]; assembly.numbering.unknown.len()],
         };
         for (element, member) in elements.iter().zip(&m.members) {
             let section = &m.sections[member.section];
@@ -112,7 +112,7 @@ impl Sum<'_> {
         self.total += whole.transpose() * all * whole;
         let resisted = own.transpose() * held * own;
         let bulk = size.transpose() * held.abs() * size;
-        let Assembly { unknown, scale, .. } = self.assembly;
+        let Numbering { unknown, scale, .. } = &self.assembly.numbering;
         let column = |i: usize| 6 * bodies[i / 6] + i % 6;
         for i in 0..12 {
             let Some(row) = unknown[column(i)] else {

@@ -139,7 +139,9 @@ impl Frame {
     fn spread(&self, x: &[f64]) -> Vec<SVector<f64, 6>> {
         let assembly = self.system().0;
         let mut motions = vec![SVector::<f64, 6>::zeros(); self.freedoms.bodies.len()];
-        for ((&value, &column), &scale) in x.iter().zip(&assembly.column).zip(&assembly.scale) {
+        for ((&value, &column), &scale) in
+            x.iter().zip(&assembly.numbering.column).zip(&assembly.numbering.scale)
+        {
             motions[column / 6][column % 6] = value * scale;
         }
         motions.iter().zip(&self.freedoms.bodies).map(|(motion, body)| body.basis * motion).collect()

@@ -9,7 +9,7 @@ use crate::inputs::Inputs;
 use crate::link;
 use crate::output;
 use crate::progress::Progress;
-use crate::spec::{Form, Spec};
+use crate::spec::Spec;
 
 /// Largest difference, relative to the largest entry of a grid, that counts as agreement.
 const TOLERANCE: f64 = 1e-9;
@@ -20,9 +20,9 @@ const TOLERANCE: f64 = 1e-9;
 /// What is wrong with the spec; a structure that does not stand; a difference; nothing that could be compared.
 pub fn run(args: &Crosscheck, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let (_, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
+    let (_, source) = Inputs::open(&args.spec)?;
     let spec = Spec::read(&source, None)?;
-    let Form::Girder(girder) = &spec.form else {
+    let Some(girder) = spec.girder() else {
         let why = "nothing to compare: the cross-check takes straight girders, the short form of a spec";
         return Err(Failure::Differs(format!("{}: {why}", source.name)));
     };
@@ -41,7 +41,7 @@ pub fn run(args: &Crosscheck, global: Global) -> Result<Exit, Failure> {
         crosscheck::crosscheck(&stiffnesses(girder), &ours, TOLERANCE, &environment, &mut say)
     });
     let outcome = compared.map_err(|error| Failure::Differs(format!("nothing compared: {error}")))?;
-    let text = if global.json { format!("{:#}\n", outcome.json()) } else { outcome.table() };
+    let text = if global.json { output::json(&outcome.json()) } else { outcome.table() };
     output::print(&text)?;
     Ok(if outcome.agrees() { Exit::Done } else { Exit::Differs })
 }

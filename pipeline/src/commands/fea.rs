@@ -15,7 +15,7 @@ use crate::spec::Spec;
 /// What is wrong with the spec; a structure that does not stand; a file that cannot be written.
 pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let (_, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
+    let (_, source) = Inputs::open(&args.spec)?;
     let mut spec = Spec::read(&source, None)?;
     if let Some(theory) = args.theory {
         spec = spec.with_theory(theory.into());

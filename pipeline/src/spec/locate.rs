@@ -30,8 +30,10 @@ impl Spec {
                 self.point(*point),
                 meaning(*freedom)
             )),
-            Error::Ill { condition, point, freedom } => Failure::Untrusted(format!(
-                "{}: condition {condition:.1e} leaves no digit to trust; weakest is {} in {freedom} ({})",
+            Error::Ill { condition, bound, asked, point, freedom } => Failure::Untrusted(format!(
+                "{}: condition {condition:.1e} bounds the relative error by {bound:.1e} even in double-doubles, asked \
+                 {asked:.1e}; weakest is {} in {freedom} ({})  hint: lengthen or join the shortest members, one a span is \
+                 best, or ask less with --accuracy",
                 source.name,
                 self.point(*point),
                 meaning(*freedom)

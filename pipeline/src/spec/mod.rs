@@ -89,6 +89,15 @@ impl Spec {
         }
     }
 
+    /// The straight girder; none where the spec is a frame.
+    #[must_use]
+    pub(crate) const fn girder(&self) -> Option<&Girder> {
+        match &self.form {
+            Form::Girder(girder) => Some(girder),
+            Form::Frame(_) => None,
+        }
+    }
+
     /// The rails, in order.
     #[must_use]
     pub fn rails(&self) -> Vec<RailOutline> {
