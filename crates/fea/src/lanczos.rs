@@ -362,6 +362,7 @@ mod tests {
     use sprs::TriMat;
 
     use super::*;
+    use crate::factor::Factor;
 
     /// Upper triangle of a matrix.
     fn upper(dense: &DMatrix<f64>) -> CsMat<f64> {
@@ -389,6 +390,10 @@ mod tests {
         [stiffness, mass]
     }
 
+    fn solver(stiffness: &CsMat<f64>) -> Solver {
+        Solver::Double(Factor::new(stiffness).expect("positive definite"))
+    }
+
     #[test]
     fn pairs_are_those_of_the_dense_pencil_massless_freedoms_too() {
         for (n, massless, count) in [(1, 0, 1), (6, 2, 3), (90, 0, 12), (90, 31, 20), (400, 150, 37)] {
@@ -400,7 +405,7 @@ mod tests {
             let mut exact: Vec<f64> = whole.symmetric_eigenvalues().iter().copied().collect();
             exact.sort_by(|a, b| b.total_cmp(a));
             let [k, m] = [&stiffness, &mass].map(upper);
-            let factor = Factor::new(&k).expect("positive definite");
+            let factor = solver(&k);
             let mut space = Space::new(Pencil { stiffness: &k, mass: &m, factor: &factor });
             assert!(space.converge(count));
             assert!(space.pairs.converged >= count);
@@ -420,7 +425,7 @@ mod tests {
     fn a_search_beyond_the_rank_of_the_mass_ends_with_all_there_are() {
         let [stiffness, mass] = pencil(90, 31);
         let [k, m] = [&stiffness, &mass].map(upper);
-        let factor = Factor::new(&k).expect("positive definite");
+        let factor = solver(&k);
         let mut space = Space::new(Pencil { stiffness: &k, mass: &m, factor: &factor });
         assert!(space.converge(80));
         assert!(space.pairs.exhausted);
@@ -431,7 +436,7 @@ mod tests {
     fn after_a_refresh_known_pairs_remain_and_others_follow() {
         let [stiffness, mass] = pencil(400, 0);
         let [k, m] = [&stiffness, &mass].map(upper);
-        let factor = Factor::new(&k).expect("positive definite");
+        let factor = solver(&k);
         let mut space = Space::new(Pencil { stiffness: &k, mass: &m, factor: &factor });
         assert!(space.converge(5));
         let before = space.known();

@@ -198,7 +198,7 @@ struct Cut {
 
 /// Finds `count` eigenvalues, and a shift above them below which all are known.
 fn search(space: &mut Space<'_>, count: usize) -> Result<Cut, Error> {
-    let fail = |found: usize| Error::Modes { asked: count, found };
+    let fail = |known: usize| Error::Modes { asked: count, found: known.min(count) };
     let mut need = count + 1;
     for _ in 0..ATTEMPTS {
         let complete = space.converge(need);
@@ -209,10 +209,10 @@ fn search(space: &mut Space<'_>, count: usize) -> Result<Cut, Error> {
                 let lambda = low + place * (high - low);
                 space.negatives(lambda).map(|found| found.map(|found| (lambda, found))).transpose()
             });
-            match counted.transpose().map_err(|_| fail(0))? {
+            match counted.transpose().map_err(|_| fail(known.len()))? {
                 Some((lambda, found)) if found == below => return Ok(Cut { lambda, below }),
                 Some((_, found)) if found > below => missed = Some(found - below),
-                Some(_) => return Err(fail(0)),
+                Some(_) => return Err(fail(known.len())),
                 None => continue,
             }
             break;
@@ -228,7 +228,7 @@ fn search(space: &mut Space<'_>, count: usize) -> Result<Cut, Error> {
             None => break,
         }
     }
-    Err(fail(0))
+    Err(fail(space.known().len()))
 }
 
 /// Gaps between eigenvalues in which to count, and how many lie below: above the first `count`, the
