@@ -198,13 +198,9 @@ impl<'a> Space<'a> {
         let size = self.vectors.len();
         let mut projection = std::mem::replace(&mut self.projection, DMatrix::zeros(0, 0));
         projection = projection.resize(size, size, 0.0);
-        for (j, image) in images.iter_mut().enumerate() {
-            let shares = self.orthogonalise(image);
-            projection.column_mut(old + j).copy_from(&shares);
-            for i in 0..old {
-                projection[(old + j, i)] = shares[i];
-            }
-        }
+        let shares = self.orthogonalise(&mut images);
+        projection.columns_mut(old, width).copy_from(&shares);
+        projection.view_mut((old, 0), (width, old)).copy_from(&shares.rows(0, old).transpose());
         for i in old..size {
             for j in old..i {
                 let mean = 0.5 * (projection[(i, j)] + projection[(j, i)]);
@@ -248,7 +244,7 @@ impl<'a> Space<'a> {
 
     /// Removes the part of `x` within the space and the next block.
     fn reduce(&self, x: &mut DVector<f64>) {
-        self.orthogonalise(x);
+        self.orthogonalise(std::slice::from_mut(x));
         for _ in 0..2 {
             let image = product(self.pencil.mass, x.as_view());
             for other in &self.next {
@@ -291,15 +287,18 @@ impl<'a> Space<'a> {
         true
     }
 
-    /// Removes the part of `x` within the space, twice; gives its coefficients.
-    fn orthogonalise(&self, x: &mut DVector<f64>) -> DVector<f64> {
-        let mut shares = DVector::zeros(self.vectors.len());
+    /// Removes the parts of `block` within the space, twice; gives their coefficients.
+    fn orthogonalise(&self, block: &mut [DVector<f64>]) -> DMatrix<f64> {
+        let mut shares = DMatrix::zeros(self.vectors.len(), block.len());
         for _ in 0..2 {
-            let image = product(self.pencil.mass, x.as_view());
-            for (share, vector) in shares.iter_mut().zip(&self.vectors) {
-                let more = vector.dot(&image);
-                x.axpy(-more, vector, 1.0);
-                *share += more;
+            let images: Vec<DVector<f64>> =
+                block.iter().map(|x| product(self.pencil.mass, x.as_view())).collect();
+            for (k, vector) in self.vectors.iter().enumerate() {
+                for (j, (x, image)) in block.iter_mut().zip(&images).enumerate() {
+                    let share = vector.dot(image);
+                    x.axpy(-share, vector, 1.0);
+                    shares[(k, j)] += share;
+                }
             }
         }
         shares
