@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DVector, DVectorView, SVector, Vector3};
-use splines::{Line, Probe, Surface};
+use splines::{Axis, Line, Probe, Surface};
 use sprs::CsMat;
 
 use crate::error::Error;
@@ -160,6 +160,21 @@ impl Modes {
             terms.map(|(&index, share)| share * mode.states[index / 6][index % 6]).sum()
         };
         Ok(self.modes.iter().map(|mode| [sum(mode, row.values()), sum(mode, row.slopes())]).collect())
+    }
+
+    /// Rotation of every mode about the rail at x, linear along a cell: exact where the cell runs along the rail.
+    ///
+    /// # Errors
+    /// No rail; a place beyond it.
+    pub fn twist(&self, rail: usize, x: f64) -> Result<Vec<f64>, Error> {
+        let line = self.line.as_ref().ok_or(Error::NoRails)?;
+        let place = |axis| line.row(Probe { rail, x, axis });
+        let row =
+            place(Axis::Vertical).or_else(|_| place(Axis::Lateral)).or_else(|_| place(Axis::Longitudinal))?;
+        let cell = &line.cells()[row.cell];
+        let r = ((x - cell.x[0]) / (cell.x[1] - cell.x[0])).clamp(0.0, 1.0);
+        let [a, b] = cell.ends;
+        Ok(self.modes.iter().map(|mode| (1.0 - r) * mode.states[a][3] + r * mode.states[b][3]).collect())
     }
 
     /// What the modes leave of an influence surface of the same frame:

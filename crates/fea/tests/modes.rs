@@ -430,3 +430,32 @@ fn a_plane_girder_needs_no_other_stiffness() {
         assert!((mode.omega.powi(2) / (exact * unit) - 1.0).abs() < 1e-12);
     }
 }
+
+#[test]
+fn members_are_cut_until_the_mesh_does_not_show() {
+    for accuracy in [1e-2, 1e-3, 1e-9] {
+        for (theory, exact) in [
+            (Theory::EulerBernoulli, [PI, 2.0 * PI, 3.0 * PI].map(bending)),
+            (Theory::Timoshenko, [0, 1, 2].map(sheared)),
+        ] {
+            let model = plane(1, theory, [PINNED, PINNED]);
+            let rail = Rail {
+                axis: [1.0, 0.0, 0.0],
+                segments: vec![Segment { member: 0, offset: [0.0, 0.4, 0.0] }],
+                stations: vec![0.0, L],
+                ..Rail::default()
+            };
+            // Cut points move in all directions: modes out of the plane lie between those of the plane.
+            let refined = fea::refined_modes(&model, &[rail], 12, accuracy).expect("sound");
+            for exact in exact {
+                let nearest = |a: f64, b: f64| if (b - exact).abs() < (a - exact).abs() { b } else { a };
+                let found = refined.modes.modes.iter().map(|mode| mode.omega).fold(f64::INFINITY, nearest);
+                let error = found / exact - 1.0;
+                assert!(error > -1e-9 && error < refined.error, "{theory:?} {accuracy}: {error}");
+            }
+            println!("{theory:?} {accuracy}: {} parts, {}", refined.parts[0], refined.error);
+            assert!(refined.error <= accuracy || refined.parts[0] == 128);
+            assert_eq!(refined.rails[0].segments.len(), refined.parts[0]);
+        }
+    }
+}
