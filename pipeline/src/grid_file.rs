@@ -8,8 +8,10 @@ use serde::Deserialize;
 use serde_json::json;
 use splines::Surface;
 
+use crate::coupling::Coupling;
 use crate::crosscheck::Quantity;
 use crate::diagnostic::Diagnostic;
+use crate::effect_file::{self, RawEffects};
 use crate::fault::{Fault, Faults, number};
 use crate::grid::{Grid, GridRail};
 use crate::place::Place;
@@ -18,7 +20,7 @@ use crate::spec::THEORIES;
 use crate::surface_file::{self, RawSurface};
 use crate::units::{RawUnits, Units};
 
-crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
+crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence, RawCoupling, RawDropped, RawChange);
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-grid/1";
@@ -41,6 +43,9 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
         let object = json!({ "condition": certificate.condition, "error_bound": certificate.error_bound });
         head.insert("certificate".into(), object);
     }
+    if let Some(coupling) = Coupling::of(grid) {
+        head.insert("coupling".into(), coupling.json());
+    }
     if !grid.notes.is_empty() {
         head.insert("notes".into(), json!(grid.notes));
     }
@@ -61,6 +66,9 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
         text.push_str("\n    ]");
     }
     text.push_str("\n  }");
+    if let Some(effects) = &grid.effects {
+        let _ = write!(text, ",\n  \"effects\": {}", effect_file::write(effects, grid.units));
+    }
     if let Some(surface) = surface {
         let _ = write!(text, ",\n  \"surface\": {}", surface_file::to_json(surface));
     }
@@ -77,9 +85,13 @@ struct RawGrid {
     theory: Option<String>,
     rails: Option<Vec<RawRail>>,
     certificate: Option<RawCertificate>,
+    /// Follows from the grids.
+    #[serde(rename = "coupling")]
+    _coupling: Option<RawCoupling>,
     #[serde(default)]
     notes: Vec<String>,
     influence: Option<RawInfluence>,
+    effects: Option<RawEffects>,
     surface: Option<RawSurface>,
 }
 
@@ -95,6 +107,39 @@ struct RawRail {
 struct RawCertificate {
     condition: f64,
     error_bound: f64,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawCoupling {
+    #[serde(rename = "vertical_lateral")]
+    _vertical_lateral: Option<f64>,
+    #[serde(rename = "vertical_longitudinal")]
+    _vertical_longitudinal: Option<f64>,
+    #[serde(rename = "lateral_longitudinal")]
+    _lateral_longitudinal: Option<f64>,
+    #[serde(rename = "dropped")]
+    _dropped: Option<RawDropped>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawDropped {
+    #[serde(rename = "side_load")]
+    _side_load: f64,
+    #[serde(rename = "vertical")]
+    _vertical: RawChange,
+    #[serde(rename = "lateral")]
+    _lateral: RawChange,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawChange {
+    #[serde(rename = "median")]
+    _median: f64,
+    #[serde(rename = "largest")]
+    _largest: f64,
 }
 
 #[derive(Debug, Deserialize)]
@@ -163,6 +208,7 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
     if blocks.is_empty() && faults.0.is_empty() {
         faults.add(Fault::new(&at, "must have at least one grid"));
     }
+    let effects = raw.effects.as_ref().map(|raw| raw.effects(size, &root.key("effects"), faults));
     let certificate = raw.certificate.as_ref();
     let certificate = certificate.map(|given| Certificate::given(given.condition, given.error_bound));
     Some(Grid {
@@ -172,6 +218,7 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
         rails,
         blocks,
         certificate,
+        effects,
         notes: raw.notes.clone(),
     })
 }
@@ -231,7 +278,10 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect::{Effects, Ground, Reaction, Section};
+    use crate::spec::Spot;
     use crate::units::{Force, Length};
+    use splines::Axis;
 
     fn grid() -> Grid {
         let block = DMatrix::from_row_slice(2, 2, &[1.0 / 3.0 * 1e-8, 2.5e-310, 2.5e-310, 1e-7]);
@@ -242,6 +292,7 @@ mod tests {
             rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
             blocks: vec![(Quantity::Vertical, block.clone()), (Quantity::VerticalLateral, block * 2.0)],
             certificate: Some(Certificate::given(12.5, 1.0 / 7.0)),
+            effects: None,
             notes: vec!["no longitudinal grids".to_owned()],
         }
     }
@@ -252,9 +303,24 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_bit_for_bit() {
-        let (read, surface) = read(&source(write(&grid(), None))).expect("our own file");
-        assert_eq!(read, grid());
-        assert!(surface.is_none());
+        let mut given = grid();
+        given.blocks.insert(1, (Quantity::Lateral, given.blocks[0].1.clone()));
+        let lines = |k: f64| vec![(Axis::Vertical, vec![k / 3.0, -1.0]), (Axis::Lateral, vec![0.1 * k, 0.0])];
+        let reaction = |at, spring| Reaction { at, dof: "uy".to_owned(), spring, lines: lines(1.0) };
+        let section = |at| Section {
+            name: "mid \"span\"".to_owned(),
+            at,
+            lines: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(lines),
+        };
+        given.effects = Some(Effects {
+            reactions: vec![reaction(Ground::Point(3), None), reaction(Ground::Along(0.1), Some(2))],
+            sections: vec![section(Spot::Cell([1, 2], 0.3)), section(Spot::Along(1.0 / 3.0))],
+        });
+        for grid in [grid(), given] {
+            let (read, surface) = read(&source(write(&grid, None))).expect("our own file");
+            assert_eq!(read, grid);
+            assert!(surface.is_none());
+        }
     }
 
     #[test]

@@ -164,6 +164,7 @@ mod tests {
             rails,
             blocks: vec![(Quantity::Vertical, vertical), (Quantity::VerticalLateral, coupling)],
             certificate: None,
+            effects: None,
             notes: Vec::new(),
         }
     }

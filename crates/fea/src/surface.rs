@@ -17,7 +17,7 @@ use crate::rail::Rail;
 pub struct Exact {
     /// Influence coefficients at any place of any rail.
     pub surface: Surface,
-    /// How far to trust it.
+    /// How far to trust the compliance of its states; evaluation adds a few roundings.
     pub certificate: Certificate,
 }
 

@@ -58,11 +58,11 @@ impl Truth {
 fn eliminate(rows: &mut [Vec<Wide>]) {
     for k in 0..rows.len() {
         let pivot = rows[k][k];
-        rows[k].iter_mut().for_each(|value| *value = *value / pivot);
+        rows[k].iter_mut().for_each(|value| *value /= pivot);
         let from = rows[k].clone();
         for (_, row) in rows.iter_mut().enumerate().filter(|(i, _)| *i != k) {
             let share = row[k];
-            row.iter_mut().zip(&from).for_each(|(value, given)| *value = *value - share * *given);
+            row.iter_mut().zip(&from).for_each(|(value, given)| *value -= share * *given);
         }
     }
 }

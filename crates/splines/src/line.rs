@@ -141,7 +141,7 @@ impl Line {
         row.cell = span.cell;
         row.axis = axis;
         row.group = ready.group;
-        row.s = span.start + place.from_first() * span.length;
+        row.s = span.start + place.along() * span.length;
         row.rate = span.length * span.scale;
         row.evaluate(&ready.terms[axis], place, span.scale);
         Ok(())

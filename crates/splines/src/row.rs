@@ -35,7 +35,7 @@ pub(crate) struct Fraction {
 impl Fraction {
     /// Share of the cell between its first end and the place.
     #[inline]
-    pub fn from_first(self) -> f64 {
+    pub fn along(self) -> f64 {
         if self.end == 0 { self.r } else { 1.0 - self.r }
     }
 }

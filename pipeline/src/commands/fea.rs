@@ -1,6 +1,7 @@
 //! `girderway fea`: the influence grid of a beam spec.
 
 use crate::cli::{Fea, Global};
+use crate::coupling::Coupling;
 use crate::exit::{Exit, Failure};
 use crate::grid_file;
 use crate::inputs::Inputs;
@@ -26,6 +27,9 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
     for note in &solved.grid.notes {
         progress.say(&format!("note: {note}"));
+    }
+    if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
+        progress.say(&line);
     }
     let text = grid_file::write(&solved.grid, Some(&solved.surface));
     output::deliver(args.output.as_deref(), &text, &progress)?;

@@ -34,7 +34,7 @@ pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = Frame::new(&model, &rails)?;
     let exact = frame.surface()?;
-    let grid = Grid::of(spec, &frame)?;
+    let grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
     Ok(Solved { model, rails, surface: exact.surface, grid, girder: spec.girder().cloned() })
 }
 

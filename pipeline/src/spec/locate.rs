@@ -44,7 +44,7 @@ impl Spec {
                 self.path(Item::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
             )),
-            Error::Factor { .. } | Error::NoRails | Error::Rail(_) => {
+            Error::Factor { .. } | Error::NoRails | Error::Rail(_) | Error::NoMass | Error::Modes { .. } => {
                 Failure::Untrusted(format!("{}: {error}", source.name))
             }
         }
@@ -61,6 +61,7 @@ impl Spec {
                 Path(vec![key("girder"), key("overhangs"), Step::Index(index)])
             }
             (Form::Girder(_), Item::Station { station, .. }) => list("stations", station),
+            (_, Item::Effect(index)) => list("effects", index),
             (Form::Girder(_), _) => Path(vec![key("girder")]),
             (Form::Frame(_), Item::Up) => Path(vec![key("up")]),
             (Form::Frame(_), Item::Point(index)) => list("points", index),
@@ -111,7 +112,9 @@ impl Spec {
                 let place = frame.model.points.get(index).copied().unwrap_or_default();
                 let set = frame.point_sets.iter().find(|(_, points)| points.contains(&index));
                 let set = set.map_or_else(String::new, |(name, _)| format!(" of \"{name}\""));
-                format!("point {index}{set} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
+                let kind =
+                    if index < frame.points { format!("point {index}{set}") } else { "a cut".to_owned() };
+                format!("{kind} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
             }
         }
     }
