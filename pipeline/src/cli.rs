@@ -171,6 +171,9 @@ pub struct Fea {
     /// Beam theory in place of the spec's
     #[arg(long)]
     pub theory: Option<Theory>,
+    /// Add the N lowest natural modes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub modes: Option<u32>,
 }
 
 /// Words of the beam theories.
