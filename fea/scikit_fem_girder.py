@@ -7,8 +7,8 @@ Input: spans, overhangs [left, right], stations (0 at the first support), rail_h
 EA, EI_vertical, EI_lateral, GJ, kGA_vertical, kGA_lateral; null where unknown. A shear stiffness of null is a
 beam that is rigid in shear. Every support holds the deflections and the twist, the first also the length.
 
-Output: versions, elements, and influence: six n x n grids (row: deflection, column: load), null where a
-stiffness that they need is unknown.
+Output: versions, elements, notes, the indices of the stations compared, and influence: six n x n grids between those
+(row: deflection, column: load), null where a stiffness that they need is unknown.
 
     Euler-Bernoulli bending   integral EI v'' q''                                     ElementLineHermite
     Timoshenko bending        integral EI t' s' + kGA (v' - t)(q' - s)                ElementLinePp(3), ElementLineP2
@@ -36,6 +36,8 @@ from skfem.helpers import dd, ddot, grad
 
 # Loaded stations a mesh.
 GROUP = 12
+# Least distance of a station from ends and supports, by the length of the girder: shorter elements cost digits.
+NEAREST = 1.0 / 200.0
 
 
 class Layout:
@@ -49,6 +51,12 @@ class Layout:
         close = 1e-12 * (self.ends[1] - self.ends[0])
         for fixed in np.concatenate([self.ends, self.supports]):
             self.stations[np.abs(self.stations - fixed) <= close] = fixed
+        apart = np.abs(self.stations[:, None] - np.concatenate([self.ends, self.supports])).min(axis=1)
+        self.chosen = np.flatnonzero((apart == 0.0) | (apart >= NEAREST * (self.ends[1] - self.ends[0])))
+        self.notes = []
+        if len(self.chosen) < len(self.stations):
+            self.notes.append(f"compared at {len(self.chosen)} of {len(self.stations)} stations")
+        self.stations = self.stations[self.chosen]
 
     def groups(self):
         """Index arrays of stations; those of a group lie far apart."""
@@ -171,9 +179,9 @@ def linear(layout, rigidity, supports):
     return result
 
 
-def grids(data):
+def grids(layout, data):
     """The six grids that the known stiffnesses allow."""
-    layout, h = Layout(data), data["rail_height"]
+    h = data["rail_height"]
     known = data.get
     found = dict.fromkeys(
         ["vertical", "lateral", "longitudinal", "vertical_lateral", "vertical_longitudinal", "lateral_longitudinal"]
@@ -199,11 +207,14 @@ def grids(data):
 
 def main():
     data = json.load(sys.stdin)
+    layout = Layout(data)
     sheared = any(data.get(k) is not None for k in ("kGA_vertical", "kGA_lateral"))
     answer = {
         "versions": {"scikit-fem": skfem.__version__, "numpy": np.__version__, "scipy": scipy.__version__},
         "elements": "ElementLinePp(3) with ElementLineP2" if sheared else "ElementLineHermite",
-        "influence": {name: None if grid is None else grid.tolist() for name, grid in grids(data).items()},
+        "influence": {name: None if grid is None else grid.tolist() for name, grid in grids(layout, data).items()},
+        "stations": layout.chosen.tolist(),
+        "notes": layout.notes,
     }
     json.dump(answer, sys.stdout, allow_nan=False)
 

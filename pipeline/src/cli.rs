@@ -54,7 +54,7 @@ pub enum Command {
         after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
     )]
     Import(Import),
-    /// Compare a beam spec's grids with those of an independent FE code, scikit-fem
+    /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(Crosscheck),
 }
@@ -64,6 +64,12 @@ pub enum Command {
 pub struct Crosscheck {
     /// Beam spec
     pub spec: PathBuf,
+    /// Folder for the result as text and JSON, with plots of the differences [default: console alone]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Beam theory in place of the spec's
+    #[arg(long)]
+    pub theory: Option<Theory>,
 }
 
 /// Arguments of `splines`.
@@ -171,9 +177,18 @@ pub struct Fea {
     /// Beam theory in place of the spec's
     #[arg(long)]
     pub theory: Option<Theory>,
+    /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
+    #[arg(long, value_name = "BOUND", default_value_t = fea::ACCURACY, value_parser = share)]
+    pub accuracy: f64,
     /// Add the N lowest natural modes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
     pub modes: Option<u32>,
+}
+
+/// A number between 0 and 1.
+fn share(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must lie between 0 and 1".to_owned()) }
 }
 
 /// Words of the beam theories.

@@ -1,11 +1,14 @@
 //! How strongly the directions of a structure are coupled, and what leaving that out costs.
 
 use nalgebra::DMatrix;
+use serde::Deserialize;
 use serde_json::{Value, json};
 
 use crate::crosscheck::Quantity;
 use crate::fault::number;
 use crate::grid::Grid;
+
+crate::object::objects!(RawCoupling, RawDropped, RawChange);
 
 /// Side load of the comparison, as a share of the wheel load.
 pub const SIDE_LOAD: f64 = 0.1;
@@ -135,4 +138,38 @@ fn change(coupling: &DMatrix<f64>, direct: &DMatrix<f64>, factor: f64) -> Option
     let n = changes.len();
     let largest = *changes.last()?;
     Some(Change { median: 0.5 * (changes[(n - 1) / 2] + changes[n / 2]), largest })
+}
+
+/// The member `coupling` as it stands in the file: it follows from the grids.
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawCoupling {
+    #[serde(rename = "vertical_lateral")]
+    _vertical_lateral: Option<f64>,
+    #[serde(rename = "vertical_longitudinal")]
+    _vertical_longitudinal: Option<f64>,
+    #[serde(rename = "lateral_longitudinal")]
+    _lateral_longitudinal: Option<f64>,
+    #[serde(rename = "dropped")]
+    _dropped: Option<RawDropped>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawDropped {
+    #[serde(rename = "side_load")]
+    _side_load: f64,
+    #[serde(rename = "vertical")]
+    _vertical: RawChange,
+    #[serde(rename = "lateral")]
+    _lateral: RawChange,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawChange {
+    #[serde(rename = "median")]
+    _median: f64,
+    #[serde(rename = "largest")]
+    _largest: f64,
 }

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::json;
 use splines::Surface;
 
-use crate::coupling::Coupling;
+use crate::coupling::{Coupling, RawCoupling};
 use crate::crosscheck::Quantity;
 use crate::diagnostic::Diagnostic;
 use crate::effect_file::{self, RawEffects};
@@ -21,7 +21,7 @@ use crate::spec::THEORIES;
 use crate::surface_file::{self, RawSurface};
 use crate::units::{RawUnits, Units};
 
-crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence, RawCoupling, RawDropped, RawChange);
+crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-grid/1";
@@ -41,7 +41,12 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
         grid.rails.iter().map(|rail| json!({ "name": rail.name, "stations": rail.stations })).collect();
     head.insert("rails".into(), json!(rails));
     if let Some(certificate) = &grid.certificate {
-        let object = json!({ "condition": certificate.condition, "error_bound": certificate.error_bound });
+        let precision = if certificate.extended { "double-double" } else { "double" };
+        let object = json!({
+            "condition": certificate.condition,
+            "error_bound": certificate.error_bound,
+            "precision": precision,
+        });
         head.insert("certificate".into(), object);
     }
     if let Some(coupling) = Coupling::of(grid) {
@@ -109,39 +114,17 @@ struct RawRail {
 struct RawCertificate {
     condition: f64,
     error_bound: f64,
+    #[serde(default)]
+    precision: Precision,
 }
 
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawCoupling {
-    #[serde(rename = "vertical_lateral")]
-    _vertical_lateral: Option<f64>,
-    #[serde(rename = "vertical_longitudinal")]
-    _vertical_longitudinal: Option<f64>,
-    #[serde(rename = "lateral_longitudinal")]
-    _lateral_longitudinal: Option<f64>,
-    #[serde(rename = "dropped")]
-    _dropped: Option<RawDropped>,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawDropped {
-    #[serde(rename = "side_load")]
-    _side_load: f64,
-    #[serde(rename = "vertical")]
-    _vertical: RawChange,
-    #[serde(rename = "lateral")]
-    _lateral: RawChange,
-}
-
-#[derive(Debug, Deserialize)]
-#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawChange {
-    #[serde(rename = "median")]
-    _median: f64,
-    #[serde(rename = "largest")]
-    _largest: f64,
+/// In what the stiffness was formed and factored.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum Precision {
+    #[default]
+    Double,
+    DoubleDouble,
 }
 
 #[derive(Debug, Deserialize)]
@@ -215,7 +198,11 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
     }
     let effects = raw.effects.as_ref().map(|raw| raw.effects(size, &root.key("effects"), faults));
     let certificate = raw.certificate.as_ref();
-    let certificate = certificate.map(|given| Certificate::given(given.condition, given.error_bound));
+    let certificate = certificate.map(|given| Certificate {
+        condition: given.condition,
+        error_bound: given.error_bound,
+        extended: given.precision == Precision::DoubleDouble,
+    });
     Some(Grid {
         name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
@@ -296,7 +283,7 @@ mod tests {
             theory: Some("timoshenko".to_owned()),
             rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
             blocks: vec![(Quantity::Vertical, block.clone()), (Quantity::VerticalLateral, block * 2.0)],
-            certificate: Some(Certificate::given(12.5, 1.0 / 7.0)),
+            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0, extended: true }),
             effects: None,
             notes: vec!["no longitudinal grids".to_owned()],
         }

@@ -98,10 +98,52 @@ fn wheel_gives_its_expected_numbers() {
 }
 
 #[test]
+fn mill_girderway_gives_its_expected_numbers() {
+    check("mill_girderway");
+}
+
+#[test]
+fn grids_of_the_mill_girderway_are_those_of_other_codes() {
+    let example = root().join("examples/mill_girderway");
+    let expected = json(&example.join("expected.json"));
+    let grids = &expected["grids"];
+    let list = |value: &Value| value.as_array().expect("a list").clone();
+    let mut checked = 0;
+    for theory in ["euler-bernoulli", "timoshenko"] {
+        let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+            .args(["fea", "--quiet", "--theory", theory])
+            .arg(example.join("spec.json"))
+            .output()
+            .expect("the program starts");
+        let grid: Value = serde_json::from_slice(&output.stdout).expect("a grid");
+        let stations = list(&grid["rails"][0]["stations"]);
+        let index = |x: &Value| stations.iter().position(|known| known == x).expect("a station");
+        let at: Vec<usize> = list(&grids["at"]).iter().map(index).collect();
+        for entry in list(&grids["entries"]).iter().filter(|entry| entry["theory"] == theory) {
+            let block = entry["block"].as_str().expect("a name");
+            let (row, column) = block.split_once('_').unwrap_or((block, block));
+            for (i, a) in at.iter().enumerate() {
+                for (j, b) in at.iter().enumerate() {
+                    let of = |block: &str, i: usize, j: usize| number(&grid["influence"][block][i][j]);
+                    let scale = (of(row, *a, *a) * of(column, *b, *b)).sqrt();
+                    let apart = (of(block, *a, *b) - number(&entry["value"][i][j])).abs();
+                    assert!(
+                        apart <= number(&grids["tolerance"]) * scale,
+                        "{theory} {block} {i} {j}: {apart:e}"
+                    );
+                    checked += 1;
+                }
+            }
+        }
+    }
+    assert_eq!(checked, 2 * 4 * 16);
+}
+
+#[test]
 fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
         let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
-        assert!(["bogie", "wheel"].contains(&name.as_str()), "examples/{name} has no test");
+        assert!(["bogie", "mill_girderway", "wheel"].contains(&name.as_str()), "examples/{name} has no test");
         for file in ["scene.json", "README.md", "expected.json"] {
             assert!(
                 root().join("examples").join(&name).join(file).is_file(),

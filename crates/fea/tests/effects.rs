@@ -6,7 +6,7 @@
 
 mod common;
 
-use common::{mill, paper, with_nodes};
+use common::{Stream, mill, paper, with_nodes};
 use fea::{
     Component, Effect, Error, Fault, Frame, Freedom, Girder, Hold, Item, Member, Model, Rail, Segment, Theory,
 };
@@ -356,4 +356,28 @@ fn effects_of_what_does_not_exist_are_refused() {
     let hold = |point, freedom| Effect::Reaction(Hold { point, freedom, spring: None });
     refused(hold(1, Freedom::Ux), Fault::NoHold { point: 1, freedom: Freedom::Ux });
     refused(hold(7, Freedom::Uy), Fault::NoHold { point: 7, freedom: Freedom::Uy });
+}
+
+/// Forces are differences of displacements times stiffness; short members take digits from them.
+#[test]
+fn forces_keep_ten_digits_at_300_members_a_span() {
+    let (model, rail) =
+        Girder { overhangs: [0.0; 2], stations: Vec::new(), ..paper() }.frame().expect("sound");
+    let mut stream = Stream(7);
+    for members in [2, 10, 30, 100, 300] {
+        let mut cuts: Vec<f64> =
+            (1..members).map(|k| (k as f64 + stream.between(-0.4, 0.4)) / members as f64).collect();
+        cuts[members / 2 - 1] = 0.5;
+        let places: Vec<(usize, f64, [f64; 3])> = cuts.iter().map(|&s| (0, s, [0.0; 3])).collect();
+        let (chain, _) = with_nodes(&model, &places);
+        let segments = (0..members).map(|member| Segment { member, ..rail.segments[0] }).collect();
+        let frame = Frame::new(&chain, &[Rail { segments, ..rail.clone() }]).expect("solvable");
+        let x: Vec<f64> = (1..20).map(|k| 3.0 * f64::from(k)).collect();
+        let beam = (chain, frame);
+        let middle = force(members / 2, 0.0, Component::BendingZ);
+        let exact = |z: f64| -0.5 * f64::min(z, SPAN - z);
+        let error = worst(&beam, middle, Axis::Vertical, &x, 0.25 * SPAN, exact);
+        println!("{members} members a span: moment errs by {error:.1e} of L/4");
+        assert!(error < 1e-10, "{members}: {error:e}");
+    }
 }

@@ -3,7 +3,7 @@
 mod common;
 
 use common::with_nodes;
-use fea::{Frame, Girder, Model, Rail, Segment, Support, Theory, nodal};
+use fea::{Component, Effect, Frame, Girder, Model, Rail, Segment, Support, Theory, nodal};
 use nalgebra::{Matrix3, Vector3};
 use splines::{Axis, Compliance, Influence, Probe};
 
@@ -145,6 +145,53 @@ fn slopes_between_paired_rails_are_difference_quotients() {
             let scale = (out.value[(i, i)] * out.value[(j, j)]).sqrt();
             let error = (out.slope[(i, j)] - quotient).abs() / scale;
             assert!(error < 2e-6, "{p:?} {q:?}: {} {quotient}", out.slope[(i, j)]);
+        }
+    }
+}
+
+#[test]
+fn forces_under_loads_on_paired_rails_equal_those_with_nodes_there() {
+    let (model, rails) = (model(), rails());
+    let (at, _) = probes(&model, &rails);
+    // Member 0 in four parts, member 1 in four: cut at the places of all loads.
+    let cuts = [vec![0.3, 0.55, 0.65, 0.8], vec![0.2, 0.45, 0.7]];
+    let places: Vec<_> = PLACES.iter().map(|&(_, member, s)| (member, s, [0.0; 3])).collect();
+    let (cut, _) = with_nodes(&model, &places);
+    let first = [0, cuts[0].len() + 1];
+    let pieces = rails.clone().map(|rail| {
+        let over = |segment: &Segment| {
+            let start = first[segment.member];
+            let segment = *segment;
+            (start..=start + cuts[segment.member].len()).map(move |member| Segment { member, ..segment })
+        };
+        Rail { segments: rail.segments.iter().flat_map(over).collect(), ..rail }
+    });
+    let sections = [(0, 0.0), (0, 0.1), (0, 0.6), (0, 0.9), (0, 1.0), (1, 0.3), (1, 0.6), (1, 1.0)];
+    let moved = sections.map(|(member, s)| {
+        let bounds = [vec![0.0], cuts[member].clone(), vec![1.0]].concat();
+        let k = (1..bounds.len()).find(|&k| s <= bounds[k]).expect("s is at most 1") - 1;
+        (first[member] + k, (s - bounds[k]) / (bounds[k + 1] - bounds[k]))
+    });
+    let all = |sections: [(usize, f64); 8]| -> Vec<Effect> {
+        let one =
+            |(member, place)| Component::ALL.map(|component| Effect::Force { member, place, component });
+        sections.into_iter().flat_map(one).collect()
+    };
+    let whole = Frame::new(&model, &rails).expect("solvable");
+    let parts = Frame::new(&cut, &pieces).expect("solvable");
+    // One solve a load, and one solve an effect.
+    for count in [3, at.len()] {
+        let effects = all(sections);
+        let step = if count == at.len() { 2 } else { 1 };
+        let (own, other): (Vec<Effect>, Vec<Effect>) =
+            effects.iter().copied().zip(all(moved)).step_by(step).unzip();
+        let found = whole.effects(&model, &own, &at[..count]).expect("on the rails");
+        let exact = parts.effects(&cut, &other, &at[..count]).expect("on the rails");
+        for i in 0..found.nrows() {
+            for j in 0..found.ncols() {
+                let error = (found[(i, j)] - exact[(i, j)]).abs();
+                assert!(error < 1e-9, "{:?} {:?}: {} {}", own[i], at[j], found[(i, j)], exact[(i, j)]);
+            }
         }
     }
 }

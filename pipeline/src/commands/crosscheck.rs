@@ -1,49 +1,186 @@
-//! `girderway crosscheck`: the same girder in an independent FE code.
+//! `girderway crosscheck`: the same structure in independent FE codes.
 
 use fea::{Girder, Theory};
+use serde_json::{Value, json};
 
 use crate::cli::{Crosscheck, Global};
-use crate::crosscheck::{self, Environment};
+use crate::crosscheck::{self, Comparison, Environment, Error, Grid, Outcome, Peer, Quantity, Station, plot};
+use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::inputs::Inputs;
 use crate::link;
-use crate::output;
+use crate::manifest::Manifest;
+use crate::output::{self, Folder};
 use crate::progress::Progress;
-use crate::spec::Spec;
+use crate::source::Source;
+use crate::spec::{Form, Spec, theory_word};
+use crate::units::Dimension;
 
-/// Largest difference, relative to the largest entry of a grid, that counts as agreement.
-const TOLERANCE: f64 = 1e-9;
+/// Effective shear area of a solid rectangle by its area.
+const RECTANGLE: f64 = 5.0 / 6.0;
 
-/// Solves the spec here and in scikit-fem and compares every grid, entry by entry.
+/// Solves the spec here and in every code that takes it, and compares all grids, entry by entry.
 ///
 /// # Errors
-/// What is wrong with the spec; a structure that does not stand; a difference; nothing that could be compared.
+/// What is wrong with the spec; a structure that does not stand; a Python environment that cannot be made; a
+/// difference; nothing that could be compared.
 pub fn run(args: &Crosscheck, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let (_, source) = Inputs::open(&args.spec)?;
-    let spec = Spec::read(&source, None)?;
-    let Some(girder) = spec.girder() else {
-        let why = "nothing to compare: the cross-check takes straight girders, the short form of a spec";
-        return Err(Failure::Differs(format!("{}: {why}", source.name)));
-    };
-    let solved = link::solve(&spec).map_err(|error| spec.refuse(&source, &error))?;
-    let ours: Vec<_> = solved
-        .grid
-        .blocks
-        .iter()
-        .map(|(quantity, block)| {
-            let rows = block.row_iter().map(|row| row.iter().copied().collect()).collect();
-            (*quantity, rows)
-        })
-        .collect();
-    let compared = Environment::of_user().and_then(|environment| {
-        let mut say = |message: &str| progress.say(message);
-        crosscheck::crosscheck(&stiffnesses(girder), &ours, TOLERANCE, &environment, &mut say)
-    });
-    let outcome = compared.map_err(|error| Failure::Differs(format!("nothing compared: {error}")))?;
-    let text = if global.json { output::json(&outcome.json()) } else { outcome.table() };
+    let (inputs, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
+    let mut spec = Spec::read(&source, None)?;
+    if let Some(theory) = args.theory {
+        spec = spec.with_theory(theory.into());
+    }
+    let folder = args.output.as_deref().map(Folder::new).transpose()?;
+    let mut check = Check::new(&source, spec)?;
+    let mut result = Comparison { rails: check.rails(), ..Comparison::default() };
+    for peer in Peer::ALL {
+        if peer.straight() && !matches!(check.spec.form, Form::Girder(_)) {
+            let why = "it takes straight girders, the short form of a spec".to_owned();
+            result.absent.push((peer, why));
+            continue;
+        }
+        let stage = progress.stage(&format!("comparing with {}", peer.name()));
+        let outcome = check.compare(peer, &progress);
+        drop(stage);
+        match outcome? {
+            Ok(outcome) => result.outcomes.push(outcome),
+            Err(why) => result.absent.push((peer, why)),
+        }
+    }
+    let text = if global.json { format!("{:#}\n", result.json()) } else { result.table() };
     output::print(&text)?;
-    Ok(if outcome.agrees() { Exit::Done } else { Exit::Differs })
+    if let Some(mut folder) = folder {
+        fill(&mut folder, &result, &check.spec)?;
+        let settings = json!({ "theory": theory_word(check.spec.theory) });
+        let written = folder.commit(Manifest::new("crosscheck", &inputs, settings))?;
+        progress.say(&format!("wrote {}", written.display()));
+    }
+    Ok(if result.agrees() { Exit::Done } else { Exit::Differs })
+}
+
+/// A spec with what was solved of it so far.
+struct Check<'a> {
+    source: &'a Source,
+    /// The spec as the user wrote it: what the other codes read.
+    raw: Value,
+    spec: Spec,
+    environment: Environment,
+}
+
+/// Grids of a spec between its stations.
+type Grids = Vec<(Quantity, Grid)>;
+
+impl<'a> Check<'a> {
+    fn new(source: &'a Source, spec: Spec) -> Result<Self, Failure> {
+        let raw = serde_json::from_str(source.text.trim_start_matches('\u{feff}'))
+            .map_err(|error| Diagnostic::of_file(&source.name, error.to_string()))?;
+        Ok(Check { source, raw, spec, environment: Environment::of_user().map_err(|e| broken(&e))? })
+    }
+
+    fn rails(&self) -> Vec<String> {
+        self.spec.rails().into_iter().map(|rail| rail.name).collect()
+    }
+
+    fn stations(&self) -> Vec<Station> {
+        let rails = self.spec.rails().into_iter().enumerate();
+        rails.flat_map(|(rail, outline)| outline.stations.into_iter().map(move |x| (rail, x))).collect()
+    }
+
+    fn solve(&self, spec: &Spec) -> Result<Grids, Failure> {
+        let solved = link::solve(spec).map_err(|error| spec.refuse(self.source, &error))?;
+        let block = |block: &nalgebra::DMatrix<f64>| {
+            block.row_iter().map(|row| row.iter().copied().collect()).collect::<Grid>()
+        };
+        Ok(solved.grid.blocks.iter().map(|(quantity, values)| (*quantity, block(values))).collect())
+    }
+
+    /// The comparison with one code, or why there is none.
+    fn compare(&mut self, peer: Peer, progress: &Progress) -> Result<Result<Outcome, String>, Failure> {
+        let theory = peer.theory(self.spec.theory);
+        let mut spec = self.spec.clone().with_theory(theory);
+        let mut notes = Vec::new();
+        if peer == Peer::Solid {
+            notes.extend(sheared(&mut spec));
+        }
+        let ours = self.solve(&spec)?;
+        let stations = self.stations();
+        let mut say = |message: &str| progress.say(message);
+        let outcome = match (&spec.form, peer) {
+            (Form::Girder(girder), Peer::ScikitFem) => {
+                let girder = stiffnesses(girder);
+                let checked = girder.check();
+                checked.and_then(|()| {
+                    crosscheck::ask(peer, &girder, &ours, &stations, &self.environment, &mut say)
+                })
+            }
+            _ => {
+                let question = json!({ "spec": self.raw, "theory": theory_word(theory) });
+                crosscheck::ask(peer, &question, &ours, &stations, &self.environment, &mut say)
+            }
+        };
+        let mut outcome = match outcome {
+            Ok(outcome) => outcome,
+            Err(Error::Refused(why)) => return Ok(Err(why)),
+            Err(error) => return Err(broken(&error)),
+        };
+        outcome.theory = Some(theory_word(theory));
+        if theory != self.spec.theory {
+            let word = theory_word(self.spec.theory);
+            outcome.notes.push(format!("both under {}; the spec says {word}", theory_word(theory)));
+        }
+        if peer == Peer::Solid {
+            let plain = self.solve(&self.spec.clone().with_theory(Theory::EulerBernoulli))?;
+            let list: Vec<String> = crosscheck::again(&outcome, &plain)
+                .iter()
+                .filter(|d| d.quantity.direct() == [d.quantity; 2])
+                .map(|d| format!("{} {:.1e}", d.quantity, d.relative))
+                .collect();
+            notes
+                .push(format!("Euler-Bernoulli beams differ by {}, no part of the verdict", list.join(", ")));
+        }
+        outcome.notes.extend(notes);
+        Ok(Ok(outcome))
+    }
+}
+
+/// Gives a girder the shear areas of a solid rectangle where it has none, and says so.
+fn sheared(spec: &mut Spec) -> Option<String> {
+    let Form::Girder(girder) = &mut spec.form else { return None };
+    let (area, _) = girder.area.zip(girder.g)?;
+    let absent = girder.ka_vertical.is_none() || girder.ka_lateral.is_none();
+    girder.ka_vertical.get_or_insert(RECTANGLE * area);
+    girder.ka_lateral.get_or_insert(RECTANGLE * area);
+    absent.then(|| "shear areas that the spec does not give are 5/6 A, those of a rectangle".to_owned())
+}
+
+/// A code or an environment that does not work is a matter of the machine.
+fn broken(error: &Error) -> Failure {
+    let hint =
+        "the first use needs python3 (3.11 or newer, with venv) and PyPI; later ones need neither network";
+    Diagnostic::of_file("python3", format!("nothing compared: {error}")).hint(hint).into()
+}
+
+/// Files of the output folder: the result for machines and people, and pictures of the differences.
+fn fill(folder: &mut Folder, result: &Comparison, spec: &Spec) -> Result<(), Failure> {
+    folder.add("crosscheck.json", format!("{:#}\n", result.json()));
+    folder.add("crosscheck.txt", result.table());
+    let unit = spec.units.label(Dimension::LENGTH);
+    for outcome in &result.outcomes {
+        let charts = plot::charts(outcome, &result.rails, &unit);
+        let many = charts.len() > 1;
+        for (index, chart) in charts.iter().enumerate() {
+            let name = outcome.peer.name();
+            let file = if many {
+                format!("plots/difference-{name}-{}.svg", index + 1)
+            } else {
+                format!("plots/difference-{name}.svg")
+            };
+            let svg = chart.svg().map_err(|error| Failure::Untrusted(error.to_string()))?;
+            folder.add(&file, svg);
+        }
+    }
+    Ok(())
 }
 
 /// A girder as plain stiffnesses.

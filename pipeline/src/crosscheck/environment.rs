@@ -54,7 +54,10 @@ impl Environment {
             return Ok(program(&folder));
         }
         self.check_version()?;
-        say(&format!("making a Python environment with scikit-fem in {} (once)", folder.display()));
+        say(&format!(
+            "making a Python environment with scikit-fem, gmsh, OpenSees and PyNite in {} (once, about 650 MB)",
+            folder.display()
+        ));
         let file = |path: &Path| {
             let path = path.to_owned();
             move |source| Error::File { path, source }
@@ -70,8 +73,9 @@ impl Environment {
         succeeded(&make, "make a Python environment (python3 -m venv)")?;
         let mut install = Command::new(program(&new));
         install.args(["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--quiet"]);
-        install.args(["--only-binary", ":all:", "--requirement"]).arg(&requirements);
-        succeeded(&start(&mut install)?, "install scikit-fem with pip")?;
+        // The list is whole: nothing that is not pinned comes along.
+        install.args(["--no-deps", "--only-binary", ":all:", "--requirement"]).arg(&requirements);
+        succeeded(&start(&mut install)?, "install the packages with pip")?;
         let mark = new.join(MARK);
         fs::write(&mark, REQUIREMENTS).map_err(file(&mark))?;
 

@@ -64,14 +64,30 @@ pub enum Error {
         output: String,
     },
     /// The script failed.
-    #[error("the scikit-fem model failed\n{output}")]
+    #[error("the model in {code} failed\n{output}")]
     Script {
+        /// Which code.
+        code: &'static str,
         /// Last lines of what it wrote.
         output: String,
     },
     /// The script's answer is not what was asked for.
-    #[error("the scikit-fem model's answer cannot be read: {0}")]
-    Answer(#[from] serde_json::Error),
+    #[error("the answer of the model in {code} cannot be read: {source}")]
+    Answer {
+        /// Which code.
+        code: &'static str,
+        /// What is wrong with it.
+        source: serde_json::Error,
+    },
+    /// The script does not solve such a structure, or cannot load its code.
+    #[error("{0}")]
+    Refused(String),
+    /// The script speaks of stations that are not there.
+    #[error("the model in {code} answers for stations that the spec does not have")]
+    Stations {
+        /// Which code.
+        code: &'static str,
+    },
     /// A file of the environment could not be written or read.
     #[error("{path}: {source}")]
     File {

@@ -1,19 +1,22 @@
-//! The same girder in an independent finite element code, entry by entry.
+//! The same structure in independent finite element codes, entry by entry.
 //!
-//! The other code is scikit-fem, run in a Python environment that is made on first use; `fea/` in the
-//! repository holds the script and the pinned requirements.
+//! The other codes run in a Python environment that is made on first use; `fea/` in the repository holds the
+//! scripts and the pinned requirements.
 
 pub mod environment;
 pub mod error;
 pub mod girder;
 pub mod outcome;
+pub mod peer;
+pub mod plot;
 pub mod run;
 
 pub use environment::Environment;
 pub use error::Error;
 pub use girder::{Girder, Quantity};
-pub use outcome::{Difference, Outcome};
-pub use run::{crosscheck, influence};
+pub use outcome::{Comparison, Difference, Outcome};
+pub use peer::{Answer, Measure, Peer};
+pub use run::{Grid, Station, again, ask, crosscheck, influence};
 
 #[cfg(test)]
 mod tests;

@@ -1,19 +1,22 @@
-//! Differences between two codes.
+//! Differences between codes.
 
 use super::girder::Quantity;
+use super::peer::{Measure, Peer};
+use super::run::{Grid, Station};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// The largest difference between two grids of one quantity.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Which grid.
     pub quantity: Quantity,
     /// Number of entries compared.
     pub entries: usize,
-    /// What the difference is measured by: the largest entry of the grid; for a coupling the geometric mean
-    /// of those of its two direct grids.
+    /// What the difference is measured by, see [`Measure`].
     pub scale: f64,
+    /// Rails of the entry that differs most: deflection, load.
+    pub rails: [usize; 2],
     /// Stations of the entry that differs most: deflection, load.
     pub at: [f64; 2],
     /// That entry here.
@@ -22,21 +25,52 @@ pub struct Difference {
     pub theirs: f64,
     /// Difference by scale.
     pub relative: f64,
+    /// Largest difference by scale in each row, the station of the deflection.
+    pub profile: Vec<f64>,
 }
 
-/// Result of a cross-check.
+impl Difference {
+    /// No entry compared yet.
+    pub(super) fn none(quantity: Quantity) -> Difference {
+        Difference {
+            quantity,
+            entries: 0,
+            scale: 0.0,
+            rails: [0; 2],
+            at: [0.0; 2],
+            ours: 0.0,
+            theirs: 0.0,
+            relative: 0.0,
+            profile: Vec::new(),
+        }
+    }
+}
+
+/// Result of a cross-check with one code.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outcome {
-    /// The other code with its version.
+    /// Which code.
+    pub peer: Peer,
+    /// Its name with its version.
     pub code: String,
     /// Its finite elements.
     pub elements: String,
+    /// Theory of both sides, where it is not plain.
+    pub theory: Option<&'static str>,
     /// Largest relative difference that counts as agreement.
     pub tolerance: f64,
-    /// One line a compared grid.
+    /// One a compared grid.
     pub differences: Vec<Difference>,
     /// Grids that only one side has.
     pub skipped: Vec<Quantity>,
+    /// Stations compared.
+    pub stations: Vec<Station>,
+    /// What a reader should know.
+    pub notes: Vec<String>,
+    /// The other code's grids.
+    pub theirs: Vec<(Quantity, Grid)>,
+    /// Indices of the stations compared among all.
+    pub chosen: Vec<usize>,
 }
 
 impl Outcome {
@@ -45,19 +79,34 @@ impl Outcome {
         !self.differences.is_empty() && self.differences.iter().all(|d| d.relative <= self.tolerance)
     }
 
-    /// The result as lines of text.
-    pub fn table(&self) -> String {
-        let mut text = format!("compared with {} ({})\n", self.code, self.elements);
-        let head =
-            ["grid", "entries", "largest", "deflection at", "load at", "girderway", "other", "difference"];
+    /// The result as lines of text; `rails` are the names of the rails.
+    pub fn table(&self, rails: &[String]) -> String {
+        let theory = self.theory.map(|word| format!(", {word}")).unwrap_or_default();
+        let mut text = format!("compared with {} ({}){theory}\n", self.code, self.elements);
+        let head = [
+            "grid",
+            "entries",
+            "measured by",
+            "deflection at",
+            "load at",
+            "girderway",
+            "other",
+            "difference",
+        ];
+        let place = |d: &Difference, k: usize| match rails {
+            [_, _, ..] => {
+                format!("{} {}", rails.get(d.rails[k]).map_or("", String::as_str), d.at[k])
+            }
+            _ => d.at[k].to_string(),
+        };
         let mut rows = vec![head.map(str::to_owned)];
         for d in &self.differences {
             rows.push([
                 d.quantity.to_string(),
                 d.entries.to_string(),
                 format!("{:.6e}", d.scale),
-                format!("{}", d.at[0]),
-                format!("{}", d.at[1]),
+                place(d, 0),
+                place(d, 1),
                 format!("{:.12e}", d.ours),
                 format!("{:.12e}", d.theirs),
                 format!("{:.1e}", d.relative),
@@ -76,31 +125,86 @@ impl Outcome {
         for quantity in &self.skipped {
             let _ = writeln!(text, "{quantity}: not compared, only one side has it");
         }
+        for note in &self.notes {
+            let _ = writeln!(text, "note: {note}");
+        }
         let verdict = match (self.differences.is_empty(), self.agrees()) {
             (true, _) => "nothing compared",
             (false, true) => "agree",
             (false, false) => "DISAGREE",
         };
-        let _ = writeln!(text, "{verdict} (tolerance {:.0e} of the largest entry)", self.tolerance);
+        let measure = match self.peer.measure() {
+            Measure::Largest => "of the largest entry",
+            Measure::Diagonal => "of sqrt(Gii Gjj)",
+        };
+        let _ = writeln!(text, "{verdict} (tolerance {:.0e} {measure})", self.tolerance);
         text
     }
 
     /// The result for machines.
-    pub fn json(&self) -> Value {
+    pub fn json(&self, rails: &[String]) -> Value {
+        let name = |rail: usize| rails.get(rail).map_or("", String::as_str);
         let differences: Vec<Value> = self
             .differences
             .iter()
             .map(|d| {
                 json!({
-                    "grid": d.quantity.name(), "entries": d.entries, "scale": d.scale, "at": d.at,
-                    "ours": d.ours, "theirs": d.theirs, "relative": d.relative,
+                    "grid": d.quantity.name(), "entries": d.entries, "scale": d.scale,
+                    "rails": d.rails.map(name), "at": d.at,
+                    "ours": d.ours, "theirs": d.theirs, "relative": d.relative, "by_station": d.profile,
                 })
             })
             .collect();
         let skipped: Vec<&str> = self.skipped.iter().map(|q| q.name()).collect();
+        let stations: Vec<Value> =
+            self.stations.iter().map(|(rail, x)| json!({ "rail": name(*rail), "x": x })).collect();
+        let measure = match self.peer.measure() {
+            Measure::Largest => "largest entry",
+            Measure::Diagonal => "sqrt(Gii Gjj)",
+        };
         json!({
-            "code": self.code, "elements": self.elements, "tolerance": self.tolerance,
-            "agrees": self.agrees(), "differences": differences, "skipped": skipped,
+            "code": self.code, "elements": self.elements, "theory": self.theory, "measure": measure,
+            "tolerance": self.tolerance, "agrees": self.agrees(), "differences": differences,
+            "skipped": skipped, "stations": stations, "notes": self.notes,
         })
+    }
+}
+
+/// Result of a cross-check with all codes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    /// Names of the rails.
+    pub rails: Vec<String>,
+    /// Codes that were compared.
+    pub outcomes: Vec<Outcome>,
+    /// Codes that were not, and why.
+    pub absent: Vec<(Peer, String)>,
+}
+
+impl Comparison {
+    /// At least one code was compared, and all that were agree.
+    pub fn agrees(&self) -> bool {
+        let mut compared = self.outcomes.iter().filter(|o| !o.differences.is_empty()).peekable();
+        compared.peek().is_some() && compared.all(Outcome::agrees)
+    }
+
+    /// The result as text: a table a code.
+    pub fn table(&self) -> String {
+        let mut parts: Vec<String> = self.outcomes.iter().map(|outcome| outcome.table(&self.rails)).collect();
+        let absent = |(peer, why): &(Peer, String)| format!("not compared with {}: {why}\n", peer.name());
+        parts.push(self.absent.iter().map(absent).collect());
+        if self.outcomes.iter().all(|outcome| outcome.differences.is_empty()) {
+            parts.push("nothing compared\n".to_owned());
+        }
+        parts.retain(|part| !part.is_empty());
+        parts.join("\n")
+    }
+
+    /// The result for machines.
+    pub fn json(&self) -> Value {
+        let outcomes: Vec<Value> = self.outcomes.iter().map(|outcome| outcome.json(&self.rails)).collect();
+        let absent: Vec<Value> =
+            self.absent.iter().map(|(peer, why)| json!({ "code": peer.name(), "why": why })).collect();
+        json!({ "agrees": self.agrees(), "compared": outcomes, "not_compared": absent })
     }
 }

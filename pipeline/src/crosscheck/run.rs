@@ -1,30 +1,17 @@
-//! Running the other code and comparing.
+//! Asking another code and comparing.
 
-use super::environment::{Environment, tail};
+use super::environment::Environment;
 use super::error::Error;
 use super::girder::{Girder, Quantity};
 use super::outcome::{Difference, Outcome};
-use serde::Deserialize;
-use std::collections::BTreeMap;
-use std::io::Write;
-use std::process::{Command, Stdio};
-
-const SCRIPT: &str = include_str!("../../../fea/scikit_fem_girder.py");
+use super::peer::{Answer, FLOOR, Measure, Peer};
+use serde::Serialize;
 
 /// A square grid: row deflection, column load.
 pub type Grid = Vec<Vec<f64>>;
 
-/// What the script answers.
-#[derive(Clone, Debug, Deserialize, PartialEq)]
-#[serde(deny_unknown_fields)]
-pub struct Answer {
-    /// Versions by package.
-    pub versions: BTreeMap<String, String>,
-    /// Finite elements used.
-    pub elements: String,
-    /// Grids by name; absent where a stiffness is unknown.
-    pub influence: BTreeMap<String, Option<Grid>>,
-}
+/// Rail and coordinate of a station.
+pub type Station = (usize, f64);
 
 /// Influence grids of a girder from scikit-fem.
 ///
@@ -36,25 +23,7 @@ pub fn influence(
     say: &mut dyn FnMut(&str),
 ) -> Result<Answer, Error> {
     girder.check()?;
-    let python = environment.prepare(say)?;
-    let missing = |source| Error::NoPython { program: python.clone(), source };
-    let mut child = Command::new(&python)
-        .args(["-I", "-c", SCRIPT])
-        // One thread: the systems are small, and the sums keep their order.
-        .envs(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"].map(|name| (name, "1")))
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(missing)?;
-    let question = serde_json::to_vec(girder)?;
-    // The script reads all before it writes; a script that died early is reported by its exit status.
-    let written = child.stdin.take().map(|mut pipe| pipe.write_all(&question));
-    let output = child.wait_with_output().map_err(missing)?;
-    if !output.status.success() || !matches!(written, Some(Ok(()))) {
-        return Err(Error::Script { output: tail(&output) });
-    }
-    Ok(serde_json::from_slice(&output.stdout)?)
+    Peer::ScikitFem.ask(girder, environment, say)
 }
 
 /// Compares influence grids of a girder with those of scikit-fem, entry by entry.
@@ -72,22 +41,73 @@ pub fn crosscheck(
     say: &mut dyn FnMut(&str),
 ) -> Result<Outcome, Error> {
     girder.check()?;
-    check(ours, girder.stations.len())?;
-    let answer = influence(girder, environment, say)?;
-    let theirs: Vec<(Quantity, Grid)> = Quantity::ALL
+    let stations: Vec<Station> = girder.stations.iter().map(|x| (0, *x)).collect();
+    let mut outcome = ask(Peer::ScikitFem, girder, ours, &stations, environment, say)?;
+    outcome.tolerance = tolerance;
+    Ok(outcome)
+}
+
+/// Asks a code and compares what it answers with `ours`, entry by entry.
+///
+/// `ours` holds grids between all `stations`; the code may answer for some of them. `question` is what its
+/// script reads.
+///
+/// # Errors
+/// As [`Peer::ask`]; [`Error::Shape`], [`Error::NotFinite`] and [`Error::Stations`] for grids that cannot be
+/// compared.
+pub fn ask(
+    peer: Peer,
+    question: &impl Serialize,
+    ours: &[(Quantity, Grid)],
+    stations: &[Station],
+    environment: &Environment,
+    say: &mut dyn FnMut(&str),
+) -> Result<Outcome, Error> {
+    check(ours, stations.len())?;
+    let answer = peer.ask(question, environment, say)?;
+    let mut theirs: Vec<(Quantity, Grid)> = Quantity::ALL
         .into_iter()
         .filter_map(|q| Some((q, answer.influence.get(q.name())?.clone()?)))
         .collect();
-    check(&theirs, girder.stations.len())?;
-    let version = answer.versions.get("scikit-fem").map_or("", String::as_str);
-    let (differences, skipped) = compare(ours, &theirs, &girder.stations);
+    let chosen = answer.stations.clone().unwrap_or_else(|| (0..stations.len()).collect());
+    if chosen.iter().any(|index| *index >= stations.len()) {
+        return Err(Error::Stations { code: peer.name() });
+    }
+    let places: Vec<Station> = chosen.iter().map(|index| stations[*index]).collect();
+    check(&theirs, places.len())?;
+    let ours = part(ours, &chosen);
+    let (differences, skipped) = compare(&ours, &theirs, &places, peer.measure());
+    theirs.retain(|(quantity, _)| !skipped.contains(quantity));
+    let version = |name: &str| answer.versions.get(name).map_or("", String::as_str);
+    let code = match peer {
+        Peer::Solid => {
+            format!("gmsh {} and scikit-fem {}", version("gmsh"), version("scikit-fem"))
+        }
+        _ => format!("{} {}", peer.name(), version(peer.name())),
+    };
     Ok(Outcome {
-        code: format!("scikit-fem {version}"),
+        peer,
+        code,
         elements: answer.elements,
-        tolerance,
+        theory: None,
+        tolerance: answer.tolerance.unwrap_or(peer.tolerance()),
         differences,
         skipped,
+        stations: places,
+        notes: answer.notes,
+        theirs,
+        chosen,
     })
+}
+
+/// Grids between some of the stations.
+#[must_use]
+pub fn part(grids: &[(Quantity, Grid)], chosen: &[usize]) -> Vec<(Quantity, Grid)> {
+    let pick = |row: &Vec<f64>| chosen.iter().map(|j| row[*j]).collect();
+    grids
+        .iter()
+        .map(|(quantity, grid)| (*quantity, chosen.iter().map(|i| pick(&grid[*i])).collect()))
+        .collect()
 }
 
 fn check(grids: &[(Quantity, Grid)], stations: usize) -> Result<(), Error> {
@@ -105,17 +125,52 @@ fn check(grids: &[(Quantity, Grid)], stations: usize) -> Result<(), Error> {
     Ok(())
 }
 
+/// What an entry of a grid is measured by.
+struct Scale {
+    rows: Vec<f64>,
+    columns: Vec<f64>,
+    least: f64,
+}
+
+impl Scale {
+    fn new(quantity: Quantity, grids: &[(Quantity, Grid)], measure: Measure) -> Scale {
+        let find = |q| grids.iter().find(|(known, _)| *known == q).map(|(_, grid)| grid);
+        let largest = |q| find(q).into_iter().flatten().flatten().fold(0.0, |a: f64, v: &f64| a.max(v.abs()));
+        let [row, column] = quantity.direct();
+        let whole = match (largest(row), largest(column)) {
+            (a, b) if a > 0.0 && b > 0.0 => (a * b).sqrt(),
+            _ => largest(quantity),
+        };
+        let diagonal = |q| find(q).into_iter().flat_map(|g| g.iter().enumerate().map(|(i, row)| row[i]));
+        let sides: [Vec<f64>; 2] = match measure {
+            Measure::Largest => [Vec::new(), Vec::new()],
+            Measure::Diagonal => [row, column].map(|q| diagonal(q).collect()),
+        };
+        let [rows, columns] = sides;
+        let least = if measure == Measure::Largest || rows.is_empty() || columns.is_empty() {
+            whole
+        } else {
+            FLOOR * whole
+        };
+        Scale { rows, columns, least }
+    }
+
+    fn at(&self, i: usize, j: usize) -> f64 {
+        match (self.rows.get(i), self.columns.get(j)) {
+            (Some(a), Some(b)) => (a.max(0.0) * b.max(0.0)).sqrt().max(self.least),
+            _ => self.least,
+        }
+    }
+}
+
 /// Differences of the grids that both sides have, and the quantities that only one has.
 pub(super) fn compare(
     ours: &[(Quantity, Grid)],
     theirs: &[(Quantity, Grid)],
-    stations: &[f64],
+    stations: &[Station],
+    measure: Measure,
 ) -> (Vec<Difference>, Vec<Quantity>) {
     let find = |side: &'_ [(Quantity, Grid)], q| side.iter().position(|(other, _)| *other == q);
-    let largest = |q| {
-        let grid = find(theirs, q).map(|i| &theirs[i].1);
-        grid.into_iter().flatten().flatten().fold(0.0, |a: f64, v| a.max(v.abs()))
-    };
     let (mut differences, mut skipped) = (Vec::new(), Vec::new());
     for quantity in Quantity::ALL {
         let (a, b) = match (find(ours, quantity), find(theirs, quantity)) {
@@ -126,34 +181,42 @@ pub(super) fn compare(
                 continue;
             }
         };
-        let scale = match quantity.direct() {
-            [a, b] if a == b => largest(a),
-            [a, b] => match (largest(a), largest(b)) {
-                (a, b) if a > 0.0 && b > 0.0 => (a * b).sqrt(),
-                _ => largest(quantity),
-            },
-        };
-        let mut worst =
-            Difference { quantity, entries: 0, scale, at: [0.0; 2], ours: 0.0, theirs: 0.0, relative: -1.0 };
+        let scale = Scale::new(quantity, theirs, measure);
+        let mut worst = Difference { relative: -1.0, ..Difference::none(quantity) };
+        let mut profile = Vec::with_capacity(a.len());
+        let mut entries = 0;
         for (i, (row, other)) in a.iter().zip(b).enumerate() {
+            let mut largest = 0.0_f64;
             for (j, (ours, theirs)) in row.iter().zip(other).enumerate() {
-                worst.entries += 1;
+                entries += 1;
                 let apart = (ours - theirs).abs();
-                let relative = if apart == 0.0 { 0.0 } else { apart / scale };
+                let by = scale.at(i, j);
+                let relative = if apart == 0.0 { 0.0 } else { apart / by };
+                largest = largest.max(relative);
                 if relative > worst.relative {
+                    let [at, load] = [stations[i], stations[j]];
                     worst = Difference {
-                        at: [stations[i], stations[j]],
+                        rails: [at.0, load.0],
+                        at: [at.1, load.1],
+                        scale: by,
                         ours: *ours,
                         theirs: *theirs,
                         relative,
-                        ..worst
+                        ..Difference::none(quantity)
                     };
                 }
             }
+            profile.push(largest);
         }
-        if worst.entries > 0 {
-            differences.push(worst);
+        if entries > 0 {
+            differences.push(Difference { entries, profile, ..worst });
         }
     }
     (differences, skipped)
+}
+
+/// The differences of other grids of ours from the answer that an outcome holds.
+#[must_use]
+pub fn again(outcome: &Outcome, ours: &[(Quantity, Grid)]) -> Vec<Difference> {
+    compare(&part(ours, &outcome.chosen), &outcome.theirs, &outcome.stations, outcome.peer.measure()).0
 }

@@ -24,12 +24,12 @@ fn nowhere() -> Environment {
 
 #[test]
 fn largest_difference_is_found_with_its_place() {
-    let stations = [0.0, 10.0];
+    let stations = [(0, 0.0), (0, 10.0)];
     let ours = vec![(Quantity::Vertical, vec![vec![4.0, 1.0], vec![1.0, 2.0]])];
     let mut theirs = ours.clone();
     theirs[0].1[1][0] += 1e-3;
     theirs.push((Quantity::Lateral, vec![vec![0.0; 2]; 2]));
-    let (found, skipped) = compare(&ours, &theirs, &stations);
+    let (found, skipped) = compare(&ours, &theirs, &stations, Measure::Largest);
     assert_eq!(skipped, [Quantity::Lateral]);
     assert_eq!((found.len(), found[0].at, found[0].entries), (1, [10.0, 0.0], 4));
     assert!((found[0].relative - 2.5e-4).abs() < 1e-15);
@@ -44,36 +44,43 @@ fn coupling_is_measured_by_its_direct_grids() {
         (Quantity::VerticalLateral, grid(0.0)),
     ];
     let ours = vec![(Quantity::VerticalLateral, grid(0.6))];
-    let (found, _) = compare(&ours, &theirs, &[0.0]);
+    let (found, _) = compare(&ours, &theirs, &[(0, 0.0)], Measure::Largest);
     assert!((found[0].relative - 0.1).abs() < 1e-15, "0.6 of sqrt(4 x 9)");
 }
 
 #[test]
 fn nothing_compared_is_no_agreement() {
     let mut outcome = Outcome {
+        peer: Peer::ScikitFem,
         code: "scikit-fem".into(),
         elements: String::new(),
+        theory: None,
         tolerance: 1e-9,
         differences: vec![],
         skipped: vec![Quantity::Lateral],
+        stations: vec![(0, 0.0)],
+        notes: vec![],
+        theirs: vec![],
+        chosen: vec![0],
     };
     assert!(!outcome.agrees());
-    assert!(outcome.table().contains("nothing compared"));
-    let (quantity, at) = (Quantity::Vertical, [0.0; 2]);
+    assert!(outcome.table(&[]).contains("nothing compared"));
+    let empty = Comparison { outcomes: vec![outcome.clone()], ..Comparison::default() };
+    assert!(!empty.agrees() && !Comparison::default().agrees());
+    assert!(Comparison::default().table().contains("nothing compared"));
     outcome.differences.push(Difference {
-        quantity,
         entries: 1,
         scale: 1.0,
-        at,
         ours: 1.0,
         theirs: 1.0,
-        relative: 0.0,
+        profile: vec![0.0],
+        ..Difference::none(Quantity::Vertical)
     });
     assert!(outcome.agrees());
     outcome.differences[0].relative = 2e-9;
     assert!(!outcome.agrees());
-    assert!(outcome.table().contains("DISAGREE"));
-    assert_eq!(outcome.json()["agrees"], false);
+    assert!(outcome.table(&[]).contains("DISAGREE"));
+    assert_eq!(outcome.json(&[])["agrees"], false);
 }
 
 #[test]

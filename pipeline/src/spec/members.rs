@@ -4,13 +4,11 @@ use fea::{Kind, Member, Model, Taper};
 
 use super::frame::{freedoms, index_below, length};
 use super::raw::{RawCellData, RawSpec};
+use super::tapers::Tapers;
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
 use crate::units::Dimension;
-
-/// Most parts of a tapered cell: more cost digits and gain none.
-const MOST_PARTS: usize = 1000;
 
 /// Where the members stand in the file.
 #[derive(Clone, Debug, Default)]
@@ -38,15 +36,15 @@ impl Cells {
 }
 
 /// One array of `cell_data`, with its place in the file.
-struct Column<'r, T> {
-    key: &'static str,
+pub(super) struct Column<'r, T> {
+    pub key: &'static str,
     given: bool,
     blocks: Option<&'r Vec<Vec<T>>>,
 }
 
 impl<'r, T> Column<'r, T> {
     /// One array a block, one item a cell; wrong lengths are faults and leave the column out.
-    fn new(
+    pub fn new(
         key: &'static str,
         blocks: &'r Option<Vec<Vec<T>>>,
         counts: &[usize],
@@ -71,7 +69,7 @@ impl<'r, T> Column<'r, T> {
         Column { key, given: true, blocks: (check.faults.0.len() == before).then_some(given) }
     }
 
-    fn get(&self, block: usize, index: usize) -> Option<&'r T> {
+    pub fn get(&self, block: usize, index: usize) -> Option<&'r T> {
         self.blocks.and_then(|blocks| blocks.get(block)).and_then(|items| items.get(index))
     }
 }
@@ -92,26 +90,14 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
     let none = RawCellData::default();
     let data = raw.cell_data.as_ref().unwrap_or(&none);
     let columns = Columns::new(data, &counts, root, check);
-    let raw_parts = raw.parts;
-    if let Some(parts) = raw.parts {
-        parted(parts, &root.key("parts"), check);
-    }
+    let tapers = Tapers::new(raw, data, &counts, root, check);
     let mut cells = Cells { counts, ..Cells::default() };
     for (block, raw) in blocks.iter().enumerate() {
         let at = list.index(block);
         let at = at.key("data");
         for (index, ends) in raw.data.iter().flatten().enumerate() {
             if let Some(member) = columns.member(*ends, block, index, &at.index(index), root, model, check) {
-                cells.tapers.push(columns.taper(
-                    &member,
-                    block,
-                    index,
-                    &at.index(index),
-                    root,
-                    raw_parts,
-                    model,
-                    check,
-                ));
+                cells.tapers.push(tapers.of(&member, [block, index], &at.index(index), root, model, check));
                 model.members.push(member);
                 cells.places.push([block, index]);
             }
@@ -127,8 +113,6 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
 struct Columns<'r> {
     kind: Column<'r, String>,
     section: Column<'r, usize>,
-    section_b: Column<'r, Option<usize>>,
-    parts: Column<'r, Option<usize>>,
     orientation: Column<'r, [f64; 3]>,
     offsets: [Column<'r, [f64; 3]>; 2],
     releases: [Column<'r, Vec<String>>; 2],
@@ -140,8 +124,6 @@ impl<'r> Columns<'r> {
         Columns {
             kind: Column::new("kind", &data.kind, counts, &at, check),
             section: Column::new("section", &data.section, counts, &at, check),
-            section_b: Column::new("section_b", &data.section_b, counts, &at, check),
-            parts: Column::new("parts", &data.parts, counts, &at, check),
             orientation: Column::new("orientation", &data.orientation, counts, &at, check),
             offsets: [
                 Column::new("offset_a", &data.offset_a, counts, &at, check),
@@ -152,61 +134,6 @@ impl<'r> Columns<'r> {
                 Column::new("release_b", &data.release_b, counts, &at, check),
             ],
         }
-    }
-
-    /// What `section_b` and `parts` say of a cell.
-    #[allow(clippy::too_many_arguments)]
-    fn taper(
-        &self,
-        member: &Member,
-        block: usize,
-        index: usize,
-        cell: &Place<'_>,
-        root: &Place<'_>,
-        general: Option<usize>,
-        model: &Model,
-        check: &mut Check<'_>,
-    ) -> Option<Taper> {
-        let data = root.key("cell_data");
-        let own = self.parts.get(block, index).copied().flatten();
-        if let Some(parts) = own {
-            let key = data.key(self.parts.key);
-            let place = key.index(block);
-            parted(parts, &place.index(index), check);
-        }
-        let Some(other) = self.section_b.get(block, index).copied().flatten() else {
-            return own.map(|parts| Taper { section: member.section, parts });
-        };
-        let key = data.key(self.section_b.key);
-        let place = key.index(block);
-        let place = place.index(index);
-        if !index_below(other, model.sections.len(), "sections", &place, check) {
-            return None;
-        }
-        let (a, b) = (&model.sections[member.section], &model.sections[other]);
-        if (a.e, a.g) != (b.e, b.g) {
-            let fault = Fault::new(&place, "must be of the material of the cell's `section`");
-            check.faults.add(fault.hint("a tapered cell has one material"));
-        }
-        for (name, pair) in [("Asy", [a.shear_y, b.shear_y]), ("Asz", [a.shear_z, b.shear_z])] {
-            if member.kind == Kind::Beam && pair[0].is_some() != pair[1].is_some() {
-                let fault =
-                    Fault::new(&place, format!("must have `{name}` where the cell's `section` has it"));
-                check.faults.add(
-                    fault.hint("shear areas vary linearly between two values, or are absent at both ends"),
-                );
-            }
-        }
-        // A tapered truss is one bar.
-        let least = (member.kind == Kind::Truss).then_some(1);
-        let Some(parts) = own.or(general).or(least) else {
-            let fault = Fault::new(cell, "missing key `parts`");
-            check.faults.add(fault.hint(
-                "a cell with `section_b` is solved in uniform parts: give their number in `parts` or `cell_data.parts`",
-            ));
-            return None;
-        };
-        Some(Taper { section: other, parts })
     }
 
     #[allow(clippy::too_many_arguments)]
@@ -288,14 +215,6 @@ impl<'r> Columns<'r> {
             );
         }
         Some(Member { points, kind, section: section?, orientation, offsets, releases })
-    }
-}
-
-/// Checks a number of parts.
-fn parted(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
-    if !(1..=MOST_PARTS).contains(&parts) {
-        let fault = Fault::new(at, format!("must be from 1 to {MOST_PARTS}")).got(parts);
-        check.faults.add(fault.hint("errors fall with the square of the number of parts"));
     }
 }
 

@@ -8,6 +8,7 @@ mod members;
 mod rails;
 mod raw;
 mod sections;
+mod tapers;
 #[cfg(test)]
 mod tests;
 

@@ -1,0 +1,393 @@
+"""A beam spec as nodes, rigid bodies and straight members: what a frame code needs, and no stiffness.
+
+Reads the contract of specs ("girderway-beam/1") on its own. Shared by pynite_frame.py and opensees_frame.py.
+
+Everything rigid becomes a body: linked points, the arms from points to the flexible ends of members, and the arm
+from a section to the rail head. The nodes of a body move as u + theta x r about its root. Members are cut where a
+station lies inside them, so that loads act at nodes.
+"""
+
+import json
+import math
+import sys
+
+import numpy as np
+
+FREEDOMS = ["ux", "uy", "uz", "rx", "ry", "rz"]
+QUANTITIES = {
+    "vertical": (1, 1),
+    "lateral": (2, 2),
+    "longitudinal": (0, 0),
+    "vertical_lateral": (1, 2),
+    "vertical_longitudinal": (1, 0),
+    "lateral_longitudinal": (2, 0),
+}
+# Most stations: a member cut into many short ones costs digits and time.
+MOST = 96
+# Least distance of a station from its neighbours, by the length of its member.
+NEAREST = 1e-3
+
+
+class Refused(Exception):
+    """Why a code is not compared; a sentence for the user."""
+
+
+def unit(v):
+    return v / np.linalg.norm(v)
+
+
+def triad(x, y):
+    """Rows: x, the part of y normal to it, their cross product."""
+    x = unit(np.asarray(x, dtype=float))
+    y = np.asarray(y, dtype=float)
+    y = unit(y - x * (x @ y))
+    return np.array([x, y, np.cross(x, y)])
+
+
+def general(spec):
+    """The short form written out as a general one, and the directions whose stiffness is known."""
+    girder = spec["girder"]
+    left, right = girder.get("overhangs", [0.0, 0.0])
+    supports = np.concatenate([[0.0], np.cumsum(girder["spans"])])
+    ends = [-left] * (left > 0.0) + list(supports) + [supports[-1] + right] * (right > 0.0)
+    first = int(left > 0.0)
+    height = girder.get("rail_height", 0.0)
+    known = {1}
+    if "A" in girder:
+        known.add(0)
+    torsion = "J" in girder and "G" in girder
+    if "I_lateral" in girder and (torsion or height == 0.0):
+        known.add(2)
+    # What is not known is not read either: a straight girder does not couple it with what is.
+    area = girder.get("A", 1.0)
+    section = {
+        "name": "girder",
+        "material": "girder",
+        "A": area,
+        "Iz": girder["I_vertical"],
+        "Iy": girder.get("I_lateral", girder["I_vertical"]),
+        "J": girder["J"] if torsion else girder["I_vertical"],
+    }
+    for here, there in [("kA_vertical", "Asy"), ("kA_lateral", "Asz")]:
+        if here in girder:
+            section[there] = girder[here]
+    cells = [[k, k + 1] for k in range(len(ends) - 1)]
+    return {
+        **{key: spec[key] for key in ("format", "name", "units", "theory") if key in spec},
+        "up": [0.0, 1.0, 0.0],
+        "points": [[x, 0.0, 0.0] for x in ends],
+        "cells": [{"type": "line", "data": cells}],
+        "cell_data": {},
+        "materials": [{"name": "girder", "E": girder["E"], "G": girder.get("G", girder["E"])}],
+        "sections": [section],
+        "supports": [
+            {"point": first + k, "fix": (["ux"] if k == 0 else []) + ["uy", "uz", "rx"]} for k in range(len(supports))
+        ],
+        "rails": {
+            "rail": {
+                "axis": [1.0, 0.0, 0.0],
+                "segments": [{"cell": [0, k], "offset": [0.0, height, 0.0]} for k in range(len(cells))],
+                "stations": spec["stations"],
+            }
+        },
+    }, known
+
+
+class Member:
+    """A straight piece between two nodes, local axes in rows."""
+
+    def __init__(self, nodes, axes, kind, section, releases):
+        self.nodes, self.axes, self.kind, self.section, self.releases = nodes, axes, kind, section, releases
+
+    def active(self):
+        """Local freedoms with stiffness, at both ends: 2 x 6."""
+        if self.kind == "truss":
+            held = np.zeros((2, 6), dtype=bool)
+            held[:, 0] = True
+            return held & ~np.any(self.releases[:, 0])
+        held = ~self.releases
+        for axial in (0, 3):
+            held[:, axial] = np.all(held[:, axial])
+        for across, turn in ((1, 5), (2, 4)):
+            free = self.releases[:, [across, turn]]
+            if free.sum() >= 2:
+                held[:, [across, turn]] = False
+            elif free[:, 0].any():
+                held[:, across] = False
+        return held
+
+
+class Frame:
+    """Nodes, bodies, members, what holds them, and rail heads.
+
+    position, body    of each node; body = index of the body
+    root              node of each body about which it turns
+    members           Member
+    fixed             (node, freedom): motions held at zero, none of them following from others
+    springs           (node, freedom, stiffness)
+    heads             (number of the station, node, axes of the rail): where loads act and deflections are read
+    known             directions of the rail that may be compared
+    """
+
+    def __init__(self, spec, theory):
+        self.known = {0, 1, 2}
+        if "girder" in spec:
+            spec, self.known = general(spec)
+        self.spec = spec
+        self.sheared = theory == "timoshenko"
+        self.position, self.body, self.root, self.members, self.notes = [], [], [], [], []
+        self.place = {}
+        self.read_points()
+        self.read_members()
+        self.read_rails()
+        self.read_supports()
+
+    def read_points(self):
+        """Points, joined to bodies by links."""
+        points = [np.array(p, dtype=float) for p in self.spec["points"]]
+        leader = list(range(len(points)))
+
+        def find(k):
+            while leader[k] != k:
+                k = leader[k]
+            return k
+
+        for link in self.spec.get("links", []):
+            a, b = find(link["from"]), find(link["to"])
+            leader[max(a, b)] = min(a, b)
+        held = [0] * len(points)
+        for support in self.spec.get("supports", []):
+            held[support["point"]] += len(support["fix"])
+        number = {}
+        for k, position in enumerate(points):
+            first = find(k)
+            if first not in number:
+                number[first] = len(self.root)
+                self.root.append(max((held[j], -j) for j in range(len(points)) if find(j) == first)[1] * -1)
+            self.position.append(position)
+            self.body.append(number[first])
+            self.place[(number[first], tuple(position))] = k
+
+    def node(self, body, position):
+        """The node of a body at a place; made where there is none."""
+        key = (body, tuple(position))
+        if key not in self.place:
+            self.place[key] = len(self.position)
+            self.position.append(np.array(position))
+            self.body.append(body)
+        return self.place[key]
+
+    def new_body(self, position):
+        self.root.append(len(self.position))
+        return self.node(len(self.root) - 1, position)
+
+    def read_members(self):
+        materials = {m["name"]: m for m in self.spec["materials"]}
+        data = self.spec.get("cell_data", {})
+        up = np.array(self.spec.get("up", [0.0, 1.0, 0.0]), dtype=float)
+        self.cells = {}
+        for block, cells in enumerate(self.spec["cells"]):
+            for index, points in enumerate(cells["data"]):
+
+                def get(key, default, block=block, index=index):
+                    return data[key][block][index] if key in data else default
+
+                section = dict(self.spec["sections"][get("section", 0)])
+                section.update({k: materials[section["material"]].get(k, 0.0) for k in ("E", "G")})
+                if not self.sheared:
+                    section.pop("Asy", None)
+                    section.pop("Asz", None)
+                kind = get("kind", "beam")
+                ends, nodes = [], []
+                for end in (0, 1):
+                    offset = np.array(get(("offset_a", "offset_b")[end], [0.0, 0.0, 0.0]), dtype=float)
+                    ends.append(self.position[points[end]] + offset)
+                    nodes.append(self.node(self.body[points[end]], ends[end]))
+                x = unit(ends[1] - ends[0])
+                y = np.array(get("orientation", up), dtype=float)
+                if kind == "truss" and np.linalg.norm(np.cross(x, y)) <= 1e-6 * np.linalg.norm(y):
+                    y = np.eye(3)[np.argmin(np.abs(x))]
+                releases = np.zeros((2, 6), dtype=bool)
+                for end in (0, 1):
+                    for word in get(("release_a", "release_b")[end], []):
+                        releases[end, FREEDOMS.index(word)] = True
+                self.cells[block, index] = len(self.members)
+                self.members.append(Member(nodes, triad(x, y), kind, section, releases))
+
+    def read_rails(self):
+        """Heads of all stations; cuts members where stations lie inside."""
+        up = np.array(self.spec.get("up", [0.0, 1.0, 0.0]), dtype=float)
+        wanted, count = [], 0
+        for rail in self.spec["rails"].values():
+            axes = triad(rail["axis"], up)
+            origin = np.array(rail.get("origin", [0.0, 0.0, 0.0]), dtype=float)
+            segments = []
+            for segment in rail["segments"]:
+                member = self.cells[tuple(segment["cell"])]
+                ends = [self.position[node] for node in self.members[member].nodes]
+                along = [axes[0] @ (end - origin) for end in ends]
+                segments.append((member, along, np.array(segment.get("offset", [0.0] * 3), dtype=float)))
+            for x in rail["stations"]:
+                wanted.append((count, x, axes, segments))
+                count += 1
+        self.total = count
+        if count > MOST:
+            kept = {round(k * (count - 1) / (MOST - 1)) for k in range(MOST)}
+            wanted = [w for w in wanted if w[0] in kept]
+        self.heads, cuts = [], {}
+        for number, x, axes, segments in wanted:
+            self.station(number, x, axes, segments, cuts)
+        for member, places in cuts.items():
+            self.cut(member, places)
+        self.heads.sort(key=lambda head: head[0])
+        if len(self.heads) < self.total:
+            self.notes.append(f"compared at {len(self.heads)} of {self.total} stations")
+
+    def station(self, number, x, axes, segments, cuts):
+        """Puts a head at x: on a section, on a flexible end, or rigidly with an end beside a gap."""
+        for member, along, offset in segments:
+            t = (x - along[0]) / (along[1] - along[0])
+            if not -1e-9 <= t <= 1.0 + 1e-9:
+                continue
+            nodes, releases = self.members[member].nodes, self.members[member].releases
+            if min(t, 1.0 - t) <= 1e-9:
+                end = int(t > 0.5)
+                if not releases[end].any():
+                    self.head(number, nodes[end], self.position[nodes[end]] + offset, axes)
+            else:
+                cuts.setdefault(member, []).append((t, number, offset, axes))
+            return
+        # Only a gap is left: the nearer end of the segments on both sides.
+        _, end, edge, offset = min(
+            (
+                (abs(x - edge), self.members[member].nodes[k], edge, offset)
+                for member, along, offset in segments
+                for k, edge in enumerate(along)
+            ),
+            key=lambda item: item[0],
+        )
+        self.head(number, end, self.position[end] + offset + (x - edge) * axes[0], axes)
+
+    def head(self, number, node, position, axes):
+        self.heads.append((number, self.node(self.body[node], position), axes))
+
+    def cut(self, member, places):
+        whole = self.members[member]
+        first, last = whole.nodes
+        start, along = self.position[first], self.position[last] - self.position[first]
+        before, nodes = 0.0, [first]
+        for t, number, offset, axes in sorted(places, key=lambda place: place[0]):
+            if t - before < NEAREST or 1.0 - t < NEAREST:
+                continue
+            before = t
+            nodes.append(self.new_body(start + t * along))
+            self.head(number, nodes[-1], start + t * along + offset, axes)
+        nodes.append(last)
+        for k, pair in enumerate(zip(nodes, nodes[1:])):
+            releases = np.zeros((2, 6), dtype=bool)
+            if k == 0:
+                releases[0] = whole.releases[0]
+            if k == len(nodes) - 2:
+                releases[1] = whole.releases[1]
+            piece = Member(list(pair), whole.axes, whole.kind, whole.section, releases)
+            if k == 0:
+                self.members[member] = piece
+            else:
+                self.members.append(piece)
+
+    def arm(self, node):
+        """Motion of a node by that of its body: 6 x 6."""
+        r = self.position[node] - self.position[self.root[self.body[node]]]
+        a = np.eye(6)
+        a[:3, 3:] = [[0.0, r[2], -r[1]], [-r[2], 0.0, r[0]], [r[1], -r[0], 0.0]]
+        return a
+
+    def reach(self, body):
+        """Largest distance of a node from its body's root; one where there is none."""
+        root = self.position[self.root[body]]
+        farthest = max(np.linalg.norm(p - root) for p, b in zip(self.position, self.body) if b == body)
+        return farthest or 1.0
+
+    def read_supports(self):
+        """Supports and springs; and freedoms that nothing stiffens, which are held."""
+        self.springs = [
+            (s["point"], FREEDOMS.index(s["dof"]), s["k"]) for s in self.spec.get("springs", []) if s["k"] > 0.0
+        ]
+        stiff = np.zeros((len(self.root), 6))
+        for member in self.members:
+            for node, active in zip(member.nodes, member.active()):
+                motion = np.kron(np.eye(2), member.axes) @ self.arm(node)
+                motion[np.abs(motion) <= 1e-12 * max(1.0, self.reach_of(node))] = 0.0
+                stiff[self.body[node]] += np.abs(motion[active]).sum(axis=0)
+        for node, freedom, _ in self.springs:
+            stiff[self.body[node]] += np.abs(self.arm(node)[freedom])
+        rows = [
+            (support["point"], FREEDOMS.index(word))
+            for support in self.spec.get("supports", [])
+            for word in support["fix"]
+        ]
+        rows += [(self.root[b], k) for b in range(len(self.root)) for k in range(6) if stiff[b, k] == 0.0]
+        rows.sort(key=lambda row: row[0] != self.root[self.body[row[0]]])
+        # Rows of one body that follow from others would make a singular system of multipliers.
+        self.fixed, kept = [], {}
+        for node, freedom in dict.fromkeys(rows):
+            body = self.body[node]
+            scale = np.array([1.0] * 3 + [1.0 / self.reach(body)] * 3)
+            row = self.arm(node)[freedom] * scale
+            for other in kept.get(body, []):
+                row = row - other * (other @ row)
+            size = np.linalg.norm(row)
+            if size > 1e-9 * np.linalg.norm(scale):
+                kept.setdefault(body, []).append(row / size)
+                self.fixed.append((node, freedom))
+        # Supports away from the root are the same as supports there where they hold whole freedoms of it.
+        for body, rows in kept.items():
+            basis, root = np.array(rows), self.root[body]
+            whole = [k for k in range(6) if np.linalg.norm(basis[:, k]) > 1.0 - 1e-9]
+            if len(whole) == len(rows):
+                self.fixed = [(n, f) for n, f in self.fixed if self.body[n] != body]
+                self.fixed += [(root, k) for k in whole]
+
+    def reach_of(self, node):
+        return np.linalg.norm(self.position[node] - self.position[self.root[self.body[node]]])
+
+    def length(self, member):
+        return math.dist(*(self.position[node] for node in member.nodes))
+
+    def unit_loads(self):
+        """(head, direction, node, global force) of all 3 n unit loads; direction counts x, y, z of the rail."""
+        for k, (_, node, axes) in enumerate(self.heads):
+            for direction in range(3):
+                yield k, direction, node, axes[direction]
+
+    def answer(self, motion, versions, elements, notes=()):
+        """What goes back: motion[(k, d), head] = displacement of a head, global 3, under unit load d at head k."""
+        n = len(self.heads)
+        axes = np.array([head[2] for head in self.heads])
+        influence = {}
+        for name, (row, column) in QUANTITIES.items():
+            if {row, column} <= self.known:
+                loads = motion.reshape(n, 3, n, 3)[:, column]
+                grid = np.einsum("jik,ik->ij", loads, axes[:, row])
+                influence[name] = grid.tolist()
+        return {
+            "versions": versions,
+            "elements": elements,
+            "stations": [head[0] for head in self.heads],
+            "influence": influence,
+            "notes": [*self.notes, *notes],
+        }
+
+
+def reply(solve, question):
+    """Writes the answer of `solve` to standard output, or why there is none."""
+    try:
+        answer = solve(question)
+    except Refused as refused:
+        answer = {"refused": str(refused)}
+    json.dump(answer, sys.stdout, allow_nan=False)
+
+
+def serve(solve):
+    """Reads {"spec": ..., "theory": ...} from standard input, writes the answer to standard output."""
+    reply(lambda question: solve(Frame(question["spec"], question["theory"])), json.load(sys.stdin))

@@ -1,0 +1,203 @@
+#!/usr/bin/env python3
+"""Influence grids of a frame by OpenSees. See frame_model.py for what goes in and out.
+
+    beams       elasticBeamColumn; ElasticTimoshenkoBeam where they shear
+    trusses     Truss with an elastic material
+    rigid       rigidLink beam from the root of a body to each of its other nodes
+    supports    fix;  springs  zeroLength to a fixed node
+    constraints by transformation, exact; as Lagrange multipliers, exact too, where a body is supported at a node
+                that is not its root
+    releases    a node of its own at the member's end, tied to the body in what is not released: by equalDOF, exact,
+                where the end is the body's root and the axes allow it; otherwise by zeroLength springs of a number
+                of TIES times the member's own stiffness. They err by the inverse of that number, and stiffer ones by
+                rounding; so the frame is solved with both, and the error is extrapolated away
+
+All 3 n unit loads act on nodes at the rail heads and are solved with one factorisation.
+"""
+
+import ctypes
+import importlib.util
+import pathlib
+
+import numpy as np
+
+import frame_model
+from frame_model import Refused
+
+# Stiffness of ties by that of their member.
+TIES = 1e4, 1e5
+# Shear area, by area, of a beam that is rigid in shear in one direction alone.
+RIGID = 1e20
+LIBRARIES = ["libquadmath.so.0", "libgfortran.so.4", "libgomp.so.1", "libblas.so.3", "liblapack.so.3"]
+
+
+def load():
+    """OpenSees; its Linux wheel carries libraries that the loader does not look for beside it."""
+    found = importlib.util.find_spec("openseespylinux")
+    for folder in found.submodule_search_locations if found else []:
+        for name in LIBRARIES:
+            path = pathlib.Path(folder) / "lib" / name
+            if path.exists():
+                try:
+                    ctypes.CDLL(str(path), mode=ctypes.RTLD_GLOBAL)
+                except OSError:
+                    pass  # The import below says what is missing.
+    try:
+        import openseespy.opensees as ops
+    except (ImportError, RuntimeError) as error:
+        reason = error.__cause__ or error.__context__ or error
+        hint = "on Debian: apt-get install libblas3 liblapack3 libgfortran5 libgomp1"
+        raise Refused(f"OpenSees cannot be loaded: {reason} ({hint})") from error
+    return ops
+
+
+class Model:
+    """The frame in OpenSees; tags count from 1."""
+
+    def __init__(self, ops, frame, tie):
+        self.ops, self.frame, self.tie, self.ties = ops, frame, tie, []
+        self.move_roots()
+        # Transformation takes supports at roots alone.
+        self.plain = all(node == frame.root[frame.body[node]] for node, _ in frame.fixed)
+        self.nodes = self.elements = self.materials = 0
+        ops.wipe()
+        ops.model("basic", "-ndm", 3, "-ndf", 6)
+        for position in frame.position:
+            self.node(position)
+        for node, body in enumerate(frame.body):
+            root = frame.root[body]
+            if node != root:
+                ops.rigidLink("beam", root + 1, node + 1)
+        for member in frame.members:
+            self.member(member)
+        for node, freedom, k in frame.springs:
+            ground = self.node(frame.position[node])
+            ops.fix(ground, *[1] * 6)
+            self.spring(ground, node + 1, {freedom: k})
+        held = {}
+        for node, freedom in frame.fixed:
+            held.setdefault(node, [0] * 6)[freedom] = 1
+        for node, fix in held.items():
+            ops.fix(node + 1, *fix)
+
+    def node(self, position):
+        self.nodes += 1
+        self.ops.node(self.nodes, *(float(x) for x in position))
+        return self.nodes
+
+    def spring(self, a, b, stiffness, axes=np.eye(3)):
+        """zeroLength springs, stiffness by freedom, along axes."""
+        tags = []
+        for k in stiffness.values():
+            self.materials += 1
+            self.ops.uniaxialMaterial("Elastic", self.materials, float(k))
+            tags.append(self.materials)
+        self.elements += 1
+        directions = [freedom + 1 for freedom in stiffness]
+        orient = [float(v) for v in [*axes[0], *axes[1]]]
+        self.ops.element("zeroLength", self.elements, a, b, "-mat", *tags, "-dir", *directions, "-orient", *orient)
+
+    def end(self, member, end):
+        """The node at an end of a member: the body's, or one that its releases let go."""
+        node = member.nodes[end]
+        released = member.releases[end]
+        if not released.any():
+            return node + 1
+        own = self.node(self.frame.position[node])
+        stiff = member_stiffness(member, self.frame.length(member))
+        aligned = np.all(np.count_nonzero(np.abs(member.axes) > 1e-12, axis=1) == 1)
+        at_root = self.plain and node == self.frame.root[self.frame.body[node]]
+        exact, springs = [], {}
+        for group in ([0, 1, 2], [3, 4, 5]):
+            tied = [k for k in group if not released[k]]
+            if at_root and len(tied) == 3:
+                exact += group
+            elif at_root and aligned:
+                exact += [group[0] + int(np.argmax(np.abs(member.axes[k % 3]))) for k in tied]
+            else:
+                springs.update({k: self.tie * stiff[k] for k in tied})
+        if exact:
+            # One call: a second one for the same node would not be seen.
+            self.ops.equalDOF(node + 1, own, *(k + 1 for k in exact))
+        if springs:
+            self.spring(node + 1, own, springs, member.axes)
+            self.ties.append(springs)
+        return own
+
+    def move_roots(self):
+        """Roots at released ends, where nothing else needs them: ties there are exact."""
+        frame = self.frame
+        held = {frame.body[node] for node, _ in frame.fixed}
+        for member in frame.members:
+            for node, released in zip(member.nodes, member.releases):
+                body = frame.body[node]
+                if released.any() and body not in held:
+                    frame.root[body] = node
+                    held.add(body)
+
+    def member(self, member):
+        ops, s = self.ops, member.section
+        a, b = self.end(member, 0), self.end(member, 1)
+        self.elements += 1
+        tag = self.elements
+        if member.kind == "truss":
+            self.materials += 1
+            ops.uniaxialMaterial("Elastic", self.materials, float(s["E"]))
+            ops.element("Truss", tag, a, b, float(s["A"]), self.materials)
+            return
+        ops.geomTransf("Linear", tag, *(float(v) for v in member.axes[2]))
+        numbers = [float(s[k]) for k in ("A", "E", "G", "J", "Iy", "Iz")]
+        if "Asy" in s or "Asz" in s:
+            area, e, g, j, iy, iz = numbers
+            shear = [float(s.get(key, RIGID * area)) for key in ("Asy", "Asz")]
+            ops.element("ElasticTimoshenkoBeam", tag, a, b, e, g, area, j, iy, iz, *shear, tag)
+        else:
+            ops.element("elasticBeamColumn", tag, a, b, *numbers, tag)
+
+    def solve(self):
+        """Displacements of the heads: unit load (3 head + direction) x head x 3."""
+        ops, frame = self.ops, self.frame
+        ops.constraints("Transformation" if self.plain else "Lagrange")
+        ops.numberer("RCM")
+        ops.system("UmfPack")
+        ops.integrator("LoadControl", 1.0)
+        ops.algorithm("Linear", "-factorOnce")
+        ops.timeSeries("Constant", 1)
+        ops.analysis("Static")
+        motion = np.zeros((3 * len(frame.heads), len(frame.heads), 3))
+        for head, direction, node, force in frame.unit_loads():
+            ops.pattern("Plain", 1, 1)
+            ops.load(node + 1, *(float(f) for f in force), 0.0, 0.0, 0.0)
+            if ops.analyze(1) != 0:
+                raise Refused("OpenSees cannot solve the system")
+            for k, (_, other, _) in enumerate(frame.heads):
+                motion[3 * head + direction, k] = [ops.nodeDisp(other + 1, d) for d in (1, 2, 3)]
+            ops.remove("loadPattern", 1)
+        return motion
+
+
+def member_stiffness(member, length):
+    """Size of a member's stiffness in each local freedom of an end."""
+    s = member.section
+    bending = [12.0 * s["E"] * s[key] / length**3 for key in ("Iz", "Iy")]
+    turning = [4.0 * s["E"] * s[key] / length for key in ("Iy", "Iz")]
+    return [s["E"] * s["A"] / length, *bending, s["G"] * s["J"] / length, *turning]
+
+
+def solve(frame):
+    ops = load()
+    model = Model(ops, frame, TIES[0])
+    motion, notes = model.solve(), []
+    if model.ties:
+        stiffer = Model(ops, frame, TIES[1]).solve()
+        motion = (TIES[1] * stiffer - TIES[0] * motion) / (TIES[1] - TIES[0])
+        count = sum(len(ties) for ties in model.ties)
+        notes = [f"{count} directions at {len(model.ties)} released ends are tied by springs, extrapolated to rigid"]
+    sheared = any("Asy" in m.section or "Asz" in m.section for m in frame.members)
+    beams = "ElasticTimoshenkoBeam" if sheared else "elasticBeamColumn"
+    versions = {"OpenSees": ops.version(), "numpy": np.__version__}
+    return frame.answer(motion, versions, f"{beams}, rigidLink", notes)
+
+
+if __name__ == "__main__":
+    frame_model.serve(solve)

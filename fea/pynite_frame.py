@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""Influence grids of a frame by PyNite. See frame_model.py for what goes in and out.
+
+PyNite gives the members: axes, stiffness, releases, assembly, springs. It has no rigid parts; its assembled
+stiffness K is reduced with their exact kinematics, u = T q, and T' K T q = T' p is solved for all unit loads.
+It has no shear deformation: refused where the beams shear.
+"""
+
+import importlib.metadata
+import math
+
+import numpy as np
+from Pynite import Analysis, FEModel3D
+from scipy import sparse
+from scipy.sparse.linalg import splu
+
+import frame_model
+from frame_model import Refused
+
+
+def rotation(model, name, axes):
+    """Turns PyNite's member about its axis until its local y is ours."""
+    own = model.members[name].T()[:3, :3]
+    return math.degrees(math.atan2(axes[1] @ own[2], axes[1] @ own[1]))
+
+
+def stiffness(frame):
+    """PyNite's global stiffness matrix, six freedoms a node."""
+    model = FEModel3D()
+    for k, position in enumerate(frame.position):
+        model.add_node(f"N{k}", *(float(x) for x in position))
+    for k, member in enumerate(frame.members):
+        s, name = member.section, f"M{k}"
+        truss = member.kind == "truss"
+        e, g = s["E"], s["G"] or s["E"]
+        model.add_material(name, e, g, 0.3, 0.0)
+        model.add_section(name, s["A"], *(0.0 if truss else s[key] for key in ("Iy", "Iz", "J")))
+        model.add_member(name, *(f"N{node}" for node in member.nodes), name, name)
+        model.members[name].rotation = rotation(model, name, member.axes)
+        if member.releases.any() and not truss:
+            model.def_releases(name, *(bool(r) for r in member.releases.ravel()))
+    for node, freedom, k in frame.springs:
+        dof = ["DX", "DY", "DZ", "RX", "RY", "RZ"][freedom]
+        held = getattr(model.nodes[f"N{node}"], f"spring_{dof}")[0] or 0.0
+        model.def_support_spring(f"N{node}", dof, held + k)
+    Analysis._prepare_model(model)
+    turned = [m for p in model.members.values() for m in p.sub_members.values()]
+    for member, ours in zip(turned, frame.members):
+        if np.abs(member.T()[:3, :3] - ours.axes).max() > 1e-8:
+            raise Refused("PyNite turns a member's axes in another way than asked")
+    order = [model.nodes[f"N{k}"].ID for k in range(len(frame.position))]
+    if order != list(range(len(order))):
+        raise Refused("PyNite has numbered the nodes in another order")
+    return model.Ke(check_stability=False, sparse=True).tocsc()
+
+
+def kinematics(frame):
+    """T: motions of all nodes by the free motions of the bodies."""
+    rows = {}
+    for node, freedom in frame.fixed:
+        rows.setdefault(frame.body[node], []).append(frame.arm(node)[freedom])
+    free, start = [], [0]
+    for body in range(len(frame.root)):
+        basis = np.eye(6)
+        held = np.array(rows.get(body, np.zeros((0, 6))))
+        if len(held):
+            if np.all(np.count_nonzero(held, axis=1) == 1):
+                basis = np.delete(basis, np.argmax(np.abs(held), axis=1), axis=1)
+            else:
+                scale = np.diag([1.0] * 3 + [1.0 / frame.reach(body)] * 3)
+                _, _, vt = np.linalg.svd(held @ scale)
+                basis = scale @ vt[len(held) :].T
+        free.append(basis)
+        start.append(start[-1] + basis.shape[1])
+    entries = ([], [], [])
+    for node, body in enumerate(frame.body):
+        block = frame.arm(node) @ free[body]
+        for i, j in zip(*np.nonzero(block)):
+            for to, value in zip(entries, (block[i, j], 6 * node + i, start[body] + j)):
+                to.append(value)
+    shape = (6 * len(frame.position), start[-1])
+    return sparse.coo_matrix((entries[0], (entries[1], entries[2])), shape=shape).tocsc()
+
+
+def solve(frame):
+    if frame.sheared and any("Asy" in m.section or "Asz" in m.section for m in frame.members):
+        raise Refused("PyNite has no shear deformation")
+    k, t = stiffness(frame), kinematics(frame)
+    loads = np.zeros((t.shape[0], 3 * len(frame.heads)))
+    for head, direction, node, force in frame.unit_loads():
+        loads[6 * node : 6 * node + 3, 3 * head + direction] = force
+    reduced = (t.T @ k @ t).tocsc()
+    diagonal = np.sqrt(reduced.diagonal())
+    if not np.all(diagonal > 0.0):
+        raise Refused("PyNite finds a freedom without stiffness")
+    scaling = sparse.diags(1.0 / diagonal)
+    factor = splu((scaling @ reduced @ scaling).tocsc())
+    found = t @ (scaling @ factor.solve(scaling @ (t.T @ loads)))
+    at = np.array([[6 * node + k for k in range(3)] for _, node, _ in frame.heads])
+    motion = found[at].transpose(2, 0, 1)
+    versions = {"PyNite": importlib.metadata.version("PyNiteFEA"), "numpy": np.__version__}
+    return frame.answer(motion, versions, "Member3D, rigid parts by exact kinematics")
+
+
+if __name__ == "__main__":
+    frame_model.serve(solve)

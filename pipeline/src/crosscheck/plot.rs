@@ -1,0 +1,39 @@
+//! Pictures of differences.
+
+use super::outcome::Outcome;
+use crate::chart::{Axis, Chart, Series, Style};
+
+/// Differences below this are drawn here: a logarithmic axis has no zero.
+const LEAST: f64 = 1e-17;
+
+/// The largest difference of each grid over the station of the deflection, one chart a rail.
+#[must_use]
+pub fn charts(outcome: &Outcome, rails: &[String], unit: &str) -> Vec<Chart> {
+    let of_rail = |(rail, name): (usize, &String)| {
+        let here = |k: &usize| outcome.stations[*k].0 == rail;
+        let kept: Vec<usize> = (0..outcome.stations.len()).filter(here).collect();
+        let x = |k: &usize| outcome.stations[*k].1;
+        let title = match rails {
+            [_, _, ..] => format!("Differences from {}, rail {name}", outcome.code),
+            _ => format!("Differences from {}", outcome.code),
+        };
+        let mut chart = Chart::new(
+            title,
+            Axis::new("place of the deflection along the rail", unit),
+            Axis::new("largest difference over all loads", "").log(),
+        );
+        for difference in &outcome.differences {
+            let points = kept.iter().map(|k| [x(k), difference.profile[*k].max(LEAST)]).collect();
+            chart = chart.with(Series::new(difference.quantity.name(), Style::Line, points));
+        }
+        let ends = kept.first().into_iter().chain(kept.last());
+        let limit = ends.map(|k| [x(k), outcome.tolerance]).collect();
+        chart.with(Series::new("tolerance", Style::Dashed, limit))
+    };
+    rails
+        .iter()
+        .enumerate()
+        .map(of_rail)
+        .filter(|chart| chart.series.iter().any(|s| !s.points.is_empty()))
+        .collect()
+}

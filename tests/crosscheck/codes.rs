@@ -1,0 +1,175 @@
+//! Frames in OpenSees and PyNite, solids of gmsh and scikit-fem.
+
+use girderway::crosscheck::{Grid, Peer, Quantity, Station, ask};
+use serde_json::{Value, json};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use super::{EI, PAPER, cache, environment};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+fn crosscheck(spec: &Path, more: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_girderway"));
+    command.args(["crosscheck", "--json"]).arg(spec).args(more).env("XDG_CACHE_HOME", cache());
+    command.output().expect("the program starts")
+}
+
+fn result(output: &Output) -> Value {
+    serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|error| panic!("{error}: {}", String::from_utf8_lossy(&output.stderr)))
+}
+
+/// Largest difference of a grid from a code, by the first word of its name.
+fn difference(result: &Value, code: &str, grid: &str) -> f64 {
+    let list = |value: &Value| value.as_array().expect("a list").clone();
+    let named =
+        |value: &Value, key: &str, name: &str| value[key].as_str().is_some_and(|t| t.starts_with(name));
+    let compared = list(&result["compared"]);
+    let outcome =
+        compared.iter().find(|outcome| named(outcome, "code", code)).expect("the code was compared");
+    let differences = list(&outcome["differences"]);
+    let found = differences.iter().find(|d| d["grid"] == grid).expect("the grid was compared");
+    found["relative"].as_f64().expect("a number")
+}
+
+#[test]
+fn mill_girderway_agrees_with_both_frame_codes() {
+    if environment().is_none() {
+        return;
+    }
+    let spec = root().join("examples/mill_girderway/spec.json");
+    for theory in ["euler-bernoulli", "timoshenko"] {
+        let output = crosscheck(&spec, &["--theory", theory]);
+        let result = result(&output);
+        assert!(output.status.success(), "{result:#}");
+        for code in ["OpenSees", "PyNite"] {
+            for quantity in Quantity::ALL {
+                let relative = difference(&result, code, quantity.name());
+                assert!(relative < 1e-8, "{theory}, {code}, {quantity}: {relative:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_frame_with_everything_agrees_with_both_frame_codes() {
+    // Two coupled rails, one of them backwards, over gaps; skew members with arms; releases of all kinds, at skew
+    // ends too; trusses on arms; springs; linked points, both supported.
+    if environment().is_none() {
+        return;
+    }
+    let spec = root().join("tests/crosscheck/frame.json");
+    let output = crosscheck(&spec, &[]);
+    let result = result(&output);
+    assert!(output.status.success(), "{result:#}");
+    for quantity in Quantity::ALL {
+        let relative = ["OpenSees", "PyNite"].map(|code| difference(&result, code, quantity.name()));
+        assert!(relative[0] < 5e-8 && relative[1] < 1e-10, "{quantity}: {relative:?}");
+    }
+}
+
+#[test]
+fn solids_agree_with_timoshenko_beams() {
+    // Source: external; 0.002 to 0.004 % at L/h = 20 and 0.07 to 0.15 % at L/h = 5 for the vertical midspan.
+    if environment().is_none() {
+        return;
+    }
+    for (name, vertical, lateral) in [("rectangle_20", 1e-4, 5e-4), ("rectangle_5", 1.5e-3, 2e-3)] {
+        let output = crosscheck(&root().join(format!("fea/{name}.json")), &[]);
+        let result = result(&output);
+        assert!(output.status.success(), "{result:#}");
+        let found = ["vertical", "lateral"].map(|grid| difference(&result, "gmsh", grid));
+        assert!(found[0] < vertical && found[1] < lateral, "{name}: {found:?}");
+        assert!(difference(&result, "scikit-fem", "vertical") < 1e-9);
+    }
+}
+
+#[test]
+fn a_wrong_shear_area_is_found_by_the_solid_alone() {
+    if environment().is_none() {
+        return;
+    }
+    let text = std::fs::read_to_string(root().join("fea/rectangle_20.json")).expect("the spec is there");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let spec = folder.path().join("spec.json");
+    let wrong = text.replace("\"kA_vertical\": 0.4166666666666667", "\"kA_vertical\": 0.2");
+    assert_ne!(wrong, text);
+    std::fs::write(&spec, wrong).expect("a writable folder");
+    let out = folder.path().join("out");
+    let output = crosscheck(&spec, &["-o", out.to_str().expect("a plain path")]);
+    let result = result(&output);
+    assert_eq!(output.status.code(), Some(1), "{result:#}");
+    assert!(difference(&result, "gmsh", "vertical") > 5e-3);
+    assert!(difference(&result, "gmsh", "lateral") < 5e-4);
+    assert!(difference(&result, "OpenSees", "vertical") < 1e-9);
+    for name in ["scikit-fem", "OpenSees", "PyNite", "gmsh"] {
+        let path = out.join(format!("plots/difference-{name}.svg"));
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{name}: {error}"));
+        roxmltree::Document::parse(&text).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+    assert!(out.join("crosscheck.json").is_file() && out.join("manifest.json").is_file());
+}
+
+/// The paper's girder as a user writes it.
+fn paper() -> (Value, Vec<Station>) {
+    let stations = [-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0];
+    let spec = json!({
+        "format": "girderway-beam/1", "units": {"length": "ft", "force": "lbf", "time": "s"},
+        "girder": {"spans": [60], "overhangs": [15, 15], "E": 4.32e9, "I_vertical": EI / 4.32e9},
+        "stations": stations,
+    });
+    (spec, stations.iter().map(|x| (0, *x)).collect())
+}
+
+#[test]
+fn frame_codes_reproduce_the_closed_forms_of_the_papers_girder() {
+    let Some(environment) = environment() else { return };
+    let (spec, stations) = paper();
+    let question = json!({ "spec": spec, "theory": "euler-bernoulli" });
+    let mut vertical: Grid = PAPER.iter().map(|row| row.to_vec()).collect();
+    for peer in [Peer::OpenSees, Peer::PyNite] {
+        let ours = [(Quantity::Vertical, vertical.clone())];
+        let outcome = ask(peer, &question, &ours, &stations, environment, &mut |_| {});
+        let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
+        assert!(outcome.agrees() && outcome.differences[0].relative < 1e-11, "{}", outcome.table(&[]));
+    }
+    vertical[2][4] *= 1.0 + 1e-6;
+    let ours = [(Quantity::Vertical, vertical)];
+    let outcome = ask(Peer::PyNite, &question, &ours, &stations, environment, &mut |_| {});
+    let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
+    assert!(!outcome.agrees(), "{}", outcome.table(&[]));
+    assert_eq!(outcome.differences[0].at, [15.0, 45.0]);
+}
+
+#[test]
+fn sections_that_are_no_rectangle_are_refused_by_the_solid() {
+    let Some(environment) = environment() else { return };
+    let (mut spec, stations) = paper();
+    spec["girder"]["A"] = json!(1.0);
+    spec["girder"]["G"] = json!(1.66e9);
+    spec["girder"]["I_lateral"] = json!(0.875);
+    let question = json!({ "spec": spec, "theory": "euler-bernoulli" });
+    let answer = ask(Peer::Solid, &question, &[], &stations, environment, &mut |_| {});
+    let why = answer.expect_err("I_lateral is another one").to_string();
+    assert!(why.contains("no solid rectangle"), "{why}");
+}
+
+#[test]
+fn without_python_the_status_is_2_and_the_hint_says_what_is_needed() {
+    let empty = tempfile::tempdir().expect("a temporary folder");
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .arg("crosscheck")
+        .arg(root().join("examples/bogie/spec.json"))
+        .env("PATH", empty.path())
+        .env("XDG_CACHE_HOME", empty.path())
+        .output()
+        .expect("the program starts");
+    assert_eq!(output.status.code(), Some(2));
+    assert!(output.stdout.is_empty());
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(message.contains("python3") && message.contains("hint"), "{message}");
+    assert_eq!(std::fs::read_dir(empty.path()).expect("the folder").count(), 0, "nothing is left behind");
+}
