@@ -25,6 +25,8 @@ crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-grid/1";
+/// Freedoms of the largest surface that `fea` writes: some 170 MB of text.
+pub const LARGEST: usize = 3000;
 
 /// The text of a grid file: one row of a matrix a line, every number in the fewest digits that give it back.
 /// With `surface`, the influence between the stations too, exactly.

@@ -1,6 +1,6 @@
 //! The pictures of a run.
 
-use splines::{Axis as Direction, Compliance, Influence, Probe};
+use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
 
 use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot};
 use crate::crosscheck::Quantity;
@@ -181,10 +181,11 @@ pub fn structure(
             "The {word} grid at the stations: deflection at a row's station per unit load at a column's."
         );
         plates.push(Plate::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
-        let Some([from, to]) = solved.surface.range(0) else { continue };
+        let Some(surface) = &solved.surface else { continue };
+        let Some([from, to]) = surface.range(0) else { continue };
         let places: Vec<f64> =
             (0..SAMPLES).map(|i| from + (to - from) * i as f64 / (SAMPLES - 1) as f64).collect();
-        let dense = dense(solved, axis, &places)?;
+        let dense = dense(surface, axis, &places)?;
         let smooth = SurfacePlot {
             title: format!("{name}: {word} influence surface"),
             at: places.clone(),
@@ -202,10 +203,10 @@ pub fn structure(
 }
 
 /// Direct influence coefficients between all pairs of `places` on rail 0.
-fn dense(solved: &Solved, axis: Direction, places: &[f64]) -> Result<Vec<Vec<f64>>, splines::Error> {
+fn dense(surface: &Surface, axis: Direction, places: &[f64]) -> Result<Vec<Vec<f64>>, splines::Error> {
     let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail: 0, x, axis }).collect();
     let mut influence = Influence::zeros(probes.len());
-    solved.surface.fill(&probes, &mut influence)?;
+    surface.fill(&probes, &mut influence)?;
     Ok((0..probes.len()).map(|i| influence.value.row(i).iter().copied().collect()).collect())
 }
 
@@ -220,7 +221,8 @@ pub fn girder(
     cast: &Cast,
     solved: &Solved,
 ) -> Result<Option<Plate>, Box<dyn std::error::Error>> {
-    let (Some(short), Some([from, to])) = (&solved.girder, solved.surface.range(0)) else { return Ok(None) };
+    let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
+    let Some([from, to]) = surface.range(0) else { return Ok(None) };
     let on: Vec<&String> = cast
         .wheels
         .iter()
@@ -241,7 +243,7 @@ pub fn girder(
     let at: Vec<Probe> =
         places.iter().map(|&x| probe(x)).chain(loads.iter().map(|&(x, _)| probe(x))).collect();
     let mut influence = Influence::zeros(at.len());
-    solved.surface.fill(&at, &mut influence)?;
+    surface.fill(&at, &mut influence)?;
     let down = |i: usize| -> f64 {
         loads.iter().enumerate().map(|(j, (_, force))| influence.value[(i, places.len() + j)] * force).sum()
     };

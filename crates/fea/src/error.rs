@@ -55,6 +55,16 @@ pub enum Error {
         /// Number of unknown freedoms.
         unknowns: usize,
     },
+    /// More memory than is allowed, before any of it is taken.
+    #[error("the {quantity} would take {bytes} bytes, more than {most}")]
+    Memory {
+        /// What it is for.
+        quantity: Quantity,
+        /// How much it would be.
+        bytes: u64,
+        /// How much it may be.
+        most: u64,
+    },
     /// Modes of a structure without mass.
     #[error("no mass is on a freedom that can move")]
     NoMass,
@@ -258,6 +268,12 @@ pub enum Quantity {
     Segments,
     /// Station.
     Station,
+    /// Cholesky factor.
+    Factor,
+    /// Influence coefficients of a list of probes.
+    Grid,
+    /// Compliance of the ends of all cells.
+    Surface,
 }
 
 impl fmt::Display for Item {
@@ -303,6 +319,9 @@ impl fmt::Display for Quantity {
             Quantity::Spans => "spans",
             Quantity::Segments => "segments",
             Quantity::Station => "station",
+            Quantity::Factor => "factor",
+            Quantity::Grid => "grid",
+            Quantity::Surface => "surface",
         })
     }
 }

@@ -12,6 +12,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use sprs::CsMat;
 
+use crate::memory::MEMORY;
 use crate::real::Real;
 
 /// Why a matrix has no factor.
@@ -19,8 +20,8 @@ use crate::real::Real;
 pub(crate) enum Refusal {
     /// A pivot that is not positive.
     Indefinite,
-    /// Too large for memory or indices.
-    Size,
+    /// Too large for memory or indices; entries, where they are known.
+    Size(u64),
 }
 
 /// L with L L^T = K, K symmetric positive definite, in panels of adjoining columns.
@@ -61,7 +62,7 @@ impl<T: Real> Factor<T> {
         let pattern = SymbolicSparseColMatRef::new_checked(
             n,
             n,
-            storage.as_slice().ok_or(Refusal::Size)?,
+            storage.as_slice().ok_or(Refusal::Size(0))?,
             None,
             upper.indices(),
         );
@@ -70,12 +71,16 @@ impl<T: Real> Factor<T> {
             params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
         }
         let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
-            .map_err(|_| Refusal::Size)?;
+            .map_err(|_| Refusal::Size(0))?;
+        let size = symbolic.len_val() as u64;
+        if size.saturating_mul(size_of::<T>() as u64) > MEMORY {
+            return Err(Refusal::Size(size));
+        }
         let mut values = Vec::new();
-        values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size)?;
+        values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size(size))?;
         values.resize(symbolic.len_val(), T::zero());
         let request = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
-        let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size)?;
+        let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size(0))?;
         symbolic
             .factorize_numeric_llt(
                 &mut values,
@@ -119,6 +124,11 @@ impl<T: Real> Factor<T> {
                 Panel { start, width: end - start, below: s.supernode(k).pattern(), values }
             }
         }
+    }
+
+    /// Bytes of its entries.
+    pub fn bytes(&self) -> u64 {
+        (self.values.len() * size_of::<T>()) as u64
     }
 
     /// Smallest pivot L_kk^2.

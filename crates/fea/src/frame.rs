@@ -8,10 +8,11 @@ use splines::{Axis, Line, Probe};
 use crate::assembly::Assembly;
 use crate::certificate::Certificate;
 use crate::element::Element;
-use crate::error::{Error, Fault, Item};
+use crate::error::{Error, Fault, Item, Quantity};
 use crate::factor::{Factor, Refusal, Tail};
 use crate::freedoms::{Freedoms, Sum};
 use crate::mechanism::{PIVOT, PIVOT_EXTENDED, weakest};
+use crate::memory::allow;
 use crate::model::{Freedom, Model};
 use crate::rail::{Rail, lay};
 use crate::real::Extended;
@@ -77,6 +78,15 @@ impl Frame {
     #[must_use]
     pub fn certificate(&self) -> Certificate {
         self.certificate
+    }
+
+    /// Bytes of the factor.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        match &self.solver {
+            Solver::Double(factor) => factor.bytes(),
+            Solver::Extended(factor) => factor.bytes(),
+        }
     }
 
     /// Number of unknown freedoms.
@@ -222,7 +232,7 @@ fn certified(
             }
         }
         Ok(_) | Err(Refusal::Indefinite) => {}
-        Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
+        Err(Refusal::Size(entries)) => return Err(oversize(unknowns, entries, DOUBLE)),
     }
     let extended = Assembly::<Extended>::again(m, &assembly.numbering)?;
     let factor = match Factor::new(&extended.upper) {
@@ -231,13 +241,21 @@ fn certified(
             let (point, freedom) = weakest(assembly, freedoms);
             return Err(Error::Mechanism { point, freedom });
         }
-        Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
+        Err(Refusal::Size(entries)) => return Err(oversize(unknowns, entries, 2 * DOUBLE)),
     };
     let (certificate, inverse) = Certificate::new(&extended, &factor);
     if certificate.error_bound > accuracy {
         return Err(ill(certificate, accuracy, assembly, freedoms));
     }
     Ok((Solver::Extended(factor), certificate, inverse))
+}
+
+/// Bytes of a double.
+const DOUBLE: u64 = size_of::<f64>() as u64;
+
+/// A factor of too many entries, or of indices that run out.
+fn oversize(unknowns: usize, entries: u64, size: u64) -> Error {
+    allow(Quantity::Factor, entries, size).err().unwrap_or(Error::Factor { unknowns })
 }
 
 /// An error bound above the accuracy asked.

@@ -8,9 +8,10 @@ use splines::{Cell, Compliance, Influence, Line, Probe, Surface};
 
 use crate::certificate::Certificate;
 use crate::element::{Matrix12, blocks};
-use crate::error::Error;
+use crate::error::{Error, Quantity};
 use crate::factor::{Tail, dots};
 use crate::frame::Frame;
+use crate::memory::square;
 use crate::model::Model;
 use crate::rail::Rail;
 
@@ -42,6 +43,7 @@ impl Frame {
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists; a bound worse than asked.
     pub fn grid(&self, at: &[Probe]) -> Result<Grid, Error> {
+        square(Quantity::Grid, at.len())?;
         let mut scratch = self.scratch();
         let mut tails = Vec::with_capacity(at.len());
         let mut cells = Vec::with_capacity(at.len());

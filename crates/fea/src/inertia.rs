@@ -32,21 +32,21 @@ pub(crate) fn negatives(upper: &CsMat<f64>) -> Result<Option<usize>, Refusal> {
     let pattern = SymbolicSparseColMatRef::new_checked(
         n,
         n,
-        storage.as_slice().ok_or(Refusal::Size)?,
+        storage.as_slice().ok_or(Refusal::Size(0))?,
         None,
         upper.indices(),
     );
     let params = CholeskySymbolicParams::default();
     let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
-        .map_err(|_| Refusal::Size)?;
+        .map_err(|_| Refusal::Size(0))?;
     let mut values = Vec::new();
-    values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size)?;
+    values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size(0))?;
     values.resize(symbolic.len_val(), 0.0);
     let request = StackReq::any_of(&[
         symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
         symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
     ]);
-    let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size)?;
+    let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size(0))?;
     let done = symbolic.factorize_numeric_ldlt(
         &mut values,
         SparseColMatRef::new(pattern, upper.data()),

@@ -6,9 +6,10 @@ use nalgebra::DMatrix;
 use splines::Surface;
 
 use crate::certificate::Certificate;
-use crate::error::{Error, Fault, Item};
+use crate::error::{Error, Fault, Item, Quantity};
 use crate::frame::Frame;
 use crate::freedoms::Sum;
+use crate::memory::square;
 use crate::model::Model;
 use crate::rail::Rail;
 
@@ -46,9 +47,10 @@ impl Frame {
     /// [`surface`] of a frame that is already factored.
     ///
     /// # Errors
-    /// No rail.
+    /// No rail; more states than memory holds.
     pub fn surface(&self) -> Result<Exact, Error> {
         let line = Arc::clone(self.line()?);
+        square(Quantity::Surface, 6 * line.states())?;
         let sums: Vec<&Sum> = self.states().iter().flatten().take(6 * line.states()).collect();
         let mut nodal = self.compliance(&sums);
         for (a, b) in self.released(line.cells()) {

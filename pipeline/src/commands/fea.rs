@@ -4,7 +4,7 @@ use crate::cli::{Fea, Global};
 use crate::coupling::Coupling;
 use crate::exit::{Exit, Failure};
 use crate::fault::{Fault, Faults};
-use crate::grid_file;
+use crate::grid_file::{self, LARGEST};
 use crate::inputs::Inputs;
 use crate::link;
 use crate::modes_file::{self, ACCURACY};
@@ -26,7 +26,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = link::solve_to(&spec, args.accuracy);
+    let solved = link::solve_to(&spec, args.accuracy, LARGEST);
     drop(stage);
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
     for note in &solved.grid.notes {
@@ -35,7 +35,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
         progress.say(&line);
     }
-    let mut text = grid_file::write(&solved.grid, Some(&solved.surface));
+    let mut text = grid_file::write(&solved.grid, solved.surface.as_ref());
     if let Some(count) = args.modes {
         let stage = progress.stage("modes");
         let found = fea::refined_modes(&solved.model, &solved.rails, count as usize, ACCURACY);

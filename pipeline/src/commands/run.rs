@@ -47,7 +47,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
 
     for ((name, ..), entry) in specs(&document).iter().zip(&known) {
         let solved = &entry.solved;
-        folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, Some(&solved.surface)));
+        folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, solved.surface.as_ref()));
         if let Some(text) = tables::adm(name, &solved.grid).map_err(trouble)? {
             folder.add(&format!("{name}.adm"), text);
         }

@@ -18,8 +18,8 @@ pub struct Solved {
     pub model: fea::Model,
     /// Its rails.
     pub rails: Vec<fea::Rail>,
-    /// Exact influence surface.
-    pub surface: Surface,
+    /// Exact influence surface; `None` where it is larger than asked for.
+    pub surface: Option<Surface>,
     /// Grids at the stations.
     pub grid: Grid,
     /// The girder, where the structure is one.
@@ -31,19 +31,28 @@ pub struct Solved {
 /// # Errors
 /// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
 pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
-    solve_to(spec, fea::ACCURACY)
+    solve_to(spec, fea::ACCURACY, usize::MAX)
 }
 
-/// The same, with compliances whose relative error bound is at most `accuracy`.
+/// The same, with compliances whose relative error bound is at most `accuracy`, and without a surface of more than
+/// `most` freedoms.
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_to(spec: &Spec, accuracy: f64) -> Result<Solved, fea::Error> {
+pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solved, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = Frame::accurate(&model, &rails, accuracy)?;
-    let exact = frame.surface()?;
-    let grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
-    Ok(Solved { model, rails, surface: exact.surface, grid, girder: spec.girder().cloned() })
+    let mut grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    let freedoms = 6 * frame.line()?.states();
+    let surface = if freedoms <= most {
+        Some(frame.surface()?.surface)
+    } else {
+        grid.notes.push(format!(
+            "no surface: the compliance of {freedoms} freedoms at the ends of the rails' cells is too large for a file"
+        ));
+        None
+    };
+    Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned() })
 }
 
 /// The foundation of one structure of a scene; `lateral`: whether wheels push sideways.
@@ -74,8 +83,8 @@ pub fn foundation(
 fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundation, Failure> {
     let rails = structure.rails.len();
     let exact = structure.reading == scene::Reading::Exact;
-    if let (true, Some(solved)) = (exact, solved) {
-        return Ok(Foundation::influence(Box::new(solved.surface.clone()), rails));
+    if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
+        return Ok(Foundation::influence(Box::new(surface.clone()), rails));
     }
     let mut sheets = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {

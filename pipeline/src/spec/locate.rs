@@ -44,6 +44,13 @@ impl Spec {
                 self.path(Item::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
             )),
+            Error::Memory { quantity, bytes, most } => Failure::Untrusted(format!(
+                "{}: the {quantity} would take {:.1} GB of memory, {:.1} GB are allowed  hint: {}",
+                source.name,
+                *bytes as f64 / 1e9,
+                *most as f64 / 1e9,
+                "let the rails cover only what carriages reach, or join members"
+            )),
             Error::Factor { .. } | Error::NoRails | Error::Rail(_) | Error::NoMass | Error::Modes { .. } => {
                 Failure::Untrusted(format!("{}: {error}", source.name))
             }
