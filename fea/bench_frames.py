@@ -11,7 +11,7 @@ codes on the same frames and unit loads. Times are the least of three, in millis
     girderway   from model to factor; grid of the factored frame, G = (L^-1 P)' (L^-1 P) with the loads inside members
     CHOLMOD     analyse and factor the assembled stiffness; solve for all loads, and G = P' X
     SuperLU     factor (MMD of A + A', symmetric mode); solve, and G = P' X
-    OpenSees    first analysis, with numbering and factorisation (UmfPack); the other load cases
+    OpenSees    first analysis, with numbering and factorisation (SparseSYM; UmfPack factors anew for each); the other load cases
     PyNite      one analysis of all load cases
 
 Assembly is part of girderway's time, and stands apart for CHOLMOD and SuperLU, which get a matrix. OpenSees and
@@ -187,7 +187,7 @@ def opensees(frame, members, forces):
             ops.element("elasticBeamColumn", k + 1, int(a) + 1, int(b) + 1, area, e, g, j, iy, iz, k + 1)
         ops.constraints("Plain")
         ops.numberer("RCM")
-        ops.system("UmfPack")
+        ops.system("SparseSYM")
         ops.integrator("LoadControl", 1.0)
         ops.algorithm("Linear", "-factorOnce")
         # A load case is what acts at its step: patterns that come and go would factor anew.

@@ -187,7 +187,10 @@ fn write(folder: &Path, case: &Case) -> Result<(), Box<dyn Error>> {
             solve = solve.min(start.elapsed().as_secs_f64());
             value = Some(grid.value);
         }
-        fs::write(folder.join(format!("times-{count}.csv")), csv([[1e3 * factor, 1e3 * solve]].into_iter())?)?;
+        fs::write(
+            folder.join(format!("times-{count}.csv")),
+            csv([[1e3 * factor, 1e3 * solve]].into_iter())?,
+        )?;
         let Some(value) = value.filter(|_| count == LOADS[0]) else { continue };
         let pairs = (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
         let apart = pairs.filter(|&(i, j)| loads[i].member != loads[j].member);
