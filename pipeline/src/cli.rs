@@ -4,6 +4,10 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::import::rail::triple;
+use crate::import::{fix, rail};
+use crate::units::{Force, Length};
+
 /// From a beam spec to influence tables, simulation, plots and report.
 #[derive(Debug, Parser)]
 #[command(name = "girderway", version, about, max_term_width = 100, arg_required_else_help = true)]
@@ -45,6 +49,11 @@ pub enum Command {
     /// Write the tables of a grid, as an ADAMS data set or in the format of the file's ending
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
+    /// Turn a model of another program into a beam spec: NASTRAN bulk data or a gmsh mesh
+    #[command(
+        after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
+    )]
+    Import(Import),
     /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(Crosscheck),
@@ -73,6 +82,90 @@ pub struct Splines {
     pub output: Option<PathBuf>,
 }
 
+/// Arguments of `import`.
+#[derive(Clone, Debug, Args)]
+pub struct Import {
+    /// Model: .bdf, .dat or .nas (NASTRAN bulk data), or .msh (gmsh 4.1)
+    pub model: PathBuf,
+    /// Beam spec to write [default: standard output]
+    #[arg(short, long, value_name = "SPEC.json")]
+    pub output: Option<PathBuf>,
+    /// Unit of length of the model, which does not say it
+    #[arg(long)]
+    pub length: Option<LengthUnit>,
+    /// Unit of force of bulk data, which do not say it
+    #[arg(long)]
+    pub force: Option<ForceUnit>,
+    /// Direction up; needed by rails
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
+    pub up: Option<[f64; 3]>,
+    /// A rail along elements (12,23,30-35) or a set of them; /offset=X,Y,Z and /axis=X,Y,Z may follow
+    #[arg(long, value_name = "NAME=ELEMENTS")]
+    pub rail: Vec<rail::Asked>,
+    /// Hold freedoms of a set of points, such as feet=ux,uy,uz
+    #[arg(long, value_name = "SET=FREEDOMS")]
+    pub fix: Vec<fix::Asked>,
+    /// Materials and sections of a mesh, by the names of its physical groups
+    #[arg(long, value_name = "FILE.json")]
+    pub sections: Option<PathBuf>,
+    /// Set of supports, where case control does not choose one
+    #[arg(long, value_name = "SET")]
+    pub spc: Option<u64>,
+    /// Cards to leave out, such as CQUAD4,MPC
+    #[arg(long, value_name = "CARDS", value_delimiter = ',')]
+    pub skip: Vec<String>,
+}
+
+/// Words of the units of length.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum LengthUnit {
+    /// Foot
+    Ft,
+    /// Inch
+    In,
+    /// Metre
+    M,
+    /// Millimetre
+    Mm,
+}
+
+impl From<LengthUnit> for Length {
+    fn from(unit: LengthUnit) -> Length {
+        match unit {
+            LengthUnit::Ft => Length::Foot,
+            LengthUnit::In => Length::Inch,
+            LengthUnit::M => Length::Metre,
+            LengthUnit::Mm => Length::Millimetre,
+        }
+    }
+}
+
+/// Words of the units of force.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ForceUnit {
+    /// Pound-force
+    Lbf,
+    /// 1000 pound-force
+    Kip,
+    /// Newton
+    #[value(name = "N")]
+    Newton,
+    /// Kilonewton
+    #[value(name = "kN")]
+    Kilonewton,
+}
+
+impl From<ForceUnit> for Force {
+    fn from(unit: ForceUnit) -> Force {
+        match unit {
+            ForceUnit::Lbf => Force::Pound,
+            ForceUnit::Kip => Force::Kip,
+            ForceUnit::Newton => Force::Newton,
+            ForceUnit::Kilonewton => Force::Kilonewton,
+        }
+    }
+}
+
 /// Arguments of `fea`.
 #[derive(Clone, Debug, Args)]
 pub struct Fea {
@@ -84,6 +177,18 @@ pub struct Fea {
     /// Beam theory in place of the spec's
     #[arg(long)]
     pub theory: Option<Theory>,
+    /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
+    #[arg(long, value_name = "BOUND", default_value_t = fea::ACCURACY, value_parser = share)]
+    pub accuracy: f64,
+    /// Add the N lowest natural modes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub modes: Option<u32>,
+}
+
+/// A number between 0 and 1.
+fn share(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must lie between 0 and 1".to_owned()) }
 }
 
 /// Words of the beam theories.

@@ -58,6 +58,11 @@ impl Failure {
         }
     }
 
+    /// Numbers that cannot be trusted, for the reason that a library gives.
+    pub(crate) fn untrusted(error: impl std::fmt::Display) -> Failure {
+        Failure::Untrusted(error.to_string())
+    }
+
     /// What standard error shows: a line for each error, or one JSON object.
     #[must_use]
     pub fn report(&self, json: bool) -> String {
@@ -85,6 +90,12 @@ impl Failure {
 impl From<Diagnostic> for Failure {
     fn from(diagnostic: Diagnostic) -> Self {
         Failure::Input(vec![diagnostic])
+    }
+}
+
+impl From<Box<Diagnostic>> for Failure {
+    fn from(diagnostic: Box<Diagnostic>) -> Self {
+        Failure::from(*diagnostic)
     }
 }
 

@@ -1,10 +1,11 @@
 //! Influence grids of a structure at its stations.
 
-use fea::{Certificate, Frame};
+use fea::{Certificate, Frame, Model};
 use nalgebra::DMatrix;
 use splines::{Axis, Probe};
 
 use crate::crosscheck::Quantity;
+use crate::effect::Effects;
 use crate::spec::{RailOutline, Spec, theory_word};
 use crate::units::Units;
 
@@ -26,6 +27,8 @@ pub struct Grid {
     pub blocks: Vec<(Quantity, DMatrix<f64>)>,
     /// How far to trust the numbers, where that is known.
     pub certificate: Option<Certificate>,
+    /// Reactions and internal forces per unit load, where they are known.
+    pub effects: Option<Effects>,
     /// What a reader should know, such as why a block is absent.
     pub notes: Vec<String>,
 }
@@ -99,8 +102,28 @@ impl Grid {
                 .collect(),
             blocks,
             certificate: Some(solved.certificate),
+            effects: None,
             notes,
         })
+    }
+
+    /// The same with reactions and internal forces per unit load, from the frame and its model.
+    ///
+    /// # Errors
+    /// A station where the frame gives no answer.
+    pub fn with_effects(self, spec: &Spec, model: &Model, frame: &Frame) -> Result<Grid, fea::Error> {
+        let direct = [Quantity::Vertical, Quantity::Lateral, Quantity::Longitudinal];
+        let resisted: Vec<Axis> =
+            direct.into_iter().filter(|q| self.block(*q).is_some()).map(|q| axes(q).0).collect();
+        let effects = Effects::of(spec, model, frame, &stations(&spec.rails()), &resisted)?;
+        Ok(Grid { effects: Some(effects), ..self })
+    }
+
+    /// Index of the rail and coordinate of every station.
+    #[must_use]
+    pub fn stations(&self) -> Vec<(usize, f64)> {
+        let list = self.rails.iter().enumerate();
+        list.flat_map(|(index, rail)| rail.stations.iter().map(move |x| (index, *x))).collect()
     }
 
     /// One block, where the structure resists both directions.

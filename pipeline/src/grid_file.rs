@@ -8,10 +8,13 @@ use serde::Deserialize;
 use serde_json::json;
 use splines::Surface;
 
+use crate::coupling::{Coupling, RawCoupling};
 use crate::crosscheck::Quantity;
 use crate::diagnostic::Diagnostic;
+use crate::effect_file::{self, RawEffects};
 use crate::fault::{Fault, Faults, number};
 use crate::grid::{Grid, GridRail};
+use crate::modes_file::RawModes;
 use crate::place::Place;
 use crate::source::Source;
 use crate::spec::THEORIES;
@@ -38,8 +41,16 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
         grid.rails.iter().map(|rail| json!({ "name": rail.name, "stations": rail.stations })).collect();
     head.insert("rails".into(), json!(rails));
     if let Some(certificate) = &grid.certificate {
-        let object = json!({ "condition": certificate.condition, "error_bound": certificate.error_bound });
+        let precision = if certificate.extended { "double-double" } else { "double" };
+        let object = json!({
+            "condition": certificate.condition,
+            "error_bound": certificate.error_bound,
+            "precision": precision,
+        });
         head.insert("certificate".into(), object);
+    }
+    if let Some(coupling) = Coupling::of(grid) {
+        head.insert("coupling".into(), coupling.json());
     }
     if !grid.notes.is_empty() {
         head.insert("notes".into(), json!(grid.notes));
@@ -61,6 +72,9 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
         text.push_str("\n    ]");
     }
     text.push_str("\n  }");
+    if let Some(effects) = &grid.effects {
+        let _ = write!(text, ",\n  \"effects\": {}", effect_file::write(effects, grid.units));
+    }
     if let Some(surface) = surface {
         let _ = write!(text, ",\n  \"surface\": {}", surface_file::to_json(surface));
     }
@@ -77,10 +91,15 @@ struct RawGrid {
     theory: Option<String>,
     rails: Option<Vec<RawRail>>,
     certificate: Option<RawCertificate>,
+    /// Follows from the grids.
+    #[serde(rename = "coupling")]
+    _coupling: Option<RawCoupling>,
     #[serde(default)]
     notes: Vec<String>,
     influence: Option<RawInfluence>,
+    effects: Option<RawEffects>,
     surface: Option<RawSurface>,
+    modes: Option<RawModes>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -95,6 +114,17 @@ struct RawRail {
 struct RawCertificate {
     condition: f64,
     error_bound: f64,
+    #[serde(default)]
+    precision: Precision,
+}
+
+/// In what the stiffness was formed and factored.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum Precision {
+    #[default]
+    Double,
+    DoubleDouble,
 }
 
 #[derive(Debug, Deserialize)]
@@ -147,6 +177,9 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
     }
     let rails = read_rails(raw, &root, faults);
     let size = rails.iter().map(|rail| rail.stations.len()).sum();
+    if let Some(modes) = &raw.modes {
+        modes.check(size, &root.key("modes"), faults);
+    }
     let influence = faults.need(&raw.influence, &root, "influence")?;
     let at = root.key("influence");
     let mut blocks = Vec::new();
@@ -163,9 +196,13 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
     if blocks.is_empty() && faults.0.is_empty() {
         faults.add(Fault::new(&at, "must have at least one grid"));
     }
+    let effects = raw.effects.as_ref().map(|raw| raw.effects(size, &root.key("effects"), faults));
     let certificate = raw.certificate.as_ref();
-    let certificate =
-        certificate.map(|given| Certificate { condition: given.condition, error_bound: given.error_bound });
+    let certificate = certificate.map(|given| Certificate {
+        condition: given.condition,
+        error_bound: given.error_bound,
+        extended: given.precision == Precision::DoubleDouble,
+    });
     Some(Grid {
         name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
@@ -173,6 +210,7 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
         rails,
         blocks,
         certificate,
+        effects,
         notes: raw.notes.clone(),
     })
 }
@@ -232,7 +270,10 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::effect::{Effects, Ground, Reaction, Section};
+    use crate::spec::Spot;
     use crate::units::{Force, Length};
+    use splines::Axis;
 
     fn grid() -> Grid {
         let block = DMatrix::from_row_slice(2, 2, &[1.0 / 3.0 * 1e-8, 2.5e-310, 2.5e-310, 1e-7]);
@@ -242,7 +283,8 @@ mod tests {
             theory: Some("timoshenko".to_owned()),
             rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
             blocks: vec![(Quantity::Vertical, block.clone()), (Quantity::VerticalLateral, block * 2.0)],
-            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0 }),
+            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0, extended: true }),
+            effects: None,
             notes: vec!["no longitudinal grids".to_owned()],
         }
     }
@@ -253,9 +295,24 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back_bit_for_bit() {
-        let (read, surface) = read(&source(write(&grid(), None))).expect("our own file");
-        assert_eq!(read, grid());
-        assert!(surface.is_none());
+        let mut given = grid();
+        given.blocks.insert(1, (Quantity::Lateral, given.blocks[0].1.clone()));
+        let lines = |k: f64| vec![(Axis::Vertical, vec![k / 3.0, -1.0]), (Axis::Lateral, vec![0.1 * k, 0.0])];
+        let reaction = |at, spring| Reaction { at, dof: "uy".to_owned(), spring, lines: lines(1.0) };
+        let section = |at| Section {
+            name: "mid \"span\"".to_owned(),
+            at,
+            lines: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(lines),
+        };
+        given.effects = Some(Effects {
+            reactions: vec![reaction(Ground::Point(3), None), reaction(Ground::Along(0.1), Some(2))],
+            sections: vec![section(Spot::Cell([1, 2], 0.3)), section(Spot::Along(1.0 / 3.0))],
+        });
+        for grid in [grid(), given] {
+            let (read, surface) = read(&source(write(&grid, None))).expect("our own file");
+            assert_eq!(read, grid);
+            assert!(surface.is_none());
+        }
     }
 
     #[test]

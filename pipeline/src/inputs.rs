@@ -18,6 +18,15 @@ pub struct Input {
     pub source: Source,
 }
 
+impl Input {
+    fn read(name: String, path: &Path) -> Result<Input, Unread> {
+        let bytes = std::fs::read(path).map_err(|error| Unread::Io(cannot_read(&error)))?;
+        let sha256 = sha256(&bytes);
+        let source = Source::from_bytes(path.display().to_string(), bytes).map_err(Unread::Text)?;
+        Ok(Input { name, sha256, source })
+    }
+}
+
 /// The input files of a job; names are relative to the folder of the first.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
@@ -32,13 +41,12 @@ impl Inputs {
     /// A file that cannot be read or is not text.
     pub fn open(path: &Path) -> Result<(Inputs, Source), Box<Diagnostic>> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let bytes = std::fs::read(path).map_err(|error| {
-            Box::new(Diagnostic::of_file(path.display().to_string(), cannot_read(&error)))
-        })?;
-        let sha256 = sha256(&bytes);
-        let source = Source::from_bytes(path.display().to_string(), bytes)?;
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let first = Input { name, sha256, source: source.clone() };
+        let first = Input::read(name, path).map_err(|unread| match unread {
+            Unread::Io(why) => Box::new(Diagnostic::of_file(path.display().to_string(), why)),
+            Unread::Text(diagnostic) => diagnostic,
+        })?;
+        let source = first.source.clone();
         Ok((Inputs { folder, read: vec![first] }, source))
     }
 
@@ -47,15 +55,19 @@ impl Inputs {
     /// # Errors
     /// Why it cannot be read, in words; or that it is not text, placed in it.
     pub fn refer(&mut self, name: &str) -> Result<Source, Unread> {
-        if let Some(known) = self.read.iter().find(|input| input.name == name) {
+        if let Some(known) = self.find(name) {
             return Ok(known.source.clone());
         }
-        let path = self.folder.join(name);
-        let bytes = std::fs::read(&path).map_err(|error| Unread::Io(cannot_read(&error)))?;
-        let sha256 = sha256(&bytes);
-        let source = Source::from_bytes(path.display().to_string(), bytes).map_err(Unread::Text)?;
-        self.read.push(Input { name: name.to_owned(), sha256, source: source.clone() });
+        let input = Input::read(name.to_owned(), &self.folder.join(name))?;
+        let source = input.source.clone();
+        self.read.push(input);
         Ok(source)
+    }
+
+    /// The file that was read under this name.
+    #[must_use]
+    pub(crate) fn find(&self, name: &str) -> Option<&Input> {
+        self.read.iter().find(|input| input.name == name)
     }
 
     /// All files read, in the order of reading.

@@ -64,6 +64,12 @@ fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}")).into()
 }
 
+/// JSON as files and standard output show it: indented, with a newline at its end.
+#[must_use]
+pub(crate) fn json(value: &Value) -> String {
+    format!("{value:#}\n")
+}
+
 /// Writes to standard output; a reader who has gone away is no error.
 ///
 /// # Errors

@@ -104,11 +104,11 @@ pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
 fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
     let (units, record, name) = (run.scene.units, run.record, &wheel.name);
     let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
-    let values = |part: &str| record.values(&format!("{name}.{part}"));
+    let values = |part: &str| record.part(name, part);
     let radius = run.scene.wheels[wheel.kind].radius;
     let (time, x) = (record.values("time"), values("x"));
     let (spin, angle, depth) = (values("spin_speed"), values("spin_angle"), values("penetration"));
-    let hub = record.values(&format!("{}.speed", run.scene.bodies[wheel.body].name));
+    let hub = record.part(&run.scene.bodies[wheel.body].name, "speed");
     let pairs = |f: &dyn Fn(usize) -> f64| (0..time.len()).map(|i| [time[i], f(i)]).collect::<Vec<_>>();
     let rim = |i: usize| -spin[i] * (radius - depth[i]);
     let speeds = Chart::new(
@@ -229,10 +229,10 @@ pub fn girder(
         .collect();
     let deepest = on
         .iter()
-        .filter_map(|name| peak(run.record.values(&format!("{name}.rail_deflection"))))
+        .filter_map(|name| peak(run.record.part(name, "rail_deflection")))
         .max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((instant, _)) = deepest else { return Ok(None) };
-    let value = |wheel: &str, part: &str| run.record.values(&format!("{wheel}.{part}"))[instant];
+    let value = |wheel: &str, part: &str| run.record.part(wheel, part)[instant];
     let loads: Vec<(f64, f64)> =
         on.iter().map(|wheel| (value(wheel, "x"), value(wheel, "vertical"))).collect();
     let places: Vec<f64> =

@@ -103,6 +103,12 @@ impl Record {
         self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
     }
 
+    /// The column `<owner>.<part>`, such as a body's deflection; empty where there is none.
+    #[must_use]
+    pub(crate) fn part(&self, owner: &str, part: &str) -> &[f64] {
+        self.values(&format!("{owner}.{part}"))
+    }
+
     /// Two columns as points.
     #[must_use]
     pub fn points(&self, x: &str, y: &str) -> Vec<[f64; 2]> {

@@ -62,7 +62,7 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
     for body in &scene.bodies {
         let mut first = None;
         for outcome in outcomes {
-            let Some((i, deepest)) = peak(outcome.record.values(&format!("{}.deflection", body.name))) else {
+            let Some((i, deepest)) = peak(outcome.record.part(&body.name, "deflection")) else {
                 continue;
             };
             let base = *first.get_or_insert(deepest);
@@ -72,7 +72,7 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
                 Cell::from(outcome.label.clone()),
                 Cell::from(body.name.clone()),
                 Cell::from(deepest),
-                Cell::from(outcome.record.values(&format!("{}.x", body.name))[i]),
+                Cell::from(outcome.record.part(&body.name, "x")[i]),
                 Cell::from(outcome.record.values("time")[i]),
                 Cell::from(change),
                 Cell::from(status.to_owned()),
@@ -137,7 +137,7 @@ fn forces(scene: &Scene, outcomes: &[Outcome]) -> Section {
     };
     for wheel in &outcomes[0].cast.wheels {
         let name = &wheel.name;
-        let values = |part: &str| outcomes[0].record.values(&format!("{name}.{part}"));
+        let values = |part: &str| outcomes[0].record.part(name, part);
         let largest = |part: &str| values(part).iter().fold(0.0_f64, |max, value| max.max(value.abs()));
         let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);
         table.rows.push(vec![

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use splines::{Cell, Flexibility, Line, Surface};
+use splines::{Carrier, Cell, Flexibility, Line, Surface};
 
 use crate::fault::{Fault, Faults};
 use crate::place::Place;
@@ -34,6 +34,10 @@ struct RawCell {
     offset: [f64; 3],
     /// 1/EA, 1/GJ, 1/EIy, 1/EIz, 1/(G Asy), 1/(G Asz).
     flexibility: [Option<f64>; 6],
+    /// The member that carries it, and whether that runs against the rail.
+    member: Option<usize>,
+    #[serde(default)]
+    reversed: bool,
 }
 
 /// A surface as its file member.
@@ -45,7 +49,7 @@ pub(crate) fn to_json(surface: &Surface) -> Value {
         .iter()
         .map(|cell| {
             let f = &cell.flexibility;
-            json!({
+            let mut object = json!({
                 "rail": cell.rail,
                 "x": cell.x,
                 "ends": cell.ends,
@@ -53,7 +57,14 @@ pub(crate) fn to_json(surface: &Surface) -> Value {
                 "frame": cell.frame,
                 "offset": cell.offset,
                 "flexibility": [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
-            })
+            });
+            if let Some(carrier) = cell.carrier {
+                object["member"] = json!(carrier.member);
+                if carrier.reversed {
+                    object["reversed"] = json!(true);
+                }
+            }
+            object
         })
         .collect();
     let rows = surface.nodal().row_iter().map(|row| row.iter().copied().collect());
@@ -78,6 +89,7 @@ impl RawSurface {
                     frame: raw.frame,
                     offset: raw.offset,
                     flexibility: Flexibility { axial, torsion, bending_y, bending_z, shear_y, shear_z },
+                    carrier: raw.member.map(|member| Carrier { member, reversed: raw.reversed }),
                 }
             })
             .collect();

@@ -6,6 +6,7 @@ use splines::adams::{self, DataSet, Spline};
 
 use crate::crosscheck::Quantity;
 use crate::grid::Grid;
+use crate::output;
 use crate::units::{Dimension, Force, Length, Units};
 
 /// Number of the first SPLINE: the paper's vertical table is SPLINE/6, its lateral one SPLINE/7.
@@ -124,7 +125,7 @@ pub fn to_json(grid: &Grid, set: &DataSet) -> String {
     let object = json!({
         "format": "girderway-tables/1", "name": grid.name, "units": grid.units.json(), "tables": tables,
     });
-    format!("{object:#}\n")
+    output::json(&object)
 }
 
 /// The tables as CSV, one value a line.
@@ -163,6 +164,7 @@ mod tests {
             rails,
             blocks: vec![(Quantity::Vertical, vertical), (Quantity::VerticalLateral, coupling)],
             certificate: None,
+            effects: None,
             notes: Vec::new(),
         }
     }

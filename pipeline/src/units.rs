@@ -4,7 +4,7 @@
 
 use serde::Deserialize;
 
-use crate::fault::Faults;
+use crate::fault::{Fault, Faults};
 use crate::place::Place;
 
 crate::object::objects!(RawUnits);
@@ -108,7 +108,11 @@ pub struct RawUnits {
 impl Units {
     /// Reads the member `units` of the document at `place`.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
-        let raw = faults.need(raw, place, "units")?;
+        let Some(raw) = raw else {
+            let hint = "none is guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, or in, m, mm; kip, N, kN";
+            faults.add(Fault::new(place, "missing key `units`").hint(hint));
+            return None;
+        };
         let at = place.key("units");
         let length = faults
             .need(&raw.length, &at, "length")

@@ -1,5 +1,8 @@
 //! The command line: help, exit status, what goes where.
 
+mod grids;
+mod modes;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -229,4 +232,29 @@ fn files(folder: &Path, prefix: &str) -> Vec<String> {
     }
     names.sort();
     names
+}
+
+#[test]
+fn an_imported_deck_can_be_solved_at_once() {
+    let folder = folder();
+    fs::copy(base("deck.bdf"), folder.path().join("deck.bdf")).expect("writable");
+    let deck =
+        ["import", "deck.bdf", "--length", "m", "--force", "N", "--up", "0,1,0", "--rail", "crane=1,2"];
+    let run = girderway(&folder, &deck);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let spec = json(&run.stdout);
+    assert_eq!(spec["rails"]["crane"]["stations"], serde_json::json!([0.0, 6.0, 12.0]));
+    let told = "warning: deck.bdf:18:1: CELAS2 6: left out: all its ends are held\n";
+    assert_eq!(text(&run.stderr), told);
+    let run = girderway(&folder, &[&deck[..], &["-o", "spec.json"]].concat());
+    assert_eq!((run.status.code(), run.stdout.len()), (Some(0), 0));
+    assert_eq!(text(&run.stderr), format!("{told}wrote spec.json\n"));
+    assert_eq!(json(&fs::read(folder.path().join("spec.json")).expect("written")), spec);
+    let run = girderway(&folder, &[&deck[..], &["--quiet"]].concat());
+    assert_eq!((run.status.code(), text(&run.stderr)), (Some(0), ""));
+    let run = girderway(&folder, &["fea", "spec.json"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    assert_eq!(json(&run.stdout)["format"], "girderway-grid/1");
+    let run = girderway(&folder, &["import", "deck.bdf", "--json"]);
+    assert_eq!((run.status.code(), &json(&run.stderr)["status"]), (Some(2), &2.into()));
 }

@@ -172,6 +172,11 @@ fn grids_and_tables_are_refused_with_all_their_errors() {
 }
 
 #[test]
+fn decks_and_meshes_are_refused_with_all_their_errors() {
+    all_refused("import.txt");
+}
+
+#[test]
 fn the_base_files_themselves_are_taken() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, text) in base() {

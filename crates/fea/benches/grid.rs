@@ -1,6 +1,6 @@
 //! Time from a model to its influence grid.
 
-use fea::{Girder, Kind, Member, Model, Rail, Section, Segment, Support, Theory, grid, surface};
+use fea::{Girder, Member, Model, Rail, Section, Segment, Support, Theory, grid, surface};
 use splines::{Axis, Probe};
 
 fn main() {
@@ -58,19 +58,11 @@ fn runway(bays: usize) -> (Model, Rail) {
     let mut model =
         Model { sections: vec![section(4.0), section(1.5)], up: [0.0, 1.0, 0.0], ..Model::default() };
     let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
-    let member = |points, section, orientation| Member {
-        points,
-        kind: Kind::Beam,
-        section,
-        orientation,
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    };
     for k in 0..=10 * bays {
         model.points.push([4.0 * k as f64, 40.0, 0.0]);
         if k > 0 {
             rail.segments.push(Segment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
-            model.members.push(member([k - 1, k], 0, [0.0, 1.0, 0.0]));
+            model.members.push(Member::beam([k - 1, k], 0, [0.0, 1.0, 0.0]));
         }
     }
     for bay in 0..=bays {
@@ -78,7 +70,7 @@ fn runway(bays: usize) -> (Model, Rail) {
         for level in (0..4).rev() {
             model.points.push([40.0 * bay as f64, 10.0 * f64::from(level), 0.0]);
             let below = model.points.len() - 1;
-            model.members.push(member([below, above], 1, [0.0, 0.0, 1.0]));
+            model.members.push(Member::beam([below, above], 1, [0.0, 0.0, 1.0]));
             above = below;
         }
         model.supports.push(Support { point: above, fix: [true; 6] });

@@ -2,14 +2,18 @@
 
 use crate::assembly::Assembly;
 use crate::factor::Factor;
+use crate::real::Real;
 
 /// Condition of a factored stiffness, and what rounding can have done to compliances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Certificate {
     /// Estimate of |S K S| |(S K S)^-1| in the 1-norm, S the scale that makes the diagonal about one.
     pub condition: f64,
-    /// Bound on |error of G_ij| / sqrt(G_ii G_jj), from rounding in stiffness, factor and solves.
+    /// Bound on |error of G_ij| / sqrt(G_ii G_jj), from rounding in stiffness, factor and solves; of a grid also
+    /// from that of loads and products.
     pub error_bound: f64,
+    /// Whether stiffness and factor are double-doubles.
+    pub extended: bool,
 }
 
 /// Roundings that form one entry of a member's stiffness (geometry, section, two congruences).
@@ -19,11 +23,14 @@ impl Certificate {
     /// With u = K^-1 p, |u_i' dK u_j| <= |dK| |K^-1| sqrt(G_ii G_jj), K scaled: |dK| is what forming
     /// the entries and factoring them can have changed, |K^-1| is Higham's estimate.
     ///
+    /// Also gives the bound of |K^-1|.
+    ///
     /// # Source
     /// Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3 and algorithm 15.4.
-    pub(crate) fn new(assembly: &Assembly, factor: &Factor) -> Certificate {
+    pub(crate) fn new<T: Real>(assembly: &Assembly<T>, factor: &Factor<T>) -> (Certificate, f64) {
+        let extended = T::ROUNDING < f64::EPSILON;
         if factor.len() == 0 {
-            return Certificate { condition: 1.0, error_bound: 0.0 };
+            return (Certificate { condition: 1.0, error_bound: 0.0, extended }, 0.0);
         }
         let norm = assembly.norm();
         let inverse = inverse_norm(factor);
@@ -33,9 +40,9 @@ impl Certificate {
         let formed = FORMING * assembly.cancellation * norm;
         // One rounding a product, in the factor and in the two solves.
         let factored = 3.0 * (longest + 1) as f64 * growth;
-        let shift = f64::EPSILON * (formed + factored) * room;
+        let shift = T::ROUNDING * (formed + factored) * room;
         let error_bound = if shift < 0.5 { shift / (1.0 - shift) } else { f64::INFINITY };
-        Certificate { condition: norm * inverse, error_bound }
+        (Certificate { condition: norm * inverse, error_bound, extended }, room)
     }
 }
 
@@ -43,16 +50,21 @@ impl Certificate {
 ///
 /// # Source
 /// Higham (1988), ACM Trans. Math. Softw. 14, algorithm 4.1; Hager (1984), SIAM J. Sci. Stat. Comput. 5.
-fn inverse_norm(factor: &Factor) -> f64 {
+fn inverse_norm<T: Real>(factor: &Factor<T>) -> f64 {
     let n = factor.len();
+    let solve = |x: &mut Vec<f64>| {
+        let mut wide: Vec<T> = x.iter().map(|&value| T::from(value)).collect();
+        factor.solve(&mut wide);
+        x.iter_mut().zip(wide).for_each(|(x, value)| *x = value.double());
+    };
     let one_norm = |x: &[f64]| x.iter().map(|v| v.abs()).sum::<f64>();
     let mut x = vec![1.0 / n as f64; n];
-    factor.solve(&mut x);
+    solve(&mut x);
     let mut best = one_norm(&x);
     let mut last = usize::MAX;
     for _ in 0..5 {
         let mut z: Vec<f64> = x.iter().map(|v| if *v < 0.0 { -1.0 } else { 1.0 }).collect();
-        factor.solve(&mut z);
+        solve(&mut z);
         let largest = (0..n).fold(0, |a, b| if z[b].abs() > z[a].abs() { b } else { a });
         if largest == last {
             break;
@@ -60,7 +72,7 @@ fn inverse_norm(factor: &Factor) -> f64 {
         last = largest;
         x.fill(0.0);
         x[largest] = 1.0;
-        factor.solve(&mut x);
+        solve(&mut x);
         let norm = one_norm(&x);
         if norm <= best {
             break;
@@ -70,6 +82,6 @@ fn inverse_norm(factor: &Factor) -> f64 {
     let step = 1.0 / (n.max(2) - 1) as f64;
     let mut x: Vec<f64> =
         (0..n).map(|k| (1.0 + k as f64 * step) * if k % 2 == 0 { 1.0 } else { -1.0 }).collect();
-    factor.solve(&mut x);
+    solve(&mut x);
     best.max(2.0 * one_norm(&x) / (3.0 * n as f64))
 }

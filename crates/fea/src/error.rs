@@ -33,11 +33,17 @@ pub enum Error {
         /// Its freedom that moves most.
         freedom: Freedom,
     },
-    /// Rounding may have eaten every digit.
-    #[error("condition {condition:.1e} leaves no digit; weakest is point {point} in {freedom}")]
+    /// Rounding may have eaten more digits than asked, even in double-doubles.
+    #[error(
+        "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {freedom}"
+    )]
     Ill {
         /// Estimate of the condition of the scaled stiffness.
         condition: f64,
+        /// Relative bound that can be given, infinite where there is none.
+        bound: f64,
+        /// Relative bound asked.
+        asked: f64,
         /// Point that moves most in the weakest pattern.
         point: usize,
         /// Its freedom that moves most.
@@ -48,6 +54,17 @@ pub enum Error {
     Factor {
         /// Number of unknown freedoms.
         unknowns: usize,
+    },
+    /// Modes of a structure without mass.
+    #[error("no mass is on a freedom that can move")]
+    NoMass,
+    /// Modes that could not all be found, or not shown to be all.
+    #[error("{found} of {asked} modes were found, but not shown to be the lowest")]
+    Modes {
+        /// How many were asked for.
+        asked: usize,
+        /// How many were found.
+        found: usize,
     },
     /// A rail was asked for where none was given.
     #[error("no rail was given")]
@@ -91,6 +108,8 @@ pub enum Item {
         /// Which of its segments.
         segment: usize,
     },
+    /// An effect asked for, by its place in the list.
+    Effect(usize),
     /// A station of a rail.
     Station {
         /// Which rail.
@@ -146,6 +165,20 @@ pub enum Fault {
         /// The index given.
         member: usize,
     },
+    /// A place that is not on the member.
+    #[error("places of a member are from 0 to 1, got {place}")]
+    NoPlace {
+        /// The place given.
+        place: f64,
+    },
+    /// A freedom of a point without a reaction of its own.
+    #[error("point {point} has no reaction of its own in {freedom}")]
+    NoHold {
+        /// The point given.
+        point: usize,
+        /// The freedom given.
+        freedom: Freedom,
+    },
     /// A flexible part without length.
     #[error("the flexible part has no length")]
     NoLength,
@@ -171,14 +204,6 @@ pub enum Fault {
         segment: usize,
         /// Where the overlap begins.
         x: f64,
-    },
-    /// A member that carries a segment of another rail: their local coupling has no cell.
-    #[error("member {member} already carries rail {rail}")]
-    Shared {
-        /// The member.
-        member: usize,
-        /// The other rail.
-        rail: usize,
     },
     /// A station that is not beyond the one before it.
     #[error("stations must increase, got {value}")]
@@ -250,6 +275,7 @@ impl fmt::Display for Item {
             Item::Overhang(k) => write!(f, "overhang {k}"),
             Item::Girder => write!(f, "girder"),
             Item::Rail(k) => write!(f, "rail {k}"),
+            Item::Effect(k) => write!(f, "effect {k}"),
             Item::Segment { rail, segment } => write!(f, "segment {segment} of rail {rail}"),
             Item::Station { rail, station } => write!(f, "station {station} of rail {rail}"),
         }

@@ -4,12 +4,15 @@ use faer::Par;
 use faer::Side;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use sprs::CsMat;
+
+use crate::real::Real;
 
 /// Why a matrix has no factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,9 +25,9 @@ pub(crate) enum Refusal {
 
 /// L with L L^T = K, K symmetric positive definite, in panels of adjoining columns.
 #[derive(Debug)]
-pub(crate) struct Factor {
+pub(crate) struct Factor<T: Real = f64> {
     symbolic: SymbolicCholesky<usize>,
-    values: Vec<f64>,
+    values: Vec<T>,
     /// Panel of each column.
     owner: Vec<usize>,
     panels: usize,
@@ -32,11 +35,11 @@ pub(crate) struct Factor {
 
 /// Columns `start..start + width` of L: `values` holds a dense column-major block whose first `width`
 /// rows are the triangle and whose others are the rows `below`.
-struct Panel<'a> {
+struct Panel<'a, T> {
     start: usize,
     width: usize,
     below: &'a [usize],
-    values: &'a [f64],
+    values: &'a [T],
 }
 
 /// w = L^-1 p for a sparse p: values on the panels between p and the root, ascending.
@@ -50,9 +53,9 @@ pub(crate) struct Tail {
     pub values: Vec<f64>,
 }
 
-impl Factor {
+impl<T: Real> Factor<T> {
     /// Factors the matrix whose upper triangle is given, in the order given.
-    pub fn new(upper: &CsMat<f64>) -> Result<Factor, Refusal> {
+    pub fn new(upper: &CsMat<T>) -> Result<Factor<T>, Refusal> {
         let n = upper.cols();
         let storage = upper.indptr();
         let pattern = SymbolicSparseColMatRef::new_checked(
@@ -62,13 +65,16 @@ impl Factor {
             None,
             upper.indices(),
         );
-        let params = CholeskySymbolicParams::default();
+        let mut params = CholeskySymbolicParams::default();
+        if !T::PANELS {
+            params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
+        }
         let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
             .map_err(|_| Refusal::Size)?;
         let mut values = Vec::new();
         values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size)?;
-        values.resize(symbolic.len_val(), 0.0);
-        let request = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        values.resize(symbolic.len_val(), T::zero());
+        let request = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
         let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size)?;
         symbolic
             .factorize_numeric_llt(
@@ -96,7 +102,7 @@ impl Factor {
         self.owner.len()
     }
 
-    fn panel(&self, k: usize) -> Panel<'_> {
+    fn panel(&self, k: usize) -> Panel<'_, T> {
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(s) => {
                 let (from, to) = (s.col_ptr()[k], s.col_ptr()[k + 1]);
@@ -122,7 +128,7 @@ impl Factor {
             let panel = self.panel(k);
             let rows = panel.width + panel.below.len();
             for j in 0..panel.width {
-                let pivot = panel.values[j * rows + j];
+                let pivot = panel.values[j * rows + j].double();
                 least = least.min(pivot * pivot);
             }
         }
@@ -153,10 +159,10 @@ impl Factor {
     /// # Source
     /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9; Davis, Direct Methods for Sparse Linear
     /// Systems (2006), chapter 3.
-    pub fn forward(&self, load: &[(usize, f64)], work: &mut Work) -> Tail {
+    pub fn forward(&self, load: &[(usize, f64)], work: &mut Work<T>) -> Tail {
         let Work { x, seen } = work;
         for &(row, value) in load {
-            x[row] += value;
+            x[row] += T::from(value);
         }
         let path = self.path(load.iter().map(|&(row, _)| row), seen);
         let mut tail = Tail::default();
@@ -171,14 +177,14 @@ impl Factor {
                     tail.widths.push(panel.width);
                 }
             }
-            tail.values.extend_from_slice(&x[span.clone()]);
-            x[span].fill(0.0);
+            tail.values.extend(x[span.clone()].iter().map(|value| value.double()));
+            x[span].fill(T::zero());
         }
         tail
     }
 
     /// Solves K x = x in place.
-    pub fn solve(&self, x: &mut [f64]) {
+    pub fn solve(&self, x: &mut [T]) {
         for k in 0..self.panels {
             self.panel(k).forward(x);
         }
@@ -188,8 +194,8 @@ impl Factor {
     }
 
     /// Workspace for `forward`.
-    pub fn work(&self) -> Work {
-        Work { x: vec![0.0; self.len()], seen: vec![false; self.panels] }
+    pub fn work(&self) -> Work<T> {
+        Work { x: vec![T::zero(); self.len()], seen: vec![false; self.panels] }
     }
 
     /// Largest row sum of |L| |L^T|, and the most entries of a row of L.
@@ -213,7 +219,7 @@ impl Factor {
             for j in 0..panel.width {
                 for i in j..height {
                     let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
-                    each(row, panel.start + j, panel.values[j * height + i].abs());
+                    each(row, panel.start + j, panel.values[j * height + i].double().abs());
                 }
             }
         }
@@ -221,29 +227,27 @@ impl Factor {
 }
 
 /// Scratch of the forward solves; zero between them.
-pub(crate) struct Work {
-    x: Vec<f64>,
+pub(crate) struct Work<T: Real = f64> {
+    x: Vec<T>,
     seen: Vec<bool>,
 }
 
-impl Work {
-    /// Products of `tail` with each of `others`.
-    pub fn dots<'a>(
-        &mut self,
-        tail: &Tail,
-        others: impl Iterator<Item = &'a Tail>,
-        mut each: impl FnMut(f64),
-    ) {
-        tail.runs().for_each(|(start, run)| self.x[start..start + run.len()].copy_from_slice(run));
-        for other in others {
-            let mut sum = 0.0;
-            for (start, run) in other.runs() {
-                sum += dot(run, &self.x[start..start + run.len()]);
-            }
-            each(sum);
+/// Products of `tail` with each of `others`, over the scratch `x`, zero before and after.
+pub(crate) fn dots<'a>(
+    x: &mut [f64],
+    tail: &Tail,
+    others: impl Iterator<Item = &'a Tail>,
+    mut each: impl FnMut(f64),
+) {
+    tail.runs().for_each(|(start, run)| x[start..start + run.len()].copy_from_slice(run));
+    for other in others {
+        let mut sum = 0.0;
+        for (start, run) in other.runs() {
+            sum += dot(run, &x[start..start + run.len()]);
         }
-        tail.runs().for_each(|(start, run)| self.x[start..start + run.len()].fill(0.0));
+        each(sum);
     }
+    tail.runs().for_each(|(start, run)| x[start..start + run.len()].fill(0.0));
 }
 
 /// Sum of products in four lanes, in an order that depends on the length alone.
@@ -271,28 +275,28 @@ impl Tail {
     }
 }
 
-impl Panel<'_> {
-    fn forward(&self, x: &mut [f64]) {
+impl<T: Real> Panel<'_, T> {
+    fn forward(&self, x: &mut [T]) {
         let height = self.width + self.below.len();
         for j in 0..self.width {
             let column = &self.values[j * height + j..(j + 1) * height];
             let (pivot, rest) = column.split_at(1);
             let value = x[self.start + j] / pivot[0];
             x[self.start + j] = value;
-            if value == 0.0 {
+            if value == T::zero() {
                 continue;
             }
             let (triangle, below) = rest.split_at(self.width - 1 - j);
             for (l, target) in triangle.iter().zip(&mut x[self.start + j + 1..]) {
-                *target -= l * value;
+                *target -= *l * value;
             }
             for (l, &row) in below.iter().zip(self.below) {
-                x[row] -= l * value;
+                x[row] -= *l * value;
             }
         }
     }
 
-    fn backward(&self, x: &mut [f64]) {
+    fn backward(&self, x: &mut [T]) {
         let height = self.width + self.below.len();
         for j in (0..self.width).rev() {
             let column = &self.values[j * height + j..(j + 1) * height];
@@ -300,10 +304,10 @@ impl Panel<'_> {
             let (triangle, below) = rest.split_at(self.width - 1 - j);
             let mut value = x[self.start + j];
             for (l, &known) in triangle.iter().zip(&x[self.start + j + 1..]) {
-                value -= l * known;
+                value -= *l * known;
             }
             for (l, &row) in below.iter().zip(self.below) {
-                value -= l * x[row];
+                value -= *l * x[row];
             }
             x[self.start + j] = value / pivot[0];
         }
@@ -316,6 +320,7 @@ mod tests {
     use sprs::TriMat;
 
     use super::*;
+    use crate::real::Extended;
 
     /// Positive definite matrix with the given half bandwidth, and its upper triangle.
     fn banded(n: usize, width: usize) -> (DMatrix<f64>, CsMat<f64>) {
@@ -334,13 +339,23 @@ mod tests {
 
     #[test]
     fn solves_agree_with_a_dense_factor_in_single_columns_and_in_panels() {
+        agree(|upper| upper.clone());
+    }
+
+    #[test]
+    fn extended_solves_agree_with_a_dense_factor() {
+        agree(|upper| upper.map(|x: &f64| Extended::from(*x)));
+    }
+
+    fn agree<T: Real>(precision: impl Fn(&CsMat<f64>) -> CsMat<T>) {
         for (n, width, panels) in [(40, 1, false), (300, 299, true)] {
             let (dense, upper) = banded(n, width);
-            let factor = Factor::new(&upper).expect("positive definite");
-            assert_eq!(factor.panels < n, panels, "another kind of factor than meant");
+            let factor = Factor::new(&precision(&upper)).expect("positive definite");
+            assert_eq!(factor.panels < n, panels && T::PANELS, "another kind of factor than meant");
             let inverse = dense.clone().try_inverse().expect("positive definite");
             let scale = inverse.amax();
             let mut work = factor.work();
+            let mut scratch = vec![0.0; n];
             let loads = [vec![(3, 1.0)], vec![(n - 1, 1.0), (7, -2.0)]];
             let tails = loads.each_ref().map(|load| factor.forward(load, &mut work));
             let full = loads.each_ref().map(|load| {
@@ -350,14 +365,15 @@ mod tests {
             });
             for i in 0..2 {
                 let mut products = Vec::new();
-                work.dots(&tails[i], tails.iter(), |product| products.push(product));
+                dots(&mut scratch, &tails[i], tails.iter(), |product| products.push(product));
                 for j in 0..2 {
                     let exact = (full[i].transpose() * &inverse * &full[j])[0];
                     assert!((products[j] - exact).abs() < 1e-13 * scale);
                 }
-                let mut x = full[i].as_slice().to_vec();
+                let mut x: Vec<T> = full[i].iter().map(|&x| T::from(x)).collect();
                 factor.solve(&mut x);
-                assert!((DVector::from_vec(x) - &inverse * &full[i]).amax() < 1e-13 * scale);
+                let x = DVector::from_iterator(n, x.into_iter().map(Real::double));
+                assert!((x - &inverse * &full[i]).amax() < 1e-13 * scale);
             }
         }
     }

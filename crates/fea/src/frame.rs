@@ -1,6 +1,5 @@
 //! A frame, factored once.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::{SVector, Vector3};
@@ -8,13 +7,22 @@ use splines::{Axis, Line, Probe};
 
 use crate::assembly::Assembly;
 use crate::certificate::Certificate;
-use crate::element::{Element, Matrix12};
+use crate::element::Element;
 use crate::error::{Error, Fault, Item};
-use crate::factor::{Factor, Refusal, Tail, Work};
+use crate::factor::{Factor, Refusal, Tail};
 use crate::freedoms::{Freedoms, Sum};
-use crate::mechanism::{PIVOT, weakest};
+use crate::mechanism::{PIVOT, PIVOT_EXTENDED, weakest};
 use crate::model::{Freedom, Model};
 use crate::rail::{Rail, lay};
+use crate::real::Extended;
+use crate::solver::{Scratch, Solver};
+
+/// Error bound that a frame must meet where nothing else is asked.
+pub const ACCURACY: f64 = 1e-6;
+/// Share of the accuracy that the factor may use up in doubles; evaluation needs some.
+const ROOM: f64 = 0.9;
+/// Unknowns up to which double-doubles cost next to nothing and are always used.
+const SMALL: usize = 100;
 
 /// A model and its rails, numbered, assembled and factored: answers any number of questions.
 #[derive(Debug)]
@@ -22,11 +30,14 @@ pub struct Frame {
     pub(crate) elements: Vec<Element>,
     pub(crate) freedoms: Freedoms,
     assembly: Assembly,
-    factor: Factor,
+    pub(crate) solver: Solver,
     certificate: Certificate,
+    /// Bound of |(S K S)^-1|.
+    pub(crate) inverse: f64,
+    /// Error bound asked.
+    pub(crate) accuracy: f64,
     line: Option<Arc<Line>>,
     states: Vec<[Sum; 6]>,
-    slack: BTreeMap<usize, Matrix12>,
 }
 
 impl Frame {
@@ -36,6 +47,15 @@ impl Frame {
     /// An entry that cannot be used; a mechanism, by point and freedom; a stiffness so badly
     /// conditioned that no digit can be trusted.
     pub fn new(m: &Model, rails: &[Rail]) -> Result<Frame, Error> {
+        Frame::accurate(m, rails, ACCURACY)
+    }
+
+    /// The same, with compliances whose error bound is at most `accuracy`, relative: in doubles where that
+    /// suffices, else in double-doubles formed from the model anew.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn accurate(m: &Model, rails: &[Rail], accuracy: f64) -> Result<Frame, Error> {
         m.check()?;
         let elements: Vec<Element> =
             (0..m.members.len()).map(|index| Element::new(m, index)).collect::<Result<_, _>>()?;
@@ -45,28 +65,12 @@ impl Frame {
             covered(&layout.line, rails)?;
         }
         let assembly = Assembly::new(m, &elements, &freedoms);
-        let unknowns = assembly.column.len();
-        if !assembly.norm().is_finite() {
-            return Err(Error::Factor { unknowns });
-        }
-        let factor = match Factor::new(&assembly.upper) {
-            Ok(factor) if factor.least_pivot() > PIVOT => factor,
-            Ok(_) | Err(Refusal::Indefinite) => {
-                let (point, freedom) = weakest(&assembly, &freedoms);
-                return Err(Error::Mechanism { point, freedom });
-            }
-            Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
-        };
-        let certificate = Certificate::new(&assembly, &factor);
-        if !certificate.error_bound.is_finite() {
-            let (point, freedom) = weakest(&assembly, &freedoms);
-            return Err(Error::Ill { condition: certificate.condition, point, freedom });
-        }
-        let (line, states, slack) = match layout {
-            Some(layout) => (Some(Arc::new(layout.line)), layout.states, layout.slack),
+        let (solver, certificate, inverse) = certified(m, &assembly, &freedoms, accuracy)?;
+        let (line, states) = match layout {
+            Some(layout) => (Some(Arc::new(layout.line)), layout.states),
             None => Default::default(),
         };
-        Ok(Frame { elements, freedoms, assembly, factor, certificate, line, states, slack })
+        Ok(Frame { elements, freedoms, assembly, solver, certificate, inverse, accuracy, line, states })
     }
 
     /// How far compliances of this frame can be trusted.
@@ -78,7 +82,7 @@ impl Frame {
     /// Number of unknown freedoms.
     #[must_use]
     pub fn unknowns(&self) -> usize {
-        self.factor.len()
+        self.solver.len()
     }
 
     /// The cells of the rails; state k of the line is state k of the surface.
@@ -107,11 +111,6 @@ impl Frame {
         &self.states
     }
 
-    /// What releases add to the compliance between the end states of cells.
-    pub(crate) fn slack(&self) -> &BTreeMap<usize, Matrix12> {
-        &self.slack
-    }
-
     /// Shape row of a probe over the motions of the bodies, and its cell.
     pub(crate) fn row(&self, probe: Probe) -> Result<(Sum, usize), Error> {
         let row = self.line()?.row(probe)?;
@@ -135,31 +134,60 @@ impl Frame {
     pub(crate) fn scaled(&self, sum: &Sum) -> Option<Vec<(usize, f64)>> {
         let mut load = Vec::with_capacity(sum.terms.len());
         for (column, value) in self.freedoms.supported(sum).significant() {
-            let k = self.assembly.unknown[column]?;
-            load.push((k, value * self.assembly.scale[k]));
+            let k = self.assembly.numbering.unknown[column]?;
+            load.push((k, value * self.assembly.numbering.scale[k]));
         }
         Some(load)
     }
 
+    /// A sum over motions of the bodies as a load on the scaled unknowns, less what acts on freedoms that
+    /// nothing stiffens.
+    pub(crate) fn stiffened(&self, sum: &Sum) -> Vec<(usize, f64)> {
+        let supported = self.freedoms.supported(sum);
+        let known = supported.significant().filter_map(|(column, value)| {
+            let k = self.assembly.numbering.unknown[column]?;
+            Some((k, value * self.assembly.numbering.scale[k]))
+        });
+        known.collect()
+    }
+
     /// Motion of the references of all bodies, six each, under a scaled load.
     pub(crate) fn motions(&self, load: &[(usize, f64)]) -> Vec<SVector<f64, 6>> {
-        let mut x = vec![0.0; self.factor.len()];
+        let mut x = vec![0.0; self.solver.len()];
         load.iter().for_each(|&(k, value)| x[k] += value);
-        self.factor.solve(&mut x);
+        self.solver.solve(&mut x);
         let mut motions = vec![SVector::<f64, 6>::zeros(); self.freedoms.bodies.len()];
         for (k, value) in x.into_iter().enumerate() {
-            let column = self.assembly.column[k];
-            motions[column / 6][column % 6] = value * self.assembly.scale[k];
+            let column = self.assembly.numbering.column[k];
+            motions[column / 6][column % 6] = value * self.assembly.numbering.scale[k];
         }
         motions.iter().zip(&self.freedoms.bodies).map(|(motion, body)| body.basis * motion).collect()
     }
 
-    pub(crate) fn work(&self) -> Work {
-        self.factor.work()
+    /// Refuses a certificate that is worse than asked.
+    pub(crate) fn meets(&self, certificate: Certificate) -> Result<Certificate, Error> {
+        if certificate.error_bound <= self.accuracy {
+            return Ok(certificate);
+        }
+        Err(ill(certificate, self.accuracy, &self.assembly, &self.freedoms))
     }
 
-    pub(crate) fn forward(&self, load: &[(usize, f64)], work: &mut Work) -> Tail {
-        self.factor.forward(load, work)
+    /// Unknown of a column of the bodies, if it is one.
+    pub(crate) fn unknown(&self, column: usize) -> Option<usize> {
+        self.assembly.numbering.unknown[column]
+    }
+
+    /// Scale of an unknown.
+    pub(crate) fn scale(&self, unknown: usize) -> f64 {
+        self.assembly.numbering.scale[unknown]
+    }
+
+    pub(crate) fn scratch(&self) -> Scratch {
+        self.solver.scratch()
+    }
+
+    pub(crate) fn forward(&self, load: &[(usize, f64)], scratch: &mut Scratch) -> Tail {
+        self.solver.forward(load, scratch)
     }
 
     /// Six sums of a point's own freedoms.
@@ -174,6 +202,51 @@ impl Frame {
     }
 }
 
+/// Factors in doubles, or in double-doubles where the bound demands it.
+fn certified(
+    m: &Model,
+    assembly: &Assembly,
+    freedoms: &Freedoms,
+    accuracy: f64,
+) -> Result<(Solver, Certificate, f64), Error> {
+    let unknowns = assembly.numbering.column.len();
+    if !assembly.norm().is_finite() {
+        return Err(Error::Factor { unknowns });
+    }
+    match Factor::new(&assembly.upper) {
+        Ok(_) if unknowns <= SMALL => {}
+        Ok(factor) if factor.least_pivot() > PIVOT => {
+            let (certificate, inverse) = Certificate::new(assembly, &factor);
+            if certificate.error_bound <= ROOM * accuracy {
+                return Ok((Solver::Double(factor), certificate, inverse));
+            }
+        }
+        Ok(_) | Err(Refusal::Indefinite) => {}
+        Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
+    }
+    let extended = Assembly::<Extended>::again(m, &assembly.numbering)?;
+    let factor = match Factor::new(&extended.upper) {
+        Ok(factor) if factor.least_pivot() > PIVOT_EXTENDED => factor,
+        Ok(_) | Err(Refusal::Indefinite) => {
+            let (point, freedom) = weakest(assembly, freedoms);
+            return Err(Error::Mechanism { point, freedom });
+        }
+        Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
+    };
+    let (certificate, inverse) = Certificate::new(&extended, &factor);
+    if certificate.error_bound > accuracy {
+        return Err(ill(certificate, accuracy, assembly, freedoms));
+    }
+    Ok((Solver::Extended(factor), certificate, inverse))
+}
+
+/// An error bound above the accuracy asked.
+fn ill(certificate: Certificate, asked: f64, assembly: &Assembly, freedoms: &Freedoms) -> Error {
+    let (point, freedom) = weakest(assembly, freedoms);
+    let Certificate { condition, error_bound: bound, .. } = certificate;
+    Error::Ill { condition, bound, asked, point, freedom }
+}
+
 fn covered(line: &Line, rails: &[Rail]) -> Result<(), Error> {
     for (rail, given) in rails.iter().enumerate() {
         for (station, &x) in given.stations.iter().enumerate() {
@@ -185,4 +258,11 @@ fn covered(line: &Line, rails: &[Rail]) -> Result<(), Error> {
         }
     }
     Ok(())
+}
+
+impl Frame {
+    /// The scaled stiffness and its factor.
+    pub(crate) fn system(&self) -> (&Assembly, &Solver) {
+        (&self.assembly, &self.solver)
+    }
 }

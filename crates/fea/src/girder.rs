@@ -1,7 +1,7 @@
 //! Straight girders, continuous over their supports.
 
 use crate::error::{Error, Fault, Item, Quantity};
-use crate::model::{Kind, Member, Model, Support};
+use crate::model::{Member, Model, Support};
 use crate::rail::{Rail, Segment};
 use crate::section::{Section, Theory, not_negative, positive};
 
@@ -82,14 +82,7 @@ impl Girder {
             model.supports.push(Support { point, fix: [k == 0, true, true, true, false, false] });
         }
         for k in 1..model.points.len() {
-            model.members.push(Member {
-                points: [k - 1, k],
-                kind: Kind::Beam,
-                section: 0,
-                orientation: [0.0, 1.0, 0.0],
-                offsets: [[0.0; 3]; 2],
-                releases: [[false; 6]; 2],
-            });
+            model.members.push(Member::beam([k - 1, k], 0, model.up));
         }
         let offset = [0.0, self.rail_height, 0.0];
         let segments = (0..model.members.len()).map(|member| Segment { member, offset }).collect();

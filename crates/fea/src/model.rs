@@ -67,6 +67,21 @@ pub struct Member {
     pub releases: [Freedoms6; 2],
 }
 
+impl Member {
+    /// A beam between two points, flexible from one to the other, with nothing let go.
+    #[must_use]
+    pub const fn beam(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Self {
+        Member {
+            points,
+            kind: Kind::Beam,
+            section,
+            orientation,
+            offsets: [[0.0; 3]; 2],
+            releases: [[false; 6]; 2],
+        }
+    }
+}
+
 /// Global freedoms of a point that the ground holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Support {

@@ -1,12 +1,12 @@
 //! Rails on members: how a rail is laid over the cells that carry it.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Vector3};
-use splines::{Cell, Line};
+use splines::{Carrier, Cell, Line};
 
 use crate::assembly::reach;
-use crate::element::{Element, Matrix6, Matrix12, blocks, triad};
+use crate::element::{Element, Matrix6, blocks, triad};
 use crate::error::{Error, Fault, Item, Quantity};
 use crate::freedoms::{Freedoms, Sum};
 use crate::model::Model;
@@ -47,8 +47,6 @@ pub(crate) struct Layout {
     pub line: Line,
     /// Six sums a state, over the motions of the bodies.
     pub states: Vec<[Sum; 6]>,
-    /// What releases add to the compliance between the states of a cell's ends, by cell.
-    pub slack: BTreeMap<usize, Matrix12>,
 }
 
 /// A flexible cell with its order along the rail.
@@ -65,9 +63,6 @@ struct Builder<'a> {
     freedoms: &'a Freedoms,
     states: Vec<[Sum; 6]>,
     known: HashMap<(usize, usize, [u64; 3]), usize>,
-    slack: BTreeMap<usize, Matrix12>,
-    /// Rail that each member carries.
-    carried: HashMap<usize, usize>,
 }
 
 /// Lays all rails.
@@ -77,19 +72,12 @@ pub(crate) fn lay(
     elements: &[Element],
     freedoms: &Freedoms,
 ) -> Result<Layout, Error> {
-    let mut builder = Builder {
-        elements,
-        freedoms,
-        states: Vec::new(),
-        known: HashMap::new(),
-        slack: BTreeMap::new(),
-        carried: HashMap::new(),
-    };
+    let mut builder = Builder { elements, freedoms, states: Vec::new(), known: HashMap::new() };
     let mut cells = Vec::new();
     for (index, rail) in rails.iter().enumerate() {
         builder.rail(m, index, rail, &mut cells)?;
     }
-    Ok(Layout { line: Line::new(cells)?, states: builder.states, slack: builder.slack })
+    Ok(Layout { line: Line::new(cells)?, states: builder.states })
 }
 
 impl Builder<'_> {
@@ -114,10 +102,6 @@ impl Builder<'_> {
             let element =
                 self.elements.get(given.member).ok_or(at(Fault::NoMember { member: given.member }))?;
             finite(Quantity::Offset, &given.offset).map_err(at)?;
-            let other = *self.carried.entry(given.member).or_insert(index);
-            if other != index {
-                return Err(at(Fault::Shared { member: given.member, rail: other }));
-            }
             let along = |k: usize| (frame * (element.ends[k] - origin))[0];
             let (mut x, mut order) = ([along(0), along(1)], [0, 1]);
             if x[1] < x[0] {
@@ -136,9 +120,6 @@ impl Builder<'_> {
             let (length, flexibility) = (element.length, element.flexibility);
             let tips = order.map(|end| self.tip(index, given.member, end, &frame));
             let ends = [0, 1].map(|k| self.end(given.member, order[k], tips[k], &frame));
-            if let Some(released) = &element.released {
-                self.slack.insert(cells.len(), slack(element, &released.slack, order, &frame));
-            }
             cells.push(Cell {
                 rail: index,
                 x,
@@ -147,6 +128,7 @@ impl Builder<'_> {
                 frame: std::array::from_fn(|i| std::array::from_fn(|j| local[(i, j)])),
                 offset: offset.into(),
                 flexibility,
+                carrier: Some(Carrier { member: given.member, reversed: order[0] == 1 }),
             });
             spans.push(Span { segment, x, tips, offset });
         }
@@ -193,19 +175,6 @@ impl Builder<'_> {
     }
 }
 
-/// The slack of a member in the frame of a rail, ends in the order given.
-fn slack(element: &Element, local: &Matrix12, order: [usize; 2], frame: &Matrix3<f64>) -> Matrix12 {
-    let back: Matrix6 = blocks(frame) * element.rotation().transpose();
-    let mut out = Matrix12::zeros();
-    for (i, a) in order.into_iter().enumerate() {
-        for (j, b) in order.into_iter().enumerate() {
-            let block = back * local.fixed_view::<6, 6>(6 * a, 6 * b) * back.transpose();
-            out.fixed_view_mut::<6, 6>(6 * i, 6 * j).copy_from(&block);
-        }
-    }
-    out
-}
-
 /// Rigid arms between neighbouring segments; refuses overlaps.
 fn fill_gaps(rail: usize, mut spans: Vec<Span>, cells: &mut Vec<Cell>) -> Result<(), Error> {
     let largest = spans.iter().flat_map(|span| span.x).fold(0.0_f64, |a, x| a.max(x.abs()));
@@ -235,6 +204,7 @@ fn fill_gaps(rail: usize, mut spans: Vec<Span>, cells: &mut Vec<Cell>) -> Result
                 frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
                 offset: offset.into(),
                 flexibility: Default::default(),
+                carrier: None,
             });
         }
     }

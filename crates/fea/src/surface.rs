@@ -17,7 +17,7 @@ use crate::rail::Rail;
 pub struct Exact {
     /// Influence coefficients at any place of any rail.
     pub surface: Surface,
-    /// How far to trust it.
+    /// How far to trust the compliance of its states; evaluation adds a few roundings.
     pub certificate: Certificate,
 }
 
@@ -51,11 +51,13 @@ impl Frame {
         let line = Arc::clone(self.line()?);
         let sums: Vec<&Sum> = self.states().iter().flatten().take(6 * line.states()).collect();
         let mut nodal = self.compliance(&sums);
-        for (&cell, slack) in self.slack() {
-            let ends = line.cells()[cell].ends;
+        for (a, b) in self.released(line.cells()) {
+            let (row, column) = (&line.cells()[a], &line.cells()[b]);
+            let slack = self.slack(row, column);
             for i in 0..12 {
                 for j in 0..12 {
-                    nodal[(6 * ends[i / 6] + i % 6, 6 * ends[j / 6] + j % 6)] += slack[(i, j)];
+                    let at = (6 * row.ends[i / 6] + i % 6, 6 * column.ends[j / 6] + j % 6);
+                    nodal[at] += slack[(i, j)];
                 }
             }
         }
@@ -77,7 +79,7 @@ impl Frame {
 
     /// Compliance between sums over the columns of the bodies.
     fn compliance(&self, sums: &[&Sum]) -> DMatrix<f64> {
-        let mut work = self.work();
+        let mut scratch = self.scratch();
         let mut loose = Vec::new();
         let mut tails = Vec::with_capacity(sums.len());
         for (k, sum) in sums.iter().enumerate() {
@@ -85,7 +87,7 @@ impl Frame {
                 loose.push(k);
                 Vec::new()
             });
-            tails.push(self.forward(&load, &mut work));
+            tails.push(self.forward(&load, &mut scratch));
         }
         let mut out = self.gram(&tails);
         for k in loose {

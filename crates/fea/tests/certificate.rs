@@ -3,23 +3,15 @@
 mod common;
 
 use common::probes;
-use fea::{Error, Frame, Girder, Kind, Member, Model, Rail, Section, Segment, Support};
+use fea::{Error, Frame, Girder, Member, Model, Rail, Section, Segment, Support};
 use splines::Axis;
 
 /// A simply supported beam of length 60 cut at the given places, none at midspan.
 fn chain(cuts: &[f64]) -> (Model, Rail) {
     let points = cuts.iter().map(|&x| [x, 0.0, 0.0]).collect();
     let section = Section { e: 4.32e9, iz: 9.528, ..Section::default() };
-    let members: Vec<Member> = (1..cuts.len())
-        .map(|k| Member {
-            points: [k - 1, k],
-            kind: Kind::Beam,
-            section: 0,
-            orientation: [0.0, 1.0, 0.0],
-            offsets: [[0.0; 3]; 2],
-            releases: [[false; 6]; 2],
-        })
-        .collect();
+    let members: Vec<Member> =
+        (1..cuts.len()).map(|k| Member::beam([k - 1, k], 0, [0.0, 1.0, 0.0])).collect();
     let supports = [0, cuts.len() - 1]
         .map(|point| Support { point, fix: [point == 0, true, true, true, false, false] })
         .to_vec();
@@ -41,34 +33,48 @@ fn check(cuts: &[f64]) -> Option<(f64, f64)> {
     };
     let x = 31.0_f64;
     let exact = x * x * (60.0 - x).powi(2) / (3.0 * 60.0 * 4.32e9 * 9.528);
-    let found = frame.grid(&probes(Axis::Vertical, &[x])).expect("solvable").value[(0, 0)];
-    Some(((found / exact - 1.0).abs(), frame.certificate().error_bound))
+    let grid = frame.grid(&probes(Axis::Vertical, &[x])).expect("solvable");
+    Some(((grid.value[(0, 0)] / exact - 1.0).abs(), grid.certificate.error_bound))
 }
 
 #[test]
-fn bound_is_never_below_the_true_error_of_even_chains() {
-    let mut trusted = 0;
+fn even_chains_keep_nine_digits() {
     for elements in [2, 3, 16, 64, 256, 1024, 2048, 8192, 32_768] {
         let cuts: Vec<f64> = (0..=elements).map(|k| 60.0 * f64::from(k) / f64::from(elements)).collect();
-        if let Some((error, bound)) = check(&cuts) {
-            assert!(error <= bound && bound < 1.0, "{elements} elements: {error:.1e} > {bound:.1e}");
-            trusted += 1;
-        }
+        let (error, bound) = check(&cuts).expect("double-doubles suffice");
+        assert!(error <= bound && bound < 1e-9, "{elements} elements: {error:.1e}, bound {bound:.1e}");
     }
-    assert!(trusted >= 6, "{trusted}");
 }
 
 #[test]
-fn bound_is_never_below_the_true_error_of_chains_with_a_short_element() {
-    let mut trusted = 0;
+fn short_elements_keep_nine_digits_down_to_a_millionth_or_are_refused() {
     for power in 1..12 {
         let short = 60.0 * 10f64.powi(-power);
-        if let Some((error, bound)) = check(&[0.0, 20.0, 20.0 + short, 60.0]) {
-            assert!(error <= bound, "{short:.0e}: {error:.1e} > {bound:.1e}");
-            trusted += 1;
+        match check(&[0.0, 20.0, 20.0 + short, 60.0]) {
+            Some((error, bound)) => {
+                assert!(error <= bound && bound < 1e-6, "{short:.0e}: {error:.1e}, bound {bound:.1e}");
+                assert!(power > 6 || bound < 1e-9, "{short:.0e}: {bound:.1e}");
+            }
+            None => assert!(power > 6, "{short:.0e} refused"),
         }
     }
-    assert!(trusted >= 4, "{trusted}");
+}
+
+#[test]
+fn accuracy_that_nothing_meets_is_refused_with_what_can_be_had() {
+    let cuts: Vec<f64> = (0..=8192).map(|k| 60.0 * f64::from(k) / 8192.0).collect();
+    let (model, rail) = chain(&cuts);
+    match Frame::accurate(&model, &[rail], 1e-14) {
+        Err(Error::Ill { bound, asked, .. }) => assert!(bound < 1e-11 && asked == 1e-14, "{bound:.1e}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn grids_whose_evaluation_cannot_keep_the_digits_are_refused() {
+    let (model, rail) = chain(&[0.0, 60.0]);
+    let frame = Frame::accurate(&model, &[rail], 1e-16).expect("double-doubles suffice for the factor");
+    assert!(matches!(frame.grid(&probes(Axis::Vertical, &[31.0])), Err(Error::Ill { .. })));
 }
 
 #[test]
@@ -84,7 +90,7 @@ fn bound_is_never_below_the_true_error_of_random_chains() {
             trusted += 1;
         }
     }
-    assert!(trusted >= 2, "{trusted}");
+    assert_eq!(trusted, 4);
 }
 
 #[test]

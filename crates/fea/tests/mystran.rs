@@ -1,21 +1,13 @@
 //! Pin flags and offsets: displacements published with MYSTRAN's verification decks BAR-PINFLAG and
 //! BAR-OFFSET (external).
 
-use fea::{Kind, Member, Model, Section, Support, Theory, nodal};
+use fea::{Member, Model, Section, Support, Theory, nodal};
 use nalgebra::DVector;
 
 const HELD: [bool; 6] = [true; 6];
-const FREE: [bool; 6] = [false; 6];
 
 fn bar(points: [usize; 2]) -> Member {
-    Member {
-        points,
-        kind: Kind::Beam,
-        section: 0,
-        orientation: [0.0, 1.0, 0.0],
-        offsets: [[0.0; 3]; 2],
-        releases: [FREE; 2],
-    }
+    Member::beam(points, 0, [0.0, 1.0, 0.0])
 }
 
 fn line(points: usize, pitch: f64, section: Section) -> Model {

@@ -169,16 +169,7 @@ fn cantilever(elements: usize, theory: Theory) -> Model {
         ..Section::default()
     };
     let points = (0..=elements).map(|k| [5.0 * k as f64 / elements as f64, 0.0, 0.0]).collect();
-    let members = (0..elements)
-        .map(|k| Member {
-            points: [k, k + 1],
-            kind: fea::Kind::Beam,
-            section: 0,
-            orientation: [0.0, 1.0, 0.0],
-            offsets: [[0.0; 3]; 2],
-            releases: [[false; 6]; 2],
-        })
-        .collect();
+    let members = (0..elements).map(|k| Member::beam([k, k + 1], 0, [0.0, 1.0, 0.0])).collect();
     Model {
         points,
         sections: vec![section],

@@ -1,4 +1,15 @@
-//! Small dense systems solved in place, without allocation: the innermost loop of the contact solver.
+//! Small dense products and systems, without allocation: the innermost loop of the contact solver.
+
+/// Scalar product of two vectors of one length, summed from their first entries on.
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// Row `i` of a row-major matrix times `vector`, whose length is the row's.
+pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
+    let n = vector.len();
+    dot(&rows[i * n..(i + 1) * n], vector)
+}
 
 /// Solves A x = b for a symmetric positive definite A (n x n, row-major, lower triangle used), by Cholesky.
 ///

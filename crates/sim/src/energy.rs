@@ -1,6 +1,8 @@
 //! The energy audit: what is stored, what was lost, what was put in.
 
+use crate::dense::{along, dot};
 use crate::geometry::Geometry;
+use crate::scene::arm_rows;
 use crate::state::State;
 use crate::system::System;
 use crate::wheel::Damper;
@@ -93,8 +95,7 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
     energy.structure = 0.5 * quadratic(&system.stiffness, &state.q);
     for (b, body) in system.scene.bodies.iter().enumerate() {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
-        let row = crate::scene::arm_rows(body.cg)[1];
-        let lift: f64 = row.iter().zip(displacement).map(|(r, d)| r * d).sum();
+        let lift = dot(&arm_rows(body.cg)[1], &displacement);
         energy.gravity += body.mass * system.scene.gravity * lift;
         if body.motion.is_some() {
             let line = system.body_mass[b][0];
@@ -103,24 +104,18 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
                 (1..6).filter(|&i| body.free[i]).map(|i| line[i] * speed[0] * speed[i]).sum::<f64>();
         }
     }
-    let m = system.components();
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] != 0.0 {
-            energy.contact += normal.count()
-                * geometry.share[i][0]
-                * system.scene.wheels[normal.kind].normal.energy(state.p[i]);
+            energy.contact += normal.count() * geometry.share[i][0] * system.law(i).energy(state.p[i]);
         }
-        let row = &geometry.compliance[i * m..(i + 1) * m];
-        energy.structure +=
-            0.5 * state.force[i] * row.iter().zip(&state.force).map(|(g, f)| g * f).sum::<f64>();
+        energy.structure += 0.5 * state.force[i] * along(&geometry.compliance, i, &state.force);
     }
     for (index, &w) in system.laterals.iter().enumerate() {
         let i = system.lateral(index);
-        let row = &geometry.compliance[i * m..(i + 1) * m];
-        let give: f64 = row.iter().zip(&state.force).map(|(g, f)| g * f).sum();
+        let give = along(&geometry.compliance, i, &state.force);
         energy.structure += 0.5 * state.force[i] * give;
         if let Some(flange) = &system.scene.wheels[system.wheels[w].kind].flange {
-            let overlap = flange.overlap(approach(system, geometry, state, i) - give);
+            let overlap = flange.overlap(geometry.approach(i, &state.q) - give);
             energy.contact += 0.5 * flange.stiffness * flange.share(geometry.height[w]).0 * overlap * overlap;
         }
     }
@@ -129,21 +124,13 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
-    let n = system.freedoms;
-    let rate = |i: usize| {
-        geometry.rate_held[i]
-            + geometry.rate_rows[i * n..(i + 1) * n]
-                .iter()
-                .zip(state.v.iter())
-                .map(|(r, v)| r * v)
-                .sum::<f64>()
-    };
+    let rate = |i: usize| geometry.rate(i, &state.v);
     let mut power = Exchanged { structure: quadratic(&system.damping, &state.v), ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] == 0.0 {
             continue;
         }
-        let law = &system.scene.wheels[normal.kind].normal;
+        let law = system.law(i);
         let [share, share_slope] = geometry.share[i];
         let share_rate = if share_slope == 0.0 { 0.0 } else { share_slope * speed_along(system, state, i) };
         power.handover -= normal.count() * share_rate * law.energy(state.p[i]);
@@ -153,8 +140,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
                     (state.force[i] - normal.count() * share * law.spring(state.p[i])) * state.p_rate[i];
             }
             Damper::Ground => {
-                let row = &geometry.rate_rows[i * n..(i + 1) * n];
-                let acceleration: f64 = row.iter().zip(state.a.iter()).map(|(r, a)| r * a).sum();
+                let acceleration = along(&geometry.rate_rows, i, state.a.as_slice());
                 power.dampers -= normal.count()
                     * law.damping
                     * (share * acceleration + share_rate * rate(i))
@@ -187,17 +173,14 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
 /// Boundary term of the losses in dampers to ground: with d the wheel's displacement and S the damper's ramp,
 /// integral of c S(p) d' dp = [c d' Q(p)] - integral of c d'' Q(p) dt, Q' = S.
 pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f64 {
-    let n = system.freedoms;
     let mut sum = 0.0;
     for (i, normal) in system.normals.iter().enumerate() {
-        let law = &system.scene.wheels[normal.kind].normal;
-        if law.damper == Damper::Ground && law.damping > 0.0 && state.force[i] != 0.0 {
-            let row = &geometry.rate_rows[i * n..(i + 1) * n];
-            let rate: f64 = row.iter().zip(state.v.iter()).map(|(r, v)| r * v).sum();
+        let law = system.law(i);
+        if law.is_grounded() && state.force[i] != 0.0 {
             sum += normal.count()
                 * geometry.share[i][0]
                 * law.damping
-                * rate
+                * geometry.rate(i, &state.v)
                 * ramp_integral(law.depth, state.p[i]);
         }
     }
@@ -232,18 +215,11 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
     force
 }
 
-/// Approach of component `i` before the give of the compliance.
-pub(crate) fn approach(system: &System, geometry: &Geometry, state: &State, i: usize) -> f64 {
-    let n = system.freedoms;
-    geometry.held[i]
-        + geometry.rows[i * n..(i + 1) * n].iter().zip(state.q.iter()).map(|(r, q)| r * q).sum::<f64>()
-}
-
 /// Speed along the rail of the wheels of vertical contact `i`.
 fn speed_along(system: &System, state: &State, i: usize) -> f64 {
     let wheel = &system.wheels[system.normals[i].wheels.start];
     let (_, speed) = system.body(wheel.body, state.t, &state.q, &state.v);
-    crate::scene::arm_rows(wheel.hub)[0].iter().zip(speed).map(|(r, s)| r * s).sum()
+    dot(&arm_rows(wheel.hub)[0], &speed)
 }
 
 /// Q(p) = integral of STEP(p, 0, 0, depth, 1) from 0 to p; p itself where there is no ramp.
@@ -263,7 +239,7 @@ fn ramp_integral(depth: f64, p: f64) -> f64 {
 fn quadratic(matrix: &nalgebra::DMatrix<f64>, x: &nalgebra::DVector<f64>) -> f64 {
     let mut sum = 0.0;
     for (j, column) in matrix.column_iter().enumerate() {
-        sum += x[j] * column.iter().zip(x.iter()).map(|(m, x)| m * x).sum::<f64>();
+        sum += x[j] * dot(column.as_slice(), x.as_slice());
     }
     sum
 }

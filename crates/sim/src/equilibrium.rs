@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::solver::Solver;
 use crate::state::State;
 use crate::system::System;
-use crate::{Error, Freedom, NormalLaw};
+use crate::{Error, Freedom};
 
 /// Sweeps of the active set.
 const SWEEPS: usize = 60;
@@ -152,10 +152,6 @@ impl<'a> Balance<'a> {
         })
     }
 
-    fn law(&self, i: usize) -> &'a NormalLaw {
-        self.system.law(i)
-    }
-
     /// Sweeps of the active set; false where no set balances the weights.
     fn solve(&mut self) -> bool {
         for _ in 0..SWEEPS {
@@ -192,7 +188,7 @@ impl<'a> Balance<'a> {
             DMatrix::from_fn(size, size, |r, c| self.compliance[(self.active[r], self.active[c])]);
         let mut free = DVector::zeros(size);
         for (r, &i) in self.active.iter().enumerate() {
-            let point = self.law(i).at(self.p[i], 0.0);
+            let point = self.system.law(i).at(self.p[i], 0.0);
             matrix[(r, r)] += 1.0 / (self.share[i] * point.by_penetration);
             free[r] = self.held[i] - self.p[i] + point.force / point.by_penetration;
         }
@@ -220,7 +216,7 @@ impl<'a> Balance<'a> {
         let mut change = 0.0_f64;
         self.force.fill(0.0);
         for (r, &i) in self.active.iter().enumerate() {
-            let (law, share) = (self.law(i), self.share[i]);
+            let (law, share) = (self.system.law(i), self.share[i]);
             let point = law.at(self.p[i], 0.0);
             let wanted = self.p[i] + (solved[r] - share * point.force) / (share * point.by_penetration);
             let floor = 0.1 * self.p[i].abs();

@@ -4,7 +4,7 @@
 //! G and, inside a step, the bodies' mobility; Y the mobility that the rates feel. Which vertical contacts
 //! act is given; the caller checks that they push and that the others stay open.
 
-use crate::dense::{solve_general, solve_spd};
+use crate::dense::{along, solve_general, solve_spd};
 use crate::geometry::Geometry;
 use crate::system::System;
 use crate::wheel::LawPoint;
@@ -50,13 +50,11 @@ impl Problem {
 
     /// Approach of component `i` under `force`: e - W F.
     pub fn penetration(&self, i: usize, force: &[f64]) -> f64 {
-        let m = force.len();
-        self.approach[i] - self.w[i * m..(i + 1) * m].iter().zip(force).map(|(w, f)| w * f).sum::<f64>()
+        self.approach[i] - along(&self.w, i, force)
     }
 
     fn rate(&self, i: usize, force: &[f64]) -> f64 {
-        let m = force.len();
-        self.rate[i] - self.y[i * m..(i + 1) * m].iter().zip(force).map(|(y, f)| y * f).sum::<f64>()
+        self.rate[i] - along(&self.y, i, force)
     }
 
     /// Solves for the forces of the `active` vertical contacts and of everything that depends on them;
@@ -88,7 +86,7 @@ impl Problem {
         let count = self.index.len();
         for (row, &i) in self.index.iter().enumerate() {
             let normal = &system.normals[i];
-            let law = &system.scene.wheels[normal.kind].normal;
+            let law = system.law(i);
             let ratio = law.damping / law.stiffness;
             // A damper between wheel and rail has Y = W/step: divide its row by 1 + ratio/step.
             let (scale, by_rate) = match self.memory[i] {
@@ -171,7 +169,7 @@ impl Problem {
                 continue;
             }
             let LawPoint { force: law, by_penetration, by_rate } =
-                system.scene.wheels[normal.kind].normal.at(self.penetration(i, force), self.rate(i, force));
+                system.law(i).at(self.penetration(i, force), self.rate(i, force));
             let scale = normal.count() * geometry.share[i][0];
             self.residual[i] = force[i] - scale * law;
             for j in 0..m {

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 use splines::{Influence, Probe};
 
 use crate::Error;
+use crate::dense::along;
 use crate::scene::arm_rows;
 use crate::system::System;
 
@@ -61,6 +62,16 @@ impl Geometry {
             shape_slopes: vec![0.0; m * n],
             built: false,
         }
+    }
+
+    /// Approach of component `i` at the freedoms `q`, before the give of the compliance.
+    pub fn approach(&self, i: usize, q: &DVector<f64>) -> f64 {
+        self.held[i] + along(&self.rows, i, q.as_slice())
+    }
+
+    /// Rate that the damper or the friction of component `i` feels at the speeds `v` of the freedoms.
+    pub fn rate(&self, i: usize, v: &DVector<f64>) -> f64 {
+        self.rate_held[i] + along(&self.rate_rows, i, v.as_slice())
     }
 
     /// Updates everything for the wheels' places at (t, q); `force` are the latest forces, for the rail's slope.
@@ -198,12 +209,10 @@ impl Geometry {
     /// Slope of the deflected rail under each component, for the forces and freedoms given and the wheels where the
     /// last update found them.
     pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
-        let (m, n) = (system.components(), system.freedoms);
-        for i in 0..m {
-            self.rail_slope[i] = self.slope[i * m..(i + 1) * m].iter().zip(force).map(|(g, f)| g * f).sum();
+        for i in 0..system.components() {
+            self.rail_slope[i] = along(&self.slope, i, force);
             if !system.constant_rows {
-                let row = &self.shape_slopes[i * n..(i + 1) * n];
-                self.rail_slope[i] += row.iter().zip(q.iter()).map(|(shape, q)| shape * q).sum::<f64>();
+                self.rail_slope[i] += along(&self.shape_slopes, i, q.as_slice());
             }
         }
     }
@@ -224,7 +233,7 @@ impl Geometry {
             return Ok(());
         }
         self.update_rail_slope(system, q, force);
-        let mut along = |component: usize, w: usize| {
+        let mut tilt = |component: usize, w: usize| {
             let wheel = &system.wheels[w];
             let row = arm_rows(wheel.hub)[0];
             for (i, coefficient) in row.iter().enumerate() {
@@ -234,10 +243,10 @@ impl Geometry {
             }
         };
         for (component, normal) in system.normals.iter().enumerate() {
-            along(component, normal.wheels.start);
+            tilt(component, normal.wheels.start);
         }
         for (i, &w) in system.laterals.iter().enumerate() {
-            along(system.lateral(i), w);
+            tilt(system.lateral(i), w);
         }
         Ok(())
     }

@@ -2,14 +2,17 @@
 
 use std::ops::ControlFlow;
 
+use nalgebra::DVector;
+
+use crate::dense::dot;
 use crate::energy::{Audit, drive_force};
 use crate::history::{Channel, History};
-use crate::scene::Analysis;
+use crate::scene::{Analysis, arm_rows};
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Error, Foundation, Freedom, Scene};
+use crate::{Body, Error, Foundation, Freedom, Scene};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -58,23 +61,22 @@ pub fn run(
     let system = System::new(scene, foundations)?;
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
-    start(&system, &mut state);
+    set(&system, &mut state.q, |body| body.start);
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(&system, &mut solver, state, watch),
     }
 }
 
-/// Starting values of the freedoms.
-fn start(system: &System, state: &mut State) {
+/// Sets the freedoms of every body to its six `values`.
+fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [f64; 6]) {
     for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
-        for (number, start) in numbers.iter().zip(body.start) {
+        for (number, value) in numbers.iter().zip(values(body)) {
             if let Some(number) = *number {
-                state.q[number] = start;
+                freedoms[number] = value;
             }
         }
     }
-    start_speeds(system, state);
 }
 
 fn integrate(
@@ -88,8 +90,8 @@ fn integrate(
         scene.bodies.iter().any(|body| [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0));
     if !placed {
         solver.equilibrate(&mut state)?;
-        start_speeds(system, &mut state);
     }
+    set(system, &mut state.v, |body| body.start_speed);
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
@@ -144,16 +146,6 @@ fn integrate(
         }
     }
     Ok(Run { status, history: recorder.history, audit: stepper.audit, counts: stepper.counts })
-}
-
-fn start_speeds(system: &System, state: &mut State) {
-    for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
-        for (number, speed) in numbers.iter().zip(body.start_speed) {
-            if let Some(number) = *number {
-                state.v[number] = speed;
-            }
-        }
-    }
 }
 
 fn sweep(
@@ -245,14 +237,8 @@ impl Recorder {
                 system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
-            let down = {
-                let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-                -crate::scene::arm_rows(wheel.hub)[1]
-                    .iter()
-                    .zip(displacement)
-                    .map(|(r, d)| r * d)
-                    .sum::<f64>()
-            };
+            let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
+            let down = -dot(&arm_rows(wheel.hub)[1], &displacement);
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
             values.extend([
                 solver.geometry.x[w],

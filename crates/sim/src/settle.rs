@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::complementarity::complementarity;
-use crate::energy;
+use crate::dense::along;
 use crate::solver::Solver;
 use crate::state::State;
 
@@ -40,15 +40,13 @@ impl Solver<'_> {
     /// on without a jump: the force starts at zero. A rigid rail takes the wheel's own rate.
     fn closing_rate(&self, i: usize, at: &State) -> f64 {
         let system = self.system;
-        let law = &system.scene.wheels[system.normals[i].kind].normal;
+        let law = system.law(i);
         let give = self.geometry.compliance[i * system.components() + i];
         if give * law.stiffness > RIGID {
             let point = law.at(at.p[i], 0.0);
             if point.by_rate > 0.0 { -point.force / point.by_rate } else { 0.0 }
         } else {
-            let n = system.freedoms;
-            let row = &self.geometry.rows[i * n..(i + 1) * n];
-            row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum()
+            along(&self.geometry.rows, i, at.v.as_slice())
         }
     }
 
@@ -75,7 +73,7 @@ impl Solver<'_> {
         for (r, &i) in felt.iter().enumerate() {
             let per_wheel = system.law(i).stiffness * system.normals[i].count() * share(i);
             matrix[r * felt.len() + r] += 1.0 / per_wheel;
-            reach[r] = energy::approach(system, &self.geometry, at, i);
+            reach[r] = self.geometry.approach(i, &at.q);
         }
         let mut force: Vec<f64> = felt.iter().map(|&i| at.force[i]).collect();
         if complementarity(&matrix, &reach, &mut force).is_some() {
@@ -103,13 +101,7 @@ impl Solver<'_> {
         if law.bilateral {
             return 1.0;
         }
-        let rate = if law.has_memory() {
-            at.p_rate[i]
-        } else {
-            let n = self.system.freedoms;
-            let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
-            row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum()
-        };
+        let rate = if law.has_memory() { at.p_rate[i] } else { self.geometry.rate(i, &at.v) };
         let spring = law.spring(at.p[i]);
         if at.p[i] <= 0.0 { spring } else { law.at(at.p[i], rate).force }
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::energy;
+use crate::dense::dot;
 use crate::forces::Problem;
 use crate::geometry::Geometry;
 use crate::state::State;
@@ -100,7 +100,7 @@ impl<'a> Solver<'a> {
         for j in 0..m {
             let row = &self.geometry.force_rows[j * n..(j + 1) * n];
             for i in 0..n {
-                self.spread[j * n + i] = self.mobility.column(i).iter().zip(row).map(|(z, r)| z * r).sum();
+                self.spread[j * n + i] = dot(self.mobility.column(i).as_slice(), row);
             }
         }
         self.spread_is_fixed = self.system.constant_rows;
@@ -136,7 +136,8 @@ impl<'a> Solver<'a> {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             self.fill_spread();
             for i in 0..m {
-                let (row, rate_row) = (&self.geometry.rows[i * n..], &self.geometry.rate_rows[i * n..]);
+                let span = i * n..(i + 1) * n;
+                let (row, rate_row) = (&self.geometry.rows[span.clone()], &self.geometry.rate_rows[span]);
                 let is_normal = i < system.normals.len();
                 let memory = is_normal && self.remembers(i);
                 let grounded =
@@ -149,13 +150,12 @@ impl<'a> Solver<'a> {
                 }
                 for j in 0..m {
                     let column = &self.spread[j * n..(j + 1) * n];
-                    let mobility: f64 = (0..n).map(|k| row[k] * column[k]).sum();
-                    let w = self.geometry.compliance[i * m + j] + g * g * mobility;
+                    let w = self.geometry.compliance[i * m + j] + g * g * dot(row, column);
                     self.problem.w[i * m + j] = w;
                     self.problem.y[i * m + j] = if memory {
                         w / g
                     } else if grounded {
-                        g * (0..n).map(|k| rate_row[k] * column[k]).sum::<f64>()
+                        g * dot(rate_row, column)
                     } else {
                         0.0
                     };
@@ -199,17 +199,13 @@ impl<'a> Solver<'a> {
         for _ in 0..PASSES {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             for i in 0..m {
-                self.problem.approach[i] = energy::approach(system, &self.geometry, at, i);
-                let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
-                self.problem.rate[i] =
-                    self.geometry.rate_held[i] + row.iter().zip(at.v.iter()).map(|(r, v)| r * v).sum::<f64>();
+                self.problem.approach[i] = self.geometry.approach(i, &at.q);
+                self.problem.rate[i] = self.geometry.rate(i, &at.v);
                 self.problem.memory[i] = None;
                 self.problem.known[i] = i < system.normals.len() && self.remembers(i);
                 if self.problem.known[i] {
-                    let normal = &system.normals[i];
-                    let law = &system.scene.wheels[normal.kind].normal;
-                    let scale = normal.count() * self.geometry.share[i][0];
-                    at.force[i] = scale * law.at(at.p[i], at.p_rate[i]).force;
+                    let scale = system.normals[i].count() * self.geometry.share[i][0];
+                    at.force[i] = scale * system.law(i).at(at.p[i], at.p_rate[i]).force;
                 }
             }
             self.problem.w.copy_from_slice(&self.geometry.compliance);

@@ -72,6 +72,8 @@ pub(crate) struct Stepper<'a, 'b> {
     powers: Vec<Exchanged>,
     pub(crate) probe: State,
     begun: f64,
+    /// Boundary term of the grounded dampers where the next step starts.
+    boundary: f64,
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
@@ -86,6 +88,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             to: start.clone(),
             stage: start.clone(),
             probe: start.clone(),
+            boundary: boundary(system, &solver.geometry, &start),
             from: start,
             counts: Counts::default(),
             audit: Audit { start: energy, end: energy, ..Audit::default() },
@@ -225,9 +228,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
             booked.add(power, h * self.tableau.weight(i));
         }
         self.audit.exchanged.add(&booked, 1.0);
-        // Boundary terms of grounded dampers, from the same states that end the stages.
-        let memory = self.probe_boundary()?;
-        self.audit.exchanged.dampers += memory;
+        // Before a turn or an event changes the forces: that is the next step's start.
+        let end = boundary(system, &self.solver.geometry, &self.to);
+        self.audit.exchanged.dampers += end - self.boundary;
+        self.reach_end()?;
         for i in 0..self.to.q.len() {
             self.scale[i] = self.scale[i].max(self.to.q[i].abs());
             self.rate_scale[i] = self.rate_scale[i].max(self.to.v[i].abs());
@@ -248,11 +252,24 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 self.audit.exchanged.switches += before.total() - after.total();
             }
         }
+        self.boundary = boundary(system, &self.solver.geometry, &self.to);
         self.audit.end = after;
         let elastic = after.contact + after.structure;
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
         let imbalance = (after.total() + self.audit.exchanged.net_loss() - self.begun).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
+        Ok(())
+    }
+
+    /// Brings the geometry of grounded wheels from the last stage to the end of the step. It is there already where
+    /// places depend on time alone and the stage was not held just before a limit.
+    fn reach_end(&mut self) -> Result<(), Error> {
+        let system = self.solver.system;
+        let is_there = system.constant_rows && self.stage.t == self.to.t;
+        let grounded = system.scene.wheels.iter().any(|wheel| wheel.normal.is_grounded());
+        if grounded && !is_there {
+            self.solver.geometry.update(system, self.to.t, &self.to.q, &self.to.force)?;
+        }
         Ok(())
     }
 
@@ -268,21 +285,6 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.audit.exchanged.drives += after - before;
         self.solver.instant(&mut self.to)?;
         Ok(())
-    }
-
-    /// Boundary term of the step just taken.
-    fn probe_boundary(&mut self) -> Result<f64, Error> {
-        let system = self.solver.system;
-        let grounded = system.scene.wheels.iter().any(|w| w.normal.damping > 0.0 && !w.normal.has_memory());
-        if !grounded {
-            return Ok(0.0);
-        }
-        let end = boundary(system, &self.solver.geometry, &self.to);
-        // Shares at the start of the step.
-        self.solver.geometry.update(system, self.from.t, &self.from.q, &self.from.force)?;
-        let start = boundary(system, &self.solver.geometry, &self.from);
-        self.solver.geometry.update(system, self.to.t, &self.to.q, &self.to.force)?;
-        Ok(end - start)
     }
 }
 

@@ -62,6 +62,11 @@ impl NormalLaw {
         self.damping > 0.0 && self.damper == Damper::Rail
     }
 
+    /// Whether a damper acts between wheel and ground.
+    pub(crate) fn is_grounded(&self) -> bool {
+        self.damping > 0.0 && self.damper == Damper::Ground
+    }
+
     /// Force of the law at penetration `p` and rate `r`, not clipped: negative penetration continues the
     /// spring oddly, so that a step that ends a contact stays smooth until its end is located.
     #[must_use]

@@ -5,47 +5,12 @@
 mod common;
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 
+use common::parts::{CENTRES, STATES, arms, basis, beam, chain, massive, stiffness};
 use common::{EI, WEIGHT, bogie};
-use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
-use sim::{
-    Analysis, BlendedParts, Channel, Damper, Extent, Foundation, Freedom, PartChain, PartShapes, Scene,
-    Status, Structure,
-};
-use splines::{Axis, Cell, Compliance, Flexibility, Influence, Line, Probe, Surface};
-
-/// States (v, rotation) of both centres per unit rotation of each part about its own support.
-fn basis() -> Matrix4x2<f64> {
-    Matrix4x2::new(7.5, 0.0, 1.0, 0.0, 0.0, -7.5, 0.0, 1.0)
-}
-
-/// Euler-Bernoulli beam of length `l`: v and slope at both ends.
-fn beam(l: f64) -> Matrix4<f64> {
-    let (a, b, c) = (6.0 * l, 4.0 * l * l, 2.0 * l * l);
-    Matrix4::new(12.0, a, -12.0, a, a, b, -a, c, -12.0, -a, 12.0, -a, a, c, -a, b) * (EI / l.powi(3))
-}
-
-/// Stiffness of the parts' rotations: the beam of 45 ft between the centres.
-fn stiffness() -> Matrix2<f64> {
-    basis().transpose() * beam(45.0) * basis()
-}
-
-/// Places of v and rotation of both centres among the twelve states.
-const STATES: [usize; 4] = [1, 5, 7, 11];
-
-fn line() -> Arc<Line> {
-    let cells = [7.5, 52.5].iter().enumerate().map(|(j, centre)| Cell {
-        rail: j,
-        x: [-15.0, 75.0],
-        ends: [j, j],
-        length: 90.0,
-        frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        offset: [-15.0 - centre, 0.0, 0.0],
-        flexibility: Flexibility::default(),
-    });
-    Arc::new(Line::new(cells.collect()).expect("two rigid arms"))
-}
+use nalgebra::DMatrix;
+use sim::{Analysis, BlendedParts, Channel, Damper, Extent, Foundation, Freedom, PartChain, Scene, Status};
+use splines::{Axis, Compliance, Influence, Probe, Surface};
 
 fn parts() -> Surface {
     let flexible = stiffness().try_inverse().expect("the beam holds the parts");
@@ -56,11 +21,7 @@ fn parts() -> Surface {
             nodal[(row, column)] = states[(i, j)];
         }
     }
-    Surface::new(line(), nodal).expect("two states")
-}
-
-fn chain(window: Option<f64>) -> PartChain {
-    PartChain::new(vec![-15.0, 30.0, 75.0], 0, window).expect("one joint")
+    Surface::new(arms(&CENTRES), nodal).expect("two states")
 }
 
 fn blended(window: Option<f64>) -> BlendedParts {
@@ -75,34 +36,6 @@ fn separate(window: f64) -> Foundation {
         compliance: Some(Box::new(parts())),
         parts: Some(vec![chain]),
         rails: vec![extent],
-        ..Foundation::default()
-    }
-}
-
-/// Parts with mass: rotations about the supports as freedoms.
-fn massive(factor: f64) -> Foundation {
-    let stiffness = stiffness();
-    let mut states = DMatrix::zeros(12, 2);
-    for (i, &row) in STATES.iter().enumerate() {
-        for k in 0..2 {
-            states[(row, k)] = basis()[(i, k)];
-        }
-    }
-    let chain = chain(Some(60.0));
-    let inertia = factor * 15.2 * 45.0 * (45.0 * 45.0 / 12.0 + 7.5 * 7.5);
-    Foundation {
-        rails: vec![Extent { range: Some(chain.range()), breaks: chain.breaks() }],
-        structure: Some(Structure {
-            mass: DMatrix::identity(2, 2) * inertia,
-            damping: DMatrix::zeros(2, 2),
-            stiffness: DMatrix::from_fn(2, 2, |i, j| stiffness[(i, j)]),
-            shapes: Box::new(PartShapes {
-                line: line(),
-                basis: states,
-                chains: vec![chain],
-                separate: false,
-            }),
-        }),
         ..Foundation::default()
     }
 }
@@ -202,18 +135,8 @@ fn many(count: usize) -> BlendedParts {
             nodal[(state(i), state(j))] = flexible[(i, j)];
         }
     }
-    let cells = centres.iter().enumerate().map(|(j, centre)| Cell {
-        rail: j,
-        x: [-15.0, 75.0],
-        ends: [j, j],
-        length: 90.0,
-        frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        offset: [-15.0 - centre, 0.0, 0.0],
-        flexibility: Flexibility::default(),
-    });
-    let line = Arc::new(Line::new(cells.collect()).expect("rigid arms"));
     BlendedParts {
-        surface: Surface::new(line, nodal).expect("six freedoms a part"),
+        surface: Surface::new(arms(&centres), nodal).expect("six freedoms a part"),
         chains: vec![PartChain::new(ends, 0, None).expect("windows meet")],
     }
 }

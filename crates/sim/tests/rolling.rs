@@ -56,11 +56,7 @@ const SKEW: [[f64; 2]; 2] = [[2e-8, 1.2e-8], [0.3e-8, 1e-8]];
 impl Compliance for Skew {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), splines::Error> {
         out.slope.fill(0.0);
-        for i in 0..at.len() {
-            for j in 0..at.len() {
-                out.value[(i, j)] = SKEW[i][j];
-            }
-        }
+        out.value = DMatrix::from_fn(at.len(), at.len(), |i, j| SKEW[i][j]);
         Ok(())
     }
 

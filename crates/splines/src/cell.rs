@@ -20,6 +20,19 @@ pub struct Flexibility {
     pub shear_z: f64,
 }
 
+/// The member that carries a cell.
+///
+/// Cells of one member, on different rails, are the same stretch of steel: a force on one of them bends
+/// the other between its ends too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Carrier {
+    /// Identity of the member; only whether two are equal counts.
+    pub member: usize,
+    /// Whether the member's own local x runs against the cell's: the cell's local axes are then the
+    /// member's turned by half a turn about local y.
+    pub reversed: bool,
+}
+
 /// A uniform stretch of rail, carried by one member (or part of one) between two end states.
 ///
 /// A state is the displacement u and rotation theta (six freedoms, ux uy uz rx ry rz) of a flexible
@@ -44,4 +57,31 @@ pub struct Cell {
     pub offset: [f64; 3],
     /// Section flexibilities.
     pub flexibility: Flexibility,
+    /// The member whose whole flexible part the cell stands on; `None` is one that no other cell shares.
+    pub carrier: Option<Carrier>,
+}
+
+impl Cell {
+    /// Whether the member runs against the cell.
+    #[must_use]
+    pub fn is_reversed(&self) -> bool {
+        self.carrier.is_some_and(|carrier| carrier.reversed)
+    }
+
+    /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail
+    /// coordinate x, taken within the cell.
+    #[must_use]
+    pub fn place(&self, x: f64) -> f64 {
+        let [first, last] = self.x;
+        let r = if x >= last { 1.0 } else { ((x - first) / (last - first)).clamp(0.0, 1.0) };
+        if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
+    }
+
+    /// Rows: the member's own local axes in the rail frame; those of `frame`, turned where the member
+    /// runs against the cell.
+    #[must_use]
+    pub fn axes(&self) -> [[f64; 3]; 3] {
+        let [x, y, z] = self.frame;
+        if self.is_reversed() { [x.map(|a| -a), y, z.map(|a| -a)] } else { self.frame }
+    }
 }

@@ -66,6 +66,14 @@ pub enum Error {
         /// Index of the cell.
         cell: usize,
     },
+    /// Cells of one member that differ in length or flexibility.
+    #[error("cells {first} and {second} of one member differ in length or flexibility")]
+    CellCarrier {
+        /// Index of the first cell of the member.
+        first: usize,
+        /// Index of the cell that differs.
+        second: usize,
+    },
     /// Two cells that claim the same place.
     #[error("cells {first} and {second} of rail {rail} overlap at x = {x}")]
     Overlap {
@@ -95,6 +103,22 @@ pub enum Error {
         row: usize,
         /// Column of the entry.
         column: usize,
+    },
+    /// Effects of another shape than what they belong to.
+    #[error("effects are {rows} x {columns}, expected {} x {}", expected[0], expected[1])]
+    EffectShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Effects, and six freedoms a state.
+        expected: [usize; 2],
+    },
+    /// An effect with a number that cannot be used.
+    #[error("effect {effect} has a number that cannot be used")]
+    EffectNumber {
+        /// Index of the effect.
+        effect: usize,
     },
     /// An influence matrix of another size than the probes.
     #[error("influence matrices are {rows} x {columns}, expected {expected} x {expected}")]

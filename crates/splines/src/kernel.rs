@@ -88,6 +88,15 @@ impl Plane {
         }
     }
 
+    /// What `green` of a place with itself is added up from.
+    fn magnitude(&self, s: f64, [f, m]: [f64; 2]) -> f64 {
+        let Plane { c, g, l, per_l, inverse } = *self;
+        let (q, f, m) = (l - s, f.abs(), m.abs());
+        let v = (f * q * (c * q * 3.0 * l + 12.0 * g) + 6.0 * c * m * q * s) * inverse;
+        let m0 = 0.5 * v * l + q * (m + 0.5 * f * q) * per_l;
+        f * s * (g * v + c * s * (0.5 * m0 + v * s * (1.0 / 6.0))) + m * c * s * (m0 + 0.5 * v * s)
+    }
+
     fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Green {
         if self.inverse == 0.0 {
             return Green::default();
@@ -142,11 +151,18 @@ pub(crate) struct Arm {
 
 impl Arm {
     /// A unit force along rail direction `axis`: its local components, and those of `offset` x force.
+    ///
+    /// In the axes of the cell.
     pub fn new(cell: &Cell, axis: usize) -> Arm {
+        Arm::along(cell, &cell.frame, axis)
+    }
+
+    /// The same in other local axes, rows of `frame`.
+    fn along(cell: &Cell, frame: &[[f64; 3]; 3], axis: usize) -> Arm {
         let moment = cross(cell.offset, unit(axis));
         let reach = cell.offset.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let row = |k: usize| clean(cell.frame[k][axis], 1.0);
-        let turn = |k: usize| clean((0..3).map(|a| cell.frame[k][a] * moment[a]).sum(), reach);
+        let row = |k: usize| clean(frame[k][axis], 1.0);
+        let turn = |k: usize| clean((0..3).map(|a| frame[k][a] * moment[a]).sum(), reach);
         Arm { axial: row(0), twist: turn(0), xy: [row(1), turn(2)], xz: [row(2), -turn(1)] }
     }
 
@@ -171,7 +187,7 @@ pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// Green's function of a cell clamped at both ends, between forces at the rail.
+/// Green's function of a cell clamped at both ends, between forces at the rail; along its member.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Kernel {
     length: f64,
@@ -194,14 +210,16 @@ impl Kernel {
             torsion: finite(flexibility.torsion),
             xy: Plane::new(flexibility.bending_z, flexibility.shear_y, cell.length),
             xz: Plane::new(flexibility.bending_y, flexibility.shear_z, cell.length),
-            arms: [Arm::new(cell, 0), Arm::new(cell, 1), Arm::new(cell, 2)],
+            arms: [0, 1, 2].map(|axis| Arm::along(cell, &cell.axes(), axis)),
             free: free(cell),
         }
     }
 
-    /// Displacement along axis `a` at s under a unit force along axis `b` at t, s and t in 0..=length.
-    pub fn pair(&self, a: usize, s: f64, b: usize, t: f64) -> Green {
-        let (p, q) = (&self.arms[a], &self.arms[b]);
+    /// Displacement along axis `a` of this cell at s under a unit force along axis `b` of `other` at t, s
+    /// and t in 0..=length along the member that carries both.
+    #[inline]
+    pub fn pair(&self, a: usize, s: f64, other: &Kernel, b: usize, t: f64) -> Green {
+        let (p, q) = (&self.arms[a], &other.arms[b]);
         let mut sum = Green::default();
         if p.xy != [0.0; 2] && q.xy != [0.0; 2] {
             sum.add(self.xy.pair(s, p.xy, t, q.xy));
@@ -218,6 +236,15 @@ impl Kernel {
             sum.add(bar(twist, self.length, s, t));
         }
         sum
+    }
+
+    /// What the displacement along axis `a` at s under a unit force there is added up from, s in 0..=length.
+    pub fn magnitude(&self, a: usize, s: f64) -> f64 {
+        let p = &self.arms[a];
+        let bar = s * (self.length - s) / self.length;
+        self.xy.magnitude(s, p.xy)
+            + self.xz.magnitude(s, p.xz)
+            + (self.axial * p.axial * p.axial + self.torsion * p.twist * p.twist) * bar
     }
 
     /// Whether both forces act where nothing resists.

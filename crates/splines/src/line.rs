@@ -1,7 +1,9 @@
 //! Rails made of cells: which cell carries a place, and how it moves.
 
+use std::collections::BTreeMap;
+
 use crate::kernel::{Arm, Kernel, free};
-use crate::row::{Row, Terms, terms};
+use crate::row::{Fraction, Row, Terms, terms};
 use crate::{Cell, Error, Probe};
 
 /// Rounding allowed in coordinates and frames, relative.
@@ -26,6 +28,8 @@ struct Ready {
     free: [bool; 3],
     /// `None` for a rigid arm.
     kernel: Option<Kernel>,
+    /// First cell on the same member.
+    group: usize,
 }
 
 /// One rail: its cells by increasing x.
@@ -39,12 +43,27 @@ struct Track {
 #[derive(Clone, Copy, Debug)]
 struct Span {
     x: [f64; 2],
-    /// Inverse of the extent in x, and the member's length.
+    /// Inverse of the extent in x.
     scale: f64,
+    /// Place of `x[0]` along the member, and the way from there to `x[1]`.
+    start: f64,
     length: f64,
     cell: usize,
     /// At `x[0]` the cell before this one, listed earlier, carries the probe.
     yields: bool,
+}
+
+impl Span {
+    /// Where in the cell x is, taken within it.
+    #[inline]
+    fn fraction(&self, x: f64) -> Fraction {
+        let r = ((x - self.x[0]) * self.scale).max(0.0);
+        if r <= 0.5 {
+            Fraction { end: 0, r }
+        } else {
+            Fraction { end: 1, r: ((self.x[1] - x) * self.scale).max(0.0) }
+        }
+    }
 }
 
 impl Line {
@@ -53,22 +72,31 @@ impl Line {
     ///
     /// # Errors
     /// No cell; a number that is not finite; `x` not increasing; a flexible cell with a length that is not
-    /// positive, a frame that is not a rotation or a negative flexibility; cells of one rail that overlap.
+    /// positive, a frame that is not a rotation or a negative flexibility; cells of one rail that overlap;
+    /// cells of one member that differ in length or flexibility.
     pub fn new(cells: Vec<Cell>) -> Result<Line, Error> {
         if cells.is_empty() {
             return Err(Error::NoCells);
         }
         let mut ready = Vec::with_capacity(cells.len());
         let mut states = 0;
+        let mut first: BTreeMap<usize, usize> = BTreeMap::new();
         for (index, cell) in cells.iter().enumerate() {
             check(index, cell)?;
             states = states.max(cell.ends[0].max(cell.ends[1]) + 1);
             let arm = cell.ends[0] == cell.ends[1];
+            let carrier = cell.carrier.filter(|_| !arm);
+            let group = carrier.map_or(index, |carrier| *first.entry(carrier.member).or_insert(index));
+            let same = |a: &Cell| a.length == cell.length && a.flexibility == cell.flexibility;
+            if group != index && !same(&cells[group]) {
+                return Err(Error::CellCarrier { first: group, second: index });
+            }
             let needs = |axis| Arm::new(cell, axis).uses();
             ready.push(Ready {
                 terms: [0, 1, 2].map(|axis| terms(cell, axis)),
                 free: [0, 1, 2].map(|axis| !arm && (0..4).any(|k| needs(axis)[k] && free(cell)[k])),
                 kernel: (!arm).then(|| Kernel::new(cell)),
+                group,
             });
         }
         let tracks = tracks(&cells)?;
@@ -109,13 +137,27 @@ impl Line {
         if ready.free[axis] {
             return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
         }
-        let r = if p.x >= span.x[1] { 1.0 } else { ((p.x - span.x[0]) * span.scale).clamp(0.0, 1.0) };
+        let place = span.fraction(p.x);
         row.cell = span.cell;
         row.axis = axis;
-        row.s = r * span.length;
+        row.group = ready.group;
+        row.s = span.start + place.along() * span.length;
         row.rate = span.length * span.scale;
-        row.evaluate(&ready.terms[axis], r, span.scale);
+        row.evaluate(&ready.terms[axis], place, span.scale);
         Ok(())
+    }
+
+    /// What rounding can spoil at a probe: the magnitudes behind each value of [`Line::row`], in their order, and
+    /// the magnitude behind the clamped cell's own give there. A value errs by some roundings of its magnitude.
+    ///
+    /// # Errors
+    /// As [`Line::row`].
+    pub fn magnitudes(&self, p: Probe) -> Result<(Vec<f64>, f64), Error> {
+        let row = self.row(p)?;
+        let ready = &self.ready[row.cell];
+        let place = self.find(p.rail, p.x)?.fraction(p.x);
+        let own = ready.kernel.as_ref().map_or(0.0, |kernel| kernel.magnitude(row.axis, row.s));
+        Ok((ready.terms[row.axis].magnitudes(place).collect(), own))
     }
 
     /// Green's function of the cell clamped at both ends: `[i][j]` is the displacement along axis i at rail
@@ -132,11 +174,11 @@ impl Line {
         let mut out = [[0.0; 3]; 3];
         let (Some(ready), Some(given)) = (self.ready.get(cell), self.cells.get(cell)) else { return out };
         let Some(kernel) = &ready.kernel else { return out };
-        let place = |x: f64| ((x - given.x[0]) / (given.x[1] - given.x[0])).clamp(0.0, 1.0) * given.length;
-        let (s, t) = (place(x), place(z));
+        let (s, t) = (given.place(x), given.place(z));
         for (a, row) in out.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
-                *entry = if kernel.is_free(a, b) { f64::INFINITY } else { kernel.pair(a, s, b, t).value };
+                *entry =
+                    if kernel.is_free(a, b) { f64::INFINITY } else { kernel.pair(a, s, kernel, b, t).value };
             }
         }
         out
@@ -204,7 +246,8 @@ fn tracks(cells: &[Cell]) -> Result<Vec<Track>, Error> {
         let slack = SLACK * largest;
         let span = |cell: usize, yields| {
             let Cell { x, length, .. } = cells[cell];
-            Span { x, scale: 1.0 / (x[1] - x[0]), length, cell, yields }
+            let (start, length) = if cells[cell].is_reversed() { (length, -length) } else { (0.0, length) };
+            Span { x, scale: 1.0 / (x[1] - x[0]), start, length, cell, yields }
         };
         let mut spans = vec![span(same[0], false)];
         for pair in same.windows(2) {

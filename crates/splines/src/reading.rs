@@ -277,6 +277,7 @@ pub(crate) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibili
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [0.0; 3],
         flexibility,
+        carrier: None,
     };
     x.windows(2).enumerate().map(cell).collect()
 }

@@ -13,7 +13,9 @@ pub struct Row {
     pub cell: usize,
     /// Component of the probe's axis: 0, 1 or 2.
     pub(crate) axis: usize,
-    /// Place along the cell, 0 at its first end, `length` at its last; derivative of it by x.
+    /// First cell on the same member.
+    pub(crate) group: usize,
+    /// Place along the member, from 0 to its length; derivative of it by x.
     pub(crate) s: f64,
     pub(crate) rate: f64,
     len: usize,
@@ -23,10 +25,36 @@ pub struct Row {
     slope: [f64; 12],
 }
 
+/// A place in a cell: its distance r from the nearer end, in lengths of the cell, and which end that is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fraction {
+    pub end: usize,
+    pub r: f64,
+}
+
+impl Fraction {
+    /// Share of the cell between its first end and the place.
+    #[inline]
+    pub fn along(self) -> f64 {
+        if self.end == 0 { self.r } else { 1.0 - self.r }
+    }
+}
+
+impl Terms {
+    /// What each value is added up from, in the order of [`Row::values`]: sums of |coefficient| r^p.
+    pub(crate) fn magnitudes(&self, Fraction { end, r }: Fraction) -> impl Iterator<Item = f64> + '_ {
+        let one = move |group: &Group, k: usize| {
+            group.cubic[end].iter().rev().fold(0.0, |sum, terms| terms[k].abs() + r * sum)
+        };
+        (0..self.len).map(move |k| one(&self.groups[k / 4], k % 4))
+    }
+}
+
 impl Row {
     pub(crate) const EMPTY: Row = Row {
         cell: 0,
         axis: 0,
+        group: 0,
         s: 0.0,
         rate: 0.0,
         len: 0,
@@ -54,9 +82,12 @@ impl Row {
         &self.slope[..self.len]
     }
 
-    /// Evaluates the cubics of a cell's axis at r in 0..=1; `scale` = dr/dx.
+    /// Evaluates the cubics of a cell's axis; `scale` = 1/(extent in x).
+    ///
+    /// Cubics in the distance from the nearer end keep the digits of what vanishes there.
     #[inline]
-    pub(crate) fn evaluate(&mut self, terms: &Terms, r: f64, scale: f64) {
+    pub(crate) fn evaluate(&mut self, terms: &Terms, Fraction { end, r }: Fraction, scale: f64) {
+        let scale = if end == 0 { scale } else { -scale };
         self.len = terms.len;
         self.groups = terms.groups.len().min(3);
         let (indices, _) = self.index.as_chunks_mut::<4>();
@@ -64,7 +95,7 @@ impl Row {
         let (slopes, _) = self.slope.as_chunks_mut::<4>();
         let out = indices.iter_mut().zip(values.iter_mut().zip(slopes));
         for (group, (index, (value, slope))) in terms.groups.iter().zip(out) {
-            let [a, b, c, d] = &group.cubic;
+            let [a, b, c, d] = &group.cubic[end];
             *index = group.index;
             // Whole arrays are stored, so that they can be loaded again without waiting.
             *value = std::array::from_fn(|k| a[k] + r * (b[k] + r * (c[k] + r * d[k])));
@@ -92,11 +123,11 @@ pub(crate) struct Terms {
     groups: Vec<Group>,
 }
 
-/// Four entries: cubics in r, the fraction of the cell; `cubic[p][k]` is the coefficient of r^p of entry k.
+/// Four entries: cubics in r, the distance from either end; `cubic[end][p][k]` is the coefficient of r^p of entry k.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Group {
     index: [usize; 4],
-    cubic: [[f64; 4]; 4],
+    cubic: [[[f64; 4]; 4]; 2],
 }
 
 /// Cubics of one axis of one cell, those that vanish left out.
@@ -104,42 +135,61 @@ struct Group {
 /// Bending: Timoshenko shapes with alpha = c h^2/(c h^2 + 12 g), beta = 12 g/(c h^2 + 12 g),
 /// c = 1/EI, g = 1/kGA, h = length; a rigid plane has alpha = 1, beta = 0.
 pub(crate) fn terms(cell: &Cell, axis: usize) -> Terms {
+    let cubics = [0, 1].map(|end| cubics(cell, axis, end));
+    let used: Vec<usize> = (0..12).filter(|&k| cubics.iter().any(|of| of[k] != [0.0; 4])).collect();
+    let index = |k: usize| 6 * cell.ends[k / 6] + k % 6;
+    let groups = used.chunks(4).map(|four| Group {
+        index: std::array::from_fn(|k| index(*four.get(k).unwrap_or(&four[0]))),
+        cubic: cubics.map(|of| {
+            std::array::from_fn(|p| std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| of[k][p])))
+        }),
+    });
+    Terms { len: used.len(), groups: groups.collect() }
+}
+
+/// Cubics of all twelve freedoms in the distance from `end`.
+fn cubics(cell: &Cell, axis: usize, end: usize) -> [[f64; 4]; 12] {
     let mut cubics = [[0.0; 4]; 12];
     if cell.ends[0] == cell.ends[1] {
         let along = cross([cell.x[1] - cell.x[0], 0.0, 0.0], unit(axis));
         let moment = cross(cell.offset, unit(axis));
         cubics[axis][0] = 1.0;
         for k in 0..3 {
-            cubics[3 + k][0] = moment[k];
-            cubics[3 + k][1] = along[k];
+            let rows = [[moment[k], along[k]], [moment[k] + along[k], -along[k]]];
+            cubics[3 + k][..2].copy_from_slice(&rows[end]);
         }
-    } else {
-        let local = local(cell, &Arm::new(cell, axis));
-        for (k, axes) in cell.frame.iter().enumerate() {
-            for (a, &component) in axes.iter().enumerate() {
-                let factor = clean(component, 1.0);
-                for block in [0, 3, 6, 9] {
-                    for p in 0..4 {
-                        cubics[block + a][p] += factor * local[block + k][p];
-                    }
+        return cubics;
+    }
+    let local = local(cell, &Arm::new(cell, axis), end);
+    for (k, axes) in cell.frame.iter().enumerate() {
+        for (a, &component) in axes.iter().enumerate() {
+            let factor = clean(component, 1.0);
+            for block in [0, 3, 6, 9] {
+                for p in 0..4 {
+                    cubics[block + a][p] += factor * local[block + k][p];
                 }
             }
         }
     }
-    let used: Vec<usize> = (0..12).filter(|&k| cubics[k] != [0.0; 4]).collect();
-    let index = |k: usize| 6 * cell.ends[k / 6] + k % 6;
-    let groups = used.chunks(4).map(|four| Group {
-        index: std::array::from_fn(|k| index(*four.get(k).unwrap_or(&four[0]))),
-        cubic: std::array::from_fn(|p| std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| cubics[k][p]))),
-    });
-    Terms { len: used.len(), groups: groups.collect() }
+    cubics
 }
 
-/// The same in local axes: u, v, w, theta x, y, z of the first end, then of the last.
-fn local(cell: &Cell, arm: &Arm) -> [[f64; 4]; 12] {
+/// The same in local axes: u, v, w, theta x, y, z of the first end, then of the last, by the distance from `end`.
+fn local(cell: &Cell, arm: &Arm, end: usize) -> [[f64; 4]; 12] {
     let mut out = [[0.0; 4]; 12];
     let free = free(cell);
-    let linear = |scale: f64| [[scale, -scale, 0.0, 0.0], [0.0, scale, 0.0, 0.0]];
+    let linear = |scale: f64| {
+        let near = [[scale, -scale, 0.0, 0.0], [0.0, scale, 0.0, 0.0]];
+        [near[end], near[1 - end]]
+    };
+    // Seen from the last end the member runs backwards: rotations and moments change sign.
+    let bent = |c: f64, g: f64, [force, moment]: [f64; 2]| {
+        if end == 0 {
+            return plane(c, g, cell.length, [force, moment]);
+        }
+        let [v0, t0, v1, t1] = plane(c, g, cell.length, [force, -moment]);
+        [v1, t1.map(|x| -x), v0, t0.map(|x| -x)]
+    };
     if !free[0] {
         [out[0], out[6]] = linear(arm.axial);
     }
@@ -148,10 +198,10 @@ fn local(cell: &Cell, arm: &Arm) -> [[f64; 4]; 12] {
     }
     let f = &cell.flexibility;
     if !free[2] {
-        [out[1], out[5], out[7], out[11]] = plane(f.bending_z, f.shear_y, cell.length, arm.xy);
+        [out[1], out[5], out[7], out[11]] = bent(f.bending_z, f.shear_y, arm.xy);
     }
     if !free[3] {
-        let [w0, t0, w1, t1] = plane(f.bending_y, f.shear_z, cell.length, arm.xz);
+        let [w0, t0, w1, t1] = bent(f.bending_y, f.shear_z, arm.xz);
         [out[2], out[4], out[8], out[10]] = [w0, t0.map(|x| -x), w1, t1.map(|x| -x)];
     }
     out

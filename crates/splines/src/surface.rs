@@ -9,10 +9,10 @@ use crate::{Compliance, Error, Influence, Line, Probe};
 
 /// Exact influence coefficients at any place of any rail:
 ///
-/// G(p, q) = N(p) C N(q)^T + \[same cell\] b(p, q)
+/// G(p, q) = N(p) C N(q)^T + \[same member\] b(p, q)
 ///
 /// with the shape rows N and clamped kernels b of the cells, and the compliance C of the states at their
-/// ends. Exact for piecewise uniform Euler-Bernoulli and Timoshenko members loaded at the rail, whatever
+/// ends; cells of two rails on one member share its kernel. Exact for piecewise uniform Euler-Bernoulli and Timoshenko members loaded at the rail, whatever
 /// the number of cells; positive semi-definite where C is; smooth where bending alone gives.
 ///
 /// # Source
@@ -105,8 +105,13 @@ impl Surface {
             let kernel = self.line.kernel_of(rows[j].cell);
             for i in j..n {
                 let (p, q) = (&rows[i], &rows[j]);
-                if let Some(kernel) = kernel.filter(|_| p.cell == q.cell) {
-                    let green = kernel.pair(p.axis, p.s, q.axis, q.s);
+                if p.group != q.group {
+                    value[j + n * i] = value[i + n * j];
+                    continue;
+                }
+                let own = if p.cell == q.cell { kernel } else { self.line.kernel_of(p.cell) };
+                if let (Some(own), Some(kernel)) = (own, kernel) {
+                    let green = own.pair(p.axis, p.s, kernel, q.axis, q.s);
                     value[i + n * j] += green.value;
                     slope[i + n * j] += green.first * p.rate;
                     if i != j {

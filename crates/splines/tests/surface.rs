@@ -295,6 +295,7 @@ fn arm(rail: usize, x: [f64; 2], end: usize) -> Cell {
         frame,
         offset: [-0.5, 2.0, 0.0],
         flexibility: Flexibility::default(),
+        carrier: None,
     }
 }
 

@@ -3,7 +3,7 @@
 use super::error::Error;
 use super::frame::WIDTH;
 use super::legend::Legend;
-use super::scale::step;
+use super::scale::{extent, step};
 use super::series::{Series, Style};
 use super::surface_plot::short;
 use super::svg::{Anchor, GREY, INK, Pen, SMALL, Sheet, TITLE, colour};
@@ -150,8 +150,7 @@ impl GirderPlot {
     }
 
     fn ends(&self) -> (f64, f64) {
-        let all = self.members.iter().chain([&self.rail]).flatten().map(|p| p[0]);
-        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)))
+        extent(self.members.iter().chain([&self.rail]).flatten().map(|p| p[0]))
     }
 
     /// Legend text and exaggerated points of the deflected shape.
@@ -176,8 +175,7 @@ impl GirderPlot {
         }
         let all = self.members.iter().chain([&self.rail, &self.stations, &self.loads]).flatten();
         let all = all.chain(shape.unwrap_or(&[])).chain(self.supports.iter().map(|s| &s.at));
-        let (low, high) =
-            all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), p| (a.min(p[1]), b.max(p[1])));
+        let (low, high) = extent(all.map(|p| p[1]));
         let above = if self.loads.is_empty() { 30.0 } else { 56.0 };
         let base = top + above + high * scale;
         let end = base - low * scale + 34.0;

@@ -25,6 +25,11 @@ pub(super) struct Scale {
     pub log: bool,
 }
 
+/// Least and greatest value; infinities the wrong way round where there is none.
+pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
+}
+
 impl Scale {
     /// Scale of `axis` over `data`. `loose` widens a range taken from the data to the next ticks.
     ///
@@ -34,7 +39,7 @@ impl Scale {
     pub fn new(axis: &Axis, data: impl Iterator<Item = f64>, loose: bool) -> Result<Self, Error> {
         let (mut low, mut high) = match axis.range {
             Some([low, high]) => (low, high),
-            None => data.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v))),
+            None => extent(data),
         };
         if axis.range.is_none() && low > high {
             return Err(Error::NoData);

@@ -5,7 +5,7 @@ use super::chart::Chart;
 use super::contour::region;
 use super::error::Error;
 use super::frame::{BELOW, Frame, WIDTH};
-use super::scale::{Scale, exponent, step};
+use super::scale::{Scale, exponent, extent, step};
 use super::series::{Series, Style};
 use super::svg::{Anchor, GREY, INK, LABEL, Pen, SMALL, Sheet, TITLE};
 use super::text::wrap;
@@ -101,8 +101,7 @@ impl SurfacePlot {
 
     /// Least and greatest value.
     fn extent(&self) -> (f64, f64) {
-        let all = self.values.iter().flatten();
-        all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(*v), b.max(*v)))
+        extent(self.values.iter().flatten().copied())
     }
 
     fn heading(&self, sheet: &mut Sheet, power: i32) -> Result<(), Error> {

@@ -1,12 +1,17 @@
 //! `girderway fea`: the influence grid of a beam spec.
 
 use crate::cli::{Fea, Global};
+use crate::coupling::Coupling;
 use crate::exit::{Exit, Failure};
+use crate::fault::{Fault, Faults};
 use crate::grid_file;
 use crate::inputs::Inputs;
 use crate::link;
+use crate::modes_file::{self, ACCURACY};
 use crate::output;
+use crate::place::Place;
 use crate::progress::Progress;
+use crate::source::Source;
 use crate::spec::Spec;
 
 /// Reads the spec, solves it, writes the grid to the file named or to standard output.
@@ -15,19 +20,47 @@ use crate::spec::Spec;
 /// What is wrong with the spec; a structure that does not stand; a file that cannot be written.
 pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let (_, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
+    let (_, source) = Inputs::open(&args.spec)?;
     let mut spec = Spec::read(&source, None)?;
     if let Some(theory) = args.theory {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = link::solve(&spec);
+    let solved = link::solve_to(&spec, args.accuracy);
     drop(stage);
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
     for note in &solved.grid.notes {
         progress.say(&format!("note: {note}"));
     }
-    let text = grid_file::write(&solved.grid, Some(&solved.surface));
+    if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
+        progress.say(&line);
+    }
+    let mut text = grid_file::write(&solved.grid, Some(&solved.surface));
+    if let Some(count) = args.modes {
+        let stage = progress.stage("modes");
+        let found = fea::refined_modes(&solved.model, &solved.rails, count as usize, ACCURACY);
+        drop(stage);
+        let refined = found.map_err(|error| refuse(&spec, &source, &error))?;
+        progress.say(&modes_file::line(&refined.modes));
+        if refined.error > ACCURACY {
+            progress.say(&format!("note: the mesh shows in the modes by {:.1e}", refined.error));
+        }
+        text = modes_file::insert(&text, &modes_file::write(&refined, &solved.grid.stations()));
+    }
     output::deliver(args.output.as_deref(), &text, &progress)?;
     Ok(Exit::Done)
+}
+
+/// What modes refuse: a spec without mass by what it lacks, all else as the solver's refusals.
+fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
+    if *error != fea::Error::NoMass {
+        return spec.refuse(source, error);
+    }
+    let root = Place::root();
+    let fault = if spec.girder().is_some() {
+        Fault::new(&root.key("girder"), "missing key `mass_per_length`")
+    } else {
+        Fault::new(&root.key("materials"), "one of them must have a `density`, or the spec `masses`")
+    };
+    Failure::Input(source.diagnose(&Faults(vec![fault.hint("modes need mass")])))
 }

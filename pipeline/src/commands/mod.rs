@@ -2,6 +2,7 @@
 
 pub mod crosscheck;
 pub mod fea;
+pub mod import;
 pub mod run;
 pub mod sim;
 pub mod splines;

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use sim::Status;
 
 use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
@@ -15,6 +14,7 @@ use crate::manifest::Manifest;
 use crate::output::{self, Folder};
 use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
+use crate::record::peak;
 use crate::scene::{Document, Scene};
 use crate::{grid_file, story, summary, tables};
 
@@ -59,7 +59,8 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
             .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
         folder.add(&name, outcome.record.csv().map_err(trouble)?);
     }
-    folder.add("summary.json", output_json(&summary_of(&document, &outcomes)));
+    let summary = summary_of(&document, &outcomes);
+    folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
     let plates = plates(scene, &document, &outcomes, &known)?;
@@ -72,29 +73,25 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let report = story::report(&document, &outcomes, &solved, plates);
     folder.add("report.html", report.html().map_err(trouble)?);
     clock.lap("report");
-    folder.add_varying("timing.json", output_json(&clock.json()));
+    folder.add_varying("timing.json", output::json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
     let written = folder.commit(Manifest::new(name, &document.inputs, settings))?;
-    finish(&outcomes, &written, &document, global, &progress)
+    finish(&outcomes, &summary, &written, scene, global, &progress)
 }
 
 /// Says how it went; the exit status is that of the worst run.
 fn finish(
     outcomes: &[Outcome],
+    summary: &Value,
     written: &Path,
-    document: &Document,
+    scene: &Scene,
     global: Global,
     progress: &Progress,
 ) -> Result<Exit, Failure> {
+    let unit = scene.units.length.word();
     for outcome in outcomes {
-        for body in &document.scene().bodies {
-            let deepest = outcome
-                .record
-                .values(&format!("{}.deflection", body.name))
-                .iter()
-                .copied()
-                .fold(f64::MIN, f64::max);
-            let unit = document.scene().units.length.word();
+        for body in &scene.bodies {
+            let Some((_, deepest)) = peak(outcome.record.part(&body.name, "deflection")) else { continue };
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
@@ -105,17 +102,14 @@ fn finish(
     }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
-        let result =
-            json!({ "output": written.display().to_string(), "summary": summary_of(document, outcomes) });
-        output::print(&output_json(&result))?;
+        let result = json!({ "output": written.display().to_string(), "summary": summary });
+        output::print(&output::json(&result))?;
     }
-    let failed = outcomes.iter().find(|outcome| outcome.run.status != Status::Done);
-    match failed.and_then(|outcome| {
-        summary::status(&outcome.run.status).1.map(|why| format!("{}: {why}", outcome.label))
-    }) {
-        Some(why) => Err(Failure::Untrusted(why)),
-        None => Ok(Exit::Done),
-    }
+    let failed = outcomes.iter().find_map(|outcome| {
+        let (_, why) = summary::status(&outcome.run.status);
+        why.map(|why| format!("{}: {why}", outcome.label))
+    });
+    failed.map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
 }
 
 /// Solves every spec of every case once.
@@ -123,11 +117,9 @@ fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<Known
     let mut known: Vec<Known> = Vec::new();
     let stage = progress.stage("solving the structures");
     for (_, file, spec) in specs(document) {
-        let solved = link::solve(spec).map_err(|error| {
-            match document.inputs.all().iter().find(|input| input.name == file) {
-                Some(input) => spec.refuse(&input.source, &error),
-                None => Failure::Untrusted(error.to_string()),
-            }
+        let solved = link::solve(spec).map_err(|error| match document.inputs.find(file) {
+            Some(input) => spec.refuse(&input.source, &error),
+            None => Failure::untrusted(error),
         })?;
         known.push(Known { spec: Arc::clone(spec), solved });
     }
@@ -188,8 +180,4 @@ fn plates(
 /// Something that should not happen to checked input, told instead of hidden.
 fn trouble(error: impl std::fmt::Display) -> Failure {
     Failure::Untrusted(format!("the results cannot be shown: {error}"))
-}
-
-fn output_json(value: &Value) -> String {
-    format!("{value:#}\n")
 }

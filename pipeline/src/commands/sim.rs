@@ -16,7 +16,7 @@ use crate::link::Solved;
 use crate::manifest::MANIFEST;
 use crate::progress::Progress;
 use crate::scene::Document;
-use crate::spec::{Form, Spec};
+use crate::spec::Spec;
 
 /// Simulates on the grids of the output folder, and writes the folder anew.
 ///
@@ -49,8 +49,7 @@ fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failu
     let manifest: Value = serde_json::from_slice(&text).map_err(|_| refuse("is not a manifest"))?;
     let entries = manifest["inputs"].as_array().map(Vec::as_slice).unwrap_or_default();
     let then = entries.iter().find(|entry| entry["name"] == file).and_then(|entry| entry["sha256"].as_str());
-    let now =
-        document.inputs.all().iter().find(|input| input.name == file).map(|input| input.sha256.as_str());
+    let now = document.inputs.find(file).map(|input| input.sha256.as_str());
     if then.is_some() && then == now {
         Ok(())
     } else {
@@ -60,17 +59,13 @@ fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failu
 
 /// Grid and exact surface from a grid file.
 fn solved(spec: &Spec, path: &Path) -> Result<Solved, Failure> {
-    let (_, source) = Inputs::open(path).map_err(|error| Failure::from(*error))?;
+    let (_, source) = Inputs::open(path)?;
     let (grid, surface) = grid_file::read(&source)?;
     let wrong = |why: &str| Failure::Input(vec![Diagnostic::of_file(source.name.clone(), why.to_owned())]);
     if grid.units != spec.units {
         return Err(wrong("is in other units than the scene"));
     }
     let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
-    let (model, rails) = spec.model().map_err(|error| Failure::Untrusted(error.to_string()))?;
-    let girder = match &spec.form {
-        Form::Girder(girder) => Some(girder.clone()),
-        Form::Frame(_) => None,
-    };
-    Ok(Solved { model, rails, surface, grid, girder })
+    let (model, rails) = spec.model().map_err(Failure::untrusted)?;
+    Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned() })
 }

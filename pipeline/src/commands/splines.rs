@@ -21,7 +21,7 @@ use crate::tables;
 /// What is wrong with the grid; an ending without a format; a file that cannot be written.
 pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     let format = args.output.as_deref().map_or(Ok(Format::Adams), format)?;
-    let (_, source) = Inputs::open(&args.grid).map_err(|error| Failure::from(*error))?;
+    let (_, source) = Inputs::open(&args.grid)?;
     let (grid, _) = grid_file::read(&source)?;
     let progress = Progress::new(global);
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
@@ -36,9 +36,7 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
         return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
     }
     let text = match format {
-        Format::Adams => {
-            splines::adams::write(&set).map_err(|error| Failure::Untrusted(error.to_string()))?
-        }
+        Format::Adams => splines::adams::write(&set).map_err(Failure::untrusted)?,
         Format::Json => tables::to_json(&grid, &set),
         Format::Csv => tables::to_csv(&set),
     };

@@ -10,7 +10,7 @@ use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
-use crate::spec::{Form, Spec};
+use crate::spec::Spec;
 
 /// A structure's FE model, solved.
 pub struct Solved {
@@ -31,15 +31,19 @@ pub struct Solved {
 /// # Errors
 /// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
 pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
+    solve_to(spec, fea::ACCURACY)
+}
+
+/// The same, with compliances whose relative error bound is at most `accuracy`.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_to(spec: &Spec, accuracy: f64) -> Result<Solved, fea::Error> {
     let (model, rails) = spec.model()?;
-    let frame = Frame::new(&model, &rails)?;
+    let frame = Frame::accurate(&model, &rails, accuracy)?;
     let exact = frame.surface()?;
-    let grid = Grid::of(spec, &frame)?;
-    let girder = match &spec.form {
-        Form::Girder(girder) => Some(girder.clone()),
-        Form::Frame(_) => None,
-    };
-    Ok(Solved { model, rails, surface: exact.surface, grid, girder })
+    let grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    Ok(Solved { model, rails, surface: exact.surface, grid, girder: spec.girder().cloned() })
 }
 
 /// The foundation of one structure of a scene; `lateral`: whether wheels push sideways.
@@ -131,10 +135,6 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
     parts::foundation(girder, count, Handover::Blend { length: window }, false)
-}
-
-pub(crate) fn untrusted(error: fea::Error) -> Failure {
-    Failure::Untrusted(error.to_string())
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

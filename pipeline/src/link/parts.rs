@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use fea::{Girder, Kind, Link, Member, Model, Support};
+use fea::{Girder, Link, Member, Model, Support};
 use nalgebra::{DMatrix, DVector};
 use sim::{BlendedParts, Extent, Foundation, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line, Surface};
 
-use super::{untrusted, window};
+use super::window;
 use crate::exit::Failure;
 use crate::scene::Handover;
 
@@ -52,7 +52,7 @@ pub fn foundation(
             separate,
         }));
     } else {
-        let surface = Surface::new(line, nodal).map_err(|error| Failure::Untrusted(error.to_string()))?;
+        let surface = Surface::new(line, nodal).map_err(Failure::untrusted)?;
         foundation.compliance = Some(if separate {
             Box::new(surface)
         } else {
@@ -70,19 +70,12 @@ fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
 
 /// Compliance of the parts' centres, six freedoms each.
 fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Failure> {
-    let (whole, _) = girder.frame().map_err(untrusted)?;
+    let (whole, _) = girder.frame().map_err(Failure::untrusted)?;
     let mut model =
         Model { up: whole.up, theory: whole.theory, sections: whole.sections.clone(), ..Model::default() };
     model.points = centres.iter().map(|&x| [x, 0.0, 0.0]).collect();
     for j in 1..centres.len() {
-        model.members.push(Member {
-            points: [j - 1, j],
-            kind: Kind::Beam,
-            section: 0,
-            orientation: [0.0, 1.0, 0.0],
-            offsets: [[0.0; 3]; 2],
-            releases: [[false; 6]; 2],
-        });
+        model.members.push(Member::beam([j - 1, j], 0, model.up));
     }
     for support in &whole.supports {
         let [x, ..] = whole.points[support.point];
@@ -93,7 +86,7 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
         model.supports.push(Support { point, fix: support.fix });
     }
     let points: Vec<usize> = (0..centres.len()).collect();
-    let (mut nodal, _) = fea::nodal(&model, &points).map_err(untrusted)?;
+    let (mut nodal, _) = fea::nodal(&model, &points).map_err(Failure::untrusted)?;
     // Freedoms that nothing resists are not the parts' to give.
     for i in 0..nodal.nrows() {
         if !nodal[(i, i)].is_finite() {
@@ -114,8 +107,9 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Failure>
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [from - centre, girder.rail_height, 0.0],
         flexibility: Flexibility::default(),
+        carrier: None,
     });
-    Line::new(cells.collect()).map_err(|error| Failure::Untrusted(error.to_string()))
+    Line::new(cells.collect()).map_err(Failure::untrusted)
 }
 
 /// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports

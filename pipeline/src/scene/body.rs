@@ -165,8 +165,7 @@ pub(super) fn read_motions(
     for (index, motion) in raw.iter().enumerate() {
         let at = list.index(index);
         let body = check.faults.need(&motion.body, &at, "body").and_then(|name| {
-            let known: Vec<(&str, usize)> =
-                bodies.iter().enumerate().map(|(index, body)| (body.name.as_str(), index)).collect();
+            let known = super::names(bodies, |body| &body.name);
             super::resolve(name, &known, "body", &at.key("body"), check.faults)
         });
         if let Some(dof) = check.faults.need(&motion.dof, &at, "dof") {

@@ -73,6 +73,11 @@ pub struct SceneRail {
     pub range: [f64; 2],
 }
 
+/// Names with their indices, as [`resolve`] takes them.
+pub(crate) fn names<T>(all: &[T], name: impl Fn(&T) -> &str) -> Vec<(&str, usize)> {
+    all.iter().enumerate().map(|(index, item)| (name(item), index)).collect()
+}
+
 /// Finds a name; one that is not there is a fault that lists those that are.
 pub(crate) fn resolve(
     name: &str,
@@ -101,8 +106,7 @@ pub(crate) fn resolve(
 
 /// Finds a rail by `structure.rail`, or by its own name where only one structure has it.
 pub(crate) fn rail(name: &str, rails: &[SceneRail], place: &Place<'_>, faults: &mut Faults) -> Option<usize> {
-    let known: Vec<(&str, usize)> =
-        rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
+    let known = names(rails, |rail| &rail.name);
     if known.is_empty() {
         // the structures have been faulted already
         return None;

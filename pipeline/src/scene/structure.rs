@@ -8,7 +8,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
 use crate::inputs::{Inputs, Unread};
 use crate::place::Place;
-use crate::spec::{Form, RailOutline, Spec};
+use crate::spec::{RailOutline, Spec};
 use crate::units::{Dimension, Units};
 
 /// Something that carries rails.
@@ -200,7 +200,7 @@ pub(super) fn read(
     };
     let origin = origin?;
     if let (Word::Parts, Origin::Spec { spec, .. }) = (word, &origin)
-        && !matches!(spec.form, Form::Girder(_))
+        && spec.girder().is_none()
     {
         let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
         check.faults.add(fault.hint("the short form of a spec, with `girder`"));

@@ -1,9 +1,9 @@
 //! Trucks: which wheels carry a body, where, on which rail.
 
 use super::raw::{RawNode, RawTruck};
-use super::{Body, SceneRail, Wheel, resolve};
+use super::{Body, SceneRail, Wheel, names, resolve};
 use crate::check::Check;
-use crate::fault::{Fault, number};
+use crate::fault::{Fault, Faults, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -73,24 +73,10 @@ pub(super) fn read(
     wheels: &[Wheel],
     check: &mut Check<'_>,
 ) -> Option<Truck> {
-    let named: Vec<(&str, usize)> =
-        bodies.iter().enumerate().map(|(index, body)| (body.name.as_str(), index)).collect();
-    let body = match (&raw.body, bodies) {
-        (None, [_]) => Some(0),
-        (name, _) => check
-            .faults
-            .need(name, at, "body")
-            .and_then(|name| resolve(name, &named, "body", &at.key("body"), check.faults)),
-    };
-    let kinds: Vec<(&str, usize)> =
-        wheels.iter().enumerate().map(|(index, wheel)| (wheel.name.as_str(), index)).collect();
-    let wheel = match (&raw.wheel, wheels) {
-        (None, [_]) => Some(0),
-        (name, _) => check
-            .faults
-            .need(name, at, "wheel")
-            .and_then(|name| resolve(name, &kinds, "kind of wheel", &at.key("wheel"), check.faults)),
-    };
+    let named = names(bodies, |body| &body.name);
+    let body = named_or_only(&raw.body, &named, "body", ("body", at), check.faults);
+    let kinds = names(wheels, |wheel| &wheel.name);
+    let wheel = named_or_only(&raw.wheel, &kinds, "kind of wheel", ("wheel", at), check.faults);
     let rail = read_rail(raw, at, body.map(|body| &bodies[body]), rails, check);
     let place = at.key("at");
     let position = check.vector(raw.at.unwrap_or_default(), &place, Dimension::LENGTH);
@@ -101,6 +87,23 @@ pub(super) fn read(
     let body = body?;
     let name = raw.name.clone().unwrap_or_else(|| format!("{}.truck{number}", bodies[body].name));
     Some(Truck { name, body, rail: rail?, wheel: wheel?, at: position, tree })
+}
+
+/// Index of what the truck names under a key, or of the only one there is.
+fn named_or_only(
+    name: &Option<String>,
+    known: &[(&str, usize)],
+    what: &str,
+    (key, at): (&str, &Place<'_>),
+    faults: &mut Faults,
+) -> Option<usize> {
+    match (name, known) {
+        (None, [(_, only)]) => Some(*only),
+        _ => {
+            let name = faults.need(name, at, key)?;
+            resolve(name, known, what, &at.key(key), faults)
+        }
+    }
 }
 
 fn read_rail(

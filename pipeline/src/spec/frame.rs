@@ -1,7 +1,8 @@
 //! The general form: points, members, what holds them, and rails on them.
 
-use fea::{Freedom, Link, Mass, Model, Spring, Support, Theory};
+use fea::{Freedom, Link, Mass, Model, Segment, Spring, Support, Taper, Theory};
 
+use super::cuts::{self, Cut};
 use super::raw::RawSpec;
 use super::{members, rails, sections};
 use crate::check::Check;
@@ -20,7 +21,9 @@ pub struct Frame {
     pub ranges: Vec<[f64; 2]>,
     /// Names of the sections.
     pub sections: Vec<String>,
-    /// For each member, the block of `cells` and the index in it.
+    /// Number of points in the file; those of tapered members' parts follow them.
+    pub points: usize,
+    /// For each member, the block of `cells` and the index in it: parts of a tapered cell share it.
     pub cells: Vec<[usize; 2]>,
     /// Named sets of points.
     pub point_sets: Vec<(String, Vec<usize>)>,
@@ -39,7 +42,12 @@ pub(super) const FREEDOMS: [(&str, Freedom); 6] = [
 /// Direction up where the spec gives none.
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
-pub(super) fn read(raw: &RawSpec, theory: Theory, root: &Place<'_>, check: &mut Check<'_>) -> Frame {
+pub(super) fn read(
+    raw: &RawSpec,
+    theory: Theory,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> (Frame, Vec<Cut>) {
     let mut model = Model { theory, up: raw.up.unwrap_or(UP), ..Model::default() };
     if length(model.up) == 0.0 {
         check.faults.add(Fault::new(&root.key("up"), "must not be zero"));
@@ -55,7 +63,7 @@ pub(super) fn read(raw: &RawSpec, theory: Theory, root: &Place<'_>, check: &mut 
     let sections = sections::read(raw, root, &mut model, check);
     let cells = members::read(raw, root, &mut model, check);
     if cells.whole {
-        sections::complete(raw, root, &model, check);
+        sections::complete(raw, root, &model, &cells.tapers, check);
     }
     read_supports(raw, root, &mut model, check);
     read_springs(raw, root, &mut model, check);
@@ -63,7 +71,36 @@ pub(super) fn read(raw: &RawSpec, theory: Theory, root: &Place<'_>, check: &mut 
     read_masses(raw, root, &mut model, check);
     let point_sets = read_sets(raw, root, &model, check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
-    Frame { model, rails, ranges, sections, cells: cells.places, point_sets }
+    let cuts = cuts::read_frame(raw, &cells, root, check);
+    let points = model.points.len();
+    let frame = Frame { model, rails, ranges, sections, points, cells: cells.places, point_sets };
+    if cells.whole { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
+}
+
+/// Puts uniform parts in the place of tapered cells; rails run over all parts, cuts are in theirs.
+fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Frame, Vec<Cut>) {
+    if tapers.iter().all(Option::is_none) {
+        return (frame, cuts);
+    }
+    let (model, parts) = frame.model.tapered(tapers);
+    let mut rails = frame.rails;
+    for (_, rail) in &mut rails {
+        let segments = std::mem::take(&mut rail.segments);
+        rail.segments = segments
+            .iter()
+            .flat_map(|segment| parts[segment.member].clone().map(|member| Segment { member, ..*segment }))
+            .collect();
+    }
+    for cut in &mut cuts {
+        let own = &parts[cut.member];
+        let along = cut.place * own.len() as f64;
+        // the index of a place within the cell is small and not negative
+        let part = (along as usize).min(own.len().saturating_sub(1));
+        cut.member = own.start + part;
+        cut.place = (along - part as f64).min(1.0);
+    }
+    let cells = frame.cells.iter().zip(&parts).flat_map(|(cell, own)| own.clone().map(|_| *cell)).collect();
+    (Frame { model, rails, cells, ..frame }, cuts)
 }
 
 /// The index of a point that exists.

@@ -30,8 +30,10 @@ impl Spec {
                 self.point(*point),
                 meaning(*freedom)
             )),
-            Error::Ill { condition, point, freedom } => Failure::Untrusted(format!(
-                "{}: condition {condition:.1e} leaves no digit to trust; weakest is {} in {freedom} ({})",
+            Error::Ill { condition, bound, asked, point, freedom } => Failure::Untrusted(format!(
+                "{}: condition {condition:.1e} bounds the relative error by {bound:.1e} even in double-doubles, asked \
+                 {asked:.1e}; weakest is {} in {freedom} ({})  hint: lengthen or join the shortest members, one a span is \
+                 best, or ask less with --accuracy",
                 source.name,
                 self.point(*point),
                 meaning(*freedom)
@@ -42,7 +44,7 @@ impl Spec {
                 self.path(Item::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
             )),
-            Error::Factor { .. } | Error::NoRails | Error::Rail(_) => {
+            Error::Factor { .. } | Error::NoRails | Error::Rail(_) | Error::NoMass | Error::Modes { .. } => {
                 Failure::Untrusted(format!("{}: {error}", source.name))
             }
         }
@@ -59,6 +61,7 @@ impl Spec {
                 Path(vec![key("girder"), key("overhangs"), Step::Index(index)])
             }
             (Form::Girder(_), Item::Station { station, .. }) => list("stations", station),
+            (_, Item::Effect(index)) => list("effects", index),
             (Form::Girder(_), _) => Path(vec![key("girder")]),
             (Form::Frame(_), Item::Up) => Path(vec![key("up")]),
             (Form::Frame(_), Item::Point(index)) => list("points", index),
@@ -109,7 +112,9 @@ impl Spec {
                 let place = frame.model.points.get(index).copied().unwrap_or_default();
                 let set = frame.point_sets.iter().find(|(_, points)| points.contains(&index));
                 let set = set.map_or_else(String::new, |(name, _)| format!(" of \"{name}\""));
-                format!("point {index}{set} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
+                let kind =
+                    if index < frame.points { format!("point {index}{set}") } else { "a cut".to_owned() };
+                format!("{kind} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
             }
         }
     }

@@ -1,9 +1,10 @@
 //! Cells and their data: the members of the general form.
 
-use fea::{Kind, Member, Model};
+use fea::{Kind, Member, Model, Taper};
 
 use super::frame::{freedoms, index_below, length};
 use super::raw::{RawCellData, RawSpec};
+use super::tapers::Tapers;
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
@@ -16,27 +17,34 @@ pub(super) struct Cells {
     pub places: Vec<[usize; 2]>,
     /// Cells a block.
     pub counts: Vec<usize>,
+    /// How each member differs from a uniform one.
+    pub tapers: Vec<Option<Taper>>,
     /// Whether every cell became a member, of the kind meant.
     pub whole: bool,
 }
 
 impl Cells {
-    /// The member at an index of a block.
-    pub fn member(&self, block: usize, index: usize) -> Option<usize> {
-        (index < *self.counts.get(block)?).then(|| self.counts[..block].iter().sum::<usize>() + index)
+    /// The member of a cell given as [block, index]; a fault where there is none.
+    pub fn of(&self, [block, index]: [usize; 2], at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
+        if self.counts.get(block).is_some_and(|count| index < *count) {
+            return Some(self.counts[..block].iter().sum::<usize>() + index);
+        }
+        let fault = Fault::new(at, "must be [block, index] of a cell");
+        check.faults.add(fault.got(format!("[{block}, {index}]")).hint("indices count from 0"));
+        None
     }
 }
 
 /// One array of `cell_data`, with its place in the file.
-struct Column<'r, T> {
-    key: &'static str,
+pub(super) struct Column<'r, T> {
+    pub key: &'static str,
     given: bool,
     blocks: Option<&'r Vec<Vec<T>>>,
 }
 
 impl<'r, T> Column<'r, T> {
     /// One array a block, one item a cell; wrong lengths are faults and leave the column out.
-    fn new(
+    pub fn new(
         key: &'static str,
         blocks: &'r Option<Vec<Vec<T>>>,
         counts: &[usize],
@@ -61,7 +69,7 @@ impl<'r, T> Column<'r, T> {
         Column { key, given: true, blocks: (check.faults.0.len() == before).then_some(given) }
     }
 
-    fn get(&self, block: usize, index: usize) -> Option<&'r T> {
+    pub fn get(&self, block: usize, index: usize) -> Option<&'r T> {
         self.blocks.and_then(|blocks| blocks.get(block)).and_then(|items| items.get(index))
     }
 }
@@ -82,12 +90,14 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
     let none = RawCellData::default();
     let data = raw.cell_data.as_ref().unwrap_or(&none);
     let columns = Columns::new(data, &counts, root, check);
+    let tapers = Tapers::new(raw, data, &counts, root, check);
     let mut cells = Cells { counts, ..Cells::default() };
     for (block, raw) in blocks.iter().enumerate() {
         let at = list.index(block);
         let at = at.key("data");
         for (index, ends) in raw.data.iter().flatten().enumerate() {
             if let Some(member) = columns.member(*ends, block, index, &at.index(index), root, model, check) {
+                cells.tapers.push(tapers.of(&member, [block, index], &at.index(index), root, model, check));
                 model.members.push(member);
                 cells.places.push([block, index]);
             }

@@ -1,5 +1,6 @@
 //! Beam specs: read, checked, in the units asked for.
 
+mod cuts;
 mod frame;
 mod girder;
 mod locate;
@@ -7,11 +8,13 @@ mod members;
 mod rails;
 mod raw;
 mod sections;
+mod tapers;
 #[cfg(test)]
 mod tests;
 
 use fea::{Girder, Model, Rail, Theory};
 
+pub use cuts::{Cut, Spot};
 pub use frame::Frame;
 
 use crate::check::Check;
@@ -52,6 +55,8 @@ pub struct Spec {
     pub theory: Theory,
     /// What it describes.
     pub form: Form,
+    /// Sections where internal forces are asked for.
+    pub effects: Vec<Cut>,
 }
 
 /// The two forms of a spec.
@@ -86,6 +91,15 @@ impl Spec {
         match spec {
             Some(spec) if faults.0.is_empty() => Ok(spec),
             _ => Err(source.diagnose(&faults)),
+        }
+    }
+
+    /// The straight girder; none where the spec is a frame.
+    #[must_use]
+    pub(crate) const fn girder(&self) -> Option<&Girder> {
+        match &self.form {
+            Form::Girder(girder) => Some(girder),
+            Form::Frame(_) => None,
         }
     }
 
@@ -146,13 +160,18 @@ impl Spec {
         let from = own.unwrap_or(any);
         let to = target.filter(|_| own.is_some()).unwrap_or(from);
         let mut check = Check { faults, scale: Scale { from, to } };
-        let form = match &raw.girder {
+        let (form, effects) = match &raw.girder {
             Some(girder) => {
                 refuse_general(raw, &root, check.faults);
-                Form::Girder(girder::read(girder, &raw.stations, theory, &root, &mut check))
+                let before = check.faults.0.len();
+                let girder = girder::read(girder, &raw.stations, theory, &root, &mut check);
+                let sound = check.faults.0.len() == before;
+                let effects = cuts::read_girder(raw, &girder, sound, &root, &mut check);
+                (Form::Girder(girder), effects)
             }
             None if raw.points.is_some() || raw.cells.is_some() => {
-                Form::Frame(frame::read(raw, theory, &root, &mut check))
+                let (frame, effects) = frame::read(raw, theory, &root, &mut check);
+                (Form::Frame(frame), effects)
             }
             None => {
                 let fault = Fault::new(&root, "must have a `girder`, or `points` and `cells`").got("neither");
@@ -163,7 +182,7 @@ impl Spec {
             }
         };
         let name = raw.name.clone().unwrap_or_else(|| stem(file));
-        Some(Spec { name, units: to, theory, form })
+        Some(Spec { name, units: to, theory, form, effects })
     }
 }
 
@@ -183,6 +202,7 @@ fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
         ("links", raw.links.is_some()),
         ("masses", raw.masses.is_some()),
         ("rails", raw.rails.is_some()),
+        ("parts", raw.parts.is_some()),
     ];
     for (key, given) in general {
         if given {

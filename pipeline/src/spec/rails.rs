@@ -65,16 +65,10 @@ fn read_rail(
         for (index, raw) in given.iter().enumerate() {
             let item = place.index(index);
             let offset = check.vector(raw.offset.unwrap_or_default(), &item.key("offset"), Dimension::LENGTH);
-            let Some(&[block, cell]) = check.faults.need(&raw.cell, &item, "cell") else { continue };
-            match cells.member(block, cell) {
-                Some(member) => {
-                    segments.push(Segment { member, offset });
-                    places.push(index);
-                }
-                None => {
-                    let fault = Fault::new(&item.key("cell"), "must be [block, index] of a cell");
-                    check.faults.add(fault.got(format!("[{block}, {cell}]")).hint("indices count from 0"));
-                }
+            let Some(&cell) = check.faults.need(&raw.cell, &item, "cell") else { continue };
+            if let Some(member) = cells.of(cell, &item.key("cell"), check) {
+                segments.push(Segment { member, offset });
+                places.push(index);
             }
         }
     }

@@ -17,7 +17,8 @@ crate::object::objects!(
     RawLink,
     RawMass,
     RawRail,
-    RawSegment
+    RawSegment,
+    RawCut
 );
 
 #[derive(Debug, Deserialize)]
@@ -42,6 +43,8 @@ pub(crate) struct RawSpec {
     pub links: Option<Vec<RawLink>>,
     pub masses: Option<Vec<RawMass>>,
     pub rails: Option<Entries<RawRail>>,
+    pub parts: Option<usize>,
+    pub effects: Option<Vec<RawCut>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -82,6 +85,8 @@ pub(crate) struct RawBlock {
 pub(crate) struct RawCellData {
     pub kind: Option<Vec<Vec<String>>>,
     pub section: Option<Vec<Vec<usize>>>,
+    pub section_b: Option<Vec<Vec<Option<usize>>>>,
+    pub parts: Option<Vec<Vec<Option<usize>>>>,
     pub orientation: Option<Vec<Vec<[f64; 3]>>>,
     pub offset_a: Option<Vec<Vec<[f64; 3]>>>,
     pub offset_b: Option<Vec<Vec<[f64; 3]>>>,
@@ -164,4 +169,13 @@ pub(crate) struct RawRail {
 pub(crate) struct RawSegment {
     pub cell: Option<[usize; 2]>,
     pub offset: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawCut {
+    pub name: Option<String>,
+    pub x: Option<f64>,
+    pub cell: Option<[usize; 2]>,
+    pub at: Option<f64>,
 }

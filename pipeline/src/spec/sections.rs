@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use fea::{Kind, Model, Section, Theory};
+use fea::{Kind, Model, Section, Taper, Theory};
 
 use super::raw::{RawMaterial, RawSection, RawSpec};
 use crate::check::Check;
@@ -105,15 +105,23 @@ fn read_section(
 }
 
 /// Checks that sections have what their members need: an area, and for beams second moments and torsion too.
-pub(super) fn complete(raw: &RawSpec, root: &Place<'_>, model: &Model, check: &mut Check<'_>) {
+pub(super) fn complete(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    model: &Model,
+    tapers: &[Option<Taper>],
+    check: &mut Check<'_>,
+) {
     let list = root.key("sections");
     for (index, (section, raw)) in model.sections.iter().zip(raw.sections.iter().flatten()).enumerate() {
         let at = list.index(index);
-        let mut users = model.members.iter().filter(|member| member.section == index).peekable();
+        let ends = |taper: &Option<Taper>| taper.is_some_and(|taper| taper.section == index);
+        let pairs = model.members.iter().zip(tapers);
+        let mut users = pairs.filter(|(member, taper)| member.section == index || ends(taper)).peekable();
         if users.peek().is_none() {
             continue;
         }
-        let beams = users.any(|member| member.kind == Kind::Beam);
+        let beams = users.any(|(member, _)| member.kind == Kind::Beam);
         for (key, value) in [("A", raw.area), ("Iy", raw.iy), ("Iz", raw.iz), ("J", raw.j)] {
             if value.is_none() && (beams || key == "A") {
                 let user = if beams { "beams" } else { "members" };

@@ -1,7 +1,8 @@
 //! What several test files share.
 #![allow(dead_code)]
 
-use fea::{Freedom, Girder, Kind, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
+use fea::{Freedom, Girder, Kind, Link, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
+use nalgebra::Vector3;
 use serde_json::Value;
 use splines::{Axis, Probe};
 
@@ -25,6 +26,39 @@ pub fn paper() -> Girder {
 
 pub fn probes(axis: Axis, at: &[f64]) -> Vec<Probe> {
     at.iter().map(|&x| Probe { rail: 0, x, axis }).collect()
+}
+
+/// The same model with nodes: members are cut at `places` (member, fraction of its flexible part), and a
+/// point at the rigid offset from each cut is linked to it. Gives the linked points, in the order of `places`.
+pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, Vec<usize>) {
+    let mut cut = Model { members: Vec::new(), ..model.clone() };
+    let mut linked = vec![0; places.len()];
+    for (index, member) in model.members.iter().enumerate() {
+        let end = |k: usize| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]);
+        let mut own: Vec<usize> = (0..places.len()).filter(|&k| places[k].0 == index).collect();
+        own.sort_by(|&a, &b| places[a].1.total_cmp(&places[b].1));
+        let mut rest = *member;
+        for same in own.chunk_by(|&a, &b| places[a].1 == places[b].1) {
+            let place = end(0) + (end(1) - end(0)) * places[same[0]].1;
+            let node = cut.points.len();
+            cut.points.push(place.into());
+            let mut first = rest;
+            first.points[1] = node;
+            first.offsets[1] = [0.0; 3];
+            first.releases[1] = [false; 6];
+            cut.members.push(first);
+            rest.points[0] = node;
+            rest.offsets[0] = [0.0; 3];
+            rest.releases[0] = [false; 6];
+            for &k in same {
+                linked[k] = cut.points.len();
+                cut.points.push((place + Vector3::from(places[k].2)).into());
+                cut.links.push(Link { from: node, to: linked[k] });
+            }
+        }
+        cut.members.push(rest);
+    }
+    (cut, linked)
 }
 
 /// A repeatable stream of numbers in 0..1 (splitmix64).

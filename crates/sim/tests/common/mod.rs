@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod parts;
+
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
@@ -140,6 +142,7 @@ pub fn surface() -> Surface {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [0.0; 3],
         flexibility,
+        carrier: None,
     });
     Surface::new(Arc::new(Line::new(cells.collect()).expect("valid cells")), nodal).expect("the shape fits")
 }

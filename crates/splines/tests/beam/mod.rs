@@ -107,6 +107,7 @@ pub fn chain(stations: &[f64], offset: [f64; 3], flexibility: Flexibility) -> Ve
             frame: STRAIGHT,
             offset,
             flexibility,
+            carrier: None,
         })
         .collect()
 }

@@ -1,0 +1,106 @@
+//! Reactions and internal forces per unit load at the stations.
+
+use fea::{Component, Effect, Frame, Model};
+use splines::{Axis, Probe};
+
+use crate::spec::{Cut, Form, Spec, Spot};
+
+/// Words of the components of an internal force.
+pub const COMPONENTS: [(&str, Component); 6] = [
+    ("N", Component::Axial),
+    ("Vy", Component::ShearY),
+    ("Vz", Component::ShearZ),
+    ("Mx", Component::Torsion),
+    ("My", Component::BendingY),
+    ("Mz", Component::BendingZ),
+];
+
+/// Influence lines at the stations: what unit loads cause elsewhere.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Effects {
+    /// Forces and moments of the ground.
+    pub reactions: Vec<Reaction>,
+    /// Internal forces at named sections.
+    pub sections: Vec<Section>,
+}
+
+/// One value for each station, by the direction of the unit load.
+pub type Lines = Vec<(Axis, Vec<f64>)>;
+
+/// A reaction, positive along its global freedom.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reaction {
+    /// Where it acts.
+    pub at: Ground,
+    /// Word of its freedom.
+    pub dof: String,
+    /// Index of the spring that gives it; `None` is a support.
+    pub spring: Option<usize>,
+    /// Its influence lines.
+    pub lines: Lines,
+}
+
+/// A supported place as users know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ground {
+    /// Coordinate along a girder.
+    Along(f64),
+    /// Index of a point.
+    Point(usize),
+}
+
+/// Internal forces at a section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Its name.
+    pub name: String,
+    /// Where it is.
+    pub at: Spot,
+    /// Influence lines of the components N, Vy, Vz, Mx, My, Mz in the member's local axes.
+    pub lines: [Lines; 6],
+}
+
+impl Effects {
+    /// Effects of unit loads at `stations` (rail, coordinate) along `axes`.
+    ///
+    /// # Errors
+    /// A station where the frame gives no answer.
+    pub fn of(
+        spec: &Spec,
+        model: &Model,
+        frame: &Frame,
+        stations: &[(usize, f64)],
+        axes: &[Axis],
+    ) -> Result<Effects, fea::Error> {
+        let holds = frame.holds(model);
+        let mut effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
+        for &Cut { member, place, .. } in &spec.effects {
+            let force = |(_, component)| Effect::Force { member, place, component };
+            effects.extend(COMPONENTS.map(force));
+        }
+        let load = |axis: Axis| stations.iter().map(move |&(rail, x)| Probe { rail, x, axis });
+        let probes: Vec<Probe> = axes.iter().copied().flat_map(load).collect();
+        let value = frame.effects(model, &effects, &probes)?;
+        let n = stations.len();
+        let lines = |row: usize| -> Lines {
+            let line = |k: usize| value.row(row).columns(k * n, n).iter().copied().collect();
+            axes.iter().enumerate().map(|(k, &axis)| (axis, line(k))).collect()
+        };
+        let ground = |point: usize| match &spec.form {
+            Form::Girder(_) => Ground::Along(model.points.get(point).map_or(0.0, |place| place[0])),
+            Form::Frame(_) => Ground::Point(point),
+        };
+        let reactions = holds.iter().enumerate().map(|(row, hold)| Reaction {
+            at: ground(hold.point),
+            dof: hold.freedom.to_string(),
+            spring: hold.spring,
+            lines: lines(row),
+        });
+        let sections = spec.effects.iter().enumerate().map(|(index, cut)| Section {
+            name: cut.name.clone(),
+            at: cut.spot,
+            lines: std::array::from_fn(|k| lines(holds.len() + 6 * index + k)),
+        });
+        Ok(Effects { reactions: reactions.collect(), sections: sections.collect() })
+    }
+}

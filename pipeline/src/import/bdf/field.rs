@@ -1,0 +1,135 @@
+//! Single fields: integers, real numbers without E, lists of freedoms.
+
+/// A number of bulk data.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Number {
+    /// Digits alone.
+    Integer(i64),
+    /// With a decimal point, or an exponent with its letter; finite.
+    Real(f64),
+    /// A real number beyond the largest double.
+    Huge,
+}
+
+/// Reads a number: `12`, `-3.5`, `1.+7`, `2.5-3`, `.5E4`, `1.D+7`. `None` for anything else.
+#[must_use]
+pub fn number(text: &str) -> Option<Number> {
+    let body = text.strip_prefix(['+', '-']).unwrap_or(text);
+    let sign = if text.starts_with('-') { "-" } else { "" };
+    let end = body.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(body.len());
+    let (mantissa, exponent) = body.split_at(end);
+    let points = mantissa.matches('.').count();
+    if points > 1 || mantissa.len() == points {
+        return None;
+    }
+    if exponent.is_empty() && points == 0 {
+        return format!("{sign}{mantissa}").parse().ok().map(Number::Integer);
+    }
+    let digits = match exponent.strip_prefix(['E', 'e', 'D', 'd']) {
+        Some(digits) => digits,
+        None if exponent.is_empty() => "0",
+        // without its letter an exponent has a sign, and the number a decimal point
+        None if points == 1 && exponent.starts_with(['+', '-']) => exponent,
+        None => return None,
+    };
+    let unsigned = digits.strip_prefix(['+', '-']).unwrap_or(digits);
+    if unsigned.is_empty() || !unsigned.bytes().all(|digit| digit.is_ascii_digit()) {
+        return None;
+    }
+    let value: f64 = format!("{sign}{mantissa}e{digits}").parse().ok()?;
+    Some(if value.is_finite() { Number::Real(value) } else { Number::Huge })
+}
+
+/// Digits 1 to 6, each at most once, as a set of freedoms.
+#[must_use]
+pub fn freedoms(text: &str) -> Option<[bool; 6]> {
+    let mut set = [false; 6];
+    for digit in text.bytes() {
+        let index = usize::from(digit.checked_sub(b'1')?);
+        let slot = set.get_mut(index)?;
+        if std::mem::replace(slot, true) {
+            return None;
+        }
+    }
+    Some(set)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_read_as_they_are_meant() {
+        let reals = [
+            ("1.", 1.0),
+            (".5", 0.5),
+            ("-3.25", -3.25),
+            ("+1.5", 1.5),
+            ("1.+7", 1e7),
+            ("2.5-3", 2.5e-3),
+            ("-2.5-3", -2.5e-3),
+            (".1+1", 1.0),
+            ("1.D+7", 1e7),
+            ("1.d-2", 0.01),
+            ("4.E+6", 4e6),
+            ("7e3", 7e3),
+            ("1.E7", 1e7),
+            ("0.", 0.0),
+            ("1.-400", 0.0),
+        ];
+        for (text, value) in reals {
+            assert_eq!(number(text), Some(Number::Real(value)), "{text}");
+        }
+        for (text, value) in [("12", 12), ("-3", -3), ("+4", 4), ("0007", 7)] {
+            assert_eq!(number(text), Some(Number::Integer(value)), "{text}");
+        }
+        assert_eq!(number("1.+400"), Some(Number::Huge));
+    }
+
+    #[test]
+    fn reals_are_the_nearest_doubles() {
+        for text in ["0.1", "2.997924", "6.0221408", "1.7976931348623157"] {
+            let Some(Number::Real(value)) = number(&format!("{text}+5")) else { panic!("{text}") };
+            assert_eq!(value.to_bits(), format!("{text}e5").parse::<f64>().expect("a number").to_bits());
+        }
+    }
+
+    #[test]
+    fn other_texts_are_no_numbers() {
+        for text in [
+            "",
+            "+",
+            "-",
+            ".",
+            "+.",
+            "1..2",
+            "1.2.3",
+            "abc",
+            "1.E",
+            "1.E+",
+            "1.+",
+            "1+7",
+            "12-3",
+            "1. 5",
+            "--1.",
+            "1.5x",
+            "nan",
+            "inf",
+            "0x1",
+            "1.E+-3",
+            "99999999999999999999",
+            "1,5",
+        ] {
+            assert_eq!(number(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn freedoms_are_digits_one_to_six_once_each() {
+        assert_eq!(freedoms("2346"), Some([false, true, true, true, false, true]));
+        assert_eq!(freedoms(""), Some([false; 6]));
+        for text in ["0", "7", "11", "12a", "1 2", "-1", "1."] {
+            assert_eq!(freedoms(text), None, "{text}");
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Supports asked for on the command line.
+
+use std::str::FromStr;
+
+use super::structure::Structure;
+
+/// Freedoms of a set of points to hold: `SET=ux,uy,uz`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    set: String,
+    fix: [bool; 6],
+}
+
+impl FromStr for Asked {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Asked, String> {
+        let (set, list) = text.rsplit_once('=').ok_or("must be SET=FREEDOMS, such as feet=ux,uy,uz")?;
+        let mut fix = [false; 6];
+        for word in list.split(',') {
+            let index = ["ux", "uy", "uz", "rx", "ry", "rz"].iter().position(|known| *known == word.trim());
+            let index = index.ok_or_else(|| format!("`{word}` must be one of ux, uy, uz, rx, ry, rz"))?;
+            fix[index] = true;
+        }
+        Ok(Asked { set: set.to_owned(), fix })
+    }
+}
+
+/// Holds the points of a set.
+///
+/// # Errors
+/// What must be otherwise, and a hint.
+pub fn hold(asked: &Asked, structure: &mut Structure) -> Result<(), [String; 2]> {
+    let Some((_, set)) = structure.point_sets.iter().find(|(name, _)| *name == asked.set) else {
+        let names: Vec<&str> = structure.point_sets.iter().take(20).map(|(name, _)| name.as_str()).collect();
+        let hint = format!(
+            "sets of points: {}",
+            if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+        );
+        return Err([format!("names the set {}, which is not there", asked.set), hint]);
+    };
+    for point in set {
+        let support = structure.supports.entry(*point).or_default();
+        for (freedom, fix) in asked.fix.iter().enumerate() {
+            support[freedom] |= fix;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,123 @@
+//! Sections where internal forces are asked for: the member `effects` of both forms.
+
+use fea::Girder;
+
+use super::members::Cells;
+use super::raw::{RawCut, RawSpec};
+use crate::check::Check;
+use crate::fault::{Fault, number};
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// A section where internal forces are asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cut {
+    /// Its name.
+    pub name: String,
+    /// Where it is, as the spec says it.
+    pub spot: Spot,
+    /// Index of the member.
+    pub member: usize,
+    /// Place along the member's flexible part, 0..=1.
+    pub place: f64,
+}
+
+/// A place of a structure as users know it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spot {
+    /// Coordinate along a girder.
+    Along(f64),
+    /// Block and index of a cell, and the share of its flexible part from end a, 0..=1.
+    Cell([usize; 2], f64),
+}
+
+/// Cuts of a girder: at a support the section just beyond it, at the girder's last end just before.
+pub(super) fn read_girder(
+    raw: &RawSpec,
+    girder: &Girder,
+    sound: bool,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<Cut> {
+    let mut cuts = Vec::new();
+    let [before, after] = girder.overhangs;
+    let mut bounds = vec![0.0];
+    for span in &girder.spans {
+        bounds.push(bounds[bounds.len() - 1] + span);
+    }
+    if before > 0.0 {
+        bounds.insert(0, -before);
+    }
+    if after > 0.0 {
+        bounds.push(bounds[bounds.len() - 1] + after);
+    }
+    each(raw, root, check, |raw, at, name, check| {
+        for (key, given) in [("cell", raw.cell.is_some()), ("at", raw.at.is_some())] {
+            if given {
+                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the general form")).at_key();
+                check.faults.add(fault.hint("on a `girder` a section is at `x`, from the first support"));
+            }
+        }
+        let Some(&given) = check.faults.need(&raw.x, at, "x") else { return };
+        let x = check.number(given, &at.key("x"), Dimension::LENGTH);
+        let (first, last) = (bounds[0], bounds[bounds.len() - 1]);
+        let slack = 1e-12 * (last - first);
+        if !sound {
+            return;
+        }
+        if x < first - slack || x > last + slack {
+            let factor = check.scale.factor(Dimension::LENGTH);
+            let expected = format!("must be on the girder, from {} to {}", first / factor, last / factor);
+            check.faults.add(Fault::new(&at.key("x"), expected).got(number(given)));
+            return;
+        }
+        let members = bounds.len() - 1;
+        let member = bounds[1..members].partition_point(|bound| *bound <= x + slack);
+        let place = ((x - bounds[member]) / (bounds[member + 1] - bounds[member])).clamp(0.0, 1.0);
+        cuts.push(Cut { name, spot: Spot::Along(x), member, place });
+    });
+    cuts
+}
+
+/// Cuts of the general form, on the cells as the file has them.
+pub(super) fn read_frame(raw: &RawSpec, cells: &Cells, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Cut> {
+    let mut cuts = Vec::new();
+    each(raw, root, check, |raw, at, name, check| {
+        if raw.x.is_some() {
+            let fault = Fault::new(&at.key("x"), "`x` belongs to the short form").at_key();
+            check.faults.add(fault.hint("in the general form a section is `at` a share of its `cell`"));
+        }
+        let cell = check.faults.need(&raw.cell, at, "cell").copied();
+        let share = check.faults.need(&raw.at, at, "at").copied();
+        if let Some(share) = share.filter(|share| !(0.0..=1.0).contains(share)) {
+            let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(share));
+            check.faults.add(fault.hint("0 is the cell's flexible end a, 1 its end b"));
+        }
+        let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));
+        if let (Some(cell), Some(member), Some(place)) = (cell, member, share) {
+            cuts.push(Cut { name, spot: Spot::Cell(cell, place), member, place });
+        }
+    });
+    cuts
+}
+
+/// Hands every entry on with its place and a name that no other has.
+fn each(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+    mut read: impl FnMut(&RawCut, &Place<'_>, String, &mut Check<'_>),
+) {
+    let list = root.key("effects");
+    let mut names: Vec<&str> = Vec::new();
+    for (index, raw) in raw.effects.iter().flatten().enumerate() {
+        let at = list.index(index);
+        let name = check.faults.need(&raw.name, &at, "name").map(String::as_str).unwrap_or_default();
+        if raw.name.is_some() && (name.is_empty() || names.contains(&name)) {
+            let fault = Fault::new(&at.key("name"), "must be a name of its own").got(format!("\"{name}\""));
+            check.faults.add(fault);
+        }
+        names.push(name);
+        read(raw, &at, name.to_owned(), check);
+    }
+}

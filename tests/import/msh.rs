@@ -1,0 +1,106 @@
+//! Meshes written by gmsh.
+
+use fea::Kind;
+use girderway::diagnostic::Diagnostic;
+use girderway::import::{Imported, Options, import};
+use girderway::source::Source;
+use girderway::units::Length;
+use serde_json::json as value;
+
+use super::{folder, frame, json, text, told};
+
+fn options(sections: &str) -> Options {
+    let name = format!("meshes/{sections}");
+    Options {
+        length: Some(Length::Millimetre),
+        up: Some([0.0, 0.0, 1.0]),
+        sections: Some(Source { text: text(&name), name }),
+        ..Options::default()
+    }
+}
+
+fn mesh(name: &str, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
+    import(&folder().join("meshes").join(name), &|path| std::fs::read(path), options)
+}
+
+fn portal() -> Options {
+    Options {
+        rails: vec!["crane=runway girder/offset=0,0,0.2".parse().expect("a rail")],
+        fix: vec!["support feet=ux,uy,uz,rx,ry,rz".parse().expect("a support")],
+        ..options("portal.json")
+    }
+}
+
+#[test]
+fn physical_names_become_sections_and_sets() {
+    let imported = mesh("portal.msh", &portal()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    assert!(imported.warnings.is_empty(), "{}", told(&imported.warnings));
+    let spec = json(&imported);
+    // the mesh is in mm, its sections in m: so is the spec
+    assert_eq!(spec["units"], value!({ "length": "m", "force": "kN", "time": "s" }));
+    assert_eq!(spec["points"].as_array().map(Vec::len), Some(15));
+    assert_eq!(spec["points"][4], value!([6.0, 0.0, 4.0]));
+    assert_eq!(spec["point_sets"], value!({ "middle": [4], "support feet": [0, 1, 2] }));
+    assert_eq!(
+        spec["cell_sets"],
+        value!({ "brace": [[14]], "column": [[0, 1, 2, 3, 4, 5]], "runway girder": [[6, 7, 8, 9, 10, 11, 12, 13]] })
+    );
+    let frame = frame(&imported);
+    let [column, girder, brace] = [0, 6, 14].map(|index| frame.model.members[index]);
+    assert_eq!((column.kind, column.section, column.orientation), (Kind::Beam, 0, [1.0, 0.0, 0.0]));
+    assert_eq!((girder.section, girder.orientation), (1, [0.0, 0.0, 1.0]));
+    assert_eq!((brace.kind, brace.section), (Kind::Truss, 2));
+    assert_eq!(frame.model.supports.len(), 3);
+    let (_, rail) = &frame.rails[0];
+    assert_eq!(rail.axis, [1.0, 0.0, 0.0]);
+    assert_eq!((rail.stations.len(), frame.ranges[0]), (9, [0.0, 12.0]));
+    // it can be solved
+    let solved = fea::Frame::new(&frame.model, std::slice::from_ref(rail)).expect("a structure that stands");
+    assert!(solved.certificate().error_bound < 1e-6);
+}
+
+#[test]
+fn a_mesh_that_saves_everything_is_the_same() {
+    let wanted = mesh("portal.msh", &portal()).expect("a mesh").text.replace("\"portal\"", "");
+    let all = mesh("portal_all.msh", &portal()).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let [all, wanted] = [all.text.replace("\"portal_all\"", ""), wanted].map(|text| {
+        let value: serde_json::Value = serde_json::from_str(&text.replace("\"name\": ,", "")).expect("JSON");
+        value
+    });
+    // element numbers shift, nothing else
+    assert_eq!(all, wanted);
+}
+
+#[test]
+fn elements_that_are_no_lines_are_left_out_by_name() {
+    let options = Options { length: Some(Length::Metre), ..options("plate.json") };
+    let imported = mesh("plate.msh", &options).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let warned = told(&imported.warnings);
+    assert!(warned.contains("triangles are left out"), "{warned}");
+    let spec = json(&imported);
+    assert_eq!(spec["cells"][0]["data"].as_array().map(Vec::len), Some(10));
+    assert_eq!(spec["points"].as_array().map(Vec::len), Some(11));
+}
+
+#[test]
+fn other_versions_are_refused_with_the_way_to_convert_them() {
+    for (name, part) in [
+        ("portal_22.msh", "must be version 4.1, got 2.2"),
+        ("portal_40.msh", "must be version 4.1, got 4"),
+        ("portal_binary.msh", "must be a mesh in text"),
+        ("portal_order_2.msh", "lines of more than two nodes"),
+    ] {
+        let wrong = told(&mesh(name, &portal()).expect_err("another format"));
+        assert!(wrong.contains(part) && wrong.contains("hint"), "{name}: {wrong}");
+    }
+}
+
+#[test]
+fn units_and_sections_are_never_guessed() {
+    let wrong = mesh("portal.msh", &Options::default()).expect_err("nothing said");
+    let wrong = told(&wrong);
+    assert!(wrong.contains("--length must say") && wrong.contains("--sections must name"), "{wrong}");
+    let no_up = Options { up: None, rails: Vec::new(), ..portal() };
+    let wrong = told(&mesh("portal.msh", &no_up).expect_err("no orientation"));
+    assert!(wrong.contains("orientation"), "{wrong}");
+}
