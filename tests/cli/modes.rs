@@ -27,7 +27,7 @@ fn modes_of_a_span_are_those_of_the_textbook() {
     let grid = json(&fs::read(folder.path().join("grid.json")).expect("written"));
     let modes = &grid["modes"];
     assert_eq!(modes["complete_below"]["count"], 4);
-    let mass = 26.4 * 60.0;
+    let mass = 26.4 * 60.0_f64;
     for (k, mode) in modes["modes"].as_array().expect("a list").iter().enumerate() {
         let n = (k + 1) as f64;
         // omega = (n pi / L)^2 sqrt(EI / m), phi = sqrt(2 / mL) sin(n pi x / L).
@@ -38,7 +38,7 @@ fn modes_of_a_span_are_those_of_the_textbook() {
         let slope = numbers(&mode["vertical"]["slope"]);
         let sign = slope[0].signum();
         for (x, (value, slope)) in [0.0, 15.0, 30.0, 60.0].into_iter().zip(value.iter().zip(&slope)) {
-            let (size, wave) = (sign * (2.0 / mass).sqrt(), n * PI / 60.0);
+            let (size, wave) = (sign * (2.0_f64 / mass).sqrt(), n * PI / 60.0);
             assert!((value - size * (wave * x).sin()).abs() < 2e-3 * size.abs(), "mode {n} at {x}");
             assert!((slope - size * wave * (wave * x).cos()).abs() < 5e-3 * wave * size.abs());
         }

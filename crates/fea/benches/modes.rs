@@ -69,7 +69,6 @@ fn building(sides: [usize; 3]) -> Model {
 fn runways(bencher: Bencher, bays: usize) {
     let model = runway(bays);
     let frame = Frame::new(&model, &[]).expect("sound");
-    eprintln!("{} unknowns", frame.unknowns());
     bencher.bench_local(|| black_box(frame.modes(&model, 20).expect("sound")));
 }
 
@@ -78,6 +77,5 @@ fn runways(bencher: Bencher, bays: usize) {
 fn buildings(bencher: Bencher, sides: [usize; 3]) {
     let model = building(sides);
     let frame = Frame::new(&model, &[]).expect("sound");
-    eprintln!("{} unknowns", frame.unknowns());
     bencher.bench_local(|| black_box(frame.modes(&model, 20).expect("sound")));
 }

@@ -7,12 +7,14 @@ use splines::{Axis, Line, Probe, Surface};
 use sprs::CsMat;
 
 use crate::error::Error;
+use crate::factor::Factor;
 use crate::frame::Frame;
 use crate::freedoms::Sum;
 use crate::lanczos::{Pencil, Space, product};
 use crate::mass::Mass;
 use crate::model::Model;
 use crate::rail::Rail;
+use crate::solver::Solver;
 
 /// Smallest distance, relative to lambda, of two eigenvalues between which a count is taken.
 const GAP: f64 = 1e-6;
@@ -24,6 +26,8 @@ const ROOM: usize = 64;
 const TRIES: usize = 3;
 /// How many more eigenvalues are looked for where none of the gaps will do.
 const STEP: usize = 8;
+/// Rounding, amplified by the condition, that doubles may leave in a frequency.
+const DIGITS: f64 = 1e-9;
 /// How often a search is taken up again after a count that found more.
 const ATTEMPTS: usize = 12;
 
@@ -86,7 +90,14 @@ impl Frame {
     /// # Source
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
     pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
-        let (assembly, factor) = self.system();
+        let (assembly, solver) = self.system();
+        let double = match solver {
+            Solver::Extended(_) if self.certificate().condition * f64::EPSILON < DIGITS => {
+                Factor::new(&assembly.upper).ok().map(Solver::Double)
+            }
+            _ => None,
+        };
+        let factor = double.as_ref().unwrap_or(solver);
         let mass = Mass::new(m, &self.elements, &self.freedoms, assembly)?;
         let pencil = Pencil { stiffness: &assembly.upper, mass: &mass.upper, factor };
         let norms = [assembly.norm(), column_norm(&mass.upper)];

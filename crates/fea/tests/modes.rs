@@ -459,3 +459,14 @@ fn members_are_cut_until_the_mesh_does_not_show() {
         }
     }
 }
+
+#[test]
+fn long_chains_keep_their_lowest_frequencies() {
+    for (count, room) in [(256, 2e-9), (1024, 1e-11), (4096, 1e-12)] {
+        let solved = modes(&plane(count, Theory::EulerBernoulli, [PINNED, PINNED]), &[], 3).expect("sound");
+        for (k, mode) in solved.modes.iter().enumerate() {
+            let error = mode.omega / bending((k + 1) as f64 * PI) - 1.0;
+            assert!(error.abs() < room, "{count}, {k}: {error}");
+        }
+    }
+}

@@ -29,8 +29,7 @@ fn beam(points: [usize; 2]) -> Member {
     }
 }
 
-/// Towers side by side, each of two braces of four members from the ground to a mass on a stiff point;
-
+/// Towers side by side, each of two braces of four members from the ground to a mass at the top.
 fn towers(count: usize) -> Model {
     let mut model = Model { up: [0.0, 1.0, 0.0], theory: Theory::Timoshenko, ..Model::default() };
     model.sections.push(section());
@@ -80,12 +79,6 @@ fn braced(storeys: usize) -> Model {
 fn solve(model: &Model, count: usize) -> Modes {
     let solved = modes(model, &[], count).expect("sound");
     let worst = solved.modes.iter().map(|mode| mode.residual).fold(0.0, f64::max);
-    println!(
-        "{} modes, {} below {:.4}, residual {worst:.1e}",
-        solved.modes.len(),
-        solved.below,
-        solved.shift
-    );
     assert!(worst < 1e-10, "residual {worst}");
     solved
 }
