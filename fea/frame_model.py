@@ -25,7 +25,7 @@ QUANTITIES = {
 # Most stations: a member cut into many short ones costs digits and time.
 MOST = 96
 # Least distance of a station from its neighbours, by the length of its member.
-NEAREST = 1e-3
+NEAREST = 4e-3
 
 
 class Refused(Exception):
@@ -93,11 +93,22 @@ def general(spec):
     }, known
 
 
-class Member:
-    """A straight piece between two nodes, local axes in rows."""
+def between(a, b, start, stop):
+    """The section of a stretch of a cell whose properties run linearly from a to b: means of the reciprocals."""
+    section = dict(a)
+    for key in ("A", "Iy", "Iz", "J", "Asy", "Asz"):
+        if key in a and key in b:
+            p, q = (a[key] + (b[key] - a[key]) * s for s in (start, stop))
+            section[key] = p if abs(q - p) <= 1e-12 * p else (q - p) / math.log(q / p)
+    return section
 
-    def __init__(self, nodes, axes, kind, section, releases):
-        self.nodes, self.axes, self.kind, self.section, self.releases = nodes, axes, kind, section, releases
+
+class Member:
+    """A straight piece between two nodes, local axes in rows; `whole` is the length of its cell."""
+
+    def __init__(self, nodes, axes, kind, section, releases, whole):
+        self.nodes, self.axes, self.kind = nodes, axes, kind
+        self.section, self.releases, self.whole = section, releases, whole
 
     def active(self):
         """Local freedoms with stiffness, at both ends: 2 x 6."""
@@ -211,8 +222,25 @@ class Frame:
                 for end in (0, 1):
                     for word in get(("release_a", "release_b")[end], []):
                         releases[end, FREEDOMS.index(word)] = True
-                self.cells[block, index] = len(self.members)
-                self.members.append(Member(nodes, triad(x, y), kind, section, releases))
+                whole = np.linalg.norm(ends[1] - ends[0])
+                axes, other = triad(x, y), get("section_b", None)
+                parts = get("parts", None) or self.spec.get("parts", 1)
+                if other is None:
+                    parts = parts if get("parts", None) else 1
+                if kind == "truss":
+                    parts = 1
+                end = section if other is None else self.spec["sections"][other]
+                self.cells[block, index] = range(len(self.members), len(self.members) + parts)
+                for part in range(parts):
+                    piece = between(section, end, part / parts, (part + 1) / parts)
+                    last = nodes[1] if part + 1 == parts else None
+                    if last is None:
+                        last = self.new_body(ends[0] + (ends[1] - ends[0]) * (part + 1) / parts)
+                    own = releases.copy()
+                    own[0] &= part == 0
+                    own[1] &= part + 1 == parts
+                    self.members.append(Member([nodes[0], last], axes, kind, piece, own, whole))
+                    nodes[0] = last
 
     def read_rails(self):
         """Heads of all stations; cuts members where stations lie inside."""
@@ -223,10 +251,10 @@ class Frame:
             origin = np.array(rail.get("origin", [0.0, 0.0, 0.0]), dtype=float)
             segments = []
             for segment in rail["segments"]:
-                member = self.cells[tuple(segment["cell"])]
-                ends = [self.position[node] for node in self.members[member].nodes]
-                along = [axes[0] @ (end - origin) for end in ends]
-                segments.append((member, along, np.array(segment.get("offset", [0.0] * 3), dtype=float)))
+                offset = np.array(segment.get("offset", [0.0] * 3), dtype=float)
+                for member in self.cells[tuple(segment["cell"])]:
+                    ends = [self.position[node] for node in self.members[member].nodes]
+                    segments.append((member, [axes[0] @ (end - origin) for end in ends], offset))
             for x in rail["stations"]:
                 wanted.append((count, x, axes, segments))
                 count += 1
@@ -277,10 +305,12 @@ class Frame:
         start, along = self.position[first], self.position[last] - self.position[first]
         before, nodes = 0.0, [first]
         for t, number, offset, axes in sorted(places, key=lambda place: place[0]):
-            if t - before < NEAREST or 1.0 - t < NEAREST:
+            again = len(nodes) > 1 and t - before <= 1e-12
+            if not again and (t - before < NEAREST or 1.0 - t < NEAREST):
                 continue
-            before = t
-            nodes.append(self.new_body(start + t * along))
+            if not again:
+                before = t
+                nodes.append(self.new_body(start + t * along))
             self.head(number, nodes[-1], start + t * along + offset, axes)
         nodes.append(last)
         for k, pair in enumerate(zip(nodes, nodes[1:])):
@@ -289,7 +319,7 @@ class Frame:
                 releases[0] = whole.releases[0]
             if k == len(nodes) - 2:
                 releases[1] = whole.releases[1]
-            piece = Member(list(pair), whole.axes, whole.kind, whole.section, releases)
+            piece = Member(list(pair), whole.axes, whole.kind, whole.section, releases, whole.whole)
             if k == 0:
                 self.members[member] = piece
             else:
@@ -350,9 +380,6 @@ class Frame:
 
     def reach_of(self, node):
         return np.linalg.norm(self.position[node] - self.position[self.root[self.body[node]]])
-
-    def length(self, member):
-        return math.dist(*(self.position[node] for node in member.nodes))
 
     def unit_loads(self):
         """(head, direction, node, global force) of all 3 n unit loads; direction counts x, y, z of the rail."""

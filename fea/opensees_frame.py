@@ -6,7 +6,7 @@
     rigid       rigidLink beam from the root of a body to each of its other nodes
     supports    fix;  springs  zeroLength to a fixed node
     constraints by transformation, exact; as Lagrange multipliers, exact too, where a body is supported at a node
-                that is not its root
+                that is not its root, or in part while other nodes follow it
     releases    a node of its own at the member's end, tied to the body in what is not released: by equalDOF, exact,
                 where the end is the body's root and the axes allow it; otherwise by zeroLength springs of a number
                 of TIES times the member's own stiffness. They err by the inverse of that number, and stiffer ones by
@@ -57,8 +57,7 @@ class Model:
     def __init__(self, ops, frame, tie):
         self.ops, self.frame, self.tie, self.ties = ops, frame, tie, []
         self.move_roots()
-        # Transformation takes supports at roots alone.
-        self.plain = all(node == frame.root[frame.body[node]] for node, _ in frame.fixed)
+        self.plain = self.transforms()
         self.nodes = self.elements = self.materials = 0
         ops.wipe()
         ops.model("basic", "-ndm", 3, "-ndf", 6)
@@ -104,7 +103,7 @@ class Model:
         if not released.any():
             return node + 1
         own = self.node(self.frame.position[node])
-        stiff = member_stiffness(member, self.frame.length(member))
+        stiff = member_stiffness(member)
         aligned = np.all(np.count_nonzero(np.abs(member.axes) > 1e-12, axis=1) == 1)
         at_root = self.plain and node == self.frame.root[self.frame.body[node]]
         exact, springs = [], {}
@@ -123,6 +122,17 @@ class Model:
             self.spring(node + 1, own, springs, member.axes)
             self.ties.append(springs)
         return own
+
+    def transforms(self):
+        """Transformation takes supports at roots alone, and errs where a root with followers is held in part."""
+        frame, held = self.frame, {}
+        for node, freedom in frame.fixed:
+            held.setdefault(node, set()).add(freedom)
+        followed = {body for node, body in enumerate(frame.body) if node != frame.root[body]}
+        return all(
+            node == frame.root[frame.body[node]] and (len(fix) == 6 or frame.body[node] not in followed)
+            for node, fix in held.items()
+        )
 
     def move_roots(self):
         """Roots at released ends, where nothing else needs them: ties there are exact."""
@@ -176,9 +186,9 @@ class Model:
         return motion
 
 
-def member_stiffness(member, length):
-    """Size of a member's stiffness in each local freedom of an end."""
-    s = member.section
+def member_stiffness(member):
+    """Size of a cell's stiffness in each local freedom of an end; its pieces are stiffer, and ties need not be."""
+    s, length = member.section, member.whole
     bending = [12.0 * s["E"] * s[key] / length**3 for key in ("Iz", "Iy")]
     turning = [4.0 * s["E"] * s[key] / length for key in ("Iy", "Iz")]
     return [s["E"] * s["A"] / length, *bending, s["G"] * s["J"] / length, *turning]

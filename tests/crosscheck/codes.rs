@@ -56,8 +56,8 @@ fn mill_girderway_agrees_with_both_frame_codes() {
 
 #[test]
 fn a_frame_with_everything_agrees_with_both_frame_codes() {
-    // Two coupled rails, one of them backwards, over gaps; skew members with arms; releases of all kinds, at skew
-    // ends too; trusses on arms; springs; linked points, both supported.
+    // Three coupled rails, one backwards, two on one member, over gaps; skew and tapered members with arms; releases
+    // of all kinds, at skew ends too; trusses on arms; springs; linked points, both supported.
     if environment().is_none() {
         return;
     }
