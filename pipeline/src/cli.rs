@@ -177,6 +177,15 @@ pub struct Fea {
     /// Beam theory in place of the spec's
     #[arg(long)]
     pub theory: Option<Theory>,
+    /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
+    #[arg(long, value_name = "BOUND", default_value_t = fea::ACCURACY, value_parser = share)]
+    pub accuracy: f64,
+}
+
+/// A number between 0 and 1.
+fn share(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must lie between 0 and 1".to_owned()) }
 }
 
 /// Words of the beam theories.

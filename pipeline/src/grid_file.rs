@@ -40,7 +40,12 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
         grid.rails.iter().map(|rail| json!({ "name": rail.name, "stations": rail.stations })).collect();
     head.insert("rails".into(), json!(rails));
     if let Some(certificate) = &grid.certificate {
-        let object = json!({ "condition": certificate.condition, "error_bound": certificate.error_bound });
+        let precision = if certificate.extended { "double-double" } else { "double" };
+        let object = json!({
+            "condition": certificate.condition,
+            "error_bound": certificate.error_bound,
+            "precision": precision,
+        });
         head.insert("certificate".into(), object);
     }
     if let Some(coupling) = Coupling::of(grid) {
@@ -107,6 +112,17 @@ struct RawRail {
 struct RawCertificate {
     condition: f64,
     error_bound: f64,
+    #[serde(default)]
+    precision: Precision,
+}
+
+/// In what the stiffness was formed and factored.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum Precision {
+    #[default]
+    Double,
+    DoubleDouble,
 }
 
 #[derive(Debug, Deserialize)]
@@ -177,7 +193,11 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
     }
     let effects = raw.effects.as_ref().map(|raw| raw.effects(size, &root.key("effects"), faults));
     let certificate = raw.certificate.as_ref();
-    let certificate = certificate.map(|given| Certificate::given(given.condition, given.error_bound));
+    let certificate = certificate.map(|given| Certificate {
+        condition: given.condition,
+        error_bound: given.error_bound,
+        extended: given.precision == Precision::DoubleDouble,
+    });
     Some(Grid {
         name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
@@ -258,7 +278,7 @@ mod tests {
             theory: Some("timoshenko".to_owned()),
             rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
             blocks: vec![(Quantity::Vertical, block.clone()), (Quantity::VerticalLateral, block * 2.0)],
-            certificate: Some(Certificate::given(12.5, 1.0 / 7.0)),
+            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0, extended: true }),
             effects: None,
             notes: vec!["no longitudinal grids".to_owned()],
         }

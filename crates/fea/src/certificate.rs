@@ -14,28 +14,23 @@ pub struct Certificate {
     pub error_bound: f64,
     /// Whether stiffness and factor are double-doubles.
     pub extended: bool,
-    /// Bound of |(S K S)^-1|.
-    pub(crate) inverse: f64,
 }
 
 /// Roundings that form one entry of a member's stiffness (geometry, section, two congruences).
 const FORMING: f64 = 16.0;
 
 impl Certificate {
-    /// A certificate that somebody else gives.
-    #[must_use]
-    pub fn given(condition: f64, error_bound: f64) -> Certificate {
-        Certificate { condition, error_bound, extended: false, inverse: f64::INFINITY }
-    }
-
     /// With u = K^-1 p, |u_i' dK u_j| <= |dK| |K^-1| sqrt(G_ii G_jj), K scaled: |dK| is what forming
     /// the entries and factoring them can have changed, |K^-1| is Higham's estimate.
     ///
+    /// Also gives the bound of |K^-1|.
+    ///
     /// # Source
     /// Higham, Accuracy and Stability of Numerical Algorithms (2002), theorem 10.3 and algorithm 15.4.
-    pub(crate) fn new<T: Real>(assembly: &Assembly<T>, factor: &Factor<T>) -> Certificate {
+    pub(crate) fn new<T: Real>(assembly: &Assembly<T>, factor: &Factor<T>) -> (Certificate, f64) {
+        let extended = T::ROUNDING < f64::EPSILON;
         if factor.len() == 0 {
-            return Certificate { condition: 1.0, error_bound: 0.0, extended: false, inverse: 0.0 };
+            return (Certificate { condition: 1.0, error_bound: 0.0, extended }, 0.0);
         }
         let norm = assembly.norm();
         let inverse = inverse_norm(factor);
@@ -47,12 +42,7 @@ impl Certificate {
         let factored = 3.0 * (longest + 1) as f64 * growth;
         let shift = T::ROUNDING * (formed + factored) * room;
         let error_bound = if shift < 0.5 { shift / (1.0 - shift) } else { f64::INFINITY };
-        Certificate {
-            condition: norm * inverse,
-            error_bound,
-            extended: T::ROUNDING < f64::EPSILON,
-            inverse: room,
-        }
+        (Certificate { condition: norm * inverse, error_bound, extended }, room)
     }
 }
 

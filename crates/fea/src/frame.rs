@@ -19,6 +19,8 @@ use crate::solver::{Scratch, Solver};
 
 /// Error bound that a frame must meet where nothing else is asked.
 pub const ACCURACY: f64 = 1e-6;
+/// Share of the accuracy that the factor may use up in doubles; evaluation needs some.
+const ROOM: f64 = 0.9;
 /// Unknowns up to which double-doubles cost next to nothing and are always used.
 const SMALL: usize = 100;
 
@@ -30,6 +32,10 @@ pub struct Frame {
     assembly: Assembly,
     pub(crate) solver: Solver,
     certificate: Certificate,
+    /// Bound of |(S K S)^-1|.
+    pub(crate) inverse: f64,
+    /// Error bound asked.
+    pub(crate) accuracy: f64,
     line: Option<Arc<Line>>,
     states: Vec<[Sum; 6]>,
 }
@@ -59,12 +65,12 @@ impl Frame {
             covered(&layout.line, rails)?;
         }
         let assembly = Assembly::new(m, &elements, &freedoms);
-        let (solver, certificate) = certified(m, &assembly, &freedoms, accuracy)?;
+        let (solver, certificate, inverse) = certified(m, &assembly, &freedoms, accuracy)?;
         let (line, states) = match layout {
             Some(layout) => (Some(Arc::new(layout.line)), layout.states),
             None => Default::default(),
         };
-        Ok(Frame { elements, freedoms, assembly, solver, certificate, line, states })
+        Ok(Frame { elements, freedoms, assembly, solver, certificate, inverse, accuracy, line, states })
     }
 
     /// How far compliances of this frame can be trusted.
@@ -158,6 +164,14 @@ impl Frame {
         motions.iter().zip(&self.freedoms.bodies).map(|(motion, body)| body.basis * motion).collect()
     }
 
+    /// Refuses a certificate that is worse than asked.
+    pub(crate) fn meets(&self, certificate: Certificate) -> Result<Certificate, Error> {
+        if certificate.error_bound <= self.accuracy {
+            return Ok(certificate);
+        }
+        Err(ill(certificate, self.accuracy, &self.assembly, &self.freedoms))
+    }
+
     /// Unknown of a column of the bodies, if it is one.
     pub(crate) fn unknown(&self, column: usize) -> Option<usize> {
         self.assembly.numbering.unknown[column]
@@ -194,7 +208,7 @@ fn certified(
     assembly: &Assembly,
     freedoms: &Freedoms,
     accuracy: f64,
-) -> Result<(Solver, Certificate), Error> {
+) -> Result<(Solver, Certificate, f64), Error> {
     let unknowns = assembly.numbering.column.len();
     if !assembly.norm().is_finite() {
         return Err(Error::Factor { unknowns });
@@ -202,9 +216,9 @@ fn certified(
     match Factor::new(&assembly.upper) {
         Ok(_) if unknowns <= SMALL => {}
         Ok(factor) if factor.least_pivot() > PIVOT => {
-            let certificate = Certificate::new(assembly, &factor);
-            if certificate.error_bound <= accuracy {
-                return Ok((Solver::Double(factor), certificate));
+            let (certificate, inverse) = Certificate::new(assembly, &factor);
+            if certificate.error_bound <= ROOM * accuracy {
+                return Ok((Solver::Double(factor), certificate, inverse));
             }
         }
         Ok(_) | Err(Refusal::Indefinite) => {}
@@ -219,18 +233,18 @@ fn certified(
         }
         Err(Refusal::Size) => return Err(Error::Factor { unknowns }),
     };
-    let certificate = Certificate::new(&extended, &factor);
+    let (certificate, inverse) = Certificate::new(&extended, &factor);
     if certificate.error_bound > accuracy {
-        let (point, freedom) = weakest(assembly, freedoms);
-        return Err(Error::Ill {
-            condition: certificate.condition,
-            bound: certificate.error_bound,
-            asked: accuracy,
-            point,
-            freedom,
-        });
+        return Err(ill(certificate, accuracy, assembly, freedoms));
     }
-    Ok((Solver::Extended(factor), certificate))
+    Ok((Solver::Extended(factor), certificate, inverse))
+}
+
+/// An error bound above the accuracy asked.
+fn ill(certificate: Certificate, asked: f64, assembly: &Assembly, freedoms: &Freedoms) -> Error {
+    let (point, freedom) = weakest(assembly, freedoms);
+    let Certificate { condition, error_bound: bound, .. } = certificate;
+    Error::Ill { condition, bound, asked, point, freedom }
 }
 
 fn covered(line: &Line, rails: &[Rail]) -> Result<(), Error> {

@@ -40,7 +40,7 @@ impl Frame {
     /// [`grid`] of a frame that is already factored.
     ///
     /// # Errors
-    /// A probe beyond its rail, or in a direction that nothing resists.
+    /// A probe beyond its rail, or in a direction that nothing resists; a bound worse than asked.
     pub fn grid(&self, at: &[Probe]) -> Result<Grid, Error> {
         let mut scratch = self.scratch();
         let mut tails = Vec::with_capacity(at.len());
@@ -66,7 +66,7 @@ impl Frame {
         let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
         let mut certificate = self.certificate();
         certificate.error_bound += self.rounding(at, &tails, &diagonal)?;
-        Ok(Grid { value, certificate })
+        Ok(Grid { value, certificate: self.meets(certificate)? })
     }
 
     /// Products of all pairs of forward solves.

@@ -29,7 +29,24 @@ impl Frame {
     /// # Source
     /// Higham, Accuracy and Stability of Numerical Algorithms (2002), sections 3.1 and 5.1.
     pub(crate) fn rounding(&self, at: &[Probe], tails: &[Tail], diagonal: &[f64]) -> Result<f64, Error> {
-        let mut lengths = Lengths::new(self);
+        let estimate = match self.solver {
+            Solver::Double(_) => Some(self.inverse.sqrt()),
+            Solver::Extended(_) => None,
+        };
+        let rough = self.rounding_by(&mut Lengths::new(self, estimate), at, tails, diagonal)?;
+        if estimate.is_none() || self.certificate().error_bound + rough <= self.accuracy {
+            return Ok(rough);
+        }
+        self.rounding_by(&mut Lengths::new(self, None), at, tails, diagonal)
+    }
+
+    fn rounding_by(
+        &self,
+        lengths: &mut Lengths,
+        at: &[Probe],
+        tails: &[Tail],
+        diagonal: &[f64],
+    ) -> Result<f64, Error> {
         let mut worst = 0.0_f64;
         let mut longest = 0;
         for ((&probe, tail), &own) in at.iter().zip(tails).zip(diagonal) {
@@ -39,7 +56,7 @@ impl Frame {
             let mut moved = 0.0;
             for (&index, magnitude) in row.indices().iter().zip(magnitudes) {
                 let sum = &self.states()[index / 6][index % 6];
-                moved += magnitude * self.length_of(sum, &mut lengths);
+                moved += magnitude * self.length_of(sum, lengths);
             }
             let moved = LOAD * UNIT * moved;
             let size = own.sqrt();
@@ -68,25 +85,28 @@ impl Frame {
     }
 }
 
-/// |L^-1 e_k|: worked out where a factor in double-doubles makes it worth the while, else bounded.
+/// |L^-1 e_k|: a bound for all, or worked out for each.
 struct Lengths<'a> {
     frame: &'a Frame,
+    estimate: Option<f64>,
     scratch: Scratch,
     known: BTreeMap<usize, f64>,
 }
 
 impl<'a> Lengths<'a> {
-    fn new(frame: &'a Frame) -> Self {
-        Lengths { frame, scratch: frame.scratch(), known: BTreeMap::new() }
+    fn new(frame: &'a Frame, estimate: Option<f64>) -> Self {
+        Lengths { frame, estimate, scratch: frame.scratch(), known: BTreeMap::new() }
     }
 
     fn of(&mut self, unknown: usize) -> f64 {
-        if matches!(self.frame.solver, Solver::Double(_)) {
-            return self.frame.certificate().inverse.sqrt();
+        if let Some(estimate) = self.estimate {
+            return estimate;
         }
         let (frame, scratch) = (self.frame, &mut self.scratch);
-        let work =
-            || frame.forward(&[(unknown, 1.0)], scratch).values.iter().map(|w| w * w).sum::<f64>().sqrt();
+        let work = || {
+            let tail = frame.forward(&[(unknown, 1.0)], scratch);
+            tail.values.iter().map(|w| w * w).sum::<f64>().sqrt()
+        };
         *self.known.entry(unknown).or_insert_with(work)
     }
 }

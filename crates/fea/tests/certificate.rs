@@ -71,6 +71,13 @@ fn accuracy_that_nothing_meets_is_refused_with_what_can_be_had() {
 }
 
 #[test]
+fn grids_whose_evaluation_cannot_keep_the_digits_are_refused() {
+    let (model, rail) = chain(&[0.0, 60.0]);
+    let frame = Frame::accurate(&model, &[rail], 1e-16).expect("double-doubles suffice for the factor");
+    assert!(matches!(frame.grid(&probes(Axis::Vertical, &[31.0])), Err(Error::Ill { .. })));
+}
+
+#[test]
 fn bound_is_never_below_the_true_error_of_random_chains() {
     let mut stream = common::Stream(3);
     let mut trusted = 0;

@@ -22,7 +22,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = link::solve(&spec);
+    let solved = link::solve_to(&spec, args.accuracy);
     drop(stage);
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
     for note in &solved.grid.notes {

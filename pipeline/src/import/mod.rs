@@ -14,7 +14,7 @@ mod write;
 
 use std::path::Path;
 
-pub use write::write;
+pub use write::{PARTS, write};
 
 use crate::diagnostic::Diagnostic;
 use crate::import::findings::Findings;

@@ -56,8 +56,10 @@ pub struct Member {
     pub points: [usize; 2],
     /// Whether only its change of length counts.
     pub truss: bool,
-    /// Index of its section.
+    /// Index of its section; of a tapered member that at end a.
     pub section: usize,
+    /// Index of the section at end b of a tapered member.
+    pub section_b: Option<usize>,
     /// Any vector in the half plane of local x and +y; absent = up.
     pub orientation: Option<[f64; 3]>,
     /// Global vectors from the points to the flexible ends.

@@ -7,6 +7,9 @@ use crate::spec::{FORMAT, theory_word};
 
 const FREEDOMS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
 
+/// Uniform parts that stand for a tapered member.
+pub const PARTS: usize = 32;
+
 /// The beam spec of a structure, in the general form; every number has the fewest digits that give back its bits.
 #[must_use]
 pub fn write(structure: &Structure) -> String {
@@ -23,6 +26,9 @@ pub fn write(structure: &Structure) -> String {
     }
     put("points", structure.points.iter().map(|point| json!(point.at)).collect());
     let data: Value = structure.members.iter().map(|member| json!(member.points)).collect();
+    if structure.members.iter().any(|member| member.section_b.is_some()) {
+        put("parts", json!(PARTS));
+    }
     put("cells", json!([{ "type": "line", "data": data }]));
     put("cell_data", cell_data(structure));
     put("point_sets", structure.point_sets.iter().map(|(name, set)| (name.clone(), json!(set))).collect());
@@ -81,6 +87,11 @@ fn cell_data(structure: &Structure) -> Value {
         members.iter().map(|member| json!(kind(member.truss))).collect(),
     );
     put("section", true, members.iter().map(|member| json!(member.section)).collect());
+    put(
+        "section_b",
+        members.iter().any(|member| member.section_b.is_some()),
+        members.iter().map(|member| json!(member.section_b)).collect(),
+    );
     let up = structure.up.unwrap_or([0.0, 1.0, 0.0]);
     put(
         "orientation",

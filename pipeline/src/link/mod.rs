@@ -31,8 +31,16 @@ pub struct Solved {
 /// # Errors
 /// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
 pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
+    solve_to(spec, fea::ACCURACY)
+}
+
+/// The same, with compliances whose relative error bound is at most `accuracy`.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_to(spec: &Spec, accuracy: f64) -> Result<Solved, fea::Error> {
     let (model, rails) = spec.model()?;
-    let frame = Frame::new(&model, &rails)?;
+    let frame = Frame::accurate(&model, &rails, accuracy)?;
     let exact = frame.surface()?;
     let grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
     Ok(Solved { model, rails, surface: exact.surface, grid, girder: spec.girder().cloned() })

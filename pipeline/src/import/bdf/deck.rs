@@ -71,7 +71,7 @@ impl Deck {
     /// Sorts the lines of a deck; cards named in `skip` are left out without a word.
     pub fn new(lines: &[Line], skip: &[String], findings: &mut Findings) -> Deck {
         let mut deck = Deck::default();
-        let bulk = deck.control(lines, findings);
+        let bulk = deck.control(lines, skip, findings);
         let cards = cards(bulk, findings);
         let cards: Vec<&Card> = cards.iter().filter(|card| !skip.contains(&card.name)).collect();
         // defaults first: they hold for the cards before them too
@@ -119,7 +119,7 @@ impl Deck {
     }
 
     /// Reads executive and case control; gives the bulk data.
-    fn control<'l>(&mut self, lines: &'l [Line], findings: &mut Findings) -> &'l [Line] {
+    fn control<'l>(&mut self, lines: &'l [Line], skip: &[String], findings: &mut Findings) -> &'l [Line] {
         let word = |line: &Line, n: usize| {
             let mut words = line.text.split([' ', '=', ',', '(']).filter(|word| !word.is_empty());
             words.nth(n).unwrap_or_default().to_ascii_uppercase()
@@ -155,8 +155,8 @@ impl Deck {
                         Finding::new(line.at, "SPC", "must be a whole number above 0").got(word(line, 1)),
                     );
                 }
-                ("MPC", _) => {
-                    let hint = "constraints by equations cannot be taken; rigid links are RBE2 and RBAR";
+                ("MPC", _) if skip.iter().all(|name| name != "MPC") => {
+                    let hint = "constraints by equations cannot be taken; rigid links are RBE2 and RBAR; to leave them out, add --skip MPC";
                     findings.error(Finding::new(line.at, "MPC", "cannot be taken").hint(hint));
                 }
                 _ => {}

@@ -147,6 +147,7 @@ pub fn own_rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
         j: j?,
         shear: [0.0; 2],
         nsm: nsm?,
+        end: None,
     };
     Some((id, plain(card, Section::Own(Box::new(property)), grids?)))
 }

@@ -24,6 +24,8 @@ pub struct Property {
     pub shear: [f64; 2],
     /// Further mass per length, before WTMASS.
     pub nsm: f64,
+    /// What it is at end B of a tapered beam; it varies linearly between the ends.
+    pub end: Option<Box<Property>>,
 }
 
 const NO_PRODUCT: &str = "give the principal second moments, and turn the orientation of the elements";
@@ -45,6 +47,7 @@ pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
         j: j?,
         shear: [0.0; 2],
         nsm: nsm?,
+        end: None,
     };
     Some((id, property))
 }
@@ -81,6 +84,7 @@ pub fn bar(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
         j: j?,
         shear: [k1?, k2?],
         nsm: nsm?,
+        end: None,
     };
     whole(card, &property).then_some((id, property))
 }
@@ -99,45 +103,41 @@ fn whole(card: &mut Fields<'_, '_>, property: &Property) -> bool {
     i1 == i2
 }
 
-/// Reads PBEAM; its ends must be alike.
+const STATIONS: &str = "beams vary linearly from end A to end B: cut others at their stations";
+
+/// Reads PBEAM; between its ends it must vary linearly.
 pub fn beam(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
-    let names = ["A", "I1", "I2", "I12", "J", "NSM"];
     let material = card.id(2, "MID");
-    let area = positive(card, 3, "A");
-    let i1 = card.not_negative(4, "I1");
-    let i2 = card.not_negative(5, "I2");
-    let product = card.zero(6, "I12", NO_PRODUCT);
-    let j = card.not_negative(7, "J");
+    let own = stiffness(card, 3, None);
     let nsm = card.not_negative(8, "NSM");
-    product?;
-    let own = [area?, i1?, i2?, 0.0, j?, nsm?];
+    let (own, nsm) = (own?, nsm?);
     let rows = card.card.fields.len().div_ceil(8);
     let station = |card: &Fields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
     let blank = |card: &Fields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
     // the second row has places for stresses, unless stations begin at once
     let mut row = if station(card, 1) { 1 } else { 2 };
+    let mut other = own;
     while row < rows && station(card, row) {
         let first = 8 * row;
-        card.real(first + 2, "X/XB")?;
-        for (k, name) in names.into_iter().enumerate() {
-            let index = first + 3 + k;
-            if card.optional(index, name)?.is_some_and(|value| value != own[k]) {
-                card.refuse(
-                    index,
-                    name,
-                    "must be that of end A",
-                    "tapered beams cannot be taken: cut them into uniform ones",
-                );
-                return None;
-            }
+        let x = card.real(first + 2, "X/XB")?;
+        let values = stiffness(card, first + 3, Some(own))?;
+        if card.optional(first + 8, "NSM")?.is_some_and(|value| value != nsm) {
+            card.refuse(first + 8, "NSM", "must be that of end A", "the further mass cannot vary");
+            return None;
+        }
+        if x == 1.0 {
+            other = values;
+        } else if values != own {
+            card.refuse(first + 2, "X/XB", "must be 1. where a beam is tapered", STATIONS);
+            return None;
         }
         row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) { 2 } else { 1 };
     }
     let first = 8 * row;
     let shear = [(first + 1, "K1"), (first + 2, "K2")]
         .map(|(index, name)| if card.blank(index) { Some(1.0) } else { card.not_negative(index, name) });
-    let relief = "shear relief belongs to taper, which cannot be taken";
+    let relief = "shear relief of tapered beams cannot be taken";
     let relief = [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
     let apart = "give the neutral axis as offset of the elements";
     let apart =
@@ -151,20 +151,46 @@ pub fn beam(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
     let [k1, k2] = shear;
     relief.into_iter().collect::<Option<Vec<_>>>()?;
     apart?;
-    let property = Property {
+    let (material, shear) = (material?, [k1?, k2?]);
+    let property = |[area, i1, i2, j]: [f64; 4]| Property {
         card: card.card.at,
         kind: card.card.name.clone(),
-        material: material?,
-        area: own[0],
-        bending: [own[1], own[2]],
-        j: own[4],
-        shear: [k1?, k2?],
-        nsm: own[5],
+        material,
+        area,
+        bending: [i1, i2],
+        j,
+        shear,
+        nsm,
+        end: None,
     };
-    whole(card, &property).then_some((id, property))
+    let mut found = property(own);
+    found.end = (other != own).then(|| Box::new(property(other)));
+    let tapered = found.end.is_none() || own.iter().chain(&other).all(|value| *value > 0.0);
+    if !tapered {
+        card.refuse(3, "A", "must be positive like I1, I2 and J at both ends of a tapered beam", "");
+    }
+    (tapered && spread(card, &found, 8) && whole(card, &found)).then_some((id, found))
 }
 
-/// Reads PBARL or PBEAML; the ends of a beam must be alike.
+/// A, I1, I2 and J from a field on, with I12 between; those that are blank are `own`.
+fn stiffness(card: &mut Fields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
+    let mut number = |index: usize, name: &str, k: usize| match own {
+        Some(own) if card.blank(index) => Some(own[k]),
+        _ if k == 0 => positive(card, index, name),
+        _ => card.not_negative(index, name),
+    };
+    let values = [
+        number(first, "A", 0),
+        number(first + 1, "I1", 1),
+        number(first + 2, "I2", 2),
+        number(first + 4, "J", 3),
+    ];
+    card.zero(first + 3, "I12", NO_PRODUCT)?;
+    let [a, i1, i2, j] = values;
+    Some([a?, i1?, i2?, j?])
+}
+
+/// Reads PBARL or PBEAML; between its ends a beam must vary linearly.
 pub fn shaped(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
@@ -187,66 +213,93 @@ pub fn shaped(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
         dimensions.push(card.real(9 + k, &format!("DIM{}", k + 1))?);
     }
     let nsm = card.not_negative(9 + count, "NSM")?;
-    if card.card.name == "PBARL" {
+    let other = if card.card.name == "PBARL" {
         card.end(10 + count);
+        None
     } else {
-        alike(card, &dimensions, nsm)?;
+        stations(card, &dimensions, nsm)?
+    };
+    let material = material?;
+    let mut property = section(card, &shape, &dimensions, material, nsm)?;
+    if let Some(other) = other {
+        property.end = Some(Box::new(section(card, &shape, &other, material, nsm)?));
     }
-    let section = match properties(&shape, &dimensions) {
+    spread(card, &property, 9 + count).then_some((id, property))
+}
+
+/// Whether the further mass can be spread over the area.
+fn spread(card: &mut Fields<'_, '_>, property: &Property, index: usize) -> bool {
+    let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
+    if varies && property.nsm > 0.0 {
+        let hint = "give the further mass as CONM2";
+        card.refuse(index, "NSM", "must be 0 where the area of a beam varies", hint);
+    }
+    !varies || property.nsm == 0.0
+}
+
+/// The property of a shape.
+fn section(
+    card: &mut Fields<'_, '_>,
+    shape: &str,
+    dimensions: &[f64],
+    material: u64,
+    nsm: f64,
+) -> Option<Property> {
+    let section = match properties(shape, dimensions) {
         Ok(section) => section,
         Err(Refusal::Oblique) => {
             card.refuse(4, "TYPE", "must have its principal axes along y and z", NO_PRODUCT);
             return None;
         }
         Err(Refusal::Dimensions | Refusal::Unknown) => {
-            card.refuse(
-                9,
-                "DIM1",
-                "must begin dimensions of a section",
-                "some of them leave no room for others",
-            );
+            let hint = "some of them leave no room for others";
+            card.refuse(9, "DIM1", "must begin dimensions of a section", hint);
             return None;
         }
     };
-    let property = Property {
+    Some(Property {
         card: card.card.at,
         kind: card.card.name.clone(),
-        material: material?,
+        material,
         area: section.area,
         bending: [section.i1, section.i2],
         j: section.j,
         shear: [section.k1, section.k2],
         nsm,
-    };
-    Some((id, property))
+        end: None,
+    })
 }
 
-/// Checks that the stations of a PBEAML have the dimensions of its end A.
-fn alike(card: &mut Fields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<()> {
+/// The dimensions of a PBEAML at end B, where they differ from those at end A.
+fn stations(card: &mut Fields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
     let count = dimensions.len();
     let last = card.last();
     let mut first = 10 + count;
+    let mut other = None;
     while first <= last {
         if !matches!(card.text(first), "" | "YES" | "NO") {
             card.refuse(first, "SO", "must be YES or NO", "");
             return None;
         }
-        card.optional(first + 1, "X/XB")?;
-        for (k, own) in dimensions.iter().chain([&nsm]).enumerate() {
-            let index = first + 2 + k;
-            if card.optional(index, "DIM")?.is_some_and(|value| value != *own) {
-                card.refuse(
-                    index,
-                    "DIM",
-                    "must be that of end A",
-                    "tapered beams cannot be taken: cut them into uniform ones",
-                );
+        let x = card.real_or(first + 1, "X/XB", 1.0)?;
+        let mut here = Vec::new();
+        for (k, own) in dimensions.iter().enumerate() {
+            here.push(card.real_or(first + 2 + k, &format!("DIM{}", k + 1), *own)?);
+        }
+        if card.optional(first + 2 + count, "NSM")?.is_some_and(|value| value != nsm) {
+            card.refuse(first + 2 + count, "NSM", "must be that of end A", "the further mass cannot vary");
+            return None;
+        }
+        if here != dimensions {
+            if x != 1.0 {
+                card.refuse(first + 1, "X/XB", "must be 1. where a beam is tapered", STATIONS);
                 return None;
             }
+            other = Some(here);
         }
         first += 3 + count;
     }
-    Some(())
+    Some(other)
 }
 
 /// Reads PELAS: one or two springs.

@@ -9,6 +9,7 @@ use super::grid::{self, Resolved};
 use super::lump::Stiffness;
 use super::property::Property;
 use super::support;
+use crate::import::PARTS;
 use crate::import::findings::{Finding, Findings, Spot};
 use crate::import::structure::{Mass, Material, Member, Point, Section, Spring, Structure};
 use crate::import::vector::{minus, parallel};
@@ -18,8 +19,8 @@ struct Resolver<'d, 'f> {
     deck: &'d Deck,
     grids: BTreeMap<u64, Resolved>,
     index: BTreeMap<u64, usize>,
-    /// Index of the section of each property in use.
-    sections: BTreeMap<u64, usize>,
+    /// Index of the section of each property in use; true for that at end B.
+    sections: BTreeMap<(u64, bool), usize>,
     /// Names of the materials written.
     materials: Vec<String>,
     structure: Structure,
@@ -118,7 +119,11 @@ impl Resolver<'_, '_> {
             self.findings.error(Finding::new(element.card, about, expected).hint(hint));
             return None;
         }
-        let section = self.section(number, property, &about)?;
+        let section = self.section(number, property, "", &about)?;
+        let section_b = match &property.end {
+            Some(end) => Some(self.section(number, end, " at end B", &about)?),
+            None => None,
+        };
         let (a, b) = (a?, b?);
         let ends = [a, b].map(|point| self.structure.points[point].at);
         let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + element.offsets[end][axis]);
@@ -157,6 +162,7 @@ impl Resolver<'_, '_> {
             points: [a, b],
             truss: false,
             section,
+            section_b,
             orientation,
             offsets: element.offsets,
             releases: element.pins,
@@ -189,9 +195,10 @@ impl Resolver<'_, '_> {
     }
 
     /// The section of a property, written when it is first used.
-    fn section(&mut self, number: u64, property: &Property, about: &str) -> Option<usize> {
+    /// `end`: what its name says of the end that it is for.
+    fn section(&mut self, number: u64, property: &Property, end: &str, about: &str) -> Option<usize> {
         // CONROD has its element's number, which may be that of a property too
-        let key = if property.kind == "CONROD" { None } else { Some(number) };
+        let key = if property.kind == "CONROD" { None } else { Some((number, !end.is_empty())) };
         if let Some(index) = key.and_then(|key| self.sections.get(&key)) {
             return Some(*index);
         }
@@ -220,6 +227,13 @@ impl Resolver<'_, '_> {
                 Finding::new(property.card, &name, "has J: its rods are taken as beams hinged at both ends");
             self.findings.warn(finding.hint("the Iy and Iz written are placeholders"));
         }
+        if property.end.is_some() {
+            let expected = format!("is tapered, and solved in {PARTS} uniform parts a member");
+            self.findings.warn(
+                Finding::new(property.card, &name, expected)
+                    .hint("`parts` of the spec may say another number"),
+            );
+        }
         let wtmass = self.deck.wtmass.unwrap_or(1.0);
         let mut density = found.density * wtmass;
         let mut material = format!("MAT1 {}", property.material);
@@ -246,7 +260,7 @@ impl Resolver<'_, '_> {
         let torsion = if property.j > 0.0 { Some(property.j) } else { bends.then_some(i1 + i2) };
         let shear = |k: f64| (bends && k > 0.0).then_some(k * property.area);
         let section = Section {
-            name: name.clone(),
+            name: format!("{name}{end}"),
             material,
             area: Some(property.area),
             iy: bending(i2),
@@ -427,6 +441,7 @@ impl Resolver<'_, '_> {
         for (index, member) in structure.members.iter().enumerate() {
             sets[member.section].1.push(index);
         }
+        sets.retain(|(_, set)| !set.is_empty());
         structure.cell_sets = sets;
     }
 }

@@ -86,6 +86,7 @@ pub fn read(
             points: [a, b],
             truss: group.truss,
             section: group.section,
+            section_b: None,
             orientation: if group.truss { None } else { group.orientation },
             offsets: [[0.0; 3]; 2],
             releases: group.releases,
