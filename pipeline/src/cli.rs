@@ -180,6 +180,9 @@ pub struct Fea {
     /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
     #[arg(long, value_name = "BOUND", default_value_t = fea::ACCURACY, value_parser = share)]
     pub accuracy: f64,
+    /// Add the N lowest natural modes
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    pub modes: Option<u32>,
 }
 
 /// A number between 0 and 1.

@@ -119,6 +119,13 @@ impl Grid {
         Ok(Grid { effects: Some(effects), ..self })
     }
 
+    /// Index of the rail and coordinate of every station.
+    #[must_use]
+    pub fn stations(&self) -> Vec<(usize, f64)> {
+        let list = self.rails.iter().enumerate();
+        list.flat_map(|(index, rail)| rail.stations.iter().map(move |x| (index, *x))).collect()
+    }
+
     /// One block, where the structure resists both directions.
     #[must_use]
     pub fn block(&self, quantity: Quantity) -> Option<&DMatrix<f64>> {

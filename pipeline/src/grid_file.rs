@@ -14,6 +14,7 @@ use crate::diagnostic::Diagnostic;
 use crate::effect_file::{self, RawEffects};
 use crate::fault::{Fault, Faults, number};
 use crate::grid::{Grid, GridRail};
+use crate::modes_file::RawModes;
 use crate::place::Place;
 use crate::source::Source;
 use crate::spec::THEORIES;
@@ -98,6 +99,7 @@ struct RawGrid {
     influence: Option<RawInfluence>,
     effects: Option<RawEffects>,
     surface: Option<RawSurface>,
+    modes: Option<RawModes>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -175,6 +177,9 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
     }
     let rails = read_rails(raw, &root, faults);
     let size = rails.iter().map(|rail| rail.stations.len()).sum();
+    if let Some(modes) = &raw.modes {
+        modes.check(size, &root.key("modes"), faults);
+    }
     let influence = faults.need(&raw.influence, &root, "influence")?;
     let at = root.key("influence");
     let mut blocks = Vec::new();

@@ -23,6 +23,7 @@ pub mod import;
 pub mod inputs;
 pub mod link;
 pub mod manifest;
+pub mod modes_file;
 pub mod motion;
 mod object;
 pub mod output;

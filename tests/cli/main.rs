@@ -1,6 +1,7 @@
 //! The command line: help, exit status, what goes where.
 
 mod grids;
+mod modes;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -59,11 +59,11 @@ pub enum Error {
     #[error("no mass is on a freedom that can move")]
     NoMass,
     /// Modes that could not all be found, or not shown to be all.
-    #[error("only {found} of {asked} modes could be shown to be the lowest")]
+    #[error("{found} of {asked} modes were found, but not shown to be the lowest")]
     Modes {
         /// How many were asked for.
         asked: usize,
-        /// How many were found and proven.
+        /// How many were found.
         found: usize,
     },
     /// A rail was asked for where none was given.

@@ -12,8 +12,12 @@ use crate::solver::Solver;
 const BLOCK: usize = 8;
 /// Residual of K^-1 M x - x / lambda, relative to 1 / lambda, both in the norm of M.
 const TOLERANCE: f64 = 1e-11;
+/// Residual that rounding leaves, relative to the largest 1 / lambda.
+const NOISE: f64 = 4.0 * f64::EPSILON;
 /// Part of a vector, relative to what it was, below which orthogonalising has left rounding alone.
 const DEPENDENT: f64 = 1e-10;
+/// Inverse iterations of a vector that has converged.
+const POLISH: usize = 2;
 /// Growth of the basis between two looks at its Ritz values.
 const LOOK: f64 = 1.1;
 
@@ -150,21 +154,26 @@ impl<'a> Space<'a> {
         negatives(&(self.pencil.stiffness + &self.pencil.mass.map(|value| -lambda * value)))
     }
 
-    /// The lowest `count` eigenpairs, lowest first: vectors multiplied with K^-1 M once more, orthonormal in
-    /// M, largest entry positive; values lambda = x^T K x.
+    /// The lowest `count` eigenpairs, lowest first: vectors orthonormal in M, largest entry positive; values
+    /// lambda = x^T K x / x^T M x.
     pub fn modes(&self, count: usize) -> Vec<(f64, DVector<f64>)> {
         let mut modes: Vec<(f64, DVector<f64>)> = Vec::with_capacity(count);
         for pair in 0..count {
-            let load =
-                product(self.pencil.mass, self.combine(self.pairs.coefficients.column(pair)).as_view());
-            let mut x = self.pencil.solve(load.clone());
-            let lambda = x.dot(&load) / x.dot(&product(self.pencil.mass, x.as_view()));
-            for _ in 0..2 {
-                let image = product(self.pencil.mass, x.as_view());
-                modes.iter().for_each(|(_, other)| x.axpy(-other.dot(&image), other, 1.0));
+            let mut x = self.combine(self.pairs.coefficients.column(pair));
+            let mut lambda = 0.0;
+            // What rounding left of higher modes shrinks, what it left of lower ones is taken away.
+            for _ in 0..POLISH {
+                let load = product(self.pencil.mass, x.as_view());
+                x = self.pencil.solve(load.clone());
+                for _ in 0..2 {
+                    let image = product(self.pencil.mass, x.as_view());
+                    modes.iter().for_each(|(_, other)| x.axpy(-other.dot(&image), other, 1.0));
+                }
+                lambda = x.dot(&load) / x.dot(&product(self.pencil.mass, x.as_view()));
+                x /= self.norm(&x);
             }
-            let size = if x[x.iamax()] < 0.0 { -self.norm(&x) } else { self.norm(&x) };
-            modes.push((lambda, x / size));
+            let sign = if x[x.iamax()] < 0.0 { -1.0 } else { 1.0 };
+            modes.push((lambda, x * sign));
         }
         modes.sort_by(|a, b| a.0.total_cmp(&b.0));
         modes
@@ -189,13 +198,9 @@ impl<'a> Space<'a> {
         let size = self.vectors.len();
         let mut projection = std::mem::replace(&mut self.projection, DMatrix::zeros(0, 0));
         projection = projection.resize(size, size, 0.0);
-        for (j, image) in images.iter_mut().enumerate() {
-            let shares = self.orthogonalise(image);
-            projection.column_mut(old + j).copy_from(&shares);
-            for i in 0..old {
-                projection[(old + j, i)] = shares[i];
-            }
-        }
+        let shares = self.orthogonalise(&mut images);
+        projection.columns_mut(old, width).copy_from(&shares);
+        projection.view_mut((old, 0), (width, old)).copy_from(&shares.rows(0, old).transpose());
         for i in old..size {
             for j in old..i {
                 let mean = 0.5 * (projection[(i, j)] + projection[(j, i)]);
@@ -239,7 +244,7 @@ impl<'a> Space<'a> {
 
     /// Removes the part of `x` within the space and the next block.
     fn reduce(&self, x: &mut DVector<f64>) {
-        self.orthogonalise(x);
+        self.orthogonalise(std::slice::from_mut(x));
         for _ in 0..2 {
             let image = product(self.pencil.mass, x.as_view());
             for other in &self.next {
@@ -282,15 +287,18 @@ impl<'a> Space<'a> {
         true
     }
 
-    /// Removes the part of `x` within the space, twice; gives its coefficients.
-    fn orthogonalise(&self, x: &mut DVector<f64>) -> DVector<f64> {
-        let mut shares = DVector::zeros(self.vectors.len());
+    /// Removes the parts of `block` within the space, twice; gives their coefficients.
+    fn orthogonalise(&self, block: &mut [DVector<f64>]) -> DMatrix<f64> {
+        let mut shares = DMatrix::zeros(self.vectors.len(), block.len());
         for _ in 0..2 {
-            let image = product(self.pencil.mass, x.as_view());
-            for (share, vector) in shares.iter_mut().zip(&self.vectors) {
-                let more = vector.dot(&image);
-                x.axpy(-more, vector, 1.0);
-                *share += more;
+            let images: Vec<DVector<f64>> =
+                block.iter().map(|x| product(self.pencil.mass, x.as_view())).collect();
+            for (k, vector) in self.vectors.iter().enumerate() {
+                for (j, (x, image)) in block.iter_mut().zip(&images).enumerate() {
+                    let share = vector.dot(image);
+                    x.axpy(-share, vector, 1.0);
+                    shares[(k, j)] += share;
+                }
             }
         }
         shares
@@ -308,7 +316,10 @@ impl<'a> Space<'a> {
         let last = coefficients.rows(size - width, width);
         let residual = self.coupling.columns(0, width) * last;
         let converged = (0..size)
-            .take_while(|&k| inverse[k] > 0.0 && residual.column(k).norm() <= TOLERANCE * inverse[k])
+            .take_while(|&k| {
+                let enough = (TOLERANCE * inverse[k]).max(NOISE * self.largest);
+                inverse[k] > NOISE * self.largest && residual.column(k).norm() <= enough
+            })
             .count();
         self.pairs = Pairs { inverse, converged, exhausted: false, coefficients };
     }
@@ -343,4 +354,95 @@ fn spectrum(matrix: &DMatrix<f64>) -> (Vec<f64>, DMatrix<f64>) {
     let (values, vectors) = (eigen.S(), eigen.U());
     let inverse = (0..size).rev().map(|k| values[k]).collect();
     (inverse, DMatrix::from_fn(size, size, |i, j| vectors[(i, size - 1 - j)]))
+}
+
+#[cfg(test)]
+mod tests {
+    use sprs::TriMat;
+
+    use super::*;
+    use crate::factor::Factor;
+
+    /// Upper triangle of a matrix.
+    fn upper(dense: &DMatrix<f64>) -> CsMat<f64> {
+        let n = dense.nrows();
+        let mut out = TriMat::new((n, n));
+        for j in 0..n {
+            (0..=j).filter(|&i| dense[(i, j)] != 0.0).for_each(|i| out.add_triplet(i, j, dense[(i, j)]));
+        }
+        out.to_csc()
+    }
+
+    /// Stiffness of a chain, and a mass of which `massless` freedoms have none.
+    fn pencil(n: usize, massless: usize) -> [DMatrix<f64>; 2] {
+        let stiffness = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
+            0 => 2.0 + 0.01 * (i % 5) as f64,
+            1 => -1.0,
+            _ => 0.0,
+        });
+        let mass = DMatrix::from_fn(n, n, |i, j| match i.abs_diff(j) {
+            _ if i.min(j) < massless => 0.0,
+            0 => 4.0 + (i % 3) as f64,
+            1 => 1.0,
+            _ => 0.0,
+        });
+        [stiffness, mass]
+    }
+
+    fn solver(stiffness: &CsMat<f64>) -> Solver {
+        Solver::Double(Factor::new(stiffness).expect("positive definite"))
+    }
+
+    #[test]
+    fn pairs_are_those_of_the_dense_pencil_massless_freedoms_too() {
+        for (n, massless, count) in [(1, 0, 1), (6, 2, 3), (90, 0, 12), (90, 31, 20), (400, 150, 37)] {
+            let [stiffness, mass] = pencil(n, massless);
+            // 1 / lambda are the eigenvalues of L^-1 M L^-T.
+            let l = stiffness.clone().cholesky().expect("positive definite").l();
+            let half = l.solve_lower_triangular(&mass).expect("regular");
+            let whole = l.solve_lower_triangular(&half.transpose()).expect("regular");
+            let mut exact: Vec<f64> = whole.symmetric_eigenvalues().iter().copied().collect();
+            exact.sort_by(|a, b| b.total_cmp(a));
+            let [k, m] = [&stiffness, &mass].map(upper);
+            let factor = solver(&k);
+            let mut space = Space::new(Pencil { stiffness: &k, mass: &m, factor: &factor });
+            assert!(space.converge(count));
+            assert!(space.pairs.converged >= count);
+            let modes = space.modes(count);
+            for (i, (lambda, x)) in modes.iter().enumerate() {
+                assert!((lambda * exact[i] - 1.0).abs() < 1e-11, "{n}, {i}: {lambda} {}", 1.0 / exact[i]);
+                assert!((&stiffness * x - &mass * x * *lambda).norm() < 1e-10 * x.norm());
+                for (j, (_, y)) in modes.iter().enumerate() {
+                    let unit = f64::from(u8::from(i == j));
+                    assert!((x.dot(&(&mass * y)) - unit).abs() < 1e-12);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_search_beyond_the_rank_of_the_mass_ends_with_all_there_are() {
+        let [stiffness, mass] = pencil(90, 31);
+        let [k, m] = [&stiffness, &mass].map(upper);
+        let factor = solver(&k);
+        let mut space = Space::new(Pencil { stiffness: &k, mass: &m, factor: &factor });
+        assert!(space.converge(80));
+        assert!(space.pairs.exhausted);
+        assert_eq!(space.pairs.converged, 59);
+    }
+
+    #[test]
+    fn after_a_refresh_known_pairs_remain_and_others_follow() {
+        let [stiffness, mass] = pencil(400, 0);
+        let [k, m] = [&stiffness, &mass].map(upper);
+        let factor = solver(&k);
+        let mut space = Space::new(Pencil { stiffness: &k, mass: &m, factor: &factor });
+        assert!(space.converge(5));
+        let before = space.known();
+        space.refresh();
+        assert!(space.converge(before.len() + 3));
+        for (a, b) in before.iter().zip(space.known()) {
+            assert!((a / b - 1.0).abs() < 1e-12);
+        }
+    }
 }

@@ -24,6 +24,7 @@ mod order;
 pub mod rail;
 pub mod reaction;
 mod real;
+pub mod refine;
 mod rounding;
 pub mod section;
 mod solver;
@@ -40,6 +41,7 @@ pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Sup
 pub use modes::{Mode, Modes, modes};
 pub use rail::{Rail, Segment};
 pub use reaction::{Hold, Reactions, reactions};
+pub use refine::{Refined, refined_modes};
 pub use section::{Section, Theory};
 pub use splines::Component;
 pub use surface::{Exact, nodal, surface};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DVector, DVectorView, SVector, Vector3};
-use splines::{Line, Probe, Surface};
+use splines::{Axis, Line, Probe, Surface};
 use sprs::CsMat;
 
 use crate::error::Error;
@@ -162,6 +162,21 @@ impl Modes {
         Ok(self.modes.iter().map(|mode| [sum(mode, row.values()), sum(mode, row.slopes())]).collect())
     }
 
+    /// Rotation of every mode about the rail at x, linear along a cell: exact where the cell runs along the rail.
+    ///
+    /// # Errors
+    /// No rail; a place beyond it.
+    pub fn twist(&self, rail: usize, x: f64) -> Result<Vec<f64>, Error> {
+        let line = self.line.as_ref().ok_or(Error::NoRails)?;
+        let place = |axis| line.row(Probe { rail, x, axis });
+        let row =
+            place(Axis::Vertical).or_else(|_| place(Axis::Lateral)).or_else(|_| place(Axis::Longitudinal))?;
+        let cell = &line.cells()[row.cell];
+        let r = ((x - cell.x[0]) / (cell.x[1] - cell.x[0])).clamp(0.0, 1.0);
+        let [a, b] = cell.ends;
+        Ok(self.modes.iter().map(|mode| (1.0 - r) * mode.states[a][3] + r * mode.states[b][3]).collect())
+    }
+
     /// What the modes leave of an influence surface of the same frame:
     ///
     /// G_res = G - sum phi_r phi_r^T / omega_r^2
@@ -198,7 +213,7 @@ struct Cut {
 
 /// Finds `count` eigenvalues, and a shift above them below which all are known.
 fn search(space: &mut Space<'_>, count: usize) -> Result<Cut, Error> {
-    let fail = |found: usize| Error::Modes { asked: count, found };
+    let fail = |known: usize| Error::Modes { asked: count, found: known.min(count) };
     let mut need = count + 1;
     for _ in 0..ATTEMPTS {
         let complete = space.converge(need);
@@ -209,10 +224,10 @@ fn search(space: &mut Space<'_>, count: usize) -> Result<Cut, Error> {
                 let lambda = low + place * (high - low);
                 space.negatives(lambda).map(|found| found.map(|found| (lambda, found))).transpose()
             });
-            match counted.transpose().map_err(|_| fail(0))? {
+            match counted.transpose().map_err(|_| fail(known.len()))? {
                 Some((lambda, found)) if found == below => return Ok(Cut { lambda, below }),
                 Some((_, found)) if found > below => missed = Some(found - below),
-                Some(_) => return Err(fail(0)),
+                Some(_) => return Err(fail(known.len())),
                 None => continue,
             }
             break;
@@ -228,7 +243,7 @@ fn search(space: &mut Space<'_>, count: usize) -> Result<Cut, Error> {
             None => break,
         }
     }
-    Err(fail(0))
+    Err(fail(space.known().len()))
 }
 
 /// Gaps between eigenvalues in which to count, and how many lie below: above the first `count`, the

@@ -3,11 +3,15 @@
 use crate::cli::{Fea, Global};
 use crate::coupling::Coupling;
 use crate::exit::{Exit, Failure};
+use crate::fault::{Fault, Faults};
 use crate::grid_file;
 use crate::inputs::Inputs;
 use crate::link;
+use crate::modes_file::{self, ACCURACY};
 use crate::output;
+use crate::place::Place;
 use crate::progress::Progress;
+use crate::source::Source;
 use crate::spec::Spec;
 
 /// Reads the spec, solves it, writes the grid to the file named or to standard output.
@@ -31,7 +35,32 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
         progress.say(&line);
     }
-    let text = grid_file::write(&solved.grid, Some(&solved.surface));
+    let mut text = grid_file::write(&solved.grid, Some(&solved.surface));
+    if let Some(count) = args.modes {
+        let stage = progress.stage("modes");
+        let found = fea::refined_modes(&solved.model, &solved.rails, count as usize, ACCURACY);
+        drop(stage);
+        let refined = found.map_err(|error| refuse(&spec, &source, &error))?;
+        progress.say(&modes_file::line(&refined.modes));
+        if refined.error > ACCURACY {
+            progress.say(&format!("note: the mesh shows in the modes by {:.1e}", refined.error));
+        }
+        text = modes_file::insert(&text, &modes_file::write(&refined, &solved.grid.stations()));
+    }
     output::deliver(args.output.as_deref(), &text, &progress)?;
     Ok(Exit::Done)
+}
+
+/// What modes refuse: a spec without mass by what it lacks, all else as the solver's refusals.
+fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
+    if *error != fea::Error::NoMass {
+        return spec.refuse(source, error);
+    }
+    let root = Place::root();
+    let fault = if spec.girder().is_some() {
+        Fault::new(&root.key("girder"), "missing key `mass_per_length`")
+    } else {
+        Fault::new(&root.key("materials"), "one of them must have a `density`, or the spec `masses`")
+    };
+    Failure::Input(source.diagnose(&Faults(vec![fault.hint("modes need mass")])))
 }

@@ -1,0 +1,168 @@
+//! Member `modes` of a grid file: natural frequencies, and shapes at the stations.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+use fea::{Modes, Refined};
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use splines::{Axis, Probe};
+
+use crate::fault::{Fault, Faults};
+use crate::place::Place;
+
+crate::object::objects!(RawModes, RawMode, RawShape);
+
+/// Relative error of frequencies by the length of members that is allowed.
+pub const ACCURACY: f64 = 1e-3;
+
+const AXES: [(&str, Axis); 3] =
+    [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
+
+/// The member as text, one mode a line. `stations`: rail and coordinate, as in the grids. Directions that some
+/// station does not resist are left out.
+#[must_use]
+pub fn write(refined: &Refined, stations: &[(usize, f64)]) -> String {
+    let modes = &refined.modes;
+    let shapes: Vec<(&str, Vec<Vec<[f64; 2]>>)> = AXES
+        .into_iter()
+        .filter_map(|(word, axis)| {
+            let at = stations.iter().map(|&(rail, x)| modes.at(Probe { rail, x, axis }));
+            Some((word, at.collect::<Result<_, _>>().ok()?))
+        })
+        .collect();
+    let twist: Result<Vec<Vec<f64>>, _> = stations.iter().map(|&(rail, x)| modes.twist(rail, x)).collect();
+    let mut head = Map::new();
+    head.insert("complete_below".into(), json!({ "hz": modes.shift / TAU, "count": modes.below }));
+    head.insert("next_hz".into(), json!(modes.next.map(|omega| omega / TAU)));
+    head.insert("mesh_error".into(), json!(refined.error));
+    head.insert("mass".into(), json!(modes.total));
+    let mut text = String::from("{\n");
+    for (key, value) in &head {
+        // writing to a string cannot fail
+        let _ = writeln!(text, "    \"{key}\": {value},");
+    }
+    text.push_str("    \"modes\": [");
+    for (k, mode) in modes.modes.iter().enumerate() {
+        let mut entry = Map::new();
+        entry.insert("hz".into(), json!(mode.omega / TAU));
+        entry.insert("omega".into(), json!(mode.omega));
+        entry.insert("residual".into(), json!(mode.residual));
+        entry.insert("coupling".into(), json!(mode.coupling));
+        for (word, at) in &shapes {
+            let part = |which: usize| at.iter().map(|modes| modes[k][which]).collect::<Vec<f64>>();
+            entry.insert((*word).into(), json!({ "value": part(0), "slope": part(1) }));
+        }
+        if let Ok(twist) = &twist {
+            let values: Vec<f64> = twist.iter().map(|modes| modes[k]).collect();
+            entry.insert("twist".into(), json!(values));
+        }
+        let comma = if k > 0 { "," } else { "" };
+        let _ = write!(text, "{comma}\n      {}", Value::Object(entry));
+    }
+    text.push_str("\n    ]\n  }");
+    text
+}
+
+/// A grid file's text, as [`crate::grid_file::write`] gives it, with the member added at its end.
+#[must_use]
+pub fn insert(grid: &str, member: &str) -> String {
+    let body = grid.strip_suffix("\n}\n").unwrap_or(grid);
+    format!("{body},\n  \"modes\": {member}\n}}\n")
+}
+
+/// One line for people: the frequencies, and what is known of their completeness.
+#[must_use]
+pub fn line(modes: &Modes) -> String {
+    let mut list: Vec<String> = modes.modes.iter().take(6).map(|mode| hertz(mode.omega)).collect();
+    if modes.modes.len() > list.len() {
+        list.push("...".to_owned());
+    }
+    format!(
+        "modes: {} Hz; {} below {} Hz by count, none missed",
+        list.join(", "),
+        modes.below,
+        hertz(modes.shift)
+    )
+}
+
+fn hertz(omega: f64) -> String {
+    format!("{:.4}", omega / TAU)
+}
+
+/// The member as it stands in the file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+pub(crate) struct RawModes {
+    #[serde(rename = "complete_below")]
+    _complete_below: Option<Value>,
+    #[serde(rename = "next_hz")]
+    _next_hz: Option<f64>,
+    #[serde(rename = "mesh_error")]
+    _mesh_error: Option<f64>,
+    #[serde(rename = "mass")]
+    _mass: Option<[[f64; 6]; 6]>,
+    modes: Option<Vec<RawMode>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+struct RawMode {
+    hz: Option<f64>,
+    #[serde(rename = "omega")]
+    _omega: Option<f64>,
+    #[serde(rename = "residual")]
+    _residual: Option<f64>,
+    #[serde(rename = "coupling")]
+    _coupling: Option<[f64; 6]>,
+    vertical: Option<RawShape>,
+    lateral: Option<RawShape>,
+    longitudinal: Option<RawShape>,
+    twist: Option<Vec<f64>>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+struct RawShape {
+    value: Vec<f64>,
+    slope: Vec<f64>,
+}
+
+impl RawModes {
+    /// Checks what a reader could trip over: frequencies out of order, shapes of another length than `size`,
+    /// the number of stations.
+    pub fn check(&self, size: usize, place: &Place<'_>, faults: &mut Faults) {
+        let list = place.key("modes");
+        let mut last = 0.0;
+        for (k, mode) in faults.need(&self.modes, place, "modes").into_iter().flatten().enumerate() {
+            let at = list.index(k);
+            if let Some(&hz) = faults.need(&mode.hz, &at, "hz") {
+                if hz < last {
+                    let fault = Fault::new(&at.key("hz"), "must not be below the one before it");
+                    faults.add(fault.got(hz));
+                }
+                last = hz;
+            }
+            let shapes = [
+                ("vertical", &mode.vertical),
+                ("lateral", &mode.lateral),
+                ("longitudinal", &mode.longitudinal),
+            ];
+            let mut length = |numbers: &[f64], place: &Place<'_>| {
+                if numbers.len() != size {
+                    let fault = Fault::new(place, format!("must have {size} numbers, one for each station"));
+                    faults.add(fault.got(numbers.len()));
+                }
+            };
+            for (word, shape) in shapes {
+                let Some(shape) = shape else { continue };
+                let shape_at = at.key(word);
+                length(&shape.value, &shape_at.key("value"));
+                length(&shape.slope, &shape_at.key("slope"));
+            }
+            if let Some(twist) = &mode.twist {
+                length(twist, &at.key("twist"));
+            }
+        }
+    }
+}
