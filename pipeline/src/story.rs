@@ -3,6 +3,7 @@
 use sim::Status;
 
 use crate::cases::Outcome;
+use crate::coupling::Coupling;
 use crate::link::Solved;
 use crate::pictures::Plate;
 use crate::record::peak;
@@ -113,6 +114,9 @@ fn structures(scene: &Scene, solved: &[Option<&Solved>]) -> Section {
                 classical,
                 scene.units.label(Dimension::LENGTH),
             );
+        }
+        if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
+            section = section.say(format!("{name}: {line}."));
         }
         for note in &solved.grid.notes {
             section = section.say(format!("{name}: {note}."));

@@ -150,7 +150,9 @@ impl Effects {
         }
         let row = self.line.row(at)?;
         out.fill(0.0);
-        for (&index, &share) in row.indices().iter().zip(row.values()) {
+        let entries = row.indices().iter().zip(row.values());
+        // Nothing of a load on a freedom that nothing resists is nothing.
+        for (&index, &share) in entries.filter(|(_, share)| **share != 0.0) {
             for (sum, entry) in out.iter_mut().zip(self.rows.column(index)) {
                 *sum += share * entry;
             }

@@ -215,11 +215,19 @@ impl Kernel {
         }
     }
 
-    /// Displacement along axis `a` of this cell at s under a unit force along axis `b` of `other` at t, s
-    /// and t in 0..=length along the member that carries both.
-    #[inline]
-    pub fn pair(&self, a: usize, s: f64, other: &Kernel, b: usize, t: f64) -> Green {
-        let (p, q) = (&self.arms[a], &other.arms[b]);
+    /// Displacement along axis `a` at s under a unit force along axis `b` at t, s and t in 0..=length
+    /// along the member.
+    pub fn pair(&self, a: usize, s: f64, b: usize, t: f64) -> Green {
+        self.between(&self.arms[a], s, &self.arms[b], t)
+    }
+
+    /// The same under a force on another cell of the same member.
+    pub fn across(&self, a: usize, s: f64, other: &Kernel, b: usize, t: f64) -> Green {
+        self.between(&self.arms[a], s, &other.arms[b], t)
+    }
+
+    #[inline(always)]
+    fn between(&self, p: &Arm, s: f64, q: &Arm, t: f64) -> Green {
         let mut sum = Green::default();
         if p.xy != [0.0; 2] && q.xy != [0.0; 2] {
             sum.add(self.xy.pair(s, p.xy, t, q.xy));

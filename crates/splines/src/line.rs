@@ -17,6 +17,8 @@ pub struct Line {
     ready: Vec<Ready>,
     tracks: Vec<Track>,
     states: usize,
+    /// Whether a member carries more than one cell.
+    shared: bool,
 }
 
 /// A cell prepared for evaluation.
@@ -80,6 +82,7 @@ impl Line {
         }
         let mut ready = Vec::with_capacity(cells.len());
         let mut states = 0;
+        let mut shared = false;
         let mut first: BTreeMap<usize, usize> = BTreeMap::new();
         for (index, cell) in cells.iter().enumerate() {
             check(index, cell)?;
@@ -87,6 +90,7 @@ impl Line {
             let arm = cell.ends[0] == cell.ends[1];
             let carrier = cell.carrier.filter(|_| !arm);
             let group = carrier.map_or(index, |carrier| *first.entry(carrier.member).or_insert(index));
+            shared |= group != index;
             let same = |a: &Cell| a.length == cell.length && a.flexibility == cell.flexibility;
             if group != index && !same(&cells[group]) {
                 return Err(Error::CellCarrier { first: group, second: index });
@@ -100,7 +104,7 @@ impl Line {
             });
         }
         let tracks = tracks(&cells)?;
-        Ok(Line { cells, ready, tracks, states })
+        Ok(Line { cells, ready, tracks, states, shared })
     }
 
     /// The cells, as given.
@@ -140,7 +144,6 @@ impl Line {
         let place = span.fraction(p.x);
         row.cell = span.cell;
         row.axis = axis;
-        row.group = ready.group;
         row.s = span.start + place.along() * span.length;
         row.rate = span.length * span.scale;
         row.evaluate(&ready.terms[axis], place, span.scale);
@@ -177,8 +180,7 @@ impl Line {
         let (s, t) = (given.place(x), given.place(z));
         for (a, row) in out.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
-                *entry =
-                    if kernel.is_free(a, b) { f64::INFINITY } else { kernel.pair(a, s, kernel, b, t).value };
+                *entry = if kernel.is_free(a, b) { f64::INFINITY } else { kernel.pair(a, s, b, t).value };
             }
         }
         out
@@ -186,6 +188,16 @@ impl Line {
 
     pub(crate) fn kernel_of(&self, cell: usize) -> Option<&Kernel> {
         self.ready.get(cell).and_then(|ready| ready.kernel.as_ref())
+    }
+
+    pub(crate) fn has_shared_members(&self) -> bool {
+        self.shared
+    }
+
+    /// Kernels of two cells, where one member carries both.
+    pub(crate) fn kernels_of_one_member(&self, a: usize, b: usize) -> Option<[&Kernel; 2]> {
+        let (a, b) = (self.ready.get(a)?, self.ready.get(b)?);
+        Some([a.kernel.as_ref()?, b.kernel.as_ref()?]).filter(|_| a.group == b.group)
     }
 
     /// Ends of the cells of `rail`, increasing, each once.

@@ -13,8 +13,6 @@ pub struct Row {
     pub cell: usize,
     /// Component of the probe's axis: 0, 1 or 2.
     pub(crate) axis: usize,
-    /// First cell on the same member.
-    pub(crate) group: usize,
     /// Place along the member, from 0 to its length; derivative of it by x.
     pub(crate) s: f64,
     pub(crate) rate: f64,
@@ -54,7 +52,6 @@ impl Row {
     pub(crate) const EMPTY: Row = Row {
         cell: 0,
         axis: 0,
-        group: 0,
         s: 0.0,
         rate: 0.0,
         len: 0,

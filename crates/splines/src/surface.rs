@@ -105,13 +105,8 @@ impl Surface {
             let kernel = self.line.kernel_of(rows[j].cell);
             for i in j..n {
                 let (p, q) = (&rows[i], &rows[j]);
-                if p.group != q.group {
-                    value[j + n * i] = value[i + n * j];
-                    continue;
-                }
-                let own = if p.cell == q.cell { kernel } else { self.line.kernel_of(p.cell) };
-                if let (Some(own), Some(kernel)) = (own, kernel) {
-                    let green = own.pair(p.axis, p.s, kernel, q.axis, q.s);
+                if let Some(kernel) = kernel.filter(|_| p.cell == q.cell) {
+                    let green = kernel.pair(p.axis, p.s, q.axis, q.s);
                     value[i + n * j] += green.value;
                     slope[i + n * j] += green.first * p.rate;
                     if i != j {
@@ -124,7 +119,25 @@ impl Surface {
                 return Err(Error::Unstiffened { rail: at[j].rail, x: at[j].x, axis: at[j].axis });
             }
         }
+        if self.line.has_shared_members() {
+            self.across(rows, out);
+        }
         Ok(())
+    }
+
+    /// Adds what the member gives between two cells that it carries.
+    #[cold]
+    fn across(&self, rows: &[Row], out: &mut Influence) {
+        for (j, q) in rows.iter().enumerate() {
+            for (i, p) in rows.iter().enumerate().skip(j + 1).filter(|(_, p)| p.cell != q.cell) {
+                let Some([own, other]) = self.line.kernels_of_one_member(p.cell, q.cell) else { continue };
+                let green = own.across(p.axis, p.s, other, q.axis, q.s);
+                out.value[(i, j)] += green.value;
+                out.value[(j, i)] = out.value[(i, j)];
+                out.slope[(i, j)] += green.first * p.rate;
+                out.slope[(j, i)] += green.second * q.rate;
+            }
+        }
     }
 }
 
