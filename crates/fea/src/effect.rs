@@ -94,11 +94,15 @@ impl Frame {
             return Ok(value);
         }
         let functionals = self.functionals(m, effects)?;
-        let sections = functionals.iter().map(|functional| functional.section.clone()).collect();
+        // Reactions have no part of their own in the cell that is loaded: only sections are asked for it.
+        let inner: Vec<usize> = (0..effects.len()).filter(|&i| functionals[i].section.is_some()).collect();
+        let sections = inner.iter().map(|&i| functionals[i].section.clone()).collect();
         let line = self.line()?;
-        let held = Effects::new(line.clone(), DMatrix::zeros(effects.len(), 6 * line.states()), sections)?;
+        let held = Effects::new(line.clone(), DMatrix::zeros(inner.len(), 6 * line.states()), sections)?;
+        let mut own = vec![0.0; inner.len()];
         for (j, &probe) in at.iter().enumerate() {
-            held.fill(probe, value.column_mut(j).as_mut_slice())?;
+            held.fill(probe, &mut own)?;
+            inner.iter().zip(&own).for_each(|(&i, &part)| value[(i, j)] = part);
             let (load, _) = self.load(probe)?;
             let motions = self.motions(&load);
             let (row, _) = self.row(probe)?;
