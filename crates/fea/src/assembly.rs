@@ -1,13 +1,14 @@
 //! Stiffness of a whole frame, scaled, in elimination order.
 
 use nalgebra::{SMatrix, Vector3};
-use sprs::{CsMat, TriMat};
+use sprs::CsMat;
 
 use crate::element::{Element, Matrix12};
 use crate::freedoms::Freedoms;
 use crate::model::Model;
 use crate::order::{Graph, order};
 use crate::real::Real;
+use crate::triplets::Triplets;
 
 /// The scaled stiffness S K S of the unknowns, S diagonal, powers of two.
 #[derive(Debug)]
@@ -148,12 +149,12 @@ impl<T: Real> Parts<T> {
     fn sum(&self, numbering: &Numbering) -> CsMat<T> {
         let Numbering { unknown, scale, .. } = numbering;
         let n = scale.len();
-        let mut triplets = TriMat::with_capacity((n, n), 78 * self.members.len() + n);
+        let mut triplets = Triplets::new(n, 78 * self.members.len() + 36 * self.springs.len());
         let mut add = |a: usize, b: usize, value: T| {
             if let (Some(i), Some(j)) = (unknown[a], unknown[b])
                 && i <= j
             {
-                triplets.add_triplet(i, j, T::from(scale[i]) * value * T::from(scale[j]));
+                triplets.add(i, j, T::from(scale[i]) * value * T::from(scale[j]));
             }
         };
         for (pair, k) in &self.members {
@@ -175,7 +176,7 @@ impl<T: Real> Parts<T> {
                 }
             }
         }
-        triplets.to_csc()
+        triplets.sum()
     }
 
     fn cancellation(&self, numbering: &Numbering) -> f64 {

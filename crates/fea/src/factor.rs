@@ -1,19 +1,26 @@
 //! Sparse Cholesky factor, with solves that follow the elimination tree.
 
-use faer::Par;
-use faer::Side;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::matmul::matmul;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Accum, MatMut, MatRef, Par, Side};
 use sprs::CsMat;
 
 use crate::memory::MEMORY;
 use crate::real::Real;
+
+/// Loads that go through single columns together.
+const ABREAST: usize = 8;
+/// Loads that go through panels together.
+const CROWD: usize = 32;
+/// Width from which a panel is worth a dense product.
+const WIDE: usize = 4;
 
 /// Why a matrix has no factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -164,48 +171,82 @@ impl<T: Real> Factor<T> {
         path
     }
 
-    /// L^-1 p, following the elimination tree from the entries of p to its root.
+    /// L^-1 p of every load p, following the elimination tree from the entries of p to its root; several loads at
+    /// a time, so that each entry of L is read once for all of them.
     ///
     /// # Source
     /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9; Davis, Direct Methods for Sparse Linear
     /// Systems (2006), chapter 3.
-    pub fn forward(&self, load: &[(usize, f64)], work: &mut Work<T>) -> Tail {
-        let Work { x, seen } = work;
-        for &(row, value) in load {
-            x[row] += T::from(value);
+    pub fn forward(&self, loads: &[Vec<(usize, f64)>]) -> Vec<Tail> {
+        if loads.len() < ABREAST {
+            self.in_ranks::<1>(loads)
+        } else if self.panels == self.len() || loads.len() < CROWD {
+            self.in_ranks::<ABREAST>(loads)
+        } else {
+            self.in_ranks::<CROWD>(loads)
         }
-        let path = self.path(load.iter().map(|&(row, _)| row), seen);
-        let mut tail = Tail::default();
+    }
+
+    fn in_ranks<const K: usize>(&self, loads: &[Vec<(usize, f64)>]) -> Vec<Tail> {
+        let mut tails = Vec::with_capacity(loads.len());
+        let mut seen = vec![false; self.panels];
+        let mut x = vec![[T::zero(); K]; self.len()];
+        let mut spare = Vec::new();
+        for some in loads.chunks(K) {
+            self.abreast(some, &mut x, &mut seen, &mut spare, &mut tails);
+        }
+        tails
+    }
+
+    /// The same for at most K loads; `x` is zero and `seen` false, before and after.
+    fn abreast<const K: usize>(
+        &self,
+        loads: &[Vec<(usize, f64)>],
+        x: &mut [[T; K]],
+        seen: &mut [bool],
+        spare: &mut Vec<[T; K]>,
+        tails: &mut Vec<Tail>,
+    ) {
+        for (lane, load) in loads.iter().enumerate() {
+            load.iter().for_each(|&(row, value)| x[row][lane] += T::from(value));
+        }
+        let path = self.path(loads.iter().flatten().map(|&(row, _)| row), seen);
+        for &k in &path {
+            self.panel(k).forward(x, spare);
+        }
+        for (lane, load) in loads.iter().enumerate() {
+            let own = if K == 1 { &path } else { &self.path(load.iter().map(|&(row, _)| row), seen) };
+            let mut tail = Tail::default();
+            for &k in own {
+                let panel = self.panel(k);
+                match (tail.starts.last(), tail.widths.last_mut()) {
+                    (Some(&start), Some(width)) if start + *width == panel.start => *width += panel.width,
+                    _ => {
+                        tail.starts.push(panel.start);
+                        tail.widths.push(panel.width);
+                    }
+                }
+                let values = &x[panel.start..panel.start + panel.width];
+                tail.values.extend(values.iter().map(|value| value[lane].double()));
+            }
+            tails.push(tail);
+        }
         for &k in &path {
             let panel = self.panel(k);
-            panel.forward(x);
-            let span = panel.start..panel.start + panel.width;
-            match (tail.starts.last(), tail.widths.last_mut()) {
-                (Some(&start), Some(width)) if start + *width == panel.start => *width += panel.width,
-                _ => {
-                    tail.starts.push(panel.start);
-                    tail.widths.push(panel.width);
-                }
-            }
-            tail.values.extend(x[span.clone()].iter().map(|value| value.double()));
-            x[span].fill(T::zero());
+            x[panel.start..panel.start + panel.width].fill([T::zero(); K]);
         }
-        tail
     }
 
     /// Solves K x = x in place.
     pub fn solve(&self, x: &mut [T]) {
+        let (alone, _) = x.as_chunks_mut::<1>();
+        let mut spare = Vec::new();
         for k in 0..self.panels {
-            self.panel(k).forward(x);
+            self.panel(k).forward(alone, &mut spare);
         }
         for k in (0..self.panels).rev() {
             self.panel(k).backward(x);
         }
-    }
-
-    /// Workspace for `forward`.
-    pub fn work(&self) -> Work<T> {
-        Work { x: vec![T::zero(); self.len()], seen: vec![false; self.panels] }
     }
 
     /// Largest row sum of |L| |L^T|, and the most entries of a row of L.
@@ -234,12 +275,6 @@ impl<T: Real> Factor<T> {
             }
         }
     }
-}
-
-/// Scratch of the forward solves; zero between them.
-pub(crate) struct Work<T: Real = f64> {
-    x: Vec<T>,
-    seen: Vec<bool>,
 }
 
 /// Products of `tail` with each of `others`, over the scratch `x`, zero before and after.
@@ -285,23 +320,53 @@ impl Tail {
     }
 }
 
+/// target - l value.
+#[inline]
+fn lessen<T: Real, const K: usize>(target: &mut [T; K], l: T, value: &[T; K]) {
+    for (target, value) in target.iter_mut().zip(value) {
+        *target -= l * *value;
+    }
+}
+
 impl<T: Real> Panel<'_, T> {
-    fn forward(&self, x: &mut [T]) {
+    /// Eliminates the panel's rows from x; `spare` is scratch.
+    fn forward<const K: usize>(&self, x: &mut [[T; K]], spare: &mut Vec<[T; K]>) {
         let height = self.width + self.below.len();
+        let dense = T::PANELS && K > 1 && self.width >= WIDE;
         for j in 0..self.width {
             let column = &self.values[j * height + j..(j + 1) * height];
             let (pivot, rest) = column.split_at(1);
-            let value = x[self.start + j] / pivot[0];
+            let value = x[self.start + j].map(|value| value / pivot[0]);
             x[self.start + j] = value;
-            if value == T::zero() {
+            if value == [T::zero(); K] {
                 continue;
             }
             let (triangle, below) = rest.split_at(self.width - 1 - j);
             for (l, target) in triangle.iter().zip(&mut x[self.start + j + 1..]) {
-                *target -= *l * value;
+                lessen(target, *l, &value);
             }
-            for (l, &row) in below.iter().zip(self.below) {
-                x[row] -= *l * value;
+            if !dense {
+                for (l, &row) in below.iter().zip(self.below) {
+                    lessen(&mut x[row], *l, &value);
+                }
+            }
+        }
+        if dense && !self.below.is_empty() {
+            // (L21 x)^T = x^T L21^T: a row of x is a column of its transpose, in one piece.
+            spare.clear();
+            spare.resize(self.below.len(), [T::zero(); K]);
+            let own = x[self.start..self.start + self.width].as_flattened();
+            let lower = MatRef::from_column_major_slice_with_stride(
+                &self.values[self.width..],
+                self.below.len(),
+                self.width,
+                height,
+            );
+            let product = MatMut::from_column_major_slice_mut(spare.as_flattened_mut(), K, self.below.len());
+            let own = MatRef::from_column_major_slice(own, K, self.width);
+            matmul(product, Accum::Replace, own, lower.transpose(), T::one(), Par::Seq);
+            for (&row, product) in self.below.iter().zip(spare.iter()) {
+                lessen(&mut x[row], T::one(), product);
             }
         }
     }
@@ -364,10 +429,14 @@ mod tests {
             assert_eq!(factor.panels < n, panels && T::PANELS, "another kind of factor than meant");
             let inverse = dense.clone().try_inverse().expect("positive definite");
             let scale = inverse.amax();
-            let mut work = factor.work();
             let mut scratch = vec![0.0; n];
             let loads = [vec![(3, 1.0)], vec![(n - 1, 1.0), (7, -2.0)]];
-            let tails = loads.each_ref().map(|load| factor.forward(load, &mut work));
+            let tails = factor.forward(&loads);
+            let many: Vec<_> = (0..20).flat_map(|_| loads.clone()).collect();
+            for (a, b) in factor.forward(&many).iter().zip(tails.iter().cycle()) {
+                let size = b.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+                assert!(a.values.iter().zip(&b.values).all(|(a, b)| (a - b).abs() < 1e-14 * size));
+            }
             let full = loads.each_ref().map(|load| {
                 let mut x = DVector::zeros(n);
                 load.iter().for_each(|&(k, value)| x[k] = value);

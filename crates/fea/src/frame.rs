@@ -16,7 +16,7 @@ use crate::memory::allow;
 use crate::model::{Freedom, Model};
 use crate::rail::{Rail, lay};
 use crate::real::Extended;
-use crate::solver::{Scratch, Solver};
+use crate::solver::Solver;
 
 /// Error bound that a frame must meet where nothing else is asked.
 pub const ACCURACY: f64 = 1e-6;
@@ -192,12 +192,8 @@ impl Frame {
         self.assembly.numbering.scale[unknown]
     }
 
-    pub(crate) fn scratch(&self) -> Scratch {
-        self.solver.scratch()
-    }
-
-    pub(crate) fn forward(&self, load: &[(usize, f64)], scratch: &mut Scratch) -> Tail {
-        self.solver.forward(load, scratch)
+    pub(crate) fn forward(&self, loads: &[Vec<(usize, f64)>]) -> Vec<Tail> {
+        self.solver.forward(loads)
     }
 
     /// Six sums of a point's own freedoms.

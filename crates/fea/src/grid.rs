@@ -44,16 +44,16 @@ impl Frame {
     /// A probe beyond its rail, or in a direction that nothing resists; a bound worse than asked.
     pub fn grid(&self, at: &[Probe]) -> Result<Grid, Error> {
         square(Quantity::Grid, at.len())?;
-        let mut scratch = self.scratch();
-        let mut tails = Vec::with_capacity(at.len());
+        let mut loads = Vec::with_capacity(at.len());
         let mut cells = Vec::with_capacity(at.len());
         for (k, &probe) in at.iter().enumerate() {
             let (load, cell) = self.load(probe)?;
-            tails.push(self.forward(&load, &mut scratch));
+            loads.push(load);
             if let Some(carrier) = self.line()?.cells()[cell].carrier {
                 cells.push((carrier.member, cell, k));
             }
         }
+        let tails = self.forward(&loads);
         let mut value = self.gram(&tails);
         cells.sort_unstable();
         for same in cells.chunk_by(|a, b| a.0 == b.0) {

@@ -31,6 +31,7 @@ pub mod section;
 mod solver;
 pub mod surface;
 pub mod taper;
+mod triplets;
 
 pub use certificate::Certificate;
 pub use effect::Effect;

@@ -19,17 +19,38 @@ pub(crate) struct Graph {
 
 impl Graph {
     pub fn new(n: usize, edges: &[[usize; 2]]) -> Graph {
-        let mut pairs: Vec<(usize, usize)> = edges.iter().flat_map(|&[a, b]| [(a, b), (b, a)]).collect();
-        pairs.sort_unstable();
-        pairs.dedup();
         let mut starts = vec![0; n + 1];
-        for &(a, _) in &pairs {
+        for &[a, b] in edges {
             starts[a + 1] += 1;
+            starts[b + 1] += 1;
         }
         for k in 0..n {
             starts[k + 1] += starts[k];
         }
-        Graph { starts, neighbours: pairs.into_iter().map(|pair| pair.1).collect() }
+        let mut next = starts.clone();
+        let mut neighbours = vec![0; 2 * edges.len()];
+        for &[a, b] in edges {
+            for (from, to) in [(a, b), (b, a)] {
+                neighbours[next[from]] = to;
+                next[from] += 1;
+            }
+        }
+        // Each neighbour once, in order.
+        let mut kept = 0;
+        for k in 0..n {
+            let (from, to) = (starts[k], starts[k + 1]);
+            neighbours[from..to].sort_unstable();
+            starts[k] = kept;
+            for i in from..to {
+                if i == from || neighbours[i] != neighbours[i - 1] {
+                    neighbours[kept] = neighbours[i];
+                    kept += 1;
+                }
+            }
+        }
+        starts[n] = kept;
+        neighbours.truncate(kept);
+        Graph { starts, neighbours }
     }
 
     fn len(&self) -> usize {

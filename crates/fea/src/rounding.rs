@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::factor::Tail;
 use crate::frame::Frame;
 use crate::freedoms::Sum;
-use crate::solver::{Scratch, Solver};
+use crate::solver::Solver;
 
 /// Half the spacing of doubles at one: the largest relative error of one rounding.
 const UNIT: f64 = 0.5 * f64::EPSILON;
@@ -33,11 +33,21 @@ impl Frame {
             Solver::Double(_) => Some(self.inverse.sqrt()),
             Solver::Extended(_) => None,
         };
-        let rough = self.rounding_by(&mut Lengths::new(self, estimate), at, tails, diagonal)?;
+        let rough = self.rounding_by(
+            &mut Lengths { frame: self, estimate, known: BTreeMap::new() },
+            at,
+            tails,
+            diagonal,
+        )?;
         if estimate.is_none() || self.certificate().error_bound + rough <= self.accuracy {
             return Ok(rough);
         }
-        self.rounding_by(&mut Lengths::new(self, None), at, tails, diagonal)
+        self.rounding_by(
+            &mut Lengths { frame: self, estimate: None, known: BTreeMap::new() },
+            at,
+            tails,
+            diagonal,
+        )
     }
 
     fn rounding_by(
@@ -89,24 +99,15 @@ impl Frame {
 struct Lengths<'a> {
     frame: &'a Frame,
     estimate: Option<f64>,
-    scratch: Scratch,
     known: BTreeMap<usize, f64>,
 }
 
-impl<'a> Lengths<'a> {
-    fn new(frame: &'a Frame, estimate: Option<f64>) -> Self {
-        Lengths { frame, estimate, scratch: frame.scratch(), known: BTreeMap::new() }
-    }
-
+impl Lengths<'_> {
     fn of(&mut self, unknown: usize) -> f64 {
-        if let Some(estimate) = self.estimate {
-            return estimate;
-        }
-        let (frame, scratch) = (self.frame, &mut self.scratch);
         let work = || {
-            let tail = frame.forward(&[(unknown, 1.0)], scratch);
-            tail.values.iter().map(|w| w * w).sum::<f64>().sqrt()
+            let tails = self.frame.forward(&[vec![(unknown, 1.0)]]);
+            tails.iter().flat_map(|tail| &tail.values).map(|w| w * w).sum::<f64>().sqrt()
         };
-        *self.known.entry(unknown).or_insert_with(work)
+        self.estimate.unwrap_or_else(|| *self.known.entry(unknown).or_insert_with(work))
     }
 }

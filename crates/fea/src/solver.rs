@@ -1,6 +1,6 @@
 //! The factor of a frame in the precision that it needs.
 
-use crate::factor::{Factor, Tail, Work};
+use crate::factor::{Factor, Tail};
 use crate::real::{Extended, Real};
 
 /// Cholesky factor of the scaled stiffness.
@@ -12,12 +12,6 @@ pub(crate) enum Solver {
     Extended(Factor<Extended>),
 }
 
-/// Scratch of forward solves.
-pub(crate) enum Scratch {
-    Double(Work<f64>),
-    Extended(Work<Extended>),
-}
-
 impl Solver {
     pub fn len(&self) -> usize {
         match self {
@@ -26,22 +20,11 @@ impl Solver {
         }
     }
 
-    pub fn scratch(&self) -> Scratch {
+    /// w = L^-1 p of every load, rounded to doubles.
+    pub fn forward(&self, loads: &[Vec<(usize, f64)>]) -> Vec<Tail> {
         match self {
-            Solver::Double(factor) => Scratch::Double(factor.work()),
-            Solver::Extended(factor) => Scratch::Extended(factor.work()),
-        }
-    }
-
-    /// w = L^-1 p, rounded to doubles. `scratch` must be this solver's own.
-    pub fn forward(&self, load: &[(usize, f64)], scratch: &mut Scratch) -> Tail {
-        match (self, scratch) {
-            (Solver::Double(factor), Scratch::Double(work)) => factor.forward(load, work),
-            (Solver::Extended(factor), Scratch::Extended(work)) => factor.forward(load, work),
-            (solver, scratch) => {
-                *scratch = solver.scratch();
-                solver.forward(load, scratch)
-            }
+            Solver::Double(factor) => factor.forward(loads),
+            Solver::Extended(factor) => factor.forward(loads),
         }
     }
 

@@ -81,16 +81,18 @@ impl Frame {
 
     /// Compliance between sums over the columns of the bodies.
     fn compliance(&self, sums: &[&Sum]) -> DMatrix<f64> {
-        let mut scratch = self.scratch();
         let mut loose = Vec::new();
-        let mut tails = Vec::with_capacity(sums.len());
-        for (k, sum) in sums.iter().enumerate() {
-            let load = self.scaled(sum).unwrap_or_else(|| {
-                loose.push(k);
-                Vec::new()
-            });
-            tails.push(self.forward(&load, &mut scratch));
-        }
+        let loads: Vec<_> = sums
+            .iter()
+            .enumerate()
+            .map(|(k, sum)| {
+                self.scaled(sum).unwrap_or_else(|| {
+                    loose.push(k);
+                    Vec::new()
+                })
+            })
+            .collect();
+        let tails = self.forward(&loads);
         let mut out = self.gram(&tails);
         for k in loose {
             out[(k, k)] = f64::INFINITY;

@@ -1,6 +1,7 @@
 //! Rails made of cells: which cell carries a place, and how it moves.
 
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use crate::kernel::{Arm, Kernel, free};
 use crate::row::{Fraction, Row, Terms, terms};
@@ -24,8 +25,8 @@ pub struct Line {
 /// A cell prepared for evaluation.
 #[derive(Clone, Debug)]
 struct Ready {
-    /// Shape rows along x, y, z.
-    terms: [Terms; 3],
+    /// Shape rows along x, y, z, from the first time that they are asked for.
+    terms: [OnceLock<Terms>; 3],
     /// Axes in which nothing resists.
     free: [bool; 3],
     /// `None` for a rigid arm.
@@ -95,10 +96,12 @@ impl Line {
             if group != index && !same(&cells[group]) {
                 return Err(Error::CellCarrier { first: group, second: index });
             }
-            let needs = |axis| Arm::new(cell, axis).uses();
+            let loads = [0, 1, 2].map(|axis| Arm::new(cell, axis));
+            let free = free(cell);
+            let loose = |load: &Arm| !arm && load.uses().iter().zip(free).any(|(&used, free)| used && free);
             ready.push(Ready {
-                terms: [0, 1, 2].map(|axis| terms(cell, axis)),
-                free: [0, 1, 2].map(|axis| !arm && (0..4).any(|k| needs(axis)[k] && free(cell)[k])),
+                terms: Default::default(),
+                free: loads.each_ref().map(loose),
                 kernel: (!arm).then(|| Kernel::new(cell)),
                 group,
             });
@@ -146,8 +149,12 @@ impl Line {
         row.axis = axis;
         row.s = span.start + place.along() * span.length;
         row.rate = span.length * span.scale;
-        row.evaluate(&ready.terms[axis], place, span.scale);
+        row.evaluate(self.terms(span.cell, axis), place, span.scale);
         Ok(())
+    }
+
+    fn terms(&self, cell: usize, axis: usize) -> &Terms {
+        self.ready[cell].terms[axis].get_or_init(|| terms(&self.cells[cell], axis))
     }
 
     /// What rounding can spoil at a probe: the magnitudes behind each value of [`Line::row`], in their order, and
@@ -160,7 +167,7 @@ impl Line {
         let ready = &self.ready[row.cell];
         let place = self.find(p.rail, p.x)?.fraction(p.x);
         let own = ready.kernel.as_ref().map_or(0.0, |kernel| kernel.magnitude(row.axis, row.s));
-        Ok((ready.terms[row.axis].magnitudes(place).collect(), own))
+        Ok((self.terms(row.cell, row.axis).magnitudes(place).collect(), own))
     }
 
     /// Green's function of the cell clamped at both ends: `[i][j]` is the displacement along axis i at rail

@@ -132,7 +132,8 @@ struct Group {
 /// Bending: Timoshenko shapes with alpha = c h^2/(c h^2 + 12 g), beta = 12 g/(c h^2 + 12 g),
 /// c = 1/EI, g = 1/kGA, h = length; a rigid plane has alpha = 1, beta = 0.
 pub(crate) fn terms(cell: &Cell, axis: usize) -> Terms {
-    let cubics = [0, 1].map(|end| cubics(cell, axis, end));
+    let load = &Arm::new(cell, axis);
+    let cubics = [0, 1].map(|end| cubics(cell, axis, load, end));
     let used: Vec<usize> = (0..12).filter(|&k| cubics.iter().any(|of| of[k] != [0.0; 4])).collect();
     let index = |k: usize| 6 * cell.ends[k / 6] + k % 6;
     let groups = used.chunks(4).map(|four| Group {
@@ -145,7 +146,7 @@ pub(crate) fn terms(cell: &Cell, axis: usize) -> Terms {
 }
 
 /// Cubics of all twelve freedoms in the distance from `end`.
-fn cubics(cell: &Cell, axis: usize, end: usize) -> [[f64; 4]; 12] {
+fn cubics(cell: &Cell, axis: usize, load: &Arm, end: usize) -> [[f64; 4]; 12] {
     let mut cubics = [[0.0; 4]; 12];
     if cell.ends[0] == cell.ends[1] {
         let along = cross([cell.x[1] - cell.x[0], 0.0, 0.0], unit(axis));
@@ -157,7 +158,7 @@ fn cubics(cell: &Cell, axis: usize, end: usize) -> [[f64; 4]; 12] {
         }
         return cubics;
     }
-    let local = local(cell, &Arm::new(cell, axis), end);
+    let local = local(cell, load, end);
     for (k, axes) in cell.frame.iter().enumerate() {
         for (a, &component) in axes.iter().enumerate() {
             let factor = clean(component, 1.0);
