@@ -29,6 +29,8 @@ pub(crate) struct Numbering {
     pub column: Vec<usize>,
     /// S, by unknown.
     pub scale: Vec<f64>,
+    /// Operations of the factor, at most.
+    pub operations: f64,
 }
 
 /// Local end displacements of a member (tips of its arms) by the motions of its two bodies.
@@ -192,14 +194,15 @@ impl Assembly {
         let at: Vec<[f64; 3]> = freedoms.bodies.iter().map(|body| m.points[body.reference]).collect();
         let mut unknown = vec![None; parts.diagonal.len()];
         let mut column = Vec::new();
-        for body in order(&Graph::new(at.len(), &edges), &at) {
+        let (order, operations) = order(&Graph::new(at.len(), &edges), &at);
+        for body in order {
             for k in (0..6).filter(|&k| freedoms.bodies[body].free[k] && parts.diagonal[6 * body + k] > 0.0) {
                 unknown[6 * body + k] = Some(column.len());
                 column.push(6 * body + k);
             }
         }
         let scale = column.iter().map(|&c| binary(parts.diagonal[c])).collect();
-        let numbering = Numbering { unknown, column, scale };
+        let numbering = Numbering { unknown, column, scale, operations };
         let cancellation = parts.cancellation(&numbering);
         Assembly { upper: parts.sum(&numbering), numbering, cancellation }
     }

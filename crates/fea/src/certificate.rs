@@ -38,12 +38,22 @@ impl Certificate {
         let room = 3.0 * inverse;
         let (growth, longest) = factor.growth();
         let formed = FORMING * assembly.cancellation * norm;
-        // One rounding a product, in the factor and in the two solves.
-        let factored = 3.0 * (longest + 1) as f64 * growth;
+        // Roundings of the longest sum, in the factor and in the two solves.
+        let factored = 3.0 * roundings(longest + 1) * growth;
         let shift = T::ROUNDING * (formed + factored) * room;
         let error_bound = if shift < 0.5 { shift / (1.0 - shift) } else { f64::INFINITY };
         (Certificate { condition: norm * inverse, error_bound, extended }, room)
     }
+}
+
+/// Roundings of a sum of n products that count: all of a short one; of a long one sqrt(n) times a factor that they
+/// exceed with probability 2 exp(-32), since they do not all have one sign.
+///
+/// # Source
+/// Higham and Mary (2019), SIAM J. Sci. Comput. 41, theorem 2.4 with lambda = 8.
+fn roundings(n: usize) -> f64 {
+    let n = n as f64;
+    n.min(8.0 * n.sqrt())
 }
 
 /// Lower bound, usually sharp, of the 1-norm of the inverse.

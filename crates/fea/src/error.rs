@@ -33,7 +33,7 @@ pub enum Error {
         /// Its freedom that moves most.
         freedom: Freedom,
     },
-    /// Rounding may have eaten more digits than asked, even in double-doubles.
+    /// Rounding may have eaten more digits than asked.
     #[error(
         "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {freedom}"
     )]

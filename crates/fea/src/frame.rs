@@ -22,6 +22,8 @@ use crate::solver::Solver;
 pub const ACCURACY: f64 = 1e-6;
 /// Share of the accuracy that the factor may use up in doubles; evaluation needs some.
 const ROOM: f64 = 0.9;
+/// Operations beyond which double-doubles take minutes.
+const LONG: f64 = 1e10;
 /// Unknowns up to which double-doubles cost next to nothing and are always used.
 const SMALL: usize = 100;
 
@@ -219,16 +221,25 @@ fn certified(
     if !assembly.norm().is_finite() {
         return Err(Error::Factor { unknowns });
     }
-    match Factor::new(&assembly.upper) {
-        Ok(_) if unknowns <= SMALL => {}
-        Ok(factor) if factor.least_pivot() > PIVOT => {
-            let (certificate, inverse) = Certificate::new(assembly, &factor);
-            if certificate.error_bound <= ROOM * accuracy {
-                return Ok((Solver::Double(factor), certificate, inverse));
+    let long = assembly.numbering.operations > LONG;
+    if unknowns > SMALL {
+        match Factor::new(&assembly.upper) {
+            Ok(factor) if factor.least_pivot() > PIVOT => {
+                let (certificate, inverse) = Certificate::new(assembly, &factor);
+                if certificate.error_bound <= ROOM * accuracy {
+                    return Ok((Solver::Double(factor), certificate, inverse));
+                }
+                if long {
+                    return Err(ill(certificate, accuracy, assembly, freedoms));
+                }
             }
+            Ok(_) | Err(Refusal::Indefinite) if long => {
+                let (point, freedom) = weakest(assembly, freedoms);
+                return Err(Error::Mechanism { point, freedom });
+            }
+            Ok(_) | Err(Refusal::Indefinite) => {}
+            Err(Refusal::Size(entries)) => return Err(oversize(unknowns, entries, DOUBLE)),
         }
-        Ok(_) | Err(Refusal::Indefinite) => {}
-        Err(Refusal::Size(entries)) => return Err(oversize(unknowns, entries, DOUBLE)),
     }
     let extended = Assembly::<Extended>::again(m, &assembly.numbering)?;
     let factor = match Factor::new(&extended.upper) {

@@ -63,16 +63,19 @@ impl Graph {
 }
 
 /// The better of two orders by the predicted work of the factor and of some hundred loads: approximate
-/// minimum degree, and dissection at the places `at`.
-pub(crate) fn order(graph: &Graph, at: &[[f64; 3]]) -> Vec<usize> {
-    let dissected = dissect(graph, at);
-    if graph.len() <= LEAF {
-        return dissected;
+/// minimum degree, and dissection at the places `at`; with the operations of the factor of six freedoms a body.
+pub(crate) fn order(graph: &Graph, at: &[[f64; 3]]) -> (Vec<usize>, f64) {
+    let mut best = dissect(graph, at);
+    let mut least = Work::new(graph, &best);
+    if graph.len() > LEAF
+        && let Some(order) = minimum_degree(graph)
+    {
+        let work = Work::new(graph, &order);
+        if work.total() < least.total() {
+            (best, least) = (order, work);
+        }
     }
-    match minimum_degree(graph) {
-        Some(order) if work(graph, &order) < work(graph, &dissected) => order,
-        _ => dissected,
-    }
+    (best, 216.0 * least.factor)
 }
 
 /// Approximate minimum degree; `None` where memory does not suffice.
@@ -145,35 +148,48 @@ fn longest(part: &[usize], at: &[[f64; 3]]) -> usize {
     (0..3).fold(0, |a, b| if extent[b] > extent[a] { b } else { a })
 }
 
-/// Operations of the factor and of `LOADS` forward solves and their products, in units of one body pair.
-fn work(graph: &Graph, order: &[usize]) -> f64 {
-    let n = graph.len();
-    let mut place = vec![0; n];
-    order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
-    let none = usize::MAX;
-    let (mut parent, mut seen, mut count) = (vec![none; n], vec![none; n], vec![1.0; n]);
-    for (k, &node) in order.iter().enumerate() {
-        seen[k] = k;
-        for &other in graph.of(node) {
-            let mut i = place[other];
-            while i < k && seen[i] != k {
-                seen[i] = k;
-                count[i] += 1.0;
-                if parent[i] == none {
-                    parent[i] = k;
+/// Predicted operations, in units of one body pair.
+struct Work {
+    /// Of the factor.
+    factor: f64,
+    /// Of `LOADS` forward solves and their products.
+    loads: f64,
+}
+
+impl Work {
+    fn total(&self) -> f64 {
+        6.0 * self.factor + self.loads
+    }
+
+    fn new(graph: &Graph, order: &[usize]) -> Work {
+        let n = graph.len();
+        let mut place = vec![0; n];
+        order.iter().enumerate().for_each(|(k, &node)| place[node] = k);
+        let none = usize::MAX;
+        let (mut parent, mut seen, mut count) = (vec![none; n], vec![none; n], vec![1.0; n]);
+        for (k, &node) in order.iter().enumerate() {
+            seen[k] = k;
+            for &other in graph.of(node) {
+                let mut i = place[other];
+                while i < k && seen[i] != k {
+                    seen[i] = k;
+                    count[i] += 1.0;
+                    if parent[i] == none {
+                        parent[i] = k;
+                    }
+                    i = parent[i];
                 }
-                i = parent[i];
             }
         }
+        let (mut depth, mut below) = (vec![1.0; n], count.clone());
+        for k in (0..n).rev().filter(|&k| parent[k] != none) {
+            depth[k] += depth[parent[k]];
+            below[k] += below[parent[k]];
+        }
+        let mean = |values: &[f64]| values.iter().sum::<f64>() / n.max(1) as f64;
+        let loads = 2.0 * LOADS * mean(&below) + LOADS * LOADS / 6.0 * mean(&depth);
+        Work { factor: count.iter().map(|c| c * c).sum(), loads }
     }
-    let (mut depth, mut below) = (vec![1.0; n], count.clone());
-    for k in (0..n).rev().filter(|&k| parent[k] != none) {
-        depth[k] += depth[parent[k]];
-        below[k] += below[parent[k]];
-    }
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / n.max(1) as f64;
-    let factor: f64 = count.iter().map(|c| c * c).sum();
-    6.0 * factor + 2.0 * LOADS * mean(&below) + LOADS * LOADS / 6.0 * mean(&depth)
 }
 
 #[cfg(test)]
@@ -203,7 +219,7 @@ mod tests {
         for sides in [[1, 1, 1], [40, 1, 1], [7, 6, 5]] {
             let (graph, at) = lattice(sides);
             let degree = minimum_degree(&graph).expect("small");
-            for mut order in [degree, dissect(&graph, &at), order(&graph, &at)] {
+            for mut order in [degree, dissect(&graph, &at), order(&graph, &at).0] {
                 order.sort_unstable();
                 assert!(order.iter().copied().eq(0..graph.len()));
             }
@@ -215,6 +231,7 @@ mod tests {
         // A chain ordered from end to end has paths of n/2 on average; dissection has about log2 n.
         let (graph, at) = lattice([1000, 1, 1]);
         let straight: Vec<usize> = (0..1000).collect();
-        assert!(work(&graph, &dissect(&graph, &at)) < 0.05 * work(&graph, &straight));
+        let total = |order: &[usize]| Work::new(&graph, order).total();
+        assert!(total(&dissect(&graph, &at)) < 0.05 * total(&straight));
     }
 }

@@ -61,8 +61,7 @@ impl Frame {
         let mut longest = 0;
         for ((&probe, tail), &own) in at.iter().zip(tails).zip(diagonal) {
             longest = longest.max(tail.values.len());
-            let (magnitudes, cell) = self.line()?.magnitudes(probe)?;
-            let row = self.line()?.row(probe)?;
+            let (row, magnitudes, cell) = self.line()?.magnitudes(probe)?;
             let mut moved = 0.0;
             for (&index, magnitude) in row.indices().iter().zip(magnitudes) {
                 let sum = &self.states()[index / 6][index % 6];

@@ -157,17 +157,18 @@ impl Line {
         self.ready[cell].terms[axis].get_or_init(|| terms(&self.cells[cell], axis))
     }
 
-    /// What rounding can spoil at a probe: the magnitudes behind each value of [`Line::row`], in their order, and
+    /// What rounding can spoil at a probe: [`Line::row`], the magnitudes behind each of its values, and
     /// the magnitude behind the clamped cell's own give there. A value errs by some roundings of its magnitude.
     ///
     /// # Errors
     /// As [`Line::row`].
-    pub fn magnitudes(&self, p: Probe) -> Result<(Vec<f64>, f64), Error> {
+    pub fn magnitudes(&self, p: Probe) -> Result<(Row, Vec<f64>, f64), Error> {
         let row = self.row(p)?;
         let ready = &self.ready[row.cell];
         let place = self.find(p.rail, p.x)?.fraction(p.x);
         let own = ready.kernel.as_ref().map_or(0.0, |kernel| kernel.magnitude(row.axis, row.s));
-        Ok((self.terms(row.cell, row.axis).magnitudes(place).collect(), own))
+        let magnitudes = self.terms(row.cell, row.axis).magnitudes(place).collect();
+        Ok((row, magnitudes, own))
     }
 
     /// Green's function of the cell clamped at both ends: `[i][j]` is the displacement along axis i at rail

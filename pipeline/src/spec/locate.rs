@@ -31,7 +31,7 @@ impl Spec {
                 meaning(*freedom)
             )),
             Error::Ill { condition, bound, asked, point, freedom } => Failure::Untrusted(format!(
-                "{}: condition {condition:.1e} bounds the relative error by {bound:.1e} even in double-doubles, asked \
+                "{}: condition {condition:.1e} bounds the relative error by {bound:.1e}, asked \
                  {asked:.1e}; weakest is {} in {freedom} ({})  hint: lengthen or join the shortest members, one a span is \
                  best, or ask less with --accuracy",
                 source.name,
