@@ -29,6 +29,9 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     let solved = link::solve_to(&spec, args.accuracy, LARGEST);
     drop(stage);
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
+    if let Some(size) = solved.size {
+        progress.say(&format!("solved {size}"));
+    }
     for note in &solved.grid.notes {
         progress.say(&format!("note: {note}"));
     }

@@ -67,5 +67,5 @@ fn solved(spec: &Spec, path: &Path) -> Result<Solved, Failure> {
     }
     let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
     let (model, rails) = spec.model().map_err(Failure::untrusted)?;
-    Ok(Solved { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned() })
+    Ok(Solved { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned(), size: None })
 }

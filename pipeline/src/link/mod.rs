@@ -24,6 +24,23 @@ pub struct Solved {
     pub grid: Grid,
     /// The girder, where the structure is one.
     pub girder: Option<fea::Girder>,
+    /// How large the system was; `None` where it was solved by an earlier run.
+    pub size: Option<Size>,
+}
+
+/// Size of a system of equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Size {
+    /// Unknown freedoms.
+    pub unknowns: usize,
+    /// Bytes of its factor.
+    pub bytes: u64,
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} unknowns, a factor of {:.3} MB", self.unknowns, self.bytes as f64 / 1e6)
+    }
 }
 
 /// Solves a spec: grid at its stations and exact surface.
@@ -52,7 +69,8 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solved, fea::
         ));
         None
     };
-    Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned() })
+    let size = Some(Size { unknowns: frame.unknowns(), bytes: frame.bytes() });
+    Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
 /// The foundation of one structure of a scene; `lateral`: whether wheels push sideways.

@@ -2,7 +2,7 @@
 
 use super::field::{Number, number};
 use super::fields::Fields;
-use super::property::{Property, positive};
+use super::property::{Property, rod_from};
 use crate::import::findings::Spot;
 
 /// Where local y of a member points.
@@ -133,23 +133,8 @@ pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
 pub fn own_rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
     let id = card.id(1, "EID")?;
     let grids = ends(card, 2);
-    let material = card.id(4, "MID");
-    let area = positive(card, 5, "A");
-    let j = card.not_negative(6, "J");
-    let nsm = card.not_negative(8, "NSM");
-    card.end(9);
-    let property = Property {
-        card: card.card.at,
-        kind: card.card.name.clone(),
-        material: material?,
-        area: area?,
-        bending: [0.0; 2],
-        j: j?,
-        shear: [0.0; 2],
-        nsm: nsm?,
-        end: None,
-    };
-    Some((id, plain(card, Section::Own(Box::new(property)), grids?)))
+    let property = rod_from(card, 4);
+    Some((id, plain(card, Section::Own(Box::new(property?)), grids?)))
 }
 
 fn plain(card: &Fields<'_, '_>, section: Section, grids: [u64; 2]) -> Element {

@@ -33,12 +33,17 @@ const NO_PRODUCT: &str = "give the principal second moments, and turn the orient
 /// Reads PROD.
 pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
-    let material = card.id(2, "MID");
-    let area = positive(card, 3, "A");
-    let j = card.not_negative(4, "J");
-    let nsm = card.not_negative(6, "NSM");
-    card.end(7);
-    let property = Property {
+    Some((id, rod_from(card, 2)?))
+}
+
+/// The property of a rod whose fields MID, A, J, C, NSM begin at `first`, and end the card.
+pub fn rod_from(card: &mut Fields<'_, '_>, first: usize) -> Option<Property> {
+    let material = card.id(first, "MID");
+    let area = positive(card, first + 1, "A");
+    let j = card.not_negative(first + 2, "J");
+    let nsm = card.not_negative(first + 4, "NSM");
+    card.end(first + 5);
+    Some(Property {
         card: card.card.at,
         kind: card.card.name.clone(),
         material: material?,
@@ -48,8 +53,7 @@ pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
         shear: [0.0; 2],
         nsm: nsm?,
         end: None,
-    };
-    Some((id, property))
+    })
 }
 
 /// A real number above 0.
