@@ -14,6 +14,9 @@ use crate::progress::Progress;
 use crate::source::Source;
 use crate::spec::Spec;
 
+/// Unknowns from which the size of a system is worth a line.
+const LARGE: usize = 1000;
+
 /// Reads the spec, solves it, writes the grid to the file named or to standard output.
 ///
 /// # Errors
@@ -29,7 +32,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     let solved = link::solve_to(&spec, args.accuracy, LARGEST);
     drop(stage);
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
-    if let Some(size) = solved.size {
+    if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
     }
     for note in &solved.grid.notes {
