@@ -56,8 +56,12 @@ fn check(name: &str) {
     for file in ["history.csv", "summary.json", "report.html", "manifest.json", "timing.json"] {
         assert!(out.path().join(file).is_file(), "{file} is missing");
     }
-    let checks = json(&example.join("expected.json"));
-    let checks = checks["checks"].as_array().expect("a list of checks");
+    let expected = json(&example.join("expected.json"));
+    if let Some(most) = expected["energy_residual"].as_f64() {
+        let residual = number(&json(&out.path().join("summary.json"))["energy"]["residual"]);
+        assert!(residual < most, "{name}: the energy audit leaves {residual:e}");
+    }
+    let checks = expected["checks"].as_array().expect("a list of checks");
     assert!(!checks.is_empty());
     for check in checks {
         let file = match check["run"].as_str() {

@@ -24,8 +24,10 @@ impl Stepper<'_, '_> {
                     if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
                         continue;
                     }
-                    let length = root(|s| profile.at(start + s * h).x - target) * h;
-                    if length < h * (1.0 - 1e-9) && best.is_none_or(|known| length < known) {
+                    // A little before the break: there the rail's slope is still that of the cell the wheel is on.
+                    let length = root(|s| profile.at(start + s * h).x - target) * h
+                        - 4.0 * f64::EPSILON * (start + h).abs();
+                    if length > 0.0 && length < h * (1.0 - 1e-9) && best.is_none_or(|known| length < known) {
                         best = Some(length);
                     }
                 }
@@ -101,7 +103,7 @@ impl Stepper<'_, '_> {
     }
 }
 
-/// Root in (0, 1) of a function with opposite signs at the ends, by bisection.
+/// Root in (0, 1) of a function with opposite signs at the ends, by bisection, from the side of 0.
 fn root(f: impl Fn(f64) -> f64) -> f64 {
     let sign = f(0.0).signum();
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
@@ -112,5 +114,5 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
         }
         if f(middle).signum() == sign { low = middle } else { high = middle }
     }
-    high
+    low
 }
