@@ -1,7 +1,7 @@
 //! Times of natural modes: runways and buildings.
 
 use divan::{Bencher, black_box};
-use fea::{Frame, Girder, Kind, Member, Model, Section, Support};
+use fea::{Frame, Girder, Member, Model, Section, Support};
 
 fn main() {
     divan::main();
@@ -40,14 +40,7 @@ fn building(sides: [usize; 3]) -> Model {
     };
     let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
     let id = |i: usize, j: usize, k: usize| (i * q + j) * r + k;
-    let member = |points| Member {
-        points,
-        kind: Kind::Beam,
-        section: 0,
-        orientation: [0.3, 0.5, 0.81],
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    };
+    let member = |points| Member::beam(points, 0, [0.3, 0.5, 0.81]);
     for i in 0..p {
         for j in 0..q {
             for k in 0..r {

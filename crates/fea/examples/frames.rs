@@ -20,7 +20,7 @@ use std::path::Path;
 use std::time::Instant;
 use std::{env, fs};
 
-use fea::{Frame, Kind, Member, Model, Rail, Section, Segment, Support};
+use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
 use splines::{Axis, Probe};
 
 /// Numbers of unit loads.
@@ -70,14 +70,7 @@ fn section(i: f64) -> Section {
 }
 
 fn member(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Member {
-    Member {
-        points,
-        kind: Kind::Beam,
-        section,
-        orientation,
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    }
+    Member::beam(points, section, orientation)
 }
 
 fn empty() -> Model {

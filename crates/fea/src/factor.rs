@@ -65,27 +65,11 @@ impl<T: Real> Factor<T> {
     /// Factors the matrix whose upper triangle is given, in the order given.
     pub fn new(upper: &CsMat<T>) -> Result<Factor<T>, Refusal> {
         let n = upper.cols();
-        let storage = upper.indptr();
-        let pattern = SymbolicSparseColMatRef::new_checked(
-            n,
-            n,
-            storage.as_slice().ok_or(Refusal::Size(0))?,
-            None,
-            upper.indices(),
-        );
         let mut params = CholeskySymbolicParams::default();
         if !T::PANELS {
             params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
         }
-        let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
-            .map_err(|_| Refusal::Size(0))?;
-        let size = symbolic.len_val() as u64;
-        if size.saturating_mul(size_of::<T>() as u64) > MEMORY {
-            return Err(Refusal::Size(size));
-        }
-        let mut values = Vec::new();
-        values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size(size))?;
-        values.resize(symbolic.len_val(), T::zero());
+        let Analysis { pattern, symbolic, mut values } = analyse(upper, params)?;
         let request = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
         let mut memory = MemBuffer::try_new(request).map_err(|_| Refusal::Size(0))?;
         symbolic
@@ -115,22 +99,7 @@ impl<T: Real> Factor<T> {
     }
 
     fn panel(&self, k: usize) -> Panel<'_, T> {
-        match self.symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(s) => {
-                let (from, to) = (s.col_ptr()[k], s.col_ptr()[k + 1]);
-                Panel {
-                    start: k,
-                    width: 1,
-                    below: &s.row_idx()[from + 1..to],
-                    values: &self.values[from..to],
-                }
-            }
-            SymbolicCholeskyRaw::Supernodal(s) => {
-                let (start, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
-                let values = &self.values[s.col_ptr_for_val()[k]..s.col_ptr_for_val()[k + 1]];
-                Panel { start, width: end - start, below: s.supernode(k).pattern(), values }
-            }
-        }
+        Panel::of(&self.symbolic, &self.values, k)
     }
 
     /// Bytes of its entries.
@@ -253,25 +222,61 @@ impl<T: Real> Factor<T> {
     pub fn growth(&self) -> (f64, usize) {
         let n = self.len();
         let mut columns = vec![0.0_f64; n];
-        self.entries(|_, column, size| columns[column] += size);
+        entries(&self.symbolic, &self.values, |_, column, value| columns[column] += value.double().abs());
         let (mut rows, mut lengths) = (vec![0.0_f64; n], vec![0_usize; n]);
-        self.entries(|row, column, size| {
-            rows[row] += size * columns[column];
+        entries(&self.symbolic, &self.values, |row, column, value| {
+            rows[row] += value.double().abs() * columns[column];
             lengths[row] += 1;
         });
         (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
     }
+}
 
-    /// Row, column and size of every entry.
-    fn entries(&self, mut each: impl FnMut(usize, usize, f64)) {
-        for k in 0..self.panels {
-            let panel = self.panel(k);
-            let height = panel.width + panel.below.len();
-            for j in 0..panel.width {
-                for i in j..height {
-                    let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
-                    each(row, panel.start + j, panel.values[j * height + i].double().abs());
-                }
+/// A matrix ready to be factored.
+pub(crate) struct Analysis<'a, T> {
+    pub pattern: SymbolicSparseColMatRef<'a, usize>,
+    pub symbolic: SymbolicCholesky<usize>,
+    /// Room for the factor.
+    pub values: Vec<T>,
+}
+
+/// Analyses the matrix whose upper triangle is given, in the order given.
+pub(crate) fn analyse<'a, T: Real>(
+    upper: &'a CsMat<T>,
+    params: CholeskySymbolicParams<'_>,
+) -> Result<Analysis<'a, T>, Refusal> {
+    let n = upper.cols();
+    let storage = upper.indptr().into_raw_storage();
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, storage, None, upper.indices());
+    let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
+        .map_err(|_| Refusal::Size(0))?;
+    let size = symbolic.len_val() as u64;
+    if size.saturating_mul(size_of::<T>() as u64) > MEMORY {
+        return Err(Refusal::Size(size));
+    }
+    let mut values = Vec::new();
+    values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size(size))?;
+    values.resize(symbolic.len_val(), T::zero());
+    Ok(Analysis { pattern, symbolic, values })
+}
+
+/// Row, column and value of every entry of a factor.
+pub(crate) fn entries<T: Copy>(
+    symbolic: &SymbolicCholesky<usize>,
+    values: &[T],
+    mut each: impl FnMut(usize, usize, T),
+) {
+    let panels = match symbolic.raw() {
+        SymbolicCholeskyRaw::Simplicial(_) => symbolic.nrows(),
+        SymbolicCholeskyRaw::Supernodal(s) => s.n_supernodes(),
+    };
+    for k in 0..panels {
+        let panel = Panel::of(symbolic, values, k);
+        let height = panel.width + panel.below.len();
+        for j in 0..panel.width {
+            for i in j..height {
+                let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
+                each(row, panel.start + j, panel.values[j * height + i]);
             }
         }
     }
@@ -325,6 +330,22 @@ impl Tail {
 fn lessen<T: Real, const K: usize>(target: &mut [T; K], l: T, value: &[T; K]) {
     for (target, value) in target.iter_mut().zip(value) {
         *target -= l * *value;
+    }
+}
+
+impl<'a, T> Panel<'a, T> {
+    fn of(symbolic: &'a SymbolicCholesky<usize>, values: &'a [T], k: usize) -> Panel<'a, T> {
+        match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(s) => {
+                let (from, to) = (s.col_ptr()[k], s.col_ptr()[k + 1]);
+                Panel { start: k, width: 1, below: &s.row_idx()[from + 1..to], values: &values[from..to] }
+            }
+            SymbolicCholeskyRaw::Supernodal(s) => {
+                let (start, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
+                let values = &values[s.col_ptr_for_val()[k]..s.col_ptr_for_val()[k + 1]];
+                Panel { start, width: end - start, below: s.supernode(k).pattern(), values }
+            }
+        }
     }
 }
 

@@ -85,10 +85,7 @@ impl Frame {
     /// Bytes of the factor.
     #[must_use]
     pub fn bytes(&self) -> u64 {
-        match &self.solver {
-            Solver::Double(factor) => factor.bytes(),
-            Solver::Extended(factor) => factor.bytes(),
-        }
+        self.solver.bytes()
     }
 
     /// Number of unknown freedoms.
@@ -233,10 +230,7 @@ fn certified(
                     return Err(ill(certificate, accuracy, assembly, freedoms));
                 }
             }
-            Ok(_) | Err(Refusal::Indefinite) if long => {
-                let (point, freedom) = weakest(assembly, freedoms);
-                return Err(Error::Mechanism { point, freedom });
-            }
+            Ok(_) | Err(Refusal::Indefinite) if long => return Err(mechanism(assembly, freedoms)),
             Ok(_) | Err(Refusal::Indefinite) => {}
             Err(Refusal::Size(entries)) => return Err(oversize(unknowns, entries, DOUBLE)),
         }
@@ -244,10 +238,7 @@ fn certified(
     let extended = Assembly::<Extended>::again(m, &assembly.numbering)?;
     let factor = match Factor::new(&extended.upper) {
         Ok(factor) if factor.least_pivot() > PIVOT_EXTENDED => factor,
-        Ok(_) | Err(Refusal::Indefinite) => {
-            let (point, freedom) = weakest(assembly, freedoms);
-            return Err(Error::Mechanism { point, freedom });
-        }
+        Ok(_) | Err(Refusal::Indefinite) => return Err(mechanism(assembly, freedoms)),
         Err(Refusal::Size(entries)) => return Err(oversize(unknowns, entries, 2 * DOUBLE)),
     };
     let (certificate, inverse) = Certificate::new(&extended, &factor);
@@ -263,6 +254,12 @@ const DOUBLE: u64 = size_of::<f64>() as u64;
 /// A factor of too many entries, or of indices that run out.
 fn oversize(unknowns: usize, entries: u64, size: u64) -> Error {
     allow(Quantity::Factor, entries, size).err().unwrap_or(Error::Factor { unknowns })
+}
+
+/// A stiffness without a factor.
+fn mechanism(assembly: &Assembly, freedoms: &Freedoms) -> Error {
+    let (point, freedom) = weakest(assembly, freedoms);
+    Error::Mechanism { point, freedom }
 }
 
 /// An error bound above the accuracy asked.

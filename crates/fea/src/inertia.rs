@@ -2,15 +2,12 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LdltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::sparse::SparseColMatRef;
+use faer::sparse::linalg::cholesky::{CholeskySymbolicParams, LdltRef, SymbolicCholesky};
 use faer::{Conj, MatMut, Par, Side};
 use sprs::CsMat;
 
-use crate::factor::Refusal;
+use crate::factor::{Analysis, Refusal, analyse, entries};
 
 /// Steps of the power iteration for the norm of the inverse.
 const POWERS: usize = 8;
@@ -28,20 +25,7 @@ const POWERS: usize = 8;
 /// Symmetric Eigenvalue Problem (1980), section 3.3.
 pub(crate) fn negatives(upper: &CsMat<f64>) -> Result<Option<usize>, Refusal> {
     let n = upper.cols();
-    let storage = upper.indptr();
-    let pattern = SymbolicSparseColMatRef::new_checked(
-        n,
-        n,
-        storage.as_slice().ok_or(Refusal::Size(0))?,
-        None,
-        upper.indices(),
-    );
-    let params = CholeskySymbolicParams::default();
-    let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
-        .map_err(|_| Refusal::Size(0))?;
-    let mut values = Vec::new();
-    values.try_reserve_exact(symbolic.len_val()).map_err(|_| Refusal::Size(0))?;
-    values.resize(symbolic.len_val(), 0.0);
+    let Analysis { pattern, symbolic, mut values } = analyse(upper, CholeskySymbolicParams::default())?;
     let request = StackReq::any_of(&[
         symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
         symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
@@ -103,34 +87,6 @@ impl Size {
         let longest = lengths.into_iter().max().unwrap_or(0);
         let negative = pivot.iter().filter(|&&d| d < 0.0).count();
         growth.is_finite().then_some(Size { negative, growth, longest })
-    }
-}
-
-/// Row, column and value of every entry below the diagonal of L and on that of D.
-fn entries(symbolic: &SymbolicCholesky<usize>, values: &[f64], mut each: impl FnMut(usize, usize, f64)) {
-    match symbolic.raw() {
-        SymbolicCholeskyRaw::Simplicial(s) => {
-            for column in 0..symbolic.nrows() {
-                let span = s.col_ptr()[column]..s.col_ptr()[column + 1];
-                let rows = s.row_idx()[span.clone()].iter();
-                rows.zip(&values[span]).for_each(|(&row, &value)| each(row, column, value));
-            }
-        }
-        SymbolicCholeskyRaw::Supernodal(s) => {
-            for k in 0..s.n_supernodes() {
-                let (start, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
-                let below = s.supernode(k).pattern();
-                let width = end - start;
-                let height = width + below.len();
-                let block = &values[s.col_ptr_for_val()[k]..s.col_ptr_for_val()[k + 1]];
-                for j in 0..width {
-                    for i in j..height {
-                        let row = if i < width { start + i } else { below[i - width] };
-                        each(row, start + j, block[j * height + i]);
-                    }
-                }
-            }
-        }
     }
 }
 

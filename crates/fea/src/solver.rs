@@ -20,6 +20,14 @@ impl Solver {
         }
     }
 
+    /// Bytes of the factor.
+    pub fn bytes(&self) -> u64 {
+        match self {
+            Solver::Double(factor) => factor.bytes(),
+            Solver::Extended(factor) => factor.bytes(),
+        }
+    }
+
     /// w = L^-1 p of every load, rounded to doubles.
     pub fn forward(&self, loads: &[Vec<(usize, f64)>]) -> Vec<Tail> {
         match self {

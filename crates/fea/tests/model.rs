@@ -20,14 +20,7 @@ fn section() -> Section {
 }
 
 fn member(points: [usize; 2]) -> Member {
-    Member {
-        points,
-        kind: Kind::Beam,
-        section: 0,
-        orientation: [0.0, 1.0, 0.0],
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    }
+    Member::beam(points, 0, [0.0, 1.0, 0.0])
 }
 
 /// A beam along x through `x`, and a rail over all its members.

@@ -29,14 +29,7 @@ fn section() -> Section {
 }
 
 fn beam(points: [usize; 2]) -> Member {
-    Member {
-        points,
-        kind: Kind::Beam,
-        section: 0,
-        orientation: [0.0, 1.0, 0.0],
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    }
+    Member::beam(points, 0, [0.0, 1.0, 0.0])
 }
 
 /// A straight chain of equal members along x; ends held as given.

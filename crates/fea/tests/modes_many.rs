@@ -1,6 +1,6 @@
 //! Natural modes of frames with many alike: none missed, none twice.
 
-use fea::{Kind, Mass, Member, Model, Modes, Section, Support, Theory, modes};
+use fea::{Mass, Member, Model, Modes, Section, Support, Theory, modes};
 
 mod common;
 use common::Stream;
@@ -19,14 +19,7 @@ fn section() -> Section {
 }
 
 fn beam(points: [usize; 2]) -> Member {
-    Member {
-        points,
-        kind: Kind::Beam,
-        section: 0,
-        orientation: [0.31, 1.0, 0.17],
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    }
+    Member::beam(points, 0, [0.31, 1.0, 0.17])
 }
 
 /// Towers side by side, each of two braces of four members from the ground to a mass at the top.

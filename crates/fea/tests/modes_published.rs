@@ -2,19 +2,12 @@
 
 use std::f64::consts::PI;
 
-use fea::{Freedoms6, Kind, Mass, Member, Model, Modes, Section, Support, Theory, modes};
+use fea::{Freedoms6, Mass, Member, Model, Modes, Section, Support, Theory, modes};
 
 const PLANE: Freedoms6 = [false, false, true, true, true, false];
 
 fn beam(points: [usize; 2], orientation: [f64; 3]) -> Member {
-    Member {
-        points,
-        kind: Kind::Beam,
-        section: 0,
-        orientation,
-        offsets: [[0.0; 3]; 2],
-        releases: [[false; 6]; 2],
-    }
+    Member::beam(points, 0, orientation)
 }
 
 fn solve(model: &Model, count: usize) -> Modes {

@@ -3,26 +3,13 @@
 mod common;
 
 use common::with_nodes;
-use fea::{Component, Effect, Frame, Girder, Model, Rail, Segment, Support, Theory, nodal};
+use fea::{Component, Effect, Frame, Model, Rail, Segment, Support, nodal};
 use nalgebra::{Matrix3, Vector3};
 use splines::{Axis, Compliance, Influence, Probe};
 
 /// Two inclined members with arms, hinges and shear; both ends built in.
 fn model() -> Model {
-    let girder = Girder {
-        spans: vec![20.0, 20.0],
-        e: 2e11,
-        g: Some(8e10),
-        area: Some(0.02),
-        i_vertical: 4e-4,
-        i_lateral: Some(3e-5),
-        j: Some(2e-5),
-        ka_vertical: Some(0.004),
-        ka_lateral: Some(0.01),
-        theory: Theory::Timoshenko,
-        ..Girder::default()
-    };
-    let (mut model, _) = girder.frame().expect("sound");
+    let (mut model, _) = common::two_spans().frame().expect("sound");
     model.points = vec![[0.0, 0.0, 0.0], [18.0, 5.0, 3.0], [40.0, 1.0, -2.0]];
     model.supports = [0, 2].map(|point| Support { point, fix: [true; 6] }).to_vec();
     model.members[0].releases[1] = [true, false, false, false, true, true];

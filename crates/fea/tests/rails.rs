@@ -3,7 +3,7 @@
 mod common;
 
 use common::{mill, paper, probes, with_nodes};
-use fea::{Frame, Girder, Rail, Support, Theory, grid, nodal};
+use fea::{Frame, Rail, Support, Theory, grid, nodal};
 use nalgebra::{Matrix6, SMatrix, Vector3};
 use splines::{Axis, Probe};
 
@@ -58,20 +58,7 @@ fn two_rails_of_one_structure_are_coupled_through_it() {
 #[test]
 fn loads_inside_members_equal_loads_on_inserted_nodes() {
     // An inclined, offset, hinged two-member frame whose loads are applied once inside, once at nodes.
-    let girder = Girder {
-        spans: vec![20.0, 20.0],
-        e: 2e11,
-        g: Some(8e10),
-        area: Some(0.02),
-        i_vertical: 4e-4,
-        i_lateral: Some(3e-5),
-        j: Some(2e-5),
-        ka_vertical: Some(0.004),
-        ka_lateral: Some(0.01),
-        theory: Theory::Timoshenko,
-        ..Girder::default()
-    };
-    let (mut model, mut rail) = girder.frame().expect("sound");
+    let (mut model, mut rail) = common::two_spans().frame().expect("sound");
     model.points = vec![[0.0, 0.0, 0.0], [18.0, 5.0, 3.0], [40.0, 1.0, -2.0]];
     model.supports = [0, 2].map(|point| Support { point, fix: [true; 6] }).to_vec();
     model.members[0].releases[1] = [true, false, false, false, true, true];

@@ -24,6 +24,23 @@ pub fn paper() -> Girder {
     }
 }
 
+/// Two spans of steel that resist everything, shear too; newtons and metres.
+pub fn two_spans() -> Girder {
+    Girder {
+        spans: vec![20.0, 20.0],
+        e: 2e11,
+        g: Some(8e10),
+        area: Some(0.02),
+        i_vertical: 4e-4,
+        i_lateral: Some(3e-5),
+        j: Some(2e-5),
+        ka_vertical: Some(0.004),
+        ka_lateral: Some(0.01),
+        theory: Theory::Timoshenko,
+        ..Girder::default()
+    }
+}
+
 pub fn probes(axis: Axis, at: &[f64]) -> Vec<Probe> {
     at.iter().map(|&x| Probe { rail: 0, x, axis }).collect()
 }
