@@ -1,6 +1,7 @@
 //! The commands, one file each.
 
 pub mod crosscheck;
+pub mod deck;
 pub mod fea;
 pub mod import;
 pub mod run;
