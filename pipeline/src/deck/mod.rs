@@ -4,6 +4,7 @@
 //! displacement under it is a VARIABLE that reads the SPLINEs with the forces of all wheels; ADAMS solves the loop of
 //! displacements and forces in its own Newton iteration.
 
+pub mod check;
 pub mod contact;
 mod expression;
 mod form;

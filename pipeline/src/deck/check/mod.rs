@@ -1,0 +1,77 @@
+//! The deck executed against the simulator.
+
+pub mod compare;
+pub mod mount;
+mod path;
+mod poses;
+mod random;
+mod states;
+
+use adams::{DataSet, Model};
+
+pub use compare::{COMPONENTS, Difference};
+pub use path::Path;
+
+use self::poses::{Carrier, Turns, state};
+use self::random::Random;
+use super::Plan;
+use crate::exit::Failure;
+
+/// Largest difference of forces, of the largest force.
+pub const FORCES: f64 = 1e-12;
+/// The same with the rails on a moving part: coordinates of hundreds of lengths round differently there.
+pub const CARRIED: f64 = 1e-9;
+/// States of the comparisons that are no more than a sample.
+const SAMPLE: usize = 1000;
+
+/// What a check found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Forces at random states.
+    pub forces: Vec<Difference>,
+    /// The quasi-static path; `None` where a body is free along its rail.
+    pub path: Option<Path>,
+}
+
+impl Report {
+    /// Whether everything that is judged is as asked.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.forces.iter().all(Difference::holds) && self.path.as_ref().is_none_or(Path::holds)
+    }
+}
+
+/// Executes the data set `text` at `count` random states, as it stands and with its rails on a moving part, and along
+/// its quasi-static path, and compares it with the simulator on the same tables, read the same way.
+///
+/// # Errors
+/// A text that cannot be executed; a scene without states to compare.
+pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Failure> {
+    let set = DataSet::read(text).map_err(Failure::untrusted)?;
+    let model = Model::new(&set).map_err(Failure::untrusted)?;
+    let foundations = plan.foundations()?;
+    let cases = states::states(plan, &foundations, count)?;
+    let mut expected = Vec::with_capacity(cases.len());
+    for case in &cases {
+        expected.push(compare::expected(plan, &foundations, case)?);
+    }
+    let sample = count.min(SAMPLE);
+    let mut forces = Vec::new();
+    let small = cases.iter().map(|case| state(plan, case, Turns::Small, None));
+    forces.push(compare::compare(plan, &model, "forces at random states", Some(FORCES), &expected, small));
+
+    let mut carried = set.clone();
+    let part = mount::mount(&mut carried);
+    let moving = Model::new(&carried).map_err(Failure::untrusted)?;
+    let mut random = Random::new(2);
+    let carriers: Vec<Carrier> = (0..sample).map(|_| mount::carrier(part, &mut random)).collect();
+    let on_carrier = cases.iter().zip(&carriers).map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
+    let what = "the same, rails on a moving part";
+    forces.push(compare::compare(plan, &moving, what, Some(CARRIED), &expected[..sample], on_carrier));
+
+    let finite = cases[..sample].iter().map(|case| state(plan, case, Turns::Finite, None));
+    let what = "the same, finite rotations";
+    forces.push(compare::compare(plan, &model, what, None, &expected[..sample], finite));
+    let path = path::path(plan, &model, &foundations)?;
+    Ok(Report { forces, path })
+}
