@@ -2,13 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use serde_json::{Value, json};
-
 use super::run::solve_all;
 use crate::cases::specs;
 use crate::cli::{Deck as Arguments, Global};
-use crate::deck::check::{self, COMPONENTS, Report};
-use crate::deck::{self, Form};
+use crate::deck::{self, Form, check};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -42,51 +39,17 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let stage = progress.stage("executing the deck");
     let report = check::check(&plan, &text, args.states as usize)?;
     drop(stage);
-    for line in told(&report) {
+    for line in report.lines() {
         progress.say(&line);
     }
     if global.json {
-        output::print(&output::json(&value(&report)))?;
+        output::print(&output::json(&report.json()))?;
     }
-    if report.holds() { Ok(Exit::Done) } else { Err(Failure::Differs("the deck differs from the simulator".to_owned())) }
-}
-
-/// The report as a table.
-fn told(report: &Report) -> Vec<String> {
-    let mut lines = vec![format!(
-        "{:<34} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8}",
-        "largest difference / largest force", "states", "FX", "FY", "FZ", "TX", "TZ", "asked"
-    )];
-    for row in &report.forces {
-        let [fx, fy, fz, tx, _, tz] = row.worst;
-        let asked = row.asked.map_or_else(|| "-".to_owned(), |asked| format!("{asked:.0e}"));
-        lines.push(format!(
-            "{:<34} {:>7} {fx:>9.1e} {fy:>9.1e} {fz:>9.1e} {tx:>9.1e} {tz:>9.1e} {asked:>8}",
-            row.what, row.states
-        ));
-        if let Some((why, count)) = &row.failed {
-            lines.push(format!("  no forces at {count} of them: {why}"));
-        }
+    if report.holds() {
+        Ok(Exit::Done)
+    } else {
+        Err(Failure::Differs("the deck differs from the simulator".to_owned()))
     }
-    lines
-}
-
-/// The report for machines.
-fn value(report: &Report) -> Value {
-    let rows: Vec<Value> = report
-        .forces
-        .iter()
-        .map(|row| {
-            let worst: serde_json::Map<String, Value> =
-                COMPONENTS.iter().zip(row.worst).map(|(name, worst)| ((*name).to_owned(), json!(worst))).collect();
-            json!({
-                "what": row.what, "states": row.states, "asked": row.asked, "difference": worst,
-                "largest_force": row.largest, "failed": row.failed.as_ref().map(|(why, count)| json!({ "why": why, "count": count })),
-                "holds": row.holds(),
-            })
-        })
-        .collect();
-    json!({ "format": "girderway-deck-check/1", "holds": report.holds(), "forces": rows })
 }
 
 fn stem(path: &Path) -> String {

@@ -50,11 +50,7 @@ impl Difference {
 ///
 /// # Errors
 /// What the tables refuse.
-pub fn expected(
-    plan: &Plan<'_>,
-    foundations: &[Foundation],
-    case: &Case,
-) -> Result<Vec<[f64; 6]>, Failure> {
+pub fn expected(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Result<Vec<[f64; 6]>, Failure> {
     let forces = &case.forces;
     let mut out = Vec::with_capacity(plan.wheels.len());
     for (w, wheel) in plan.wheels.iter().enumerate() {
@@ -95,6 +91,17 @@ fn place(case: &Case, body: usize, hub: [f64; 3]) -> f64 {
     x + hub[0] + yaw * hub[2] - pitch * hub[1]
 }
 
+/// Solutions of earlier states from which loops are tried again.
+const EARLIER: usize = 12;
+
+/// Solves the deck at `state` from the initial values it gives; where that fails from earlier solutions, as an
+/// integrator's steps start from the step before.
+fn solve(model: &Model, state: &State, earlier: &[Solution]) -> Result<Solution, adams::Error> {
+    model.solve(state).or_else(|error| {
+        earlier.iter().rev().find_map(|guess| model.solve_from(state, guess).ok()).ok_or(error)
+    })
+}
+
 /// Compares the deck's forces at `states` with the `expected` ones.
 pub fn compare(
     plan: &Plan<'_>,
@@ -107,9 +114,10 @@ pub fn compare(
     let mut out = Difference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
     let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
     let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
+    let mut earlier: Vec<Solution> = Vec::new();
     for (state, wanted) in states.zip(expected) {
         out.states += 1;
-        let solution = match model.solve(&state) {
+        let solution = match solve(model, &state, &earlier) {
             Ok(solution) => solution,
             Err(error) => {
                 let (_, count) = out.failed.get_or_insert_with(|| (error.to_string(), 0));
@@ -124,6 +132,9 @@ pub fn compare(
                 out.worst[k] = out.worst[k].max(scaled(k, (found - wanted).abs()));
                 out.largest = out.largest.max(scaled(k, wanted.abs()));
             }
+        }
+        if earlier.len() < EARLIER {
+            earlier.push(solution);
         }
     }
     let scale = out.largest.max(f64::MIN_POSITIVE);

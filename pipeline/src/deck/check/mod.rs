@@ -5,7 +5,9 @@ pub mod mount;
 mod path;
 mod poses;
 mod random;
+mod report;
 mod states;
+mod step;
 
 use adams::{DataSet, Model};
 
@@ -13,7 +15,10 @@ pub use compare::{COMPONENTS, Difference};
 pub use path::Path;
 
 use self::poses::{Carrier, Turns, state};
+use sim::ContactForces;
+
 use self::random::Random;
+use self::states::Case;
 use super::Plan;
 use crate::exit::Failure;
 
@@ -24,9 +29,40 @@ pub const CARRIED: f64 = 1e-9;
 /// States of the comparisons that are no more than a sample.
 const SAMPLE: usize = 1000;
 
+/// What the random states are like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Count {
+    /// All of them.
+    pub all: usize,
+    /// With every wheel pressing.
+    pub pressing: usize,
+    /// With no wheel pressing.
+    pub off: usize,
+    /// With a flange that touches.
+    pub flange: usize,
+    /// With friction.
+    pub slide: usize,
+}
+
+impl Count {
+    fn of(cases: &[Case]) -> Count {
+        let count =
+            |is: &dyn Fn(&ContactForces) -> bool| cases.iter().filter(|case| is(&case.forces)).count();
+        Count {
+            all: cases.len(),
+            pressing: count(&|forces| forces.vertical.iter().all(|force| *force > 0.0)),
+            off: count(&|forces| forces.vertical.iter().all(|force| *force == 0.0)),
+            flange: count(&|forces| forces.lateral.iter().any(|force| *force != 0.0)),
+            slide: count(&|forces| forces.traction.iter().any(|force| *force != 0.0)),
+        }
+    }
+}
+
 /// What a check found.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
+    /// The random states.
+    pub states: Count,
     /// Forces at random states.
     pub forces: Vec<Difference>,
     /// The quasi-static path; `None` where a body is free along its rail.
@@ -49,6 +85,9 @@ impl Report {
 pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Failure> {
     let set = DataSet::read(text).map_err(Failure::untrusted)?;
     let model = Model::new(&set).map_err(Failure::untrusted)?;
+    let mut stepped = set.clone();
+    step::discretise(plan, &mut stepped);
+    let inside = Model::new(&stepped).map_err(Failure::untrusted)?;
     let foundations = plan.foundations()?;
     let cases = states::states(plan, &foundations, count)?;
     let mut expected = Vec::with_capacity(cases.len());
@@ -58,9 +97,9 @@ pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Failur
     let sample = count.min(SAMPLE);
     let mut forces = Vec::new();
     let small = cases.iter().map(|case| state(plan, case, Turns::Small, None));
-    forces.push(compare::compare(plan, &model, "forces at random states", Some(FORCES), &expected, small));
+    forces.push(compare::compare(plan, &inside, "forces at random states", Some(FORCES), &expected, small));
 
-    let mut carried = set.clone();
+    let mut carried = stepped.clone();
     let part = mount::mount(&mut carried);
     let moving = Model::new(&carried).map_err(Failure::untrusted)?;
     let mut random = Random::new(2);
@@ -71,7 +110,7 @@ pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Failur
 
     let finite = cases[..sample].iter().map(|case| state(plan, case, Turns::Finite, None));
     let what = "the same, finite rotations";
-    forces.push(compare::compare(plan, &model, what, None, &expected[..sample], finite));
+    forces.push(compare::compare(plan, &inside, what, None, &expected[..sample], finite));
     let path = path::path(plan, &model, &foundations)?;
-    Ok(Report { forces, path })
+    Ok(Report { states: Count::of(&cases), forces, path })
 }

@@ -6,6 +6,7 @@ use adams::{Pose, State};
 use nalgebra::{Matrix3, Vector3};
 
 use super::states::Case;
+use super::step;
 use crate::deck::Plan;
 use crate::deck::start;
 
@@ -27,7 +28,7 @@ pub struct Carrier {
     pub pose: Pose,
 }
 
-/// The state of the deck's parts at `case`.
+/// The state of the deck's parts at `case`, one step before it for penetrations: see [`step`].
 #[must_use]
 pub fn state(plan: &Plan<'_>, case: &Case, turns: Turns, carrier: Option<Carrier>) -> State {
     let mut parts = BTreeMap::new();
@@ -50,10 +51,11 @@ pub fn state(plan: &Plan<'_>, case: &Case, turns: Turns, carrier: Option<Carrier
         }
         parts.insert(carrier.part, carrier.pose);
     }
+    let lengths = step::lengths(plan);
     let mut differentials = BTreeMap::new();
     for (c, contact) in plan.contacts.iter().enumerate() {
         if let Some(id) = contact.diff {
-            differentials.insert(id, case.forces.penetration[c]);
+            differentials.insert(id, case.forces.penetration[c] - lengths[c] * case.rate[c]);
         }
     }
     State { time: instant.time, parts, differentials }

@@ -23,6 +23,8 @@ pub struct Case {
     pub instant: Instant,
     /// The simulator's forces.
     pub forces: ContactForces,
+    /// Rate of penetration, a contact; zero where it is no state or open.
+    pub rate: Vec<f64>,
 }
 
 /// `count` random states: places, displacements, speeds, spins, and penetrations that belong to pressing forces;
@@ -79,8 +81,10 @@ fn settle(
         };
         let softest = active.iter().map(|&c| row(c)).fold(0.0, f64::max);
         // no contact is pushed off by what the others press, so every penetration stays positive
-        let force: Vec<f64> =
-            active.iter().map(|_| random.between(0.05, 0.95) * least / softest.max(f64::MIN_POSITIVE)).collect();
+        let force: Vec<f64> = active
+            .iter()
+            .map(|_| random.between(0.05, 0.95) * least / softest.max(f64::MIN_POSITIVE))
+            .collect();
         for &c in &active {
             let give: f64 = active.iter().zip(&force).map(|(&j, f)| open.compliance[(c, j)] * f).sum();
             instant.penetration[c] = Some(open.approach[c] - give);
@@ -94,7 +98,19 @@ fn settle(
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
         law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0))
     });
-    Ok(fits.then_some(Case { instant, forces }))
+    let rate = (0..plan.contacts.len()).map(|c| rate(plan, &instant, &forces, c)).collect();
+    Ok(fits.then_some(Case { instant, forces, rate }))
+}
+
+/// The rate that goes with the force and penetration of contact `c`.
+fn rate(plan: &Plan<'_>, instant: &Instant, forces: &ContactForces, c: usize) -> f64 {
+    let contact = &plan.contacts[c];
+    let law = &plan.kind(contact.wheels.start).normal;
+    let point = law.at(forces.penetration[c], 0.0);
+    if contact.diff.is_none() || instant.penetration[c].is_none() || point.by_rate == 0.0 {
+        return 0.0;
+    }
+    (forces.vertical[contact.wheels.start] - point.force) / point.by_rate
 }
 
 /// How far and fast bodies move in random states.
@@ -113,23 +129,22 @@ struct Scales {
 
 impl Scales {
     fn of(plan: &Plan<'_>) -> Scales {
-        let mut out =
-            Scales { sink: vec![], reach: vec![], side: vec![], speed: vec![], range: vec![] };
+        let mut out = Scales { sink: vec![], reach: vec![], side: vec![], speed: vec![], range: vec![] };
         for (b, body) in plan.cast.scene.bodies.iter().enumerate() {
             let own: Vec<usize> = (0..plan.wheels.len()).filter(|&w| plan.wheels[w].body == b).collect();
             let weight = body.mass * plan.cast.scene.gravity.max(f64::MIN_POSITIVE);
             let share = weight / own.len().max(1) as f64;
             let largest = |of: &dyn Fn(usize) -> f64| own.iter().map(|&w| of(w)).fold(0.0, f64::max);
-            let sink = largest(&|w| {
-                plan.kind(w).normal.penetration(share) + plan.start.give[w].abs()
-            });
+            let sink = largest(&|w| plan.kind(w).normal.penetration(share) + plan.start.give[w].abs());
             let damped = |w: usize| {
                 let law = &plan.kind(w).normal;
                 if law.damping > 0.0 { law.stiffness * sink.powf(law.exponent) / law.damping } else { 0.0 }
             };
             out.sink.push(sink);
-            out.reach.push([largest(&|w| plan.wheels[w].hub[0].abs()), largest(&|w| plan.wheels[w].hub[2].abs())]);
-            out.side.push(largest(&|w| plan.kind(w).flange.as_ref().map_or(0.0, |f| 2.0 * f.clearance + sink)));
+            out.reach
+                .push([largest(&|w| plan.wheels[w].hub[0].abs()), largest(&|w| plan.wheels[w].hub[2].abs())]);
+            out.side
+                .push(largest(&|w| plan.kind(w).flange.as_ref().map_or(0.0, |f| 2.0 * f.clearance + sink)));
             let slip = largest(&|w| plan.kind(w).friction.as_ref().map_or(0.0, |f| f.slip));
             let fall = largest(&damped);
             out.speed.push([if fall > 0.0 { fall } else { SPEED }, if slip > 0.0 { slip } else { SPEED }]);
