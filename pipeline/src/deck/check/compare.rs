@@ -1,10 +1,12 @@
 //! Components of every GFORCE against the simulator's.
 
-use adams::{Model, Solution, State};
+use adams::{Argument, DataSet, Model, Solution, State, Value};
+use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Influence, Probe};
 
 use super::states::Case;
+use super::step;
 use crate::deck::ids::{Slot, number, variable};
 use crate::deck::{Form, Plan};
 use crate::exit::Failure;
@@ -44,45 +46,65 @@ impl Difference {
     }
 }
 
-/// What the simulator has each wheel's GFORCE be: on the wheel, in the frame of its rail.
+/// What the simulator has the deck find at one state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Each wheel's GFORCE: on the wheel, in the frame of its rail.
+    pub forces: Vec<[f64; 6]>,
+    /// VARIABLEs by identifier: a first guess where the deck's own does not lead to a solution.
+    pub variables: Vec<(u32, f64)>,
+}
+
+/// What the simulator has the deck find at `case`.
 ///
-/// The force along the rail from its slope is that of the tables' own derivative.
+/// Displacements of rails, and the forces along them from their slopes, are those of the tables' own values and
+/// derivatives.
 ///
 /// # Errors
 /// What the tables refuse.
-pub fn expected(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Result<Vec<[f64; 6]>, Failure> {
+pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Result<Wanted, Failure> {
     let forces = &case.forces;
-    let mut out = Vec::with_capacity(plan.wheels.len());
+    let (mut out, mut variables) = (Vec::with_capacity(plan.wheels.len()), Vec::new());
     for (w, wheel) in plan.wheels.iter().enumerate() {
-        let arm = plan.kind(w).radius - forces.penetration[wheel.contact];
+        let depth = forces.penetration[wheel.contact];
+        let arm = plan.kind(w).radius - depth;
         let (down, side, along) = (forces.vertical[w], forces.lateral[w], forces.traction[w]);
         out.push([-along, down, -side, arm * side, 0.0, -arm * along]);
+        variables.push((variable(w, Slot::Penetration), depth));
+        variables.push((variable(w, Slot::Press), down));
+        variables.push((variable(w, Slot::Flange), side));
+        variables.push((variable(w, Slot::Traction), along));
+        if let Some(id) = plan.contacts[wheel.contact].diff {
+            variables.push((step::variable(id), depth));
+        }
     }
-    if plan.form == Form::Factored {
-        for (s, foundation) in foundations.iter().enumerate() {
-            let Some(compliance) = &foundation.compliance else { continue };
-            let (mut probes, mut loads) = (Vec::new(), Vec::new());
-            for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
-                let x = place(case, wheel.body, wheel.hub);
-                let mut add = |axis: Axis, load: f64| {
-                    probes.push(Probe { rail: wheel.rail, x, axis });
-                    loads.push((w, load));
-                };
-                add(Axis::Vertical, -forces.vertical[w]);
-                if plan.kind(w).flange.is_some() {
-                    add(Axis::Lateral, forces.lateral[w]);
-                }
+    for (s, foundation) in foundations.iter().enumerate() {
+        let Some(compliance) = &foundation.compliance else { continue };
+        let (mut probes, mut loads) = (Vec::new(), Vec::new());
+        for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
+            let x = place(case, wheel.body, wheel.hub);
+            let mut add = |axis: Axis, load: f64, slot: Slot| {
+                probes.push(Probe { rail: wheel.rail, x, axis });
+                loads.push((w, load, slot));
+            };
+            add(Axis::Vertical, -forces.vertical[w], Slot::Rise);
+            if plan.kind(w).flange.is_some() {
+                add(Axis::Lateral, forces.lateral[w], Slot::Shift);
             }
-            let mut influence = Influence::zeros(probes.len());
-            compliance.fill(&probes, &mut influence).map_err(Failure::untrusted)?;
-            for (i, &(w, own)) in loads.iter().enumerate() {
-                let slope: f64 =
-                    loads.iter().enumerate().map(|(j, (_, load))| influence.slope[(i, j)] * load).sum();
-                out[w][0] += own * slope;
+        }
+        let mut influence = Influence::zeros(probes.len());
+        compliance.fill(&probes, &mut influence).map_err(Failure::untrusted)?;
+        for (i, &(w, own, slot)) in loads.iter().enumerate() {
+            let of = |matrix: &DMatrix<f64>| -> f64 {
+                loads.iter().enumerate().map(|(j, (_, load, _))| matrix[(i, j)] * load).sum()
+            };
+            variables.push((variable(w, slot), of(&influence.value)));
+            if plan.form == Form::Factored {
+                out[w][0] += own * of(&influence.slope);
             }
         }
     }
-    Ok(out)
+    Ok(Wanted { forces: out, variables })
 }
 
 /// Rail coordinate of a wheel.
@@ -91,33 +113,41 @@ fn place(case: &Case, body: usize, hub: [f64; 3]) -> f64 {
     x + hub[0] + yaw * hub[2] - pitch * hub[1]
 }
 
-/// Solutions of earlier states from which loops are tried again.
-const EARLIER: usize = 12;
-
-/// Solves the deck at `state` from the initial values it gives; where that fails from earlier solutions, as an
-/// integrator's steps start from the step before.
-fn solve(model: &Model, state: &State, earlier: &[Solution]) -> Result<Solution, adams::Error> {
+/// Solves the data set at `state` from its own initial values; where that fails, from those of the simulator.
+///
+/// A first guess decides whether Newton's method converges, not to what: a wrong deck has other solutions.
+fn solve(set: &DataSet, model: &Model, state: &State, wanted: &Wanted) -> Result<Solution, adams::Error> {
     model.solve(state).or_else(|error| {
-        earlier.iter().rev().find_map(|guess| model.solve_from(state, guess).ok()).ok_or(error)
+        let mut set = set.clone();
+        for statement in set.statements.iter_mut().filter(|one| one.keyword == "VARIABLE") {
+            let known = wanted.variables.iter().find(|(id, _)| statement.id == Some(*id));
+            let Some((_, value)) = known else { continue };
+            statement.arguments.retain(|argument| argument.name != "IC");
+            let argument = Argument { name: "IC".to_owned(), value: Value::Numbers(vec![*value]) };
+            statement.arguments.push(argument);
+        }
+        Model::new(&set).and_then(|model| model.solve(state)).map_err(|_| error)
     })
 }
 
-/// Compares the deck's forces at `states` with the `expected` ones.
+/// Compares the forces of the data set at `states` with those wanted there.
+///
+/// # Errors
+/// A data set that cannot be executed.
 pub fn compare(
     plan: &Plan<'_>,
-    model: &Model,
-    what: &'static str,
-    asked: Option<f64>,
-    expected: &[Vec<[f64; 6]>],
+    set: &DataSet,
+    (what, asked): (&'static str, Option<f64>),
+    wanted: &[Wanted],
     states: impl Iterator<Item = State>,
-) -> Difference {
+) -> Result<Difference, Failure> {
+    let model = Model::new(set).map_err(Failure::untrusted)?;
     let mut out = Difference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
     let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
     let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
-    let mut earlier: Vec<Solution> = Vec::new();
-    for (state, wanted) in states.zip(expected) {
+    for (state, wanted) in states.zip(wanted) {
         out.states += 1;
-        let solution = match solve(model, &state, &earlier) {
+        let solution = match solve(set, &model, &state, wanted) {
             Ok(solution) => solution,
             Err(error) => {
                 let (_, count) = out.failed.get_or_insert_with(|| (error.to_string(), 0));
@@ -125,7 +155,7 @@ pub fn compare(
                 continue;
             }
         };
-        for (w, wanted) in wanted.iter().enumerate() {
+        for (w, wanted) in wanted.forces.iter().enumerate() {
             let found = solution.loads.get(&("GFORCE", number(w))).map(|load| load.components);
             for (k, wanted) in wanted.iter().enumerate() {
                 let found = found.map_or(f64::MAX, |components| components[k]);
@@ -133,11 +163,8 @@ pub fn compare(
                 out.largest = out.largest.max(scaled(k, wanted.abs()));
             }
         }
-        if earlier.len() < EARLIER {
-            earlier.push(solution);
-        }
     }
     let scale = out.largest.max(f64::MIN_POSITIVE);
     out.worst = out.worst.map(|worst| worst / scale);
-    out
+    Ok(out)
 }

@@ -11,7 +11,7 @@ mod step;
 
 use adams::{DataSet, Model};
 
-pub use compare::{COMPONENTS, Difference};
+pub use compare::{COMPONENTS, Difference, Wanted};
 pub use path::Path;
 
 use self::poses::{Carrier, Turns, state};
@@ -87,30 +87,27 @@ pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Failur
     let model = Model::new(&set).map_err(Failure::untrusted)?;
     let mut stepped = set.clone();
     step::discretise(plan, &mut stepped);
-    let inside = Model::new(&stepped).map_err(Failure::untrusted)?;
     let foundations = plan.foundations()?;
     let cases = states::states(plan, &foundations, count)?;
-    let mut expected = Vec::with_capacity(cases.len());
-    for case in &cases {
-        expected.push(compare::expected(plan, &foundations, case)?);
-    }
+    let wanted: Vec<Wanted> =
+        cases.iter().map(|case| compare::wanted(plan, &foundations, case)).collect::<Result<_, _>>()?;
     let sample = count.min(SAMPLE);
     let mut forces = Vec::new();
     let small = cases.iter().map(|case| state(plan, case, Turns::Small, None));
-    forces.push(compare::compare(plan, &inside, "forces at random states", Some(FORCES), &expected, small));
+    let what = ("forces at random states", Some(FORCES));
+    forces.push(compare::compare(plan, &stepped, what, &wanted, small)?);
 
     let mut carried = stepped.clone();
     let part = mount::mount(&mut carried);
-    let moving = Model::new(&carried).map_err(Failure::untrusted)?;
     let mut random = Random::new(2);
     let carriers: Vec<Carrier> = (0..sample).map(|_| mount::carrier(part, &mut random)).collect();
-    let on_carrier = cases.iter().zip(&carriers).map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
-    let what = "the same, rails on a moving part";
-    forces.push(compare::compare(plan, &moving, what, Some(CARRIED), &expected[..sample], on_carrier));
+    let moving = cases.iter().zip(&carriers).map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
+    let what = ("the same, rails on a moving part", Some(CARRIED));
+    forces.push(compare::compare(plan, &carried, what, &wanted[..sample], moving)?);
 
     let finite = cases[..sample].iter().map(|case| state(plan, case, Turns::Finite, None));
-    let what = "the same, finite rotations";
-    forces.push(compare::compare(plan, &inside, what, None, &expected[..sample], finite));
+    let what = ("the same, finite rotations", None);
+    forces.push(compare::compare(plan, &stepped, what, &wanted[..sample], finite)?);
     let path = path::path(plan, &model, &foundations)?;
     Ok(Report { states: Count::of(&cases), forces, path })
 }

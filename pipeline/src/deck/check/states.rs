@@ -9,6 +9,8 @@ use crate::scene::Along;
 
 /// Tries for each state asked for, before the scene counts as one that has none.
 const TRIES: usize = 50;
+/// Least share of the damping of a contact whose rate is found from its force.
+const RAMP: f64 = 0.6;
 /// Largest rotation, radians.
 const TURN: f64 = 0.02;
 /// Share of a rail's length at its ends where no wheel is put, where the body's place can be chosen.
@@ -30,8 +32,8 @@ pub struct Case {
 /// `count` random states: places, displacements, speeds, spins, and penetrations that belong to pressing forces;
 /// some wheels are off their rails.
 ///
-/// Left out are states whose forces are not the deck's to find: contacts that pull, and dampers that hold a wheel
-/// down while it is off the rail.
+/// Left out are states whose forces are not the deck's to find: contacts that pull, dampers that hold a wheel down
+/// while it is off the rail, and rates that a damper at the foot of its ramp would need.
 ///
 /// # Errors
 /// A scene the simulator refuses, or without such states.
@@ -96,7 +98,10 @@ fn settle(
         let law = &plan.kind(contact.wheels.start).normal;
         let (force, p) = (forces.vertical[contact.wheels.start], forces.penetration[c]);
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
-        law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0))
+        let ramped = instant.penetration[c].is_some()
+            && contact.diff.is_some()
+            && law.at(p, 0.0).by_rate < RAMP * law.damping;
+        !ramped && (law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0)))
     });
     let rate = (0..plan.contacts.len()).map(|c| rate(plan, &instant, &forces, c)).collect();
     Ok(fits.then_some(Case { instant, forces, rate }))

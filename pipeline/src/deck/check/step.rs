@@ -6,15 +6,30 @@
 use adams::{DataSet, Statement, Value};
 
 use crate::deck::Plan;
+use crate::deck::plan::ContactPlan;
 
 /// Identifiers of the VARIABLEs that stand for DIF.
 const FIRST: u32 = 900_000_000;
 
-/// Length of the step of each contact, c/k: the damper counts as much as the spring.
+/// Identifier of the VARIABLE that stands for DIF(`id`).
+#[must_use]
+pub const fn variable(id: u32) -> u32 {
+    FIRST + id
+}
+
+/// Share of c/k that a step takes where the damper is ramped.
+const RAMPED: f64 = 0.3;
+
+/// Length of the step of each contact, c/k, in which the damper counts as much as the spring; less where it is ramped:
+/// a steep ramp then leaves one solution.
 #[must_use]
 pub fn lengths(plan: &Plan<'_>) -> Vec<f64> {
-    let law = |c: &crate::deck::plan::ContactPlan| &plan.kind(c.wheels.start).normal;
-    plan.contacts.iter().map(|contact| law(contact).damping / law(contact).stiffness).collect()
+    let length = |contact: &ContactPlan| {
+        let law = &plan.kind(contact.wheels.start).normal;
+        let share = if law.depth > 0.0 { RAMPED } else { 1.0 };
+        share * law.damping / law.stiffness
+    };
+    plan.contacts.iter().map(length).collect()
 }
 
 /// Replaces every implicit DIFF: its DIF is then the value before the step, and a VARIABLE takes its place in
@@ -33,7 +48,7 @@ pub fn discretise(plan: &Plan<'_>, set: &mut DataSet) {
             Some(Value::Numbers(all)) => all.first().copied().unwrap_or_default(),
             _ => 0.0,
         };
-        let own = FIRST + id;
+        let own = variable(id);
         let now = format!("VARVAL({own})");
         let rate = format!("(({now}-PAST({id}))/{})", adams::number::write(length));
         let replaced = |text: &str| {
