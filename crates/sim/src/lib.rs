@@ -14,6 +14,7 @@ mod foundation;
 mod geometry;
 mod history;
 mod instant;
+mod matter;
 mod parts;
 mod profile;
 mod run;
@@ -29,7 +30,7 @@ mod wheel;
 
 pub use energy::{Audit, Exchanged, Stored};
 pub use error::Error;
-pub use foundation::{Extent, Foundation, Shapes, Structure};
+pub use foundation::{Dynamics, Extent, Foundation, Shapes, Structure};
 pub use history::{Channel, History};
 pub use instant::{ContactForces, Instant, contact_forces};
 pub use parts::{BlendedParts, PartChain, PartShapes};
