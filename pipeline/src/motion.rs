@@ -68,6 +68,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         }
     }
     let scene = sim::Scene {
+        gauges: Vec::new(),
         gravity: scene.gravity,
         bodies,
         wheels,

@@ -36,7 +36,7 @@ pub use instant::{ContactForces, Instant, contact_forces};
 pub use parts::{BlendedParts, PartChain, PartShapes};
 pub use profile::{Given, Moving, Profile};
 pub use run::{Run, Status, run};
-pub use scene::{Analysis, Body, Contact, Freedom, Scene};
+pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Scene};
 pub use step::step;
 pub use stepper::Counts;
 pub use wheel::{Damper, Flange, Friction, NormalLaw, Wheel};

@@ -82,8 +82,8 @@ impl Block {
             Matter::Free(_) => {}
             Matter::Matrices { damping, stiffness, .. } => {
                 for (j, (v, q)) in v.iter().zip(q).enumerate() {
-                    let columns = damping.column(j).into_iter().zip(stiffness.column(j).iter());
-                    for (load, (c, k)) in load.iter_mut().zip(columns) {
+                    let (damping, stiffness) = (damping.column(j), stiffness.column(j));
+                    for (load, (c, k)) in load.iter_mut().zip(damping.iter().zip(stiffness.iter())) {
                         *load -= c * v + k * q;
                     }
                 }
