@@ -1,5 +1,6 @@
 //! From FE results to foundations: the transfer of data that used to be done by hand.
 
+mod modal;
 mod parts;
 
 use fea::Frame;
@@ -95,7 +96,18 @@ pub fn foundation(
             })?;
             parts::foundation(girder, count, handover, lateral)
         }
+        scene::Foundation::Modal { modes, damping } => {
+            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
+        }
+        scene::Foundation::Full { elements, damping } => {
+            modal::full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
+        }
     }
+}
+
+fn needed<'s>(structure: &Structure, solved: Option<&'s Solved>) -> Result<&'s Solved, Failure> {
+    let none = || Failure::Untrusted(format!("{}: modes need a beam spec", structure.name));
+    solved.ok_or_else(none)
 }
 
 fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundation, Failure> {
