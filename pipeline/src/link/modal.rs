@@ -14,6 +14,8 @@ use crate::exit::Failure;
 const ACCURACY: f64 = 1e-6;
 /// Motion of the rails where wheels push, by that of the whole mass moving alike, below which wheels cannot excite it.
 const STILL: f64 = 1e-6;
+/// Relative difference of two frequencies that are one.
+const EQUAL: f64 = 1e-6;
 
 /// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
 pub(super) fn lowest(
@@ -27,10 +29,14 @@ pub(super) fn lowest(
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
             .map_err(|error| refused(name, &error))?;
-        let felt = felt(&refined.modes, solved, lateral)?;
+        let felt = felt(&refined.modes, solved, lateral);
+        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let all = refined.modes.modes.len() < asked || refined.modes.next.is_none();
-        if felt.len() >= count || all {
-            return foundation(name, &refined, &felt[..count.min(felt.len())], ratio);
+        // Some of the modes of one frequency are not enough to turn them.
+        let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
+        if all || (felt.len() >= count && !torn) {
+            let lowest = felt.into_iter().take(count).collect();
+            return foundation(name, &refined, lowest, ratio);
         }
         asked = (2 * asked).max(asked + 8);
     }
@@ -46,8 +52,8 @@ pub(super) fn full(
 ) -> Result<Foundation, Failure> {
     let refined =
         fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
-    let felt = felt(&refined.modes, solved, lateral)?;
-    foundation(name, &refined, &felt, ratio)
+    let felt = felt(&refined.modes, solved, lateral);
+    foundation(name, &refined, felt, ratio)
 }
 
 fn refused(name: &str, error: &fea::Error) -> Failure {
@@ -61,29 +67,71 @@ fn refused(name: &str, error: &fea::Error) -> Failure {
     Failure::Untrusted(format!("{name}: {error}{hint}"))
 }
 
-/// Modes that move the rails where and as wheels can push, by their index.
-fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Result<Vec<usize>, Failure> {
+/// Modes that move the rails where and as wheels can push.
+///
+/// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
+fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Vec<fea::Mode> {
+    let motions = motions(modes, solved, lateral);
+    // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
+    let limit = STILL / modes.total[0][0].sqrt();
+    let mut kept = Vec::new();
+    let mut first = 0;
+    while first < modes.modes.len() {
+        let omega = modes.modes[first].omega;
+        let more = modes.modes[first..].iter().take_while(|mode| mode.omega <= omega * (1.0 + EQUAL));
+        let cluster = first..first + more.count();
+        first = cluster.end;
+        let of = motions.columns(cluster.start, cluster.len());
+        let turn = (of.transpose() * of).symmetric_eigen().eigenvectors;
+        let mut turned: Vec<(f64, fea::Mode)> = (0..cluster.len())
+            .map(|c| {
+                let shares = turn.column(c);
+                ((of * shares).amax(), sum(&modes.modes[cluster.clone()], shares.as_slice()))
+            })
+            .filter(|(largest, _)| *largest > limit)
+            .collect();
+        turned.sort_by(|a, b| b.0.total_cmp(&a.0));
+        kept.extend(turned.into_iter().map(|(_, mode)| mode));
+    }
+    kept
+}
+
+/// Motion of the rails, places and directions x modes, where and as wheels can push.
+fn motions(modes: &Modes, solved: &Solved, lateral: bool) -> DMatrix<f64> {
     let axes: &[Axis] = if lateral { &[Axis::Vertical, Axis::Lateral] } else { &[Axis::Vertical] };
-    let mut largest = vec![0.0_f64; modes.modes.len()];
+    let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
-        let line = solved.surface.as_ref().map(splines::Surface::line);
-        let places = match line {
-            Some(line) => places(line, rail),
+        let places = match &solved.surface {
+            Some(surface) => places(surface.line(), rail),
             None => given.stations.clone(),
         };
         for x in places {
             for &axis in axes {
                 // a direction that nothing resists moves no mode
-                let Ok(shapes) = modes.at(Probe { rail, x, axis }) else { continue };
-                for (largest, [value, _]) in largest.iter_mut().zip(shapes) {
-                    *largest = largest.max(value.abs());
+                if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
+                    rows.extend(shapes.into_iter().map(|[value, _]| value));
                 }
             }
         }
     }
-    // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
-    let limit = STILL / modes.total[0][0].sqrt();
-    Ok((0..largest.len()).filter(|&k| largest[k] > limit).collect())
+    let count = modes.modes.len();
+    DMatrix::from_row_slice(rows.len() / count.max(1), count, &rows)
+}
+
+/// A sum of modes of one frequency.
+fn sum(modes: &[fea::Mode], shares: &[f64]) -> fea::Mode {
+    let mut out = modes[0].clone();
+    let add = |of: fn(&fea::Mode) -> &Vec<[f64; 6]>, at: usize, i: usize| -> f64 {
+        modes.iter().zip(shares).map(|(mode, share)| share * of(mode)[at][i]).sum()
+    };
+    for (at, motion) in out.states.iter_mut().enumerate() {
+        *motion = std::array::from_fn(|i| add(|mode| &mode.states, at, i));
+    }
+    for (at, motion) in out.points.iter_mut().enumerate() {
+        *motion = std::array::from_fn(|i| add(|mode| &mode.points, at, i));
+    }
+    out.coupling = std::array::from_fn(|i| modes.iter().zip(shares).map(|(m, s)| s * m.coupling[i]).sum());
+    out
 }
 
 /// Places along a rail close enough to see every mode: seventeen a cell.
@@ -94,15 +142,21 @@ fn places(line: &Line, rail: usize) -> Vec<f64> {
         .collect()
 }
 
-fn foundation(name: &str, refined: &Refined, felt: &[usize], ratio: f64) -> Result<Foundation, Failure> {
+fn foundation(
+    name: &str,
+    refined: &Refined,
+    felt: Vec<fea::Mode>,
+    ratio: f64,
+) -> Result<Foundation, Failure> {
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
     let surface = frame.surface().map_err(untrusted)?.surface;
     let mut kept = refined.modes.clone();
-    kept.modes = felt.iter().map(|&k| refined.modes.modes[k].clone()).collect();
+    kept.modes = felt;
     let rest = kept.residual(&surface).map_err(untrusted)?;
     let line = Arc::clone(surface.line());
-    let states = DMatrix::from_fn(6 * line.states(), felt.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
+    let states =
+        DMatrix::from_fn(6 * line.states(), kept.modes.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
     let rails = (0..refined.rails.len())
         .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
         .collect();
