@@ -154,6 +154,47 @@ impl Factored {
         &self.factors
     }
 
+    /// `rows`: values of all curves at the probes, then their slopes, `width` apart.
+    fn assemble(
+        &self,
+        at: &[Probe],
+        width: usize,
+        rows: &mut [f64],
+        owners: &mut [usize],
+        out: &mut Influence,
+    ) -> Result<(), Error> {
+        let n = at.len();
+        let (phi, rates) = rows.split_at_mut(n * width);
+        for (i, p) in at.iter().enumerate() {
+            let way = self.ways.find(*p)?;
+            owners[i] = self.owner[way];
+            let ready = &self.ready[way];
+            let place = Place::find(&ready.stations, p.x);
+            ready.blend(&place, &place.weights(), &mut phi[i * width..]);
+            ready.blend(&place, &place.rates(), &mut rates[i * width..]);
+        }
+        let (value, slope) = (out.value.as_mut_slice(), out.slope.as_mut_slice());
+        for j in 0..n {
+            let rank = self.factors[owners[j]].rank();
+            let load = &phi[j * width..j * width + rank];
+            for i in j..n {
+                let (there, back) = (i + n * j, j + n * i);
+                let mut one = [0.0; 3];
+                if owners[i] == owners[j] {
+                    let own = i * width..i * width + rank;
+                    one = [
+                        dot(&phi[own.clone()], load),
+                        dot(&rates[own.clone()], load),
+                        dot(&phi[own], &rates[j * width..]),
+                    ];
+                }
+                (value[there], value[back]) = (one[0], one[0]);
+                (slope[there], slope[back]) = (one[1], one[2]);
+            }
+        }
+        Ok(())
+    }
+
     /// Curves of the probe's direction, or their derivatives, one a product.
     fn row(&self, way: usize, x: f64, weights: fn(&Place) -> [f64; 4]) -> Vec<f64> {
         let ready = &self.ready[way];
@@ -277,51 +318,18 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 }
 
 impl Compliance for Factored {
-    /// `value` is symmetric to the last bit. Up to 256 curve values (wheels times rank) take no memory from
-    /// the heap.
+    /// `value` is symmetric to the last bit. Up to 16 probes of 128 curve values together take no
+    /// memory from the heap.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         out.expect(n)?;
         let width = self.factors.iter().map(Factor::rank).max().unwrap_or(0);
-        let mut few = [0.0; 512];
-        let mut many = Vec::new();
-        let rows = if 2 * n * width <= few.len() {
-            &mut few[..2 * n * width]
-        } else {
-            many.resize(2 * n * width, 0.0);
-            &mut many[..]
-        };
-        let (phi, rates) = rows.split_at_mut(n * width);
-        let mut some = [0; 16];
-        let mut more = Vec::new();
-        let owners = if n <= some.len() {
-            &mut some[..n]
-        } else {
-            more.resize(n, 0);
-            &mut more[..]
-        };
-        for (i, p) in at.iter().enumerate() {
-            let way = self.ways.find(*p)?;
-            owners[i] = self.owner[way];
-            let ready = &self.ready[way];
-            let place = Place::find(&ready.stations, p.x);
-            ready.blend(&place, &place.weights(), &mut phi[i * width..]);
-            ready.blend(&place, &place.rates(), &mut rates[i * width..]);
+        let size = 2 * n * width;
+        match size {
+            0..=32 if n <= 4 => self.assemble(at, width, &mut [0.0; 32][..size], &mut [0; 4][..n], out),
+            0..=256 if n <= 16 => self.assemble(at, width, &mut [0.0; 256][..size], &mut [0; 16][..n], out),
+            _ => self.assemble(at, width, &mut vec![0.0; size], &mut vec![0; n], out),
         }
-        let (value, slope) = (out.value.as_mut_slice(), out.slope.as_mut_slice());
-        for j in 0..n {
-            let rank = self.factors[owners[j]].rank();
-            let load = &phi[j * width..j * width + rank];
-            for i in 0..n {
-                let same = owners[i] == owners[j];
-                slope[i + n * j] = if same { dot(&rates[i * width..i * width + rank], load) } else { 0.0 };
-                if i >= j {
-                    let one = if same { dot(&phi[i * width..i * width + rank], load) } else { 0.0 };
-                    (value[i + n * j], value[j + n * i]) = (one, one);
-                }
-            }
-        }
-        Ok(())
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {
