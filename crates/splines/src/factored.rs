@@ -194,15 +194,6 @@ impl Factored {
         }
         Ok(())
     }
-
-    /// Curves of the probe's direction, or their derivatives, one a product.
-    fn row(&self, way: usize, x: f64, weights: fn(&Place) -> [f64; 4]) -> Vec<f64> {
-        let ready = &self.ready[way];
-        let place = Place::find(&ready.stations, x);
-        let mut out = vec![0.0; ready.rank];
-        ready.blend(&place, &weights(&place), &mut out);
-        out
-    }
 }
 
 impl Ready {
@@ -226,6 +217,13 @@ impl Ready {
             }
         }
         Ok(Ready { stations: x.clone(), nodes, rank })
+    }
+
+    /// Curve k with the weights of an interval's ends.
+    #[inline]
+    fn curve(&self, place: &Place, w: &[f64; 4], k: usize) -> f64 {
+        let node = |i: usize| self.nodes[(2 * place.k + i) * self.rank + k];
+        (w[0] * node(0) + w[2] * node(2)) + (w[1] * node(1) + w[3] * node(3))
     }
 
     #[inline]
@@ -352,16 +350,22 @@ impl Jets for Factored {
         if self.owner[a] != self.owner[b] {
             return Ok(Jet2::default());
         }
-        let three = |way, x| [Place::weights, Place::rates, Place::bends].map(|of| self.row(way, x, of));
-        let ([p0, p1, p2], [q0, q1, q2]) = (three(a, p.x), three(b, q.x));
-        let dot = |a: &Vec<f64>, b: &Vec<f64>| dot(a, b);
-        Ok(Jet2 {
-            value: dot(&p0, &q0),
-            p: dot(&p1, &q0),
-            q: dot(&p0, &q1),
-            pp: dot(&p2, &q0),
-            pq: dot(&p1, &q1),
-            qq: dot(&p0, &q2),
-        })
+        let three = |way: usize, x| {
+            let place = Place::find(&self.ready[way].stations, x);
+            (place, [place.weights(), place.rates(), place.bends()])
+        };
+        let ((at, own), (to, load)) = (three(a, p.x), three(b, q.x));
+        let mut out = Jet2::default();
+        for k in 0..self.ready[a].rank {
+            let [p0, p1, p2] = own.map(|w| self.ready[a].curve(&at, &w, k));
+            let [q0, q1, q2] = load.map(|w| self.ready[b].curve(&to, &w, k));
+            out.value += p0 * q0;
+            out.p += p1 * q0;
+            out.q += p0 * q1;
+            out.pp += p2 * q0;
+            out.pq += p1 * q1;
+            out.qq += p0 * q2;
+        }
+        Ok(out)
     }
 }
