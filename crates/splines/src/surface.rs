@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use crate::lean::{self, Seat};
 use crate::row::Row;
 use crate::{Compliance, Error, Influence, Jet2, Jets, Line, Probe};
 
@@ -175,6 +176,19 @@ impl Compliance for Surface {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         out.expect(n)?;
+        if !self.line.has_shared_members() {
+            let (nodal, size) = (self.nodal.as_slice(), self.nodal.nrows());
+            let mut lean = |seats: &mut [Seat]| lean::fill(&self.line, nodal, size, at, seats, out);
+            let done = match n {
+                0..=2 => lean(&mut [Seat::EMPTY; 2][..n]),
+                3..=8 => lean(&mut [Seat::EMPTY; 8][..n]),
+                9..=16 => lean(&mut [Seat::EMPTY; 16][..n]),
+                _ => lean(&mut vec![Seat::EMPTY; n]),
+            };
+            if done? {
+                return Ok(());
+            }
+        }
         match n {
             0..=2 => self.assemble(at, &mut [Row::EMPTY; 2][..n], &mut [0; 2][..n], out),
             3..=8 => self.assemble(at, &mut [Row::EMPTY; 8][..n], &mut [0; 8][..n], out),
