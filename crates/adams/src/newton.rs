@@ -37,7 +37,7 @@ pub(crate) fn newton<E>(
             let all = linear.solve(residual)?;
             Some(all.iter().map(|value| -value).collect::<Vec<f64>>())
         };
-        let linear = Linear::new(&matrix);
+        let linear = Linear::balanced(&matrix);
         let step = linear.as_ref().and_then(|linear| correct(linear, &residual));
         let (Some(linear), Some(step)) = (linear, step) else {
             return Ok(Err(Stuck { iterations, worst: largest(&residual) }));
