@@ -176,6 +176,14 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
     parts::foundation(girder, count, Handover::Blend { length: window }, false)
 }
 
+/// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
+///
+/// # Errors
+/// A structure without mass; too many unknowns.
+pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
+    modal::full("structure", solved, elements, 0.0, false)
+}
+
 fn failure(name: &str, error: &splines::Error) -> Failure {
     Failure::Untrusted(format!("{name}: {error}"))
 }
