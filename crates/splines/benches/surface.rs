@@ -6,7 +6,7 @@ mod beam;
 use beam::printed::STATIONS;
 use beam::{Beam, probe, read, tabulate};
 use divan::{Bencher, black_box};
-use splines::{Axis, Compliance, Factored, Influence, Jets, Kind, Probe, Rank, Sheet};
+use splines::{Axis, Factored, Influence, Jets, Kind, Probe, Rank, Sheet};
 
 fn main() {
     divan::main();

@@ -7,7 +7,7 @@
 
 use crate::kernel::sides;
 use crate::row::{Fraction, Group};
-use crate::{Cell, Error, Influence, Line, Probe};
+use crate::{Cell, Error, Influence, Jet2, Line, Probe};
 
 /// Eight cubics of a cell along one axis: four shapes, two far and two near sides of its kernel.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +36,13 @@ impl Lean {
         let slope = [(0, rate), (1, -rate)]
             .map(|(end, rate)| [1.0, 2.0, 3.0].map(|p: f64| value[end][p as usize].map(|x| rate * p * x)));
         Some(Lean { index: group.index, value, slope })
+    }
+
+    /// Second derivatives by x; `scale` = 1/(extent in x).
+    fn bend(&self, Fraction { end, r }: Fraction, scale: f64) -> [f64; 8] {
+        let scale = if end == 0 { scale } else { -scale };
+        let [_, b, c] = &self.slope[end];
+        std::array::from_fn(|k| scale * (b[k] + 2.0 * r * c[k]))
     }
 }
 
@@ -79,9 +86,8 @@ pub(crate) fn fill(
     out: &mut Influence,
 ) -> Result<bool, Error> {
     for (k, (seat, p)) in seats.iter_mut().zip(at).enumerate() {
-        if !line.seat(*p, seat)? {
-            return Ok(false);
-        }
+        let Some(Found { lean, block, at, .. }) = line.lean(*p)? else { return Ok(false) };
+        seat.place(lean, block, p.x, at);
         seat.who = k;
     }
     if !seats.is_sorted_by(|a, b| (a.block, a.x) <= (b.block, b.x)) {
@@ -119,6 +125,64 @@ pub(crate) fn fill(
         rest = &rest[own.len()..];
     }
     Ok(true)
+}
+
+/// One pair with its derivatives, if both probes are that simple.
+///
+/// # Errors
+/// As [`crate::Jets::jet`].
+pub(crate) fn jet(
+    line: &Line,
+    nodal: &[f64],
+    size: usize,
+    p: Probe,
+    q: Probe,
+) -> Result<Option<Jet2>, Error> {
+    let mut both = [(Seat::EMPTY, [0.0; 8]); 2];
+    for ((seat, bend), at) in both.iter_mut().zip([p, q]) {
+        let Some(Found { lean, block, at: place, scale }) = line.lean(at)? else { return Ok(None) };
+        seat.place(lean, block, at.x, place);
+        *bend = lean.bend(place, scale);
+        if seat.index.iter().any(|&k| nodal[k * (size + 1)] == f64::INFINITY) {
+            return Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis });
+        }
+    }
+    let [p, q] = &both;
+    let same = p.0.block == q.0.block;
+    let ordered = |p: &(Seat, [f64; 8]), q: &(Seat, [f64; 8])| {
+        let c = gather(nodal, size, &q.0, &p.0);
+        let loads = [&q.0.value, &q.0.slope, &q.1];
+        let y = loads.map(|load| times(&c, load));
+        let with = |row: &[f64; 8], k: usize| {
+            let own = if same { row[4] * loads[k][6] + row[5] * loads[k][7] } else { 0.0 };
+            dot(row, &y[k]) + own
+        };
+        Jet2 {
+            value: with(&p.0.value, 0),
+            p: with(&p.0.slope, 0),
+            q: with(&p.0.value, 1),
+            pp: with(&p.1, 0),
+            pq: with(&p.0.slope, 1),
+            qq: with(&p.0.value, 2),
+        }
+    };
+    Ok(Some(if same && p.0.x == q.0.x {
+        ordered(p, q).mean(ordered(q, p).swapped())
+    } else if p.0.x < q.0.x {
+        ordered(q, p).swapped()
+    } else {
+        ordered(p, q)
+    }))
+}
+
+/// A probe's cell, and where in it.
+pub(crate) struct Found<'a> {
+    pub lean: &'a Lean,
+    /// Number of the cell and axis.
+    pub block: usize,
+    pub at: Fraction,
+    /// 1/(extent in x).
+    pub scale: f64,
 }
 
 /// Number of seats in front that share their cell and axis.

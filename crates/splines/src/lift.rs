@@ -41,7 +41,8 @@ pub struct Lift {
 /// C = B T B^T + C_pin,
 ///
 /// C_pin that of the beam pinned at every station. A table with all digits is raised without loss; one with
-/// three digits keeps the error of its rounding, which `misfit` shows.
+/// three digits keeps the error of its rounding, which `misfit` shows: on the paper's girder 5e-15 of the largest
+/// entry, and 4.7e-3 from the printed digits.
 ///
 /// 1/EI makes the beam's own table fit T best, by least squares over all entries. Alone, the column of station j
 /// says it by the jump of its third derivative there, w'''(x_j+) - w'''(x_j-) = 1/EI.

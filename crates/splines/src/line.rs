@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use crate::kernel::{Arm, Kernel, free};
-use crate::lean::Seat;
+use crate::lean::Found;
 use crate::row::{Fraction, Row, Terms, terms};
 use crate::{Cell, Error, Probe};
 
@@ -205,17 +205,19 @@ impl Line {
         Ok(())
     }
 
-    /// A probe that needs one plane or one bar; says whether it does.
-    #[inline(always)]
-    pub(crate) fn seat(&self, p: Probe, seat: &mut Seat) -> Result<bool, Error> {
+    /// Where a probe stands that needs one plane or one bar; `None` where it needs more.
+    #[inline]
+    pub(crate) fn lean(&self, p: Probe) -> Result<Option<Found<'_>>, Error> {
         let span = self.find(p.rail, p.x)?;
         let axis = p.axis.component();
         if self.ready[span.cell].free[axis] {
             return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
         }
-        let Some(lean) = self.terms(span.cell, axis).lean() else { return Ok(false) };
-        seat.place(lean, 3 * span.cell + axis, p.x, span.fraction(p.x));
-        Ok(true)
+        let found = |lean| {
+            let (block, at) = (3 * span.cell + axis, span.fraction(p.x));
+            Found { lean, block, at, scale: span.scale }
+        };
+        Ok(self.terms(span.cell, axis).lean().map(found))
     }
 
     /// The row of a probe and second derivatives of its values by x.
