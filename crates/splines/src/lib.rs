@@ -5,6 +5,7 @@
 pub mod adams;
 pub mod akima;
 pub mod cell;
+pub mod check;
 pub mod compliance;
 pub mod cubic;
 pub mod curve;
