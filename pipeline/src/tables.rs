@@ -1,8 +1,7 @@
 //! Influence grids as SPLINE tables, in several formats.
 
+use adams::{Curves, Spline, Tables};
 use serde_json::json;
-use splines::Table;
-use splines::adams::{self, DataSet, Spline};
 
 use crate::crosscheck::Quantity;
 use crate::grid::Grid;
@@ -58,7 +57,7 @@ impl Units {
 /// itself come first, then those of each other pair; a direct grid of two rails stands once. Rails of fewer
 /// than four stations, the least that a SPLINE may have, take no loads.
 #[must_use]
-pub fn data_set(grid: &Grid) -> DataSet {
+pub fn data_set(grid: &Grid) -> Tables {
     let mut splines = Vec::new();
     let rails = &grid.rails;
     let mut pair = 0;
@@ -70,8 +69,9 @@ pub fn data_set(grid: &Grid) -> DataSet {
                 let direct = quantity.direct() == [quantity; 2];
                 let Some(block) = grid.block(quantity).filter(|_| !direct || r <= c) else { continue };
                 let (n, m) = (row.stations.len(), column.stations.len());
-                let values = block.view((top, left), (n, m)).into_owned();
-                let Ok(table) = Table::new(column.stations.clone(), row.stations.clone(), values) else {
+                let values = block.view((top, left), (n, m));
+                let values = values.row_iter().map(|line| line.iter().copied().collect()).collect();
+                let Ok(curves) = Curves::new(column.stations.clone(), row.stations.clone(), values) else {
                     continue;
                 };
                 let name = if r == c {
@@ -84,7 +84,7 @@ pub fn data_set(grid: &Grid) -> DataSet {
                     name: Some(plain(&name)),
                     units: Some("no_units".to_owned()),
                     linear: true,
-                    table,
+                    curves,
                 });
             }
             pair += 1;
@@ -94,16 +94,16 @@ pub fn data_set(grid: &Grid) -> DataSet {
     }
     let unit = grid.units.label(Dimension::FLEXIBILITY);
     let title = format!("{}: influence coefficients, {unit}", grid.name);
-    DataSet { title: Some(title), units: Some(grid.units.to_adams()), splines }
+    Tables { title: Some(title), units: Some(grid.units.to_adams()), splines }
 }
 
 /// The tables of a structure as an ADAMS data set; `None` where no rail has the stations that a SPLINE needs.
 ///
 /// # Errors
 /// More tables than identifiers.
-pub fn adm(name: &str, grid: &Grid) -> Result<Option<String>, splines::Error> {
+pub fn adm(name: &str, grid: &Grid) -> Result<Option<String>, adams::Error> {
     let set = data_set(&Grid { name: name.to_owned(), ..grid.clone() });
-    if set.splines.is_empty() { Ok(None) } else { adams::write(&set).map(Some) }
+    if set.splines.is_empty() { Ok(None) } else { adams::tables::write(&set).map(Some) }
 }
 
 /// A name that a data set can hold.
@@ -113,12 +113,10 @@ fn plain(name: &str) -> String {
 
 /// The tables as JSON.
 #[must_use]
-pub fn to_json(grid: &Grid, set: &DataSet) -> String {
+pub fn to_json(grid: &Grid, set: &Tables) -> String {
     let table = |spline: &Spline| {
-        let rows: Vec<Vec<f64>> =
-            spline.table.values().row_iter().map(|row| row.iter().copied().collect()).collect();
         json!({
-            "id": spline.id, "name": spline.name, "x": spline.table.x(), "z": spline.table.z(), "values": rows,
+            "id": spline.id, "name": spline.name, "x": spline.curves.x(), "z": spline.curves.z(), "values": spline.curves.y(),
         })
     };
     let tables: Vec<_> = set.splines.iter().map(table).collect();
@@ -130,13 +128,13 @@ pub fn to_json(grid: &Grid, set: &DataSet) -> String {
 
 /// The tables as CSV, one value a line.
 #[must_use]
-pub fn to_csv(set: &DataSet) -> String {
+pub fn to_csv(set: &Tables) -> String {
     let mut text = String::from("id,name,z,x,value\n");
     for spline in &set.splines {
         let name = spline.name.as_deref().unwrap_or_default().replace([',', '"'], "_");
-        for (i, z) in spline.table.z().iter().enumerate() {
-            for (j, x) in spline.table.x().iter().enumerate() {
-                let value = json!(spline.table.values()[(i, j)]);
+        for (i, z) in spline.curves.z().iter().enumerate() {
+            for (j, x) in spline.curves.x().iter().enumerate() {
+                let value = json!(spline.curves.y()[i][j]);
                 text.push_str(&format!("{},{name},{},{},{value}\n", spline.id, json!(z), json!(x)));
             }
         }
@@ -172,13 +170,14 @@ mod tests {
     #[test]
     fn a_data_set_read_back_has_the_grid_bit_for_bit() {
         let set = data_set(&grid(1));
-        let text = adams::write(&set).expect("plain names");
-        let back = adams::read(&text).expect("our own text");
+        let text = adams::tables::write(&set).expect("plain names");
+        let back = adams::tables::read(&text).expect("our own text");
         assert_eq!(back.splines, set.splines);
         assert_eq!(back.units.map(Units::of_adams), Some(grid(1).units));
         let ids: Vec<u32> = back.splines.iter().map(|spline| spline.id).collect();
         assert_eq!(ids, [6, 9]);
-        assert_eq!(back.splines[0].table.values(), &grid(1).blocks[0].1);
+        let vertical = &grid(1).blocks[0].1;
+        assert_eq!(back.splines[0].curves.y().concat(), vertical.transpose().as_slice());
     }
 
     #[test]
@@ -187,8 +186,8 @@ mod tests {
         let ids: Vec<u32> = set.splines.iter().map(|spline| spline.id).collect();
         // pairs (0, 0), (0, 1), (1, 0), (1, 1); the vertical grid of (1, 0) is the transpose of (0, 1)
         assert_eq!(ids, [6, 9, 12, 15, 21, 24, 27]);
-        let across = &set.splines[2].table;
-        assert_eq!(across.values()[(1, 2)], grid(2).blocks[0].1[(1, 6)]);
+        let across = &set.splines[2].curves;
+        assert_eq!(across.y()[1][2], grid(2).blocks[0].1[(1, 6)]);
     }
 
     #[test]

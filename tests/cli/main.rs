@@ -153,7 +153,7 @@ fn tables_hold_the_grid_bit_for_bit() {
     }
     let read = |name: &str| fs::read(folder.path().join(name)).expect("written");
     let grid = json(&read("grid.json"));
-    let set = splines::adams::read(text(&read("bridge.adm"))).expect("a data set");
+    let set = adams::tables::read(text(&read("bridge.adm"))).expect("a data set");
     let tables = json(&read("bridge.json"));
     let ids: Vec<u32> = set.splines.iter().map(|spline| spline.id).collect();
     assert_eq!(ids, [6, 7, 8, 9, 10, 11]);
@@ -161,7 +161,7 @@ fn tables_hold_the_grid_bit_for_bit() {
         for i in 0..7 {
             for j in 0..7 {
                 let value = grid["influence"][block][i][j].as_f64().expect("a number");
-                assert_eq!(set.splines[index].table.values()[(i, j)].to_bits(), value.to_bits());
+                assert_eq!(set.splines[index].curves.y()[i][j].to_bits(), value.to_bits());
                 assert_eq!(tables["tables"][index]["values"][i][j].as_f64(), Some(value));
             }
         }

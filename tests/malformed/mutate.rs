@@ -140,7 +140,7 @@ fn damaged_data_sets_are_refused_or_taken() {
     let mut dice = Dice(4);
     let text = text_of("tables.adm");
     for _ in 0..3000 {
-        if let Err(error) = splines::adams::read(&damaged(&text, &mut dice)) {
+        if let Err(error) = adams::tables::read(&damaged(&text, &mut dice)) {
             assert!(!error.to_string().is_empty());
         }
     }

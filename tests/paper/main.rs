@@ -9,7 +9,6 @@ use girderway::source::Source;
 use girderway::spec::Spec;
 use girderway::tables;
 use serde_json::{Value, json};
-use splines::adams;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -35,13 +34,13 @@ fn last_digit(printed: f64) -> f64 {
 fn all_98_printed_entries_are_met_within_one_unit_of_their_last_digit() {
     let (_, solved) = girder();
     // the digits of examples/bogie/printed.adm: see its comment
-    let printed = adams::read(&text("examples/bogie/printed.adm")).expect("our own file");
+    let printed = adams::tables::read(&text("examples/bogie/printed.adm")).expect("our own file");
     let mut entries = 0;
     for (id, quantity) in [(6, Quantity::Vertical), (7, Quantity::Lateral)] {
-        let table = &printed.splines.iter().find(|spline| spline.id == id).expect("the table").table;
+        let table = &printed.splines.iter().find(|spline| spline.id == id).expect("the table").curves;
         let grid = solved.grid.block(quantity).expect("the girder resists it");
         for (row, column) in (0..7).flat_map(|row| (0..7).map(move |column| (row, column))) {
-            let (digits, found) = (table.values()[(row, column)], grid[(row, column)]);
+            let (digits, found) = (table.y()[row][column], grid[(row, column)]);
             let unit = if digits == 0.0 { 1e-20 } else { last_digit(digits) };
             assert!(
                 (found - digits).abs() <= unit * (1.0 + 1e-9),
@@ -57,19 +56,16 @@ fn all_98_printed_entries_are_met_within_one_unit_of_their_last_digit() {
 fn tables_read_back_bit_for_bit() {
     let (_, solved) = girder();
     let set = tables::data_set(&solved.grid);
-    let written = adams::write(&set).expect("tables");
+    let written = adams::tables::write(&set).expect("tables");
     assert!(written.lines().all(|line| line.len() <= 79 && line.is_ascii()));
-    let read = adams::read(&written).expect("what was written");
+    let read = adams::tables::read(&written).expect("what was written");
     assert_eq!(read.splines.len(), Quantity::ALL.len());
     for (id, spline, quantity) in (6..).zip(&read.splines).zip(Quantity::ALL).map(|((id, s), q)| (id, s, q)) {
         assert_eq!(spline.id, id);
         let grid = solved.grid.block(quantity).expect("the girder resists it");
         for row in 0..7 {
             for column in 0..7 {
-                assert_eq!(
-                    spline.table.values()[(row, column)].to_bits(),
-                    (grid[(row, column)] + 0.0).to_bits()
-                );
+                assert_eq!(spline.curves.y()[row][column].to_bits(), (grid[(row, column)] + 0.0).to_bits());
             }
         }
     }

@@ -197,28 +197,6 @@ pub enum Error {
         /// Which table, from 0.
         sheet: usize,
     },
-    /// A data set that cannot be read.
-    #[error("line {line}, column {column}: {fault}")]
-    Adams {
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1, in characters.
-        column: usize,
-        /// What is wrong there.
-        fault: crate::adams::Fault,
-    },
-    /// A spline identifier that is zero or used twice.
-    #[error("spline identifier {id} is zero or stands twice")]
-    SplineId {
-        /// The identifier.
-        id: u32,
-    },
-    /// A name that has no place between quotes on a line.
-    #[error("SPLINE/{id} has a name or units that cannot be written")]
-    SplineName {
-        /// The identifier.
-        id: u32,
-    },
     /// A table that belongs to no uniform beam on knife edges at its stations.
     #[error("table belongs to no uniform beam on knife edges at its stations")]
     Unliftable,

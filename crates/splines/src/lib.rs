@@ -1,8 +1,7 @@
-//! Functions along a rail: cells, lines, compliance surfaces, table readings and ADAMS SPLINE files.
+//! Functions along a rail: cells, lines, compliance surfaces, table readings.
 //!
 //! The bottom of the workspace: knows no file system, no unit, and no other crate of ours.
 
-pub mod adams;
 pub mod akima;
 pub mod cell;
 pub mod check;

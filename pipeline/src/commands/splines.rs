@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use splines::Table;
+use adams::Curves;
 
 use crate::cli::{Global, Splines};
 use crate::diagnostic::Diagnostic;
@@ -24,7 +24,7 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     let (_, source) = Inputs::open(&args.grid)?;
     let (grid, _) = grid_file::read(&source)?;
     let progress = Progress::new(global);
-    for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
+    for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {
         progress
             .say(&format!("note: no tables of loads on rail {}: it has fewer than four stations", rail.name));
     }
@@ -36,7 +36,7 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
         return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
     }
     let text = match format {
-        Format::Adams => splines::adams::write(&set).map_err(Failure::untrusted)?,
+        Format::Adams => adams::tables::write(&set).map_err(Failure::untrusted)?,
         Format::Json => tables::to_json(&grid, &set),
         Format::Csv => tables::to_csv(&set),
     };

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use splines::adams::{self, DataSet};
+use adams::{Curves, Tables};
 
 use super::raw::RawTables;
 use super::structure::{Origin, TablePair};
@@ -23,7 +23,7 @@ pub(super) fn read(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
-    let set = match adams::read(&source.text) {
+    let set = match adams::tables::read(&source.text) {
         Ok(set) => set,
         Err(error) => {
             elsewhere.push(unreadable(source, &error));
@@ -50,8 +50,8 @@ pub(super) fn read(
     }
     let length = scale.factor(Dimension::LENGTH);
     let give = scale.factor(Dimension::FLEXIBILITY);
-    let rows = |table: &splines::Table| {
-        let rows = table.values().row_iter();
+    let rows = |table: &Curves| {
+        let rows = table.y().iter();
         rows.map(|row| row.iter().map(|value| value * give).collect()).collect()
     };
     let tables = TablePair {
@@ -63,12 +63,7 @@ pub(super) fn read(
 }
 
 /// The table of one direction: a family with a curve for each station.
-fn table<'s>(
-    set: &'s DataSet,
-    id: Option<u32>,
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) -> Option<&'s splines::Table> {
+fn table<'s>(set: &'s Tables, id: Option<u32>, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'s Curves> {
     let id = id?;
     let Some(spline) = set.splines.iter().find(|spline| spline.id == id) else {
         let known: Vec<String> = set.splines.iter().map(|spline| spline.id.to_string()).collect();
@@ -80,18 +75,18 @@ fn table<'s>(
         check.faults.add(Fault::new(at, "must be the number of a SPLINE in the file").got(id).hint(hint));
         return None;
     };
-    if spline.table.z() != spline.table.x() {
+    if spline.curves.z() != spline.curves.x() {
         let fault = Fault::new(at, format!("SPLINE/{id} must have a curve at each of its x"));
         check.faults.add(fault.hint("an influence table has the same stations for loads and deflections"));
         return None;
     }
-    Some(&spline.table)
+    Some(&spline.curves)
 }
 
 /// A data set's error with its place in the file.
-pub(crate) fn unreadable(source: &Source, error: &splines::Error) -> Diagnostic {
+pub(crate) fn unreadable(source: &Source, error: &adams::Error) -> Diagnostic {
     match error {
-        splines::Error::Adams { line, column, fault } => Diagnostic {
+        adams::Error::At { line, column, fault } => Diagnostic {
             line: Some(*line),
             column: Some(*column),
             ..Diagnostic::of_file(&source.name, fault.to_string())

@@ -1,7 +1,6 @@
 //! Lines to statements, statements to tokens.
 
-use super::Fault;
-use crate::Error;
+use crate::{Error, Fault};
 
 /// A statement: its pieces of text, one a line, and the names that Adams View left in comments before it.
 #[derive(Debug, Default)]
@@ -37,7 +36,7 @@ pub(crate) enum TokenKind<'a> {
 
 impl Token<'_> {
     pub fn fault(&self, fault: Fault) -> Error {
-        Error::Adams { line: self.line, column: self.column, fault }
+        Error::At { line: self.line, column: self.column, fault }
     }
 }
 
@@ -93,7 +92,7 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<Statement<'_>>
                     Some(last) => last.pieces.push(piece),
                     None => {
                         let column = piece.column + part.chars().take_while(|c| c.is_whitespace()).count();
-                        return Err(Error::Adams { line: piece.line, column, fault: Fault::Text });
+                        return Err(Error::At { line: piece.line, column, fault: Fault::Text });
                     }
                 }
             } else {
@@ -141,7 +140,7 @@ pub(crate) fn tokens<'a>(statement: &Statement<'a>) -> Result<Vec<Token<'a>>, Er
                     let number = &rest[..number_length(rest.as_bytes())];
                     (number.len(), at(TokenKind::Number(number)))
                 }
-                _ => return Err(Error::Adams { line: piece.line, column, fault: Fault::Text }),
+                _ => return Err(Error::At { line: piece.line, column, fault: Fault::Text }),
             };
             out.push(token);
             rest = &rest[length..];

@@ -1,11 +1,9 @@
 //! Text to data set.
 
-use nalgebra::DMatrix;
-
-use super::lexer::{Statement, Token, TokenKind, statements, tokens};
-use super::units::{Force, Keyword, Length, Mass, Units, lookup};
-use super::{DataSet, Fault, Spline};
-use crate::{Error, Table};
+use super::{Spline, Tables};
+use crate::lexer::{Statement, Token, TokenKind, statements, tokens};
+use crate::units::{Force, Keyword, Length, Mass, Units, lookup};
+use crate::{Curves, Error, Fault, number};
 
 /// Reads the SPLINE and UNITS statements of a data set, up to END; every other statement is passed over.
 ///
@@ -13,16 +11,16 @@ use crate::{Error, Table};
 /// comma, which in a list also separates; several commas count as one.
 ///
 /// # Errors
-/// [`Error::Adams`] with line and column: text that is no statement of these kinds, values kept in another
+/// [`Error::At`] with line and column: text that is no statement of these kinds, values kept in another
 /// file (FILE=, BLOCK=, CHANNEL=), lists that do not fit, fewer than four x, x or z not increasing.
 ///
 /// # Source
 /// Adams Solver reference, SPLINE and UNITS.
-pub fn read(text: &str) -> Result<DataSet, Error> {
+pub fn read(text: &str) -> Result<Tables, Error> {
     let (title, all) = statements(text)?;
-    let mut out = DataSet { title: title.map(str::to_owned), units: None, splines: Vec::new() };
+    let mut out = Tables { title: title.map(str::to_owned), units: None, splines: Vec::new() };
     for statement in &all {
-        let Some(word) = statement.pieces.first().and_then(|piece| super::lexer::head(piece.text)) else {
+        let Some(word) = statement.pieces.first().and_then(|piece| crate::lexer::head(piece.text)) else {
             continue;
         };
         if abbreviates(word, "SPLINE", 3) {
@@ -73,7 +71,7 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
             _ => return Err(at.fault(Fault::Id)),
         },
         [.., last] => return Err(last.fault(Fault::Id)),
-        [] => return Err(Error::Adams { line: 1, column: 1, fault: Fault::Id }),
+        [] => return Err(Error::At { line: 1, column: 1, fault: Fault::Id }),
     };
     if before.iter().any(|spline| spline.id == id) {
         return Err(at.fault(Fault::Twice { id }));
@@ -96,7 +94,7 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
                     _ => None,
                 };
                 let list = list.ok_or_else(|| token.fault(Fault::Text))?;
-                list.values.push(number(text).ok_or_else(|| token.fault(Fault::Number))?);
+                list.values.push(number::read(text).ok_or_else(|| token.fault(Fault::Number))?);
                 separated = false;
             }
             TokenKind::Word(word) => {
@@ -124,16 +122,16 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
     }
     let x = x.ok_or_else(|| at.fault(Fault::NoX { id }))?;
     let owned = |text: Option<&str>| text.map(str::to_owned);
-    let table = table(id, at, x, &y)?;
-    Ok(Spline { id, name: owned(statement.name), units: owned(statement.units), linear, table })
+    let curves = curves(id, at, x, &y)?;
+    Ok(Spline { id, name: owned(statement.name), units: owned(statement.units), linear, curves })
 }
 
 /// One list of n values is a curve; lists of n + 1, z first, are a family.
-fn table(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Table, Error> {
+fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Curves, Error> {
     let n = x.values.len();
-    let made = match y {
+    let (z, values) = match y {
         [] => return Err(at.fault(Fault::NoY { id })),
-        [one] if one.values.len() == n => Table::curve(x.values, one.values.clone()),
+        [one] if one.values.len() == n => (Vec::new(), vec![one.values.clone()]),
         _ => {
             let expected = if y.len() == 1 { n } else { n + 1 };
             for list in y {
@@ -142,18 +140,14 @@ fn table(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Table, E
                     return Err(list.at.fault(Fault::Count { id, found, expected }));
                 }
             }
-            let z = y.iter().map(|list| list.values[0]).collect();
-            Table::new(x.values, z, DMatrix::from_fn(y.len(), n, |i, j| y[i].values[j + 1]))
+            (
+                y.iter().map(|list| list.values[0]).collect(),
+                y.iter().map(|list| list.values[1..].to_vec()).collect(),
+            )
         }
     };
-    made.map_err(|source| at.fault(Fault::Table { id, source: Box::new(source) }))
-}
-
-/// A finite real number as Fortran writes it.
-fn number(text: &str) -> Option<f64> {
-    let plain = text.bytes().all(|c| c.is_ascii_digit() || b"+-.eEdD".contains(&c));
-    let value: f64 = text.replace(['d', 'D'], "E").parse().ok().filter(|_| plain)?;
-    value.is_finite().then_some(value)
+    Curves::new(x.values, z, values)
+        .map_err(|source| at.fault(Fault::Spline { id, source: Box::new(source) }))
 }
 
 #[derive(Clone, Copy)]

@@ -1,0 +1,173 @@
+//! Statements to lines.
+
+use crate::{Error, Statement, Value, number};
+
+/// No line is longer.
+const WIDTH: usize = 79;
+
+/// Text under way.
+pub(crate) struct Layout {
+    out: String,
+}
+
+impl Layout {
+    pub fn new(title: &str) -> Layout {
+        let mut out = line_of_title(title);
+        out.push_str("\n!\n");
+        Layout { out }
+    }
+
+    pub fn statement(&mut self, statement: &Statement) -> Result<(), Error> {
+        let long = || Error::Long { keyword: statement.keyword.clone(), id: statement.id.unwrap_or(0) };
+        for remark in &statement.remarks {
+            self.remark(remark);
+        }
+        for (key, value) in [("adams_view_name", &statement.name), ("adams_view_units", &statement.units)] {
+            let Some(value) = value else { continue };
+            let line = format!("!  {key}='{value}'");
+            let plain = value.bytes().all(|c| c.is_ascii_graphic() && c != b'\'');
+            if !plain || value.is_empty() || line.len() > WIDTH {
+                let (keyword, id) = (statement.keyword.clone(), statement.id.unwrap_or(0));
+                return Err(Error::Name { keyword, id });
+            }
+            self.line(&line);
+        }
+        self.out.push_str(&statement.keyword);
+        self.out.push('/');
+        if let Some(id) = statement.id {
+            self.out.push_str(&id.to_string());
+        }
+        self.out.push('\n');
+        for (k, argument) in statement.arguments.iter().enumerate() {
+            let name = &argument.name;
+            match &argument.value {
+                Value::Flag => self.line(&format!(", {name}")),
+                Value::Word(word) => {
+                    let line = format!(", {name} = {word}");
+                    if line.len() > WIDTH || !line.bytes().all(|c| c.is_ascii_graphic() || c == b' ') {
+                        return Err(long());
+                    }
+                    self.line(&line);
+                }
+                Value::Whole(whole) => self.line(&format!(", {name} = {whole}")),
+                Value::Numbers(values) => self.list(name, values.iter().map(|&value| number::write(value))),
+                Value::Degrees(values) => {
+                    self.list(name, values.iter().map(|&value| number::write(value) + "D"));
+                }
+                Value::Function(text) => {
+                    let goes_on = k + 1 < statement.arguments.len();
+                    self.expression(name, text, if goes_on { "\\" } else { "" }).ok_or_else(long)?;
+                }
+            }
+        }
+        self.line("!");
+        Ok(())
+    }
+
+    pub fn end(mut self) -> String {
+        self.line("END");
+        self.out
+    }
+
+    fn line(&mut self, text: &str) {
+        self.out.push_str(text);
+        self.out.push('\n');
+    }
+
+    /// A comment, broken at blanks.
+    fn remark(&mut self, text: &str) {
+        let mut line = String::from("!");
+        for word in plain(text).split_whitespace() {
+            if line.len() > 1 && line.len() + 1 + word.len() > WIDTH {
+                self.line(&line);
+                line = String::from("!");
+            }
+            line.push(' ');
+            line.push_str(word);
+        }
+        line.truncate(WIDTH);
+        self.line(&line);
+    }
+
+    /// `, X = 1.0, 2.0` and so on, broken before a separating comma.
+    pub fn list(&mut self, name: &str, values: impl Iterator<Item = String>) {
+        let mut line = format!(", {name} =");
+        for (k, item) in values.enumerate() {
+            if k > 0 && line.len() + item.len() + 2 > WIDTH {
+                self.line(&line);
+                line.clear();
+            }
+            line.push_str(if k == 0 { " " } else { ", " });
+            line.push_str(&item);
+        }
+        self.line(&line);
+    }
+
+    /// `, FUNCTION = a + b`, broken after commas and operators, never inside a name or number.
+    fn expression(&mut self, name: &str, text: &str, last: &str) -> Option<()> {
+        let mut line = format!(", {name} = ");
+        for piece in pieces(text) {
+            if line.len() + piece.len() + last.len() > WIDTH {
+                if line.trim() == "," || !text.is_ascii() {
+                    return None;
+                }
+                self.line(line.trim_end());
+                line = String::from(", ");
+            }
+            if line.len() + piece.len() + last.len() > WIDTH {
+                return None;
+            }
+            line.push_str(piece);
+        }
+        line.push_str(last);
+        self.line(&line);
+        Some(())
+    }
+}
+
+/// Pieces of an expression between which a line may end: each ends with a comma, an operator or a bracket.
+fn pieces(text: &str) -> Vec<&str> {
+    let bytes = text.as_bytes();
+    let mut out = Vec::new();
+    let mut start = 0;
+    for (k, &c) in bytes.iter().enumerate() {
+        let next = bytes.get(k + 1).copied();
+        let exponent = k >= 2
+            && matches!(c, b'+' | b'-')
+            && matches!(bytes[k - 1], b'E' | b'e' | b'D' | b'd')
+            && (bytes[k - 2].is_ascii_digit() || bytes[k - 2] == b'.');
+        // The first star of `**`.
+        let power = c == b'*' && next == Some(b'*');
+        if matches!(c, b',' | b'+' | b'-' | b'*' | b'/' | b'(' | b':') && !exponent && !power {
+            out.push(&text[start..=k]);
+            start = k + 1;
+        }
+    }
+    out.push(&text[start..]);
+    out
+}
+
+/// A title that cannot be taken for a statement or comment.
+fn line_of_title(text: &str) -> String {
+    let clean = plain(text.trim());
+    let statement = crate::lexer::head(&clean).is_some() || clean.starts_with(['!', ',']);
+    let mut out = if statement { format!("Model: {clean}") } else { clean };
+    out.truncate(WIDTH);
+    out.truncate(out.trim_end().len());
+    out
+}
+
+fn plain(text: &str) -> String {
+    text.chars().map(|c| if c.is_ascii_graphic() || c == ' ' { c } else { '?' }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::pieces;
+
+    #[test]
+    fn expressions_break_after_operators_but_not_inside_numbers() {
+        let text = "1.5E-07*AKISPL(DZ(1,2),X**2,6)-2";
+        assert_eq!(pieces(text), ["1.5E-07*", "AKISPL(", "DZ(", "1,", "2),", "X**", "2,", "6)-", "2"]);
+    }
+}
