@@ -197,6 +197,14 @@ pub enum Error {
         /// Which table, from 0.
         sheet: usize,
     },
+    /// A tolerance that no number of stations meets, up to the most allowed.
+    #[error("{most} stations give an error of {error:e}, more than asked")]
+    Stations {
+        /// The most stations allowed.
+        most: usize,
+        /// Their relative error.
+        error: f64,
+    },
     /// A table that belongs to no uniform beam on knife edges at its stations.
     #[error("table belongs to no uniform beam on knife edges at its stations")]
     Unliftable,

@@ -16,6 +16,7 @@ pub mod line;
 pub mod probe;
 pub mod reading;
 pub mod row;
+pub mod stations;
 pub mod surface;
 pub mod table;
 
@@ -31,5 +32,6 @@ pub use line::Line;
 pub use probe::{Axis, Probe};
 pub use reading::{Kind, Reading, Sheet};
 pub use row::Row;
+pub use stations::{Search, Stations, stations};
 pub use surface::Surface;
 pub use table::Table;
