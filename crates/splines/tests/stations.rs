@@ -143,7 +143,8 @@ fn couplings_keep_the_tolerance_too() {
     let exact = coupled();
     let read = kind(Kind::Cubspl);
     let fixed = exact.breaks(0);
-    let all = Search { tolerance: 0.05, axes: &Axis::ALL, ..search(&exact, &fixed, [-15.0, 75.0], &read, 2.0) };
+    let all =
+        Search { tolerance: 0.05, axes: &Axis::ALL, ..search(&exact, &fixed, [-15.0, 75.0], &read, 2.0) };
     let found = stations(&all).expect("some number is enough");
     holds(&found, &fixed, [-15.0, 75.0]);
     let table = |deflection, load| Strip { compliance: &exact, deflection: (0, deflection), load: (0, load) };
