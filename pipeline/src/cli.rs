@@ -136,7 +136,7 @@ impl From<Direction> for splines::Axis {
 /// A positive number.
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
-    if value > 0.0 && value.is_finite() { Ok(value) } else { Err("must be positive".to_owned()) }
+    if value > 0.0 && value < 1e60 { Ok(value) } else { Err("must be positive, below 1e60".to_owned()) }
 }
 
 /// Arguments of `import`.

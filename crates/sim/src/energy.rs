@@ -92,7 +92,9 @@ impl Audit {
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
     let mut energy = Stored { kinetic: 0.5 * quadratic(&system.mass, &state.v), ..Stored::default() };
-    energy.structure = 0.5 * quadratic(&system.stiffness, &state.q);
+    if system.has_structures() {
+        energy.structure = 0.5 * quadratic(&system.stiffness, &state.q);
+    }
     for (b, body) in system.scene.bodies.iter().enumerate() {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
@@ -125,7 +127,10 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
-    let mut power = Exchanged { structure: quadratic(&system.damping, &state.v), ..Exchanged::default() };
+    let mut power = Exchanged::default();
+    if system.has_structures() {
+        power.structure = quadratic(&system.damping, &state.v);
+    }
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] == 0.0 {
             continue;
@@ -163,8 +168,8 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         power.friction += state.force[i] * rate(i);
     }
     for (b, body) in system.scene.bodies.iter().enumerate() {
-        if let Some(profile) = &body.motion {
-            power.drives += drive_force(system, geometry, state, b) * profile.at(state.t).v;
+        if body.motion.is_some() {
+            power.drives += drive_force(system, geometry, state, b) * geometry.travel[b].v;
         }
     }
     power
@@ -191,9 +196,11 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
 /// get from the rail's slope and from friction.
 pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
     let body = &system.scene.bodies[b];
-    let Some(profile) = &body.motion else { return 0.0 };
+    if body.motion.is_none() {
+        return 0.0;
+    }
     let line = system.body_mass[b][0];
-    let mut force = line[0] * profile.at(state.t).a;
+    let mut force = line[0] * geometry.travel[b].a;
     for (number, inertia) in system.freedom[b].iter().zip(line).skip(1) {
         force += number.map_or(0.0, |number| inertia * state.a[number]);
     }

@@ -31,6 +31,9 @@ pub(crate) struct Solver<'a> {
     mobility_step: f64,
     /// Z R^T, freedoms x components, column-major.
     spread: Vec<f64>,
+    /// R Z R^T, components x components, row-major; and the same with the rows of the rates.
+    mobile: Vec<f64>,
+    mobile_rate: Vec<f64>,
     free_a: DVector<f64>,
     free_q: DVector<f64>,
     free_v: DVector<f64>,
@@ -51,6 +54,8 @@ impl<'a> Solver<'a> {
             inverse,
             mobility_step: 0.0,
             spread: vec![0.0; n * system.components()],
+            mobile: vec![0.0; system.components() * system.components()],
+            mobile_rate: vec![0.0; system.components() * system.components()],
             free_a: DVector::zeros(n),
             free_q: DVector::zeros(n),
             free_v: DVector::zeros(n),
@@ -82,8 +87,7 @@ impl<'a> Solver<'a> {
     }
 
     fn set_mobility(&mut self, step: f64) -> Result<(), Error> {
-        let dynamic = self.system.foundations.iter().any(|foundation| foundation.structure.is_some());
-        if dynamic && step != self.mobility_step {
+        if self.system.has_structures() && step != self.mobility_step {
             let matrix =
                 &self.system.mass + step * &self.system.damping + step * step * &self.system.stiffness;
             self.mobility = inverse(matrix)?;
@@ -101,6 +105,14 @@ impl<'a> Solver<'a> {
             let row = &self.geometry.force_rows[j * n..(j + 1) * n];
             for i in 0..n {
                 self.spread[j * n + i] = dot(self.mobility.column(i).as_slice(), row);
+            }
+        }
+        for i in 0..m {
+            let (row, rate_row) = (&self.geometry.rows[i * n..], &self.geometry.rate_rows[i * n..]);
+            for j in 0..m {
+                let column = &self.spread[j * n..(j + 1) * n];
+                self.mobile[i * m + j] = dot(&row[..n], column);
+                self.mobile_rate[i * m + j] = dot(&rate_row[..n], column);
             }
         }
         self.spread_is_fixed = self.system.constant_rows;
@@ -136,32 +148,29 @@ impl<'a> Solver<'a> {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             self.fill_spread();
             for i in 0..m {
-                let span = i * n..(i + 1) * n;
-                let (row, rate_row) = (&self.geometry.rows[span.clone()], &self.geometry.rate_rows[span]);
                 let is_normal = i < system.normals.len();
                 let memory = is_normal && self.remembers(i);
                 let grounded =
                     if is_normal { system.law(i).damper == Damper::Ground } else { i >= system.traction(0) };
-                let mut approach = self.geometry.held[i];
-                let mut rate = self.geometry.rate_held[i];
-                for k in 0..n {
-                    approach += row[k] * self.free_q[k];
-                    rate += rate_row[k] * self.free_v[k];
+                let approach = self.geometry.approach(i, &self.free_q);
+                let span = i * m..(i + 1) * m;
+                let w = &mut self.problem.w[span.clone()];
+                let y = &mut self.problem.y[span.clone()];
+                for ((w, give), mobile) in
+                    w.iter_mut().zip(&self.geometry.compliance[span.clone()]).zip(&self.mobile[span.clone()])
+                {
+                    *w = give + g * g * mobile;
                 }
-                for j in 0..m {
-                    let column = &self.spread[j * n..(j + 1) * n];
-                    let w = self.geometry.compliance[i * m + j] + g * g * dot(row, column);
-                    self.problem.w[i * m + j] = w;
-                    self.problem.y[i * m + j] = if memory {
-                        w / g
-                    } else if grounded {
-                        g * dot(rate_row, column)
-                    } else {
-                        0.0
-                    };
+                if memory {
+                    y.iter_mut().zip(w).for_each(|(y, w)| *y = *w / g);
+                } else if grounded {
+                    y.iter_mut().zip(&self.mobile_rate[span]).for_each(|(y, mobile)| *y = g * mobile);
+                } else {
+                    y.fill(0.0);
                 }
                 self.problem.approach[i] = approach;
-                self.problem.rate[i] = if memory { (approach - known.p[i]) / g } else { rate };
+                self.problem.rate[i] =
+                    if memory { (approach - known.p[i]) / g } else { self.geometry.rate(i, &self.free_v) };
                 self.problem.memory[i] = memory.then_some(1.0 / g);
                 self.problem.known[i] = false;
             }
@@ -169,9 +178,11 @@ impl<'a> Solver<'a> {
                 return Ok(false);
             }
             let mut moved = 0.0_f64;
+            at.a.copy_from(&self.free_a);
+            for (column, force) in self.spread.chunks_exact(n.max(1)).zip(&at.force) {
+                at.a.iter_mut().zip(column).for_each(|(a, spread)| *a -= spread * force);
+            }
             for i in 0..n {
-                let give: f64 = (0..m).map(|j| self.spread[j * n + i] * at.force[j]).sum();
-                at.a[i] = self.free_a[i] - give;
                 at.v[i] = known.v[i] + g * at.a[i];
                 let q = known.q[i] + g * at.v[i];
                 moved = moved.max((q - at.q[i]).abs() / (1.0 + q.abs()));

@@ -69,6 +69,9 @@ pub(crate) struct System<'a> {
     pub gravity: DVector<f64>,
     /// Probes of each structure.
     pub entries: Vec<Vec<Entry>>,
+    /// Whether the probes of a structure are the components in their order, with weight -1 each: the compliance
+    /// of the components is then the structure's.
+    pub is_direct: Vec<bool>,
     /// Whether some wheel's place along the rail depends on the freedoms.
     pub moves_freely: bool,
     /// Whether the rows of contact are the same at every time and place.
@@ -163,6 +166,7 @@ impl<'a> System<'a> {
             stiffness: DMatrix::zeros(freedoms, freedoms),
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
+            is_direct: Vec::new(),
             moves_freely: false,
             constant_rows: false,
             linear_normals: false,
@@ -170,6 +174,14 @@ impl<'a> System<'a> {
         };
         system.fill_matrices()?;
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
+        system.is_direct = system
+            .entries
+            .iter()
+            .map(|entries| {
+                entries.len() == system.components()
+                    && entries.iter().enumerate().all(|(i, e)| e.component == i && e.weight == -1.0)
+            })
+            .collect();
         system.moves_freely = system.wheels.iter().any(|wheel| {
             let numbers = &system.freedom[wheel.body];
             numbers[0].is_some()
@@ -197,6 +209,11 @@ impl<'a> System<'a> {
     /// Number of contact components.
     pub fn components(&self) -> usize {
         self.normals.len() + self.laterals.len() + self.tractions.len()
+    }
+
+    /// Whether some structure has freedoms of its own.
+    pub fn has_structures(&self) -> bool {
+        self.structure.iter().any(|range| !range.is_empty())
     }
 
     /// Law of vertical contact `i`, of one wheel.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use crate::cubic::interleaved;
-use crate::reading::{chain, scatter};
+use crate::tensor::{chain, scatter};
 use crate::{Error, Flexibility, Line, Surface, Table};
 
 /// A row that small beside the table's largest entry is a support's.

@@ -153,6 +153,14 @@ impl Line {
         Ok(())
     }
 
+    /// The row of a probe and second derivatives of its values by x.
+    pub(crate) fn bends(&self, p: Probe) -> Result<(Row, [[f64; 4]; 3]), Error> {
+        let row = self.row(p)?;
+        let span = self.find(p.rail, p.x)?;
+        let terms = self.terms(row.cell, row.axis);
+        Ok((row, Row::bends(terms, span.fraction(p.x), span.scale)))
+    }
+
     fn terms(&self, cell: usize, axis: usize) -> &Terms {
         self.ready[cell].terms[axis].get_or_init(|| terms(&self.cells[cell], axis))
     }

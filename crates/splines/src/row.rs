@@ -100,6 +100,16 @@ impl Row {
         }
     }
 
+    /// Second derivatives of the values by x, in the order of [`Row::values`], the rest zero.
+    pub(crate) fn bends(terms: &Terms, Fraction { end, r }: Fraction, scale: f64) -> [[f64; 4]; 3] {
+        let mut out = [[0.0; 4]; 3];
+        for (bend, group) in out.iter_mut().zip(&terms.groups) {
+            let [_, _, c, d] = &group.cubic[end];
+            *bend = std::array::from_fn(|k| scale * scale * (2.0 * c[k] + 6.0 * r * d[k]));
+        }
+        out
+    }
+
     /// The entries four at a time, the last group filled with zeros.
     #[inline]
     pub(crate) fn chunks(&self) -> [&[[f64; 4]]; 2] {

@@ -7,10 +7,14 @@ use crate::{Axis, Compliance, Error, Sheet, Table};
 
 /// Rounds of equal distribution for one number of stations.
 const ROUNDS: usize = 10;
+/// Rounds without gain that end them sooner.
+const IDLE: usize = 3;
 /// Places looked at between two stations, stations included, while searching and in the end.
 const PARTS: [usize; 2] = [4, 8];
 /// Numbers of stations that must fail, one after the other, before the last that passed is called the fewest.
 const FAILURES: usize = 3;
+/// Least order believed: kinks along the diagonal make every reading first order.
+const LEAST_ORDER: f64 = 0.7;
 /// Least density of stations, of the mean.
 const FLOOR: f64 = 0.03;
 /// A coupling below this share of the direct coefficients is none.
@@ -76,8 +80,8 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
     let least = fixed.len().max(Table::LEAST);
     let most = search.most.max(least);
     let mut density = Density { ends: fixed.clone(), value: vec![1.0; fixed.len() - 1] };
-    let (mut count, mut failures) = (least, Vec::new());
-    // Up by prediction, then down one by one.
+    let (mut count, mut failures) = (least, Vec::<(usize, f64)>::new());
+    // Up by prediction, with the order seen where that is less than the reading's, then down one by one.
     let mut best = loop {
         let found = place(search, &fixed, count, &mut density)?;
         if found.error <= search.tolerance {
@@ -86,14 +90,18 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
         if count == most {
             return Err(Error::Stations { most, error: found.error });
         }
-        failures.push(count);
-        let more = (found.error / search.tolerance).powf(1.0 / search.order).min(4.0);
+        let seen = failures.last().map(|&(fewer, error): &(usize, f64)| {
+            (error / found.error).ln() / (count as f64 / fewer as f64).ln()
+        });
+        let order = seen.map_or(search.order, |seen| seen.clamp(LEAST_ORDER, search.order));
+        failures.push((count, found.error));
+        let more = (found.error / search.tolerance).powf(1.0 / order).min(4.0);
         count = ((count as f64 * more).ceil() as usize).clamp(count + 1, most);
     };
     let mut row = 0;
     while count > least && row < FAILURES {
         count -= 1;
-        if failures.contains(&count) {
+        if failures.iter().any(|(failed, _)| *failed == count) {
             break;
         }
         let found = place(search, &fixed, count, &mut density)?;
@@ -224,11 +232,17 @@ impl Density {
 fn place(search: &Search<'_>, fixed: &[f64], count: usize, density: &mut Density) -> Result<Stations, Error> {
     let mut best: Option<(f64, Vec<f64>, Density)> = None;
     let mut now = density.clone();
+    let mut idle = 0;
     for _ in 0..ROUNDS {
         let at = now.stations(fixed, count);
         let (error, own) = intervals(search, &at)?;
+        idle += 1;
         if best.as_ref().is_none_or(|(least, ..)| error < *least) {
             best = Some((error, at.clone(), now.clone()));
+            idle = 0;
+        }
+        if idle == IDLE {
+            break;
         }
         let value: Vec<f64> = own
             .iter()

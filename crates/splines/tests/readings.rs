@@ -201,20 +201,22 @@ fn natural_reading_is_positive_symmetric_and_passes_through_the_table() {
 /// Analytic: central differences; at a station the mean of both one-sided slopes.
 #[test]
 fn slope_is_the_derivative_of_the_reading() {
-    for kind in [Kind::Akispl, Kind::Cubspl, Kind::Natural] {
+    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
         let reading = read(kind, table(&VERTICAL));
         for (z, x) in [(7.0, 22.0), (31.0, 31.0), (30.0, 40.0), (-8.0, 70.0), (15.0, 15.0)] {
             let slope = fill(&reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).slope[(0, 1)];
             let step = 1e-4;
             let exact = (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
-            assert!((slope - exact).abs() < 1e-16, "{kind:?} {z} {x}: {slope:e} {exact:e}");
+            // Akima's curvature jumps at a station: a central difference there errs by a quarter of jump and step.
+            let allowed = if kind == Kind::Symmetrised { 1e-14 } else { 1e-16 };
+            assert!((slope - exact).abs() < allowed, "{kind:?} {z} {x}: {slope:e} {exact:e}");
         }
     }
 }
 
 #[test]
 fn reading_refuses_places_and_directions_it_has_no_table_for() {
-    for kind in [Kind::Akispl, Kind::Cubspl, Kind::Natural] {
+    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
         let reading = read(kind, table(&VERTICAL));
         let refuse = |p: Probe| reading.fill(&[p], &mut Influence::zeros(1)).expect_err("refused");
         assert_eq!(refuse(probe(Axis::Vertical, 75.1)), Error::OffRail { rail: 0, x: 75.1 });
@@ -244,7 +246,7 @@ fn couplings_are_read_both_ways() {
         Sheet { deflection: side, load: side, table: table(&LATERAL) },
         Sheet { deflection: other, load: other, table: table(&VERTICAL) },
     ];
-    for kind in [Kind::Akispl, Kind::Cubspl, Kind::Natural] {
+    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
         let reading = Reading::new(kind, &sheets).expect("consistent");
         let at = [
             probe(Axis::Vertical, 15.0),

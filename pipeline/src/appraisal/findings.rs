@@ -101,7 +101,7 @@ impl Findings {
             scale: if direct { None } else { scale(subject, item) },
             readings: Vec::new(),
             beyond: Vec::new(),
-            hazards: Hazard::of(table, direct, item.linear, rail(subject, item)),
+            hazards: Hazard::of(table, direct, item.linear, &breaks(subject, item)),
             verdicts: Vec::new(),
             load: settings.load,
             supports,
@@ -229,10 +229,10 @@ pub(super) fn reading(subject: &Subject, item: &Item, manner: Manner) -> Option<
     together.or_else(|| manner.read(&[own]).ok())
 }
 
-/// Range of the rail that the table should cover with its loads.
-fn rail(subject: &Subject, item: &Item) -> Option<[f64; 2]> {
-    let [_, load] = item.ways?;
-    subject.surface.as_ref()?.range(load.0)
+/// Ends of the cells of the rail that loads stand on; nothing where they are not known.
+fn breaks(subject: &Subject, item: &Item) -> Vec<f64> {
+    let surface = subject.surface.as_ref().zip(item.ways);
+    surface.map(|(surface, [_, load])| surface.breaks(load.0)).unwrap_or_default()
 }
 
 /// Places beyond both ends, at the distance asked for or at that of the last two stations.

@@ -5,10 +5,15 @@ use std::fmt;
 use splines::Table;
 use splines::check::supports;
 
+use super::text::short;
+
 /// Spacings that differ by more than this share are uneven.
 const EVEN: f64 = 1e-6;
 /// Fewest x values on which all documents of AKISPL's dialects agree.
 const PORTABLE: usize = 6;
+
+/// Breaks that are named one by one.
+const LISTED: usize = 6;
 
 /// Something that a user of the table should know.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,6 +43,11 @@ pub enum Hazard {
         /// First and last place of the rail.
         rail: [f64; 2],
     },
+    /// Ends of cells (supports, hinges, changes of section) that are no stations.
+    Breaks {
+        /// Where.
+        at: Vec<f64>,
+    },
     /// No LINEAR_EXTRAPOLATE.
     NotLinear,
     /// Deflections against their own load.
@@ -52,9 +62,10 @@ pub enum Hazard {
 }
 
 impl Hazard {
-    /// All of a table; `rail` is what it should cover, `direct` whether a diagonal must be positive.
+    /// All of a table; `breaks` are the ends of the cells of the rail that loads stand on, where they are known,
+    /// `direct` whether a diagonal must be positive.
     #[must_use]
-    pub fn of(table: &Table, direct: bool, linear: Option<bool>, rail: Option<[f64; 2]>) -> Vec<Hazard> {
+    pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<Hazard> {
         let mut out = Vec::new();
         let (x, z) = (table.x(), table.z());
         if table.values().amax() == 0.0 {
@@ -90,8 +101,16 @@ impl Hazard {
             out.push(Hazard::NotLinear);
         }
         let slack = EVEN * (x[x.len() - 1] - x[0]);
-        if let Some(rail) = rail.filter(|[a, b]| *a < x[0] - slack || *b > x[x.len() - 1] + slack) {
-            out.push(Hazard::Short { rail });
+        let (first, last) = (x[0], x[x.len() - 1]);
+        if let (Some(&from), Some(&to)) = (breaks.first(), breaks.last())
+            && (from < first - slack || to > last + slack)
+        {
+            out.push(Hazard::Short { rail: [from, to] });
+        }
+        let missing = |b: &&f64| **b > first && **b < last && x.iter().all(|x| (x - **b).abs() > slack);
+        let at: Vec<f64> = breaks.iter().filter(missing).copied().collect();
+        if !at.is_empty() {
+            out.push(Hazard::Breaks { at });
         }
         out
     }
@@ -105,6 +124,7 @@ impl Hazard {
             Hazard::Inside { .. } => "supports-inside",
             Hazard::Rectangle { .. } => "rectangle",
             Hazard::Short { .. } => "rail-goes-on",
+            Hazard::Breaks { .. } => "breaks-without-station",
             Hazard::NotLinear => "not-linear",
             Hazard::Negative { .. } => "negative",
             Hazard::Zero => "zero",
@@ -121,22 +141,31 @@ impl fmt::Display for Hazard {
             ),
             Hazard::Uneven { spacing: [low, high] } => write!(
                 f,
-                "stations at unequal distances, {low:.4} to {high:.4}: ADAMS vouches for derivatives of AKISPL at equal ones only"
+                "stations at unequal distances, {} to {}: ADAMS vouches for derivatives of AKISPL at equal ones only",
+                short(*low),
+                short(*high)
             ),
-            Hazard::Inside { at } => {
-                let list: Vec<String> = at.iter().map(|x| format!("{x}")).collect();
-                write!(
-                    f,
-                    "rigid supports inside the table, at {}: one curve runs over spans and overhangs alike",
-                    list.join(", ")
-                )
-            }
+            Hazard::Inside { at } => write!(
+                f,
+                "rigid supports inside the table, at {}: one curve runs over spans and overhangs alike",
+                list(at)
+            ),
             Hazard::Rectangle { shape: [rows, columns] } => write!(
                 f,
                 "{rows} curves of {columns} values: deflections and loads have different stations, symmetry cannot hold between them"
             ),
             Hazard::Short { rail: [from, to] } => {
+                let [from, to] = [from, to].map(|x| short(*x));
                 write!(f, "the rail runs from {from} to {to}: a wheel beyond the table is extrapolated")
+            }
+            Hazard::Breaks { at } => {
+                let more = if at.len() > LISTED { ", ..." } else { "" };
+                write!(
+                    f,
+                    "supports, hinges or changes of section that are no stations: {}, at {}{more}",
+                    at.len(),
+                    list(&at[..at.len().min(LISTED)])
+                )
             }
             Hazard::NotLinear => f.write_str(
                 "no LINEAR_EXTRAPOLATE: beyond its ends the table goes on as a parabola or a cubic",
@@ -148,4 +177,8 @@ impl fmt::Display for Hazard {
             Hazard::Zero => f.write_str("nothing but zeros"),
         }
     }
+}
+
+fn list(places: &[f64]) -> String {
+    places.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
 }

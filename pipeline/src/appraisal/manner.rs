@@ -1,7 +1,7 @@
 //! Readings by their words.
 
 use clap::ValueEnum;
-use splines::{Axis, Compliance, Error, Kind, Lift, Reading, Sheet, Table, lift};
+use splines::{Axis, Compliance, Error, Factored, Kind, Lift, Rank, Reading, Sheet, Table, lift};
 
 /// A table further than this from any beam in bending, of its largest entry, is not raised.
 const MISFIT: f64 = 0.01;
@@ -11,25 +11,38 @@ const MISFIT: f64 = 0.01;
 pub enum Manner {
     /// AKISPL along the load, linear along the deflection
     Akispl,
+    /// The mean of AKISPL with load and deflection exchanged
+    Symmetrised,
     /// CUBSPL along the load, linear along the deflection
     Cubspl,
     /// Natural splines along both
     Natural,
+    /// Products of one-curve CUBSPLs
+    Factored,
     /// The beam behind the values
     Exact,
 }
 
 impl Manner {
     /// All, as tables of findings list them.
-    pub const ALL: [Manner; 4] = [Manner::Akispl, Manner::Cubspl, Manner::Natural, Manner::Exact];
+    pub const ALL: [Manner; 6] = [
+        Manner::Akispl,
+        Manner::Symmetrised,
+        Manner::Cubspl,
+        Manner::Natural,
+        Manner::Factored,
+        Manner::Exact,
+    ];
 
     /// Its word on the command line and in results.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
             Manner::Akispl => "akispl",
+            Manner::Symmetrised => "symmetrised",
             Manner::Cubspl => "cubspl",
             Manner::Natural => "natural",
+            Manner::Factored => "factored",
             Manner::Exact => "exact",
         }
     }
@@ -38,20 +51,22 @@ impl Manner {
     #[must_use]
     pub const fn order(self) -> f64 {
         match self {
-            Manner::Akispl | Manner::Cubspl => 2.0,
-            Manner::Natural | Manner::Exact => 3.0,
+            Manner::Akispl | Manner::Symmetrised | Manner::Cubspl => 2.0,
+            Manner::Natural | Manner::Factored | Manner::Exact => 3.0,
         }
     }
 
     /// The tables read so. [`Manner::Exact`] raises one table of bending; it takes no couplings.
     ///
     /// # Errors
-    /// As [`Reading::new`] and [`raised`].
+    /// As [`Reading::new`], [`Factored::new`] and [`raised()`].
     pub fn read(self, sheets: &[Sheet]) -> Result<Box<dyn Compliance>, Error> {
         let kind = match self {
             Manner::Akispl => Kind::Akispl,
             Manner::Cubspl => Kind::Cubspl,
+            Manner::Symmetrised => Kind::Symmetrised,
             Manner::Natural => Kind::Natural,
+            Manner::Factored => return Ok(Box::new(Factored::new(sheets, Rank::Full)?)),
             Manner::Exact => {
                 return match sheets {
                     [one] if one.load == one.deflection && one.load.1 == Axis::Vertical => {

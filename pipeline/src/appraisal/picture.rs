@@ -198,8 +198,8 @@ fn readings(subject: &Subject, found: &Findings) -> report::Table {
             number(one.error.map(|e| e.largest.x)),
             number(one.error.map(|e| e.largest.z)),
             number(direct.filter(|d| d.scale > 0.0).map(|d| 100.0 * d.asymmetry.value / d.scale)),
-            direct.map_or(report::Cell::Empty, |d| {
-                d.layouts[2].stiffness.map_or_else(|| "never".into(), report::Cell::Number)
+            direct.and_then(|d| d.layouts.last()).map_or(report::Cell::Empty, |layout| {
+                layout.stiffness.map_or_else(|| "never".into(), report::Cell::Number)
             }),
             number(direct.and_then(|d| d.kink).map(|k| k.jump())),
         ]);

@@ -2,7 +2,7 @@
 
 use splines::check::{
     Deviation, Extreme, Kink, Layout, Spectrum, Strip, Work, asymmetry, deviation, diagonal_kinks,
-    indefinite_share, pair_kinks, places, spectrum, weakest_layout, work,
+    indefinite_share, pair_kinks, places, spectrum, weakest_layouts, work,
 };
 use splines::{Compliance, Error};
 
@@ -41,7 +41,7 @@ pub struct DirectFindings {
     /// Share of random layouts of 2, 4, 8 wheels that are indefinite.
     pub shares: [f64; 3],
     /// The weakest layouts of 2, 4, 8 wheels.
-    pub layouts: [Layout; 3],
+    pub layouts: Vec<Layout>,
     /// The largest jump of slope under a moving wheel; `None` where there is no station between the ends.
     pub kink: Option<Kink>,
     /// Two wheels at the distance asked for.
@@ -101,12 +101,9 @@ fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &Frame<'_>) -> Result<Direct
     let at = dense(breaks, range);
     let few = places(breaks, range, SPECTRUM);
     let mut shares = [0.0; 3];
-    let mut layouts = Vec::with_capacity(3);
     for (share, wheels) in shares.iter_mut().zip(WHEELS) {
         *share = indefinite_share(strip, wheels, LAYOUTS, range)?;
-        layouts.push(weakest_layout(strip, wheels, &few)?);
     }
-    let [first, second, third] = layouts.as_slice() else { return Err(Error::NoSheets) };
     let largest =
         |kinks: Vec<Kink>| kinks.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()));
     let pair = match frame.spacing.filter(|spacing| *spacing < range[1] - range[0]) {
@@ -121,7 +118,7 @@ fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &Frame<'_>) -> Result<Direct
         scale: strip.block(&few, &few)?.amax(),
         spectrum: spectrum(strip, &few)?,
         shares,
-        layouts: [first.clone(), second.clone(), third.clone()],
+        layouts: weakest_layouts(strip, &WHEELS, &few)?,
         kink: largest(diagonal_kinks(strip, range)?),
         pair,
     })

@@ -19,6 +19,11 @@ use crate::source::Source;
 use crate::tables;
 use crate::units::Units;
 
+/// Larger numbers are refused: their squares must be finite.
+const LARGEST: f64 = 1e60;
+/// Nearer stations are refused, of the table's length: their differences would be rounding.
+const NEAREST: f64 = 1e-9;
+
 /// Tables of one file, and the exact surface where it has one.
 pub struct Subject {
     /// The file as the user named it.
@@ -79,7 +84,7 @@ impl Subject {
         let mut items = Vec::new();
         for spline in &tables::data_set(&grid).splines {
             let ways = ways(spline.id, rails);
-            items.extend(item(spline)?.map(|item| Item { ways, linear: None, ..item }));
+            items.extend(item(source, spline)?.map(|item| Item { ways, linear: None, ..item }));
         }
         if items.is_empty() {
             let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
@@ -93,7 +98,7 @@ impl Subject {
         let mut items = Vec::new();
         let mut notes = Vec::new();
         for spline in &set.splines {
-            match item(spline)? {
+            match item(source, spline)? {
                 Some(item) => items.push(item),
                 None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", spline.id)),
             }
@@ -144,10 +149,22 @@ fn tables_of(path: &Path, source: &Source) -> Result<Option<adams::Tables>, Fail
 }
 
 /// A family as a table; `None` for one curve alone.
-fn item(spline: &adams::Spline) -> Result<Option<Item>, Failure> {
+fn item(source: &Source, spline: &adams::Spline) -> Result<Option<Item>, Failure> {
     let curves = &spline.curves;
     if curves.z().is_empty() {
         return Ok(None);
+    }
+    let numbers = curves.x().iter().chain(curves.z()).chain(curves.y().iter().flatten());
+    if let Some(wrong) = numbers.into_iter().find(|number| number.abs() > LARGEST) {
+        let wrong = format!("SPLINE/{} holds {wrong:e}, which no structure has", spline.id);
+        return Err(Diagnostic::of_file(&source.name, wrong).hint("which units are these?").into());
+    }
+    for points in [curves.x(), curves.z()] {
+        let least = NEAREST * (points[points.len() - 1] - points[0]);
+        if let Some(pair) = points.windows(2).find(|pair| pair[1] - pair[0] < least) {
+            let wrong = format!("SPLINE/{} has stations at {} and {}", spline.id, pair[0], pair[1]);
+            return Err(Diagnostic::of_file(&source.name, wrong).hint("take one of them out").into());
+        }
     }
     let values = DMatrix::from_fn(curves.z().len(), curves.x().len(), |i, j| curves.y()[i][j]);
     let table = Table::new(curves.x().to_vec(), curves.z().to_vec(), values).map_err(Failure::untrusted)?;

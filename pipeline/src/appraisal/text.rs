@@ -10,8 +10,8 @@ use super::subject::Subject;
 use crate::units::{Dimension, Units};
 
 /// Width of the names of rows, and of a column.
-const NAME: usize = 46;
-const COLUMN: usize = 15;
+const NAME: usize = 43;
+const COLUMN: usize = 13;
 
 /// Units of a text; empty where the file says none.
 #[derive(Clone, Copy)]
@@ -101,7 +101,11 @@ fn stations(out: &mut String, found: &Findings, units: Words) {
         let _ = writeln!(
             out,
             "    eigenvalues from {} to {} {flexibility}; digits leave {} open",
-            short(spectrum.smallest),
+            if spectrum.smallest.abs() < 1e-13 * spectrum.largest {
+                "0".to_owned()
+            } else {
+                short(spectrum.smallest)
+            },
             short(spectrum.largest),
             short(found.digits.slack)
         );
@@ -176,7 +180,7 @@ fn readings(out: &mut String, found: &Findings, units: Words) {
     for (k, wheels) in WHEELS.into_iter().enumerate() {
         let unit = units.bracket(Dimension::STIFFNESS);
         row(&format!("{wheels} wheels indefinite from k ={unit}"), &|r| {
-            r.direct.as_ref().map(|d| stiffness(&d.layouts[k]))
+            r.direct.as_ref().and_then(|d| d.layouts.get(k)).map(stiffness)
         });
     }
     let slope = match found.load {

@@ -92,10 +92,12 @@ fn chosen(
     let found = stations::choose(grid, &surface, &goal);
     drop(stage);
     let choice = found.map_err(|error| match error {
-        splines::Error::Stations { .. } => {
-            let advice = "a larger tolerance, another reading, or --only vertical: where shear, torsion or axial force give, every reading of values alone errs in proportion to the distance of stations";
-            Failure::Differs(format!("{error}; {advice}"))
-        }
+        splines::Error::Stations { most, error } => Failure::Differs(format!(
+            "{} errs by {error:.2e} with {most} stations, the most: where shear, torsion or axial force give, every \
+             reading of values alone errs in proportion to the distance of stations; allow more, take another reading, or \
+             name the directions that matter with --only",
+            manner.word()
+        )),
         splines::Error::Unliftable => refuse(
             Fault::new(&root.key("influence"), "is not that of a uniform beam in bending on rigid supports")
                 .hint("the values alone do not say what is exact between them; this file does, use it in place of tables"),

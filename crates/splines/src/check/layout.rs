@@ -9,6 +9,10 @@ use crate::Error;
 const ROUNDING: f64 = 1e-13;
 /// Rounds of exchanges before a layout counts as settled.
 const ROUNDS: usize = 4;
+/// Random layouts tried beside: those that [`indefinite_share`] counts first.
+const RANDOM: usize = 1000;
+/// How many of them are climbed from.
+const CLIMBED: usize = 3;
 
 /// A set of wheels, and how near it is to giving back more than was put in.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,48 +25,88 @@ pub struct Layout {
     pub stiffness: Option<f64>,
 }
 
-/// The layout of `wheels` wheels with the smallest eigenvalue that a search over `places` finds.
+/// For each number of `wheels` (increasing) the layout with the smallest eigenvalue that a search finds.
 ///
-/// Starts from the worst pair of places, adds the wheel that makes most of it, exchanges wheels until no
-/// exchange gains, and climbs from there between the places. G + I/k is positive definite up to
-/// k = -1/smallest, and for every k where no eigenvalue is negative (beyond 1e-13 of the largest coefficient).
+/// Starts from the worst pair of `places` (increasing), adds the wheel that makes most of it and exchanges
+/// wheels until no exchange gains; then climbs between the places, from there, from the worst few of 1000 random layouts and
+/// from the layout of fewer wheels. G + I/k is positive definite up to k = -1/smallest, and for every
+/// k where no eigenvalue is negative (beyond 1e-13 of the largest coefficient).
+///
+/// Guarantee: no layout is told as less weak than one of fewer wheels, nor than any that [`indefinite_share`] looks
+/// at up to 1000.
 ///
 /// # Errors
 /// What the compliance refuses.
-pub fn weakest_layout(strip: &Strip<'_>, wheels: usize, places: &[f64]) -> Result<Layout, Error> {
-    let empty = Layout { places: Vec::new(), smallest: 0.0, stiffness: None };
-    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(empty) };
-    if wheels == 0 {
-        return Ok(empty);
-    }
+pub fn weakest_layouts(strip: &Strip<'_>, wheels: &[usize], places: &[f64]) -> Result<Vec<Layout>, Error> {
+    let mut out: Vec<Layout> = Vec::with_capacity(wheels.len());
+    let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(out) };
     let g = strip.block(places, places)?;
+    let depth = |at: &[f64]| Ok(-Spectrum::of(&strip.block(at, at)?).smallest);
+    let step = (last - first) / places.len() as f64;
+    for &wheels in wheels {
+        let mut starts = vec![settled(&g, wheels).iter().map(|&k| places[k]).collect()];
+        starts.extend(random(depth, wheels, [first, last])?);
+        if let Some(fewer) = out.last() {
+            // One eigenvalue more lies below, wherever the wheels are added.
+            let mut at = fewer.places.clone();
+            at.extend((at.len()..wheels).map(|k| first + (last - first) * (k as f64 + 0.5) / wheels as f64));
+            at.truncate(wheels);
+            starts.push(at);
+        }
+        let mut best = (f64::NEG_INFINITY, Vec::new());
+        for mut at in starts {
+            let value = climb(depth, &mut at, step, [first, last])?;
+            if value > best.0 {
+                best = (value, at);
+            }
+        }
+        let (smallest, mut at) = (-best.0, best.1);
+        at.sort_by(f64::total_cmp);
+        let stiffness = (smallest < -ROUNDING * g.amax()).then(|| -1.0 / smallest);
+        out.push(Layout { places: at, smallest, stiffness });
+    }
+    Ok(out)
+}
+
+/// The worst of random layouts.
+fn random(
+    depth: impl Fn(&[f64]) -> Result<f64, Error>,
+    wheels: usize,
+    range: [f64; 2],
+) -> Result<Vec<Vec<f64>>, Error> {
+    let mut layouts = Random::new();
+    let mut all = Vec::with_capacity(RANDOM);
+    for _ in 0..RANDOM {
+        let at = layouts.layout(wheels, range);
+        all.push((depth(&at)?, at));
+    }
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    Ok(all.into_iter().take(CLIMBED).map(|(_, at)| at).collect())
+}
+
+/// Indices of a layout that no exchange of one wheel makes weaker.
+fn settled(g: &DMatrix<f64>, wheels: usize) -> Vec<usize> {
     let smallest = |chosen: &[usize]| {
         let part = DMatrix::from_fn(chosen.len(), chosen.len(), |i, j| g[(chosen[i], chosen[j])]);
         Spectrum::of(&part).smallest
     };
-    let mut chosen = worst_pair(&g);
+    let mut chosen = worst_pair(g);
     chosen.truncate(wheels);
     while chosen.len() < wheels {
         chosen.push(chosen[0]);
         let end = chosen.len() - 1;
-        exchange(&mut chosen, end, places.len(), smallest);
+        exchange(&mut chosen, end, g.nrows(), smallest);
     }
     for _ in 0..ROUNDS {
         let mut better = false;
         for k in 0..wheels {
-            better |= exchange(&mut chosen, k, places.len(), smallest);
+            better |= exchange(&mut chosen, k, g.nrows(), smallest);
         }
         if !better {
             break;
         }
     }
-    let mut at: Vec<f64> = chosen.iter().map(|&k| places[k]).collect();
-    let depth = |at: &[f64]| Ok(-Spectrum::of(&strip.block(at, at)?).smallest);
-    let step = (last - first) / places.len() as f64;
-    let smallest = -climb(depth, &mut at, step, [first, last])?;
-    at.sort_by(f64::total_cmp);
-    let stiffness = (smallest < -ROUNDING * g.amax()).then(|| -1.0 / smallest);
-    Ok(Layout { places: at, smallest, stiffness })
+    chosen
 }
 
 /// Indices of the two places whose 2 x 2 matrix has the smallest eigenvalue.
@@ -104,21 +148,34 @@ pub fn indefinite_share(
     strip: &Strip<'_>,
     wheels: usize,
     count: usize,
-    [first, last]: [f64; 2],
+    range: [f64; 2],
 ) -> Result<f64, Error> {
-    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut unit = || {
-        // xorshift64*
-        state ^= state >> 12;
-        state ^= state << 25;
-        state ^= state >> 27;
-        (state.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut layouts = Random::new();
     let mut indefinite = 0;
     for _ in 0..count {
-        let at: Vec<f64> = (0..wheels).map(|_| first + (last - first) * unit()).collect();
+        let at = layouts.layout(wheels, range);
         let g = strip.block(&at, &at)?;
         indefinite += usize::from(Spectrum::of(&g).smallest < -ROUNDING * g.amax());
     }
     Ok(if count == 0 { 0.0 } else { indefinite as f64 / count as f64 })
+}
+
+/// Layouts that look random: xorshift64*, the same every time.
+struct Random(u64);
+
+impl Random {
+    fn new() -> Random {
+        Random(0x9E37_79B9_7F4A_7C15)
+    }
+
+    fn layout(&mut self, wheels: usize, [first, last]: [f64; 2]) -> Vec<f64> {
+        (0..wheels).map(|_| first + (last - first) * self.unit()).collect()
+    }
+
+    fn unit(&mut self) -> f64 {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+    }
 }

@@ -22,7 +22,7 @@ pub use definite::{Spectrum, spectrum, station_spectrum};
 pub use deviation::{Deviation, deviation};
 pub use digits::{Digits, digits};
 pub use kink::{Kink, diagonal_kinks, kinks, pair_kinks};
-pub use layout::{Layout, indefinite_share, weakest_layout};
+pub use layout::{Layout, indefinite_share, weakest_layouts};
 pub use places::{places, restricted, supports};
 pub use strip::{Strip, Way};
 pub use symmetry::{asymmetry, station_asymmetry};

@@ -34,29 +34,30 @@ impl<'a> Strip<'a> {
     /// Deflection at z per unit load at x, length/force.
     ///
     /// # Errors
-    /// What the compliance refuses.
+    /// What the compliance refuses; a number that is not finite.
     pub fn at(&self, x: f64, z: f64) -> Result<f64, Error> {
         let mut out = Influence::zeros(2);
         self.compliance.fill(&[probe(self.deflection, z), probe(self.load, x)], &mut out)?;
-        Ok(out.value[(0, 1)])
+        let value = out.value[(0, 1)];
+        if value.is_finite() { Ok(value) } else { Err(Error::Coefficient { x, z }) }
     }
 
     /// Deflections at `z` (rows) per unit loads at `x` (columns), length/force.
     ///
     /// # Errors
-    /// What the compliance refuses.
+    /// What the compliance refuses; a number that is not finite.
     pub fn block(&self, z: &[f64], x: &[f64]) -> Result<DMatrix<f64>, Error> {
         let rows = z.iter().map(|&z| probe(self.deflection, z));
         if self.is_direct() && z == x {
             let at: Vec<Probe> = rows.collect();
             let mut out = Influence::zeros(at.len());
             self.compliance.fill(&at, &mut out)?;
-            return Ok(out.value);
+            return finite(out.value, z, x);
         }
         let at: Vec<Probe> = rows.chain(x.iter().map(|&x| probe(self.load, x))).collect();
         let mut out = Influence::zeros(at.len());
         self.compliance.fill(&at, &mut out)?;
-        Ok(out.value.view((0, z.len()), (z.len(), x.len())).into_owned())
+        finite(out.value.view((0, z.len()), (z.len(), x.len())).into_owned(), z, x)
     }
 
     /// The places both of deflections and of loads; `None` where a rail does not exist or has no end.
@@ -68,4 +69,12 @@ impl<'a> Strip<'a> {
 
 fn probe((rail, axis): Way, x: f64) -> Probe {
     Probe { rail, x, axis }
+}
+
+fn finite(block: DMatrix<f64>, z: &[f64], x: &[f64]) -> Result<DMatrix<f64>, Error> {
+    let wrong = block.iter().position(|value| !value.is_finite());
+    match wrong.filter(|_| !block.is_empty()) {
+        Some(k) => Err(Error::Coefficient { x: x[k / z.len()], z: z[k % z.len()] }),
+        None => Ok(block),
+    }
 }
