@@ -17,6 +17,3 @@ pub use hazard::Hazard;
 pub use manner::Manner;
 pub use readings::{Pair, ReadingFindings};
 pub use subject::{Item, Subject};
-
-#[cfg(test)]
-mod tests;
