@@ -85,22 +85,22 @@ pub struct Splines {
     /// Tell what each reading of the tables costs, on standard output
     #[arg(long)]
     pub check: bool,
-    /// Reading that must keep the tolerance
+    /// Reading that must keep the tolerance: writes tables at the fewest stations with which it does; with --check a
+    /// larger error is a failure [default with --check: akispl]
     #[arg(long, requires = "tolerance")]
     pub reading: Option<Manner>,
-    /// Error allowed, of the largest coefficient: writes tables at the fewest stations that keep it; with --check
-    /// a larger error is a failure
+    /// Error allowed, of the largest coefficient
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub tolerance: Option<f64>,
-    /// Directions that must keep the tolerance [default: vertical and lateral]
+    /// Directions that must keep the tolerance [default: vertical,lateral]
     #[arg(
         long,
         value_name = "DIRECTIONS",
         value_delimiter = ',',
         conflicts_with = "check",
-        requires = "tolerance"
+        requires = "reading"
     )]
-    pub only: Vec<Direction>,
+    pub directions: Vec<Direction>,
     /// Force of one wheel, for work and angles
     #[arg(long, value_name = "FORCE", value_parser = positive, requires = "check")]
     pub load: Option<f64>,

@@ -270,6 +270,8 @@ fn what_cannot_be_checked_is_refused_with_its_place() {
     refused(&girderway(&folder, &["splines", &printed(), "--load", "5"]));
     refused(&girderway(&folder, &["splines", &printed(), "--check", "--load", "-5"]));
     refused(&girderway(&folder, &["splines", "grid.json", "--reading", "akispl"]));
+    let told = refused(&girderway(&folder, &["splines", path(&base("grid.json")), "--tolerance", "1e-2"]));
+    assert!(told.contains("--tolerance is that of a reading"), "{told}");
 }
 
 #[test]
@@ -309,7 +311,7 @@ fn tables_at_the_fewest_stations_hold_what_the_solver_gives_there() {
         "akispl",
         "--tolerance",
         "1e-2",
-        "--only",
+        "--directions",
         "vertical",
         "-o",
         "out.adm",
@@ -394,7 +396,7 @@ fn paired_rails_get_stations_of_their_own() {
             "natural",
             "--tolerance",
             "0.02",
-            "--only",
+            "--directions",
             "vertical",
             "-o",
             "out.adm",
@@ -416,7 +418,10 @@ fn paired_rails_get_stations_of_their_own() {
 #[test]
 fn stations_that_cannot_be_found_are_refused_in_words() {
     let folder = folder();
-    let told = refused(&girderway(&folder, &["splines", path(&base("grid.json")), "--tolerance", "1e-2"]));
+    let told = refused(&girderway(
+        &folder,
+        &["splines", path(&base("grid.json")), "--reading", "akispl", "--tolerance", "1e-2"],
+    ));
     assert!(
         told.contains("grid.json:") && told.contains("has no `surface`") && told.contains("girderway fea"),
         "{told}"
@@ -430,10 +435,12 @@ fn stations_that_cannot_be_found_are_refused_in_words() {
         girderway(&folder, &["fea", "spec.json", "-o", "grid.json", "--quiet"]).status.code(),
         Some(0)
     );
-    let told =
-        refused(&girderway(&folder, &["splines", "grid.json", "--tolerance", "1e-2", "--only", "lateral"]));
+    let told = refused(&girderway(
+        &folder,
+        &["splines", "grid.json", "--reading", "akispl", "--tolerance", "1e-2", "--directions", "lateral"],
+    ));
     assert!(told.contains("has no lateral grid"), "{told}");
-    let run = girderway(&folder, &["splines", "grid.json", "--tolerance", "1e-7"]);
+    let run = girderway(&folder, &["splines", "grid.json", "--reading", "akispl", "--tolerance", "1e-7"]);
     assert_eq!((run.status.code(), text(&run.stdout)), (Some(1), ""));
     assert!(text(&run.stderr).contains("400 stations"), "{}", text(&run.stderr));
 }

@@ -5,7 +5,9 @@ mod beam;
 use beam::{Beam, EI, Random, coupled};
 use splines::check::{Strip, places};
 use splines::stations::error_of;
-use splines::{Axis, Compliance, Error, Kind, Reading, Search, Sheet, Stations, lift, stations};
+use splines::{
+    Axis, Compliance, Error, Factored, Kind, Rank, Reading, Search, Sheet, Stations, lift, stations,
+};
 
 type Read = Box<dyn Fn(&[Sheet]) -> Result<Box<dyn Compliance>, Error>>;
 
@@ -166,6 +168,68 @@ fn couplings_keep_the_tolerance_too() {
                 - table(deflection, load).block(&dense, &dense).expect("on it");
             let scale = (largest(deflection) * largest(load)).sqrt();
             assert!(error.amax() <= found.error * scale * 1.001, "{deflection:?} {load:?}");
+        }
+    }
+}
+
+/// Regression: the table of stations in the book, fewest found beside equal distances, on the paper's girder.
+#[test]
+#[ignore = "slow: hundreds of stations for 1e-4, half a minute"]
+fn stations_of_every_reading_are_those_of_the_book() {
+    let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
+    let exact = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
+    let factored: Read = Box::new(|sheets| Ok(Box::new(Factored::new(sheets, Rank::Full)?)));
+    let readings: [(&str, Read, f64, [[usize; 2]; 3]); 6] = [
+        ("akispl", kind(Kind::Akispl), 2.0, [[16, 19], [46, 55], [143, 169]]),
+        ("symmetrised", kind(Kind::Symmetrised), 2.0, [[14, 19], [40, 55], [122, 169]]),
+        ("cubspl", kind(Kind::Cubspl), 2.0, [[16, 19], [46, 55], [143, 169]]),
+        ("natural", kind(Kind::Natural), 3.0, [[7, 7], [13, 19], [28, 31]]),
+        ("factored", factored, 3.0, [[7, 7], [13, 19], [28, 31]]),
+        ("exact", raised(), 3.0, [[4, 7], [4, 7], [4, 7]]),
+    ];
+    for (name, read, order, asked) in &readings {
+        for (tolerance, asked) in [1e-2, 1e-3, 1e-4].into_iter().zip(asked) {
+            let search = Search { tolerance, ..search(&exact, &fixed, range, read, *order) };
+            let found = stations(&search).expect("some number is enough");
+            assert_eq!([found.at.len(), equal(&search)], *asked, "{name} {tolerance}");
+        }
+    }
+}
+
+/// No random search finds a set with one station fewer that keeps the tolerance: each of the sets that lack one is moved
+/// about, and every step that lowers the error is kept.
+#[test]
+#[ignore = "slow: tens of thousands of sets, a minute"]
+fn random_search_finds_no_set_with_one_station_fewer() {
+    let fixed = [0.0, 60.0];
+    let exact = Beam::paper().surface(&[-15.0, 0.0, 60.0, 75.0]);
+    for (how, order, tolerance, steps) in
+        [(Kind::Akispl, 2.0, 1e-2, 2000), (Kind::Natural, 3.0, 1e-2, 1000), (Kind::Natural, 3.0, 1e-3, 2000)]
+    {
+        let read = kind(how);
+        let search = Search { tolerance, ..search(&exact, &fixed, [-15.0, 75.0], &read, order) };
+        let found = stations(&search).expect("some number is enough");
+        for k in (1..found.at.len() - 1).filter(|&k| !fixed.contains(&found.at[k])) {
+            let mut at = found.at.clone();
+            at.remove(k);
+            let mut now = error_of(&search, &at).expect("on the rail");
+            let (mut random, mut step) = (Random::new(7 + k as u64), 2.0_f64);
+            for _ in 0..steps {
+                let mut at = now.at.clone();
+                let end = at.len() - 1;
+                for x in at[1..end].iter_mut().filter(|x| !fixed.contains(x)) {
+                    *x += if random.unit() < 0.4 { step * random.between(-1.0, 1.0) } else { 0.0 };
+                }
+                if at.windows(2).any(|pair| pair[1] - pair[0] < 0.2) {
+                    continue;
+                }
+                let moved = error_of(&search, &at).expect("on the rail");
+                step = if moved.error < now.error { (1.5 * step).min(3.0) } else { (0.98 * step).max(0.02) };
+                if moved.error < now.error {
+                    now = moved;
+                }
+            }
+            assert!(now.error > tolerance, "{how:?} {tolerance}: {:?}", now.at);
         }
     }
 }

@@ -30,12 +30,16 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     if args.check {
         return check_tables::run(args, global);
     }
+    if args.tolerance.is_some() && args.reading.is_none() {
+        let wrong = Diagnostic::of_file("command line", "--tolerance is that of a reading");
+        return Err(wrong.hint("add --reading akispl, or --check").into());
+    }
     let format = args.output.as_deref().map_or(Ok(Format::Adams), format)?;
     let (_, source) = Inputs::open(&args.grid)?;
     let (mut grid, surface) = grid_file::read(&source)?;
     let progress = Progress::new(global);
-    if let Some(tolerance) = args.tolerance {
-        grid = chosen(args, tolerance, &source, (&grid, surface), global)?;
+    if let (Some(manner), Some(tolerance)) = (args.reading, args.tolerance) {
+        grid = chosen(args, (manner, tolerance), &source, (&grid, surface), global)?;
     }
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {
         progress
@@ -61,7 +65,7 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
 /// where the tables go to a file.
 fn chosen(
     args: &Splines,
-    tolerance: f64,
+    (manner, tolerance): (Manner, f64),
     source: &Source,
     (grid, surface): (&Grid, Option<Surface>),
     global: Global,
@@ -72,8 +76,7 @@ fn chosen(
         let fault = Fault::new(&root, "has no `surface`: nothing says what is exact between its stations");
         return Err(refuse(fault.hint("`girderway fea SPEC -o GRID.json` writes one")));
     };
-    let manner = args.reading.unwrap_or(Manner::Akispl);
-    let mut axes: Vec<Axis> = args.only.iter().map(|direction| Axis::from(*direction)).collect();
+    let mut axes: Vec<Axis> = args.directions.iter().map(|direction| Axis::from(*direction)).collect();
     axes.sort_unstable();
     axes.dedup();
     if axes.is_empty() {
@@ -95,7 +98,7 @@ fn chosen(
         splines::Error::Stations { most, error } => Failure::Differs(format!(
             "{} errs by {error:.2e} with {most} stations, the most: where shear, torsion or axial force give, every \
              reading of values alone errs in proportion to the distance of stations; allow more, take another reading, or \
-             name the directions that matter with --only",
+             name the directions that matter with --directions",
             manner.word()
         )),
         splines::Error::Unliftable => refuse(
