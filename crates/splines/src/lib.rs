@@ -4,6 +4,7 @@
 
 pub mod akima;
 pub mod cell;
+pub mod check;
 pub mod compliance;
 pub mod cubic;
 pub mod curve;
@@ -19,6 +20,7 @@ pub mod probe;
 pub mod reading;
 pub mod row;
 pub mod sheet;
+pub mod stations;
 pub mod surface;
 pub mod table;
 mod tensor;
@@ -37,5 +39,6 @@ pub use probe::{Axis, Probe};
 pub use reading::{Kind, Reading};
 pub use row::Row;
 pub use sheet::Sheet;
+pub use stations::{Search, Stations, stations};
 pub use surface::Surface;
 pub use table::Table;
