@@ -65,7 +65,7 @@ pub(crate) fn newton<E>(
         };
         let length = size(&step);
         let rounding = length <= STALLED;
-        if rounding && length >= 0.5 * before {
+        if rounding && length >= 0.1 * before {
             return Ok(Ok((x, iterations + 1)));
         }
         before = length;
