@@ -104,6 +104,23 @@ fn readings_and_wheels_move_the_peak() {
     near(peak(&heavy, TABLES), 0.545_48, 1e-5);
 }
 
+#[test]
+fn listing_differs_from_cross_terms_and_both_from_the_girder() {
+    let places: Vec<f64> = (6..=234).map(|k| 0.25 * f64::from(k)).collect();
+    let path = |listing: &str, tables: &str| sinks(&model(listing, tables), &places);
+    let (printed, cross, exact) =
+        (path(FLEXIBLE, TABLES), path(&crossed(), TABLES), path(&crossed(), &fine()));
+    let most = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |top: f64, (a, b)| top.max((a - b).abs()));
+    near(most(&printed, &cross), 0.002_595, 1e-6);
+    near(most(&printed, &exact), 0.033_31, 1e-5);
+    near(most(&cross, &exact), 0.034_13, 1e-5);
+    // A wheel over the station at 30 ft: the path has a corner.
+    let model = model(FLEXIBLE, TABLES);
+    let (corner, step) = (30.0 - 4.0 / 3.0, 1e-3);
+    let at = sinks(&model, &[corner - step, corner, corner + step]);
+    near((at[2] - 2.0 * at[1] + at[0]) / step, -0.010_85, 1e-5);
+}
+
 /// A state with both wheels at a height over the rail, the trunnion at x.
 fn held(model: &Model, x: f64, height: f64) -> State {
     let mut state = model.initial();
