@@ -68,12 +68,6 @@ impl Curve {
         };
         (value, slope, curvature)
     }
-
-    /// The value alone, by weights that several curves share.
-    #[inline]
-    pub(crate) fn blend(&self, k: usize, w: &[f64; 4]) -> f64 {
-        w[0] * self.y[k] + w[1] * self.t[k] + w[2] * self.y[k + 1] + w[3] * self.t[k + 1]
-    }
 }
 
 /// Where a coordinate falls among points: interval k, fraction s of it, its width h.
@@ -100,6 +94,28 @@ impl Place {
         let Place { s, h, .. } = *self;
         let r = 1.0 - s;
         [(1.0 + 2.0 * s) * r * r, s * r * r * h, s * s * (1.0 + 2.0 * r), -s * s * r * h]
+    }
+
+    /// Their derivatives by x.
+    #[inline]
+    pub fn rates(&self) -> [f64; 4] {
+        let Place { s, h, .. } = *self;
+        let r = 1.0 - s;
+        [-6.0 * s * r / h, r * (r - 2.0 * s), 6.0 * s * r / h, s * (s - 2.0 * r)]
+    }
+
+    /// Their second derivatives by x.
+    #[inline]
+    pub fn bends(&self) -> [f64; 4] {
+        let Place { s, h, .. } = *self;
+        let (first, last) = (12.0 * s - 6.0, 6.0 * s);
+        [first / (h * h), (last - 4.0) / h, -first / (h * h), (last - 2.0) / h]
+    }
+
+    /// The same place as the end of the interval before, if it is an inner point.
+    pub fn before(&self, points: &[f64]) -> Option<Place> {
+        let k = self.k.checked_sub(1).filter(|_| self.s == 0.0)?;
+        Some(Place { k, s: 1.0, h: points[self.k] - points[k] })
     }
 }
 

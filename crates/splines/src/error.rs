@@ -197,6 +197,12 @@ pub enum Error {
         /// Which table, from 0.
         sheet: usize,
     },
+    /// A tolerance that is negative or not a number.
+    #[error("tolerance {tolerance} is not a positive number")]
+    Tolerance {
+        /// What was given.
+        tolerance: f64,
+    },
     /// A table that belongs to no uniform beam on knife edges at its stations.
     #[error("table belongs to no uniform beam on knife edges at its stations")]
     Unliftable,

@@ -31,6 +31,35 @@ impl Green {
     }
 }
 
+/// Second derivatives of a bilinear form with respect to both places.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Bend {
+    pub first: f64,
+    pub mixed: f64,
+    pub second: f64,
+}
+
+impl Bend {
+    fn add(&mut self, other: Bend) {
+        self.first += other.first;
+        self.mixed += other.mixed;
+        self.second += other.second;
+    }
+
+    /// The two places exchanged.
+    fn swapped(self) -> Bend {
+        Bend { first: self.second, mixed: self.mixed, second: self.first }
+    }
+
+    fn mean(self, other: Bend) -> Bend {
+        Bend {
+            first: 0.5 * (self.first + other.first),
+            mixed: 0.5 * (self.mixed + other.mixed),
+            second: 0.5 * (self.second + other.second),
+        }
+    }
+}
+
 /// One bending plane: c = 1/EI, g = 1/kGA, l = length, inverse = 1/(c l^3 + 12 g l), zero where rigid.
 #[derive(Clone, Copy, Debug, Default)]
 struct Plane {
@@ -69,6 +98,39 @@ impl Plane {
             value: f * deflection(v, m0) + m * rotation(v, m0),
             first: f * slope + m * c * (m0 - v * a),
             second: -(f * deflection(dv, dm0) + m * rotation(dv, dm0)),
+        }
+    }
+
+    /// Second derivatives of [`Plane::green`].
+    fn bend(&self, a: f64, [f, m]: [f64; 2], b: f64, [force, moment]: [f64; 2]) -> Bend {
+        let Plane { c, g, l, per_l, inverse } = *self;
+        let q = l - b;
+        // The clamp's shear and moment, and their first and second derivatives by q.
+        let v = (force * q * (c * q * (3.0 * l - 2.0 * q) + 12.0 * g) - 6.0 * c * moment * q * b) * inverse;
+        let m0 = 0.5 * v * l + q * (moment - 0.5 * force * q) * per_l;
+        let dv = (force * (6.0 * c * q * b + 12.0 * g) + 6.0 * c * moment * (q - b)) * inverse;
+        let dm0 = 0.5 * dv * l + (moment - force * q) * per_l;
+        let ddv = (6.0 * c * force * (b - q) + 12.0 * c * moment) * inverse;
+        let ddm0 = 0.5 * ddv * l - force * per_l;
+        let deflection = |v: f64, m0: f64| a * (g * v + c * a * (0.5 * m0 - v * a * (1.0 / 6.0)));
+        let rotation = |v: f64, m0: f64| c * a * (m0 - 0.5 * v * a);
+        let curvature = |v: f64, m0: f64| c * (m0 - v * a);
+        Bend {
+            first: f * curvature(v, m0) - m * c * v,
+            mixed: -(f * (rotation(dv, dm0) + g * dv) + m * curvature(dv, dm0)),
+            second: f * deflection(ddv, ddm0) + m * rotation(ddv, ddm0),
+        }
+    }
+
+    fn bend_pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Bend {
+        if self.inverse == 0.0 {
+            Bend::default()
+        } else if s < t {
+            self.bend(s, p, t, q)
+        } else if s > t {
+            self.bend(t, q, s, p).swapped()
+        } else {
+            self.bend(s, p, t, q).mean(self.bend(t, q, s, p).swapped())
         }
     }
 
@@ -246,6 +308,17 @@ impl Kernel {
         sum
     }
 
+    /// Second derivatives of [`Kernel::across`] by both places along the member.
+    pub fn bend(&self, a: usize, s: f64, other: &Kernel, b: usize, t: f64) -> Bend {
+        let (p, q) = (&self.arms[a], &other.arms[b]);
+        let mut sum = self.xy.bend_pair(s, p.xy, t, q.xy);
+        sum.add(self.xz.bend_pair(s, p.xz, t, q.xz));
+        // Bars are straight on both sides of the load.
+        let bars = self.axial * (p.axial * q.axial) + self.torsion * (p.twist * q.twist);
+        sum.mixed -= bars / self.length;
+        sum
+    }
+
     /// What the displacement along axis `a` at s under a unit force there is added up from, s in 0..=length.
     pub fn magnitude(&self, a: usize, s: f64) -> f64 {
         let p = &self.arms[a];
@@ -260,6 +333,55 @@ impl Kernel {
         let (p, q) = (self.arms[a].uses(), self.arms[b].uses());
         (0..4).any(|k| self.free[k] && p[k] && q[k])
     }
+}
+
+/// A clamped cell's kernel along one axis as far(s) . near(t), s >= t: far (2) and near (2) as cubics in the
+/// distance from the first end of the member, and from its last, in lengths of the member.
+///
+/// `None` where the axis asks for more than one plane or the axial bar, or for a moment.
+///
+/// The nearer force meets the shear V and the moment m0 that the farther one causes at the clamp:
+/// b = V (g t - c t^3/6) + m0 c t^2/2.
+pub(crate) fn sides(cell: &Cell, axis: usize) -> Option<[[[f64; 4]; 4]; 2]> {
+    if cell.ends[0] == cell.ends[1] {
+        return Some([[[0.0; 4]; 4]; 2]);
+    }
+    let f = &cell.flexibility;
+    let arm = Arm::along(cell, &cell.axes(), axis);
+    let (force, plane) = match arm.uses() {
+        [true, false, false, false] if f.axial.is_finite() => {
+            let give = f.axial * arm.axial * arm.axial * cell.length;
+            let (rise, fall) = ([0.0, 1.0, 0.0, 0.0], [1.0, -1.0, 0.0, 0.0]);
+            let zero = [0.0; 4];
+            let ends = [[fall, rise], [rise, fall]];
+            return Some(ends.map(|[far, near]| [far.map(|x| give * x), zero, near, zero]));
+        }
+        [false, false, true, false] if arm.xy[1] == 0.0 => {
+            (arm.xy[0], Plane::new(f.bending_z, f.shear_y, cell.length))
+        }
+        [false, false, false, true] if arm.xz[1] == 0.0 => {
+            (arm.xz[0], Plane::new(f.bending_y, f.shear_z, cell.length))
+        }
+        _ => return None,
+    };
+    let Plane { c, g, l, inverse, .. } = plane;
+    if inverse == 0.0 {
+        return Some([[[0.0; 4]; 4]; 2]);
+    }
+    let first = [
+        [1.0, -12.0 * g * inverse, -3.0 * c * l * inverse, 2.0 * c * inverse],
+        [0.0, 1.0 - 6.0 * g * l * inverse, -1.5 * c * l * l * inverse - 0.5 / l, c * l * inverse],
+        [0.0, g, 0.0, -c / 6.0],
+        [0.0, 0.0, 0.5 * c, 0.0],
+    ];
+    let last = [
+        [0.0, 12.0 * g * inverse, 3.0 * c * l * inverse, -2.0 * c * inverse],
+        [0.0, 6.0 * g * l * inverse, 1.5 * c * l * l * inverse - 0.5 / l, -c * l * inverse],
+        [g * l - c * l * l * l / 6.0, 0.5 * c * l * l - g, -0.5 * c * l, c / 6.0],
+        [0.5 * c * l * l, -c * l, 0.5 * c, 0.0],
+    ];
+    let powers = [1.0, l, l * l, l * l * l];
+    Some([first, last].map(|four| four.map(|cubic| std::array::from_fn(|p| force * cubic[p] * powers[p]))))
 }
 
 /// Along, about, across (x-y), across (x-z): where the section resists nothing.

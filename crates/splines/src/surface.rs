@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use crate::lean::{self, Seat};
 use crate::row::Row;
-use crate::{Compliance, Error, Influence, Line, Probe};
+use crate::{Compliance, Error, Influence, Jet2, Jets, Line, Probe};
 
 /// Exact influence coefficients at any place of any rail:
 ///
@@ -13,7 +14,9 @@ use crate::{Compliance, Error, Influence, Line, Probe};
 ///
 /// with the shape rows N and clamped kernels b of the cells, and the compliance C of the states at their
 /// ends; cells of two rails on one member share its kernel. Exact for piecewise uniform Euler-Bernoulli and Timoshenko members loaded at the rail, whatever
-/// the number of cells; positive semi-definite where C is; smooth where bending alone gives.
+/// the number of cells: on the paper's girder 4e-15 of the largest entry. Positive semi-definite where C is (a
+/// Gram matrix plus the kernel of a clamped beam); once continuously differentiable, twice along one rail where
+/// bending alone gives and no cell ends.
 ///
 /// # Source
 /// Superposition of the loaded cell with its ends held, and of the released ends; see
@@ -92,7 +95,7 @@ impl Surface {
                 let row = &rows[i];
                 if last != Some(block(row)) {
                     last = Some(block(row));
-                    moved = product(nodal, size, row, load);
+                    moved = product(nodal, size, row.places(), load.places(), load.chunks()[0]);
                 }
                 let [values, slopes] = row.chunks();
                 slope[i + n * j] = dot(slopes, &moved);
@@ -141,14 +144,19 @@ impl Surface {
     }
 }
 
-/// C N(q)^T at the freedoms of `row`.
+/// C N(q)^T at the freedoms `row`, by the freedoms and shares of the load.
 #[inline]
-fn product(nodal: &[f64], size: usize, row: &Row, load: &Row) -> [[f64; 4]; 3] {
+fn product(
+    nodal: &[f64],
+    size: usize,
+    row: &[[usize; 4]],
+    load: &[[usize; 4]],
+    shares: &[[f64; 4]],
+) -> [[f64; 4]; 3] {
     let mut out = [[0.0; 4]; 3];
-    let [shares, _] = load.chunks();
-    for (freedoms, s) in load.places().iter().zip(shares) {
+    for (freedoms, s) in load.iter().zip(shares) {
         let [a, b, c, d] = freedoms.map(|freedom| &nodal[freedom * size..(freedom + 1) * size]);
-        for (sum, places) in out.iter_mut().zip(row.places()) {
+        for (sum, places) in out.iter_mut().zip(row) {
             let moved: [f64; 4] = std::array::from_fn(|k| {
                 let k = places[k];
                 (s[0] * a[k] + s[1] * b[k]) + (s[2] * c[k] + s[3] * d[k])
@@ -170,6 +178,19 @@ impl Compliance for Surface {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         out.expect(n)?;
+        if !self.line.has_shared_members() {
+            let (nodal, size) = (self.nodal.as_slice(), self.nodal.nrows());
+            let mut lean = |seats: &mut [Seat]| lean::fill(&self.line, nodal, size, at, seats, out);
+            let done = match n {
+                0..=2 => lean(&mut [Seat::EMPTY; 2][..n]),
+                3..=8 => lean(&mut [Seat::EMPTY; 8][..n]),
+                9..=16 => lean(&mut [Seat::EMPTY; 16][..n]),
+                _ => lean(&mut vec![Seat::EMPTY; n]),
+            };
+            if done? {
+                return Ok(());
+            }
+        }
         match n {
             0..=2 => self.assemble(at, &mut [Row::EMPTY; 2][..n], &mut [0; 2][..n], out),
             3..=8 => self.assemble(at, &mut [Row::EMPTY; 8][..n], &mut [0; 8][..n], out),
@@ -188,5 +209,47 @@ impl Compliance for Surface {
 
     fn is_symmetric(&self) -> bool {
         true
+    }
+}
+
+impl Jets for Surface {
+    /// `pp` jumps at the ends of cells of different bending (that of the probe's own cell is given), and in the
+    /// product with an offset under one's own load (the mean).
+    fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error> {
+        let (nodal, size) = (self.nodal.as_slice(), self.nodal.nrows());
+        if !self.line.has_shared_members()
+            && let Some(jet) = lean::jet(&self.line, nodal, size, p, q)?
+        {
+            return Ok(jet);
+        }
+        let ((a, a2), (b, b2)) = (self.line.bends(p)?, self.line.bends(q)?);
+        let ([a0, a1], [b0, b1]) = (a.chunks(), b.chunks());
+        let moved =
+            [b0, b1, &b2[..b0.len()]].map(|shares| product(nodal, size, a.places(), b.places(), shares));
+        let a2 = &a2[..a0.len()];
+        let mut out = Jet2 {
+            value: dot(a0, &moved[0]),
+            p: dot(a1, &moved[0]),
+            q: dot(a0, &moved[1]),
+            pp: dot(a2, &moved[0]),
+            pq: dot(a1, &moved[1]),
+            qq: dot(a0, &moved[2]),
+        };
+        if let Some([own, other]) = self.line.kernels_of_one_member(a.cell, b.cell) {
+            let green = own.across(a.axis, a.s, other, b.axis, b.s);
+            let bend = own.bend(a.axis, a.s, other, b.axis, b.s);
+            out.value += green.value;
+            out.p += green.first * a.rate;
+            out.q += green.second * b.rate;
+            out.pp += bend.first * a.rate * a.rate;
+            out.pq += bend.mixed * a.rate * b.rate;
+            out.qq += bend.second * b.rate * b.rate;
+        }
+        for (row, at) in [(&a, p), (&b, q)] {
+            if row.indices().iter().any(|&k| self.nodal[(k, k)] == f64::INFINITY) {
+                return Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis });
+            }
+        }
+        Ok(out)
     }
 }

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use beam::STRAIGHT;
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Carrier, Cell, Compliance, Component, Effects, Error, Flexibility, Influence, Line, Probe, Section,
-    Surface,
+    Axis, Carrier, Cell, Compliance, Component, Effects, Error, Flexibility, Influence, Jets, Line, Probe,
+    Section, Surface,
 };
 
 const LENGTH: f64 = 10.0;
@@ -97,6 +97,47 @@ fn a_rail_read_backwards_is_the_same_rail() {
         }
     }
     assert!(mixed.value == mixed.value.transpose());
+}
+
+/// Identity: a lone cell whose member runs against it is the same cell, in plane bending too (the short way).
+#[test]
+fn a_member_that_runs_against_its_only_cell_changes_nothing() {
+    let own = cell(0, [0, 1], [0.0; 3]);
+    let back = Cell { carrier: Some(Carrier { member: 4, reversed: true }), ..own.clone() };
+    let at: Vec<Probe> = probes(0, &PLACES).into_iter().filter(|p| p.axis == Axis::Vertical).collect();
+    for at in [at, probes(0, &PLACES)] {
+        let [own, back] = [&own, &back].map(|cell| filled(&clamped(vec![cell.clone()]), &at));
+        let defect = (&own.value - &back.value).amax() / own.value.amax();
+        assert!(defect < 1e-14, "{defect:e}");
+        assert!((&own.slope - &back.slope).amax() < 1e-14 * own.slope.amax());
+        assert!(back.value == back.value.transpose());
+    }
+}
+
+/// Identity: second derivatives keep their sign when a rail is read backwards, slopes change it.
+#[test]
+fn jets_of_a_rail_read_backwards_turn_their_slopes_alone() {
+    let first = cell(0, [0, 1], [0.2, 0.9, 0.4]);
+    let second = Cell { rail: 1, ends: [2, 3], ..turned(&first) };
+    let both = clamped(vec![first, second]);
+    for p in probes(0, &[1.0, 5.0]) {
+        for q in probes(0, &[3.5, 5.0, 8.0]) {
+            let own = both.jet(p, q).expect("on the rail");
+            let turned = both.jet(p, Probe { rail: 1, x: LENGTH - q.x, ..q }).expect("on the rail");
+            let sign = if q.axis == Axis::Vertical { 1.0 } else { -1.0 };
+            let pairs = [
+                (own.value, turned.value),
+                (own.p, turned.p),
+                (own.q, -turned.q),
+                (own.pp, turned.pp),
+                (own.pq, -turned.pq),
+                (own.qq, turned.qq),
+            ];
+            for (own, turned) in pairs {
+                assert!((own - sign * turned).abs() < 1e-18, "{p:?} {q:?} {own:e} {turned:e}");
+            }
+        }
+    }
 }
 
 #[test]

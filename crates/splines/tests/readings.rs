@@ -132,38 +132,6 @@ fn printed_tables_follow_from_the_girder() {
     }
 }
 
-/// Largest error over the girder, overhangs included, of the largest entry; largest asymmetry likewise.
-fn errors(reading: &dyn Compliance, beam: &Beam) -> [f64; 2] {
-    let places: Vec<f64> = (0..=180).map(|k| -15.0 + 0.5 * f64::from(k)).collect();
-    let at: Vec<Probe> = places.iter().map(|&x| probe(Axis::Vertical, x)).collect();
-    let got = fill(reading, &at).value;
-    let exact = DMatrix::from_fn(at.len(), at.len(), |i, j| beam.deflection(places[i], places[j]));
-    [(&got - &exact).amax() / exact.amax(), (&got - got.transpose()).amax() / exact.amax()]
-}
-
-fn stations(n: usize) -> Vec<f64> {
-    (0..n).map(|k| -15.0 + 90.0 * k as f64 / (n - 1) as f64).collect()
-}
-
-/// Regression, measured first on an independent prototype: errors of each reading by number of stations.
-#[test]
-fn readings_err_as_measured() {
-    let beam = Beam::paper();
-    let asked =
-        [(Kind::Akispl, [6.6e-2, 1.8e-2, 8.0e-3, 2.0e-3]), (Kind::Natural, [8.8e-3, 1.1e-3, 3.2e-4, 4.0e-5])];
-    for (kind, asked) in asked {
-        for (n, asked) in [7, 13, 19, 37].into_iter().zip(asked) {
-            let [error, asymmetry] = errors(&read(kind, tabulate(&beam, &stations(n))), &beam);
-            assert!((error / asked - 1.0).abs() < 0.05, "{kind:?} {n}: {error:e}");
-            assert!(kind != Kind::Natural || asymmetry == 0.0);
-        }
-    }
-    for n in [7, 13, 19, 37] {
-        let [error, asymmetry] = errors(&beam.surface(&stations(n)), &beam);
-        assert!(error < 1e-13 && asymmetry == 0.0, "{n}: {error:e}");
-    }
-}
-
 /// The CUBSPL reading is 8 percent off at seven stations, of the largest value in the span.
 #[test]
 fn cubspl_errs_as_measured() {
@@ -201,20 +169,22 @@ fn natural_reading_is_positive_symmetric_and_passes_through_the_table() {
 /// Analytic: central differences; at a station the mean of both one-sided slopes.
 #[test]
 fn slope_is_the_derivative_of_the_reading() {
-    for kind in [Kind::Akispl, Kind::Cubspl, Kind::Natural] {
+    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
         let reading = read(kind, table(&VERTICAL));
         for (z, x) in [(7.0, 22.0), (31.0, 31.0), (30.0, 40.0), (-8.0, 70.0), (15.0, 15.0)] {
             let slope = fill(&reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).slope[(0, 1)];
             let step = 1e-4;
             let exact = (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
-            assert!((slope - exact).abs() < 1e-16, "{kind:?} {z} {x}: {slope:e} {exact:e}");
+            // Akima's curvature jumps at a station: a central difference there errs by a quarter of jump and step.
+            let allowed = if kind == Kind::Symmetrised { 1e-14 } else { 1e-16 };
+            assert!((slope - exact).abs() < allowed, "{kind:?} {z} {x}: {slope:e} {exact:e}");
         }
     }
 }
 
 #[test]
 fn reading_refuses_places_and_directions_it_has_no_table_for() {
-    for kind in [Kind::Akispl, Kind::Cubspl, Kind::Natural] {
+    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
         let reading = read(kind, table(&VERTICAL));
         let refuse = |p: Probe| reading.fill(&[p], &mut Influence::zeros(1)).expect_err("refused");
         assert_eq!(refuse(probe(Axis::Vertical, 75.1)), Error::OffRail { rail: 0, x: 75.1 });
@@ -244,7 +214,7 @@ fn couplings_are_read_both_ways() {
         Sheet { deflection: side, load: side, table: table(&LATERAL) },
         Sheet { deflection: other, load: other, table: table(&VERTICAL) },
     ];
-    for kind in [Kind::Akispl, Kind::Cubspl, Kind::Natural] {
+    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
         let reading = Reading::new(kind, &sheets).expect("consistent");
         let at = [
             probe(Axis::Vertical, 15.0),

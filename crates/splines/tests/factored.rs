@@ -1,0 +1,127 @@
+//! Tables as sums of products of curves.
+
+mod beam;
+
+use beam::printed::{LATERAL, STATIONS, VERTICAL, table};
+use beam::{Beam, Random, probe, read, tabulate};
+use nalgebra::DMatrix;
+use splines::{
+    Axis, Compliance, Curves, Error, Factor, Factored, Influence, Kind, Probe, Rank, Sheet, Table,
+};
+
+fn fill(reading: &dyn Compliance, at: &[Probe]) -> Influence {
+    let mut out = Influence::zeros(at.len());
+    reading.fill(at, &mut out).expect("on the rail");
+    out
+}
+
+const UP: (usize, Axis) = (0, Axis::Vertical);
+const SIDE: (usize, Axis) = (0, Axis::Lateral);
+
+fn own(way: (usize, Axis), table: Table) -> Sheet {
+    Sheet { deflection: way, load: way, table }
+}
+
+fn factored(table: Table, rank: Rank) -> Factored {
+    Factored::new(&[own(UP, table)], rank).expect("one table")
+}
+
+/// Identity: W Phi Phi^T W^T = W T W^T.
+#[test]
+fn all_products_make_the_natural_reading() {
+    let table = tabulate(&Beam::paper(), &STATIONS);
+    let (natural, factored) = (read(Kind::Natural, table.clone()), factored(table, Rank::Full));
+    assert_eq!(factored.factors()[0].rank(), 5);
+    let mut random = Random::new(5);
+    for _ in 0..200 {
+        let at: Vec<Probe> = (0..5).map(|_| probe(Axis::Vertical, random.between(-15.0, 75.0))).collect();
+        let (a, b) = (fill(&natural, &at), fill(&factored, &at));
+        assert!((&a.value - &b.value).amax() < 1e-21, "{:e}", (&a.value - &b.value).amax());
+        assert!((&a.slope - &b.slope).amax() < 1e-22);
+        assert_eq!(b.value, b.value.transpose());
+        assert!(b.value.symmetric_eigenvalues().min() >= -1e-15 * a.value.amax());
+    }
+}
+
+/// Identity: no entry changes by more than the largest dropped eigenvalue.
+#[test]
+fn a_tolerance_keeps_every_station_within_it() {
+    let given = tabulate(&Beam::paper(), &STATIONS);
+    let largest = given.values().amax();
+    for tolerance in [0.0, 1e-6, 1e-3, 1e-2, 0.1, 1.0] {
+        let factored = factored(given.clone(), Rank::Tolerance(tolerance));
+        let factor = &factored.factors()[0];
+        let curves = &factor.curves[0].values;
+        let error = (curves * curves.transpose() - given.values()).amax();
+        assert!(error <= factor.error_bound() + 1e-15 * largest);
+        assert!(factor.error_bound() <= tolerance * largest + 1e-15 * largest);
+        assert_eq!(factor.kept.len() + factor.dropped.len(), 7);
+    }
+    let bad = Factored::new(&[own(UP, given)], Rank::Tolerance(f64::NAN)).map(|_| ());
+    assert!(matches!(bad, Err(Error::Tolerance { .. })));
+}
+
+/// A printed table of a mixed sign: what no structure has is dropped and reported.
+#[test]
+fn negative_eigenvalues_are_dropped_and_reported() {
+    let mut values = tabulate(&Beam::paper(), &STATIONS).values().clone();
+    values[(1, 1)] = -1e-8;
+    let table = Table::new(STATIONS.to_vec(), STATIONS.to_vec(), values).expect("a table");
+    let factored = factored(table, Rank::Full);
+    let factor = &factored.factors()[0];
+    assert!(factor.kept.iter().all(|&value| value > 0.0));
+    let worst = factor.dropped.last().copied().expect("two are dropped");
+    assert!((worst / -1e-8 - 1.0).abs() < 1e-9, "{worst:e}");
+}
+
+/// Identity: coupled directions share their products, uncoupled ones have their own.
+#[test]
+fn couplings_share_their_curves() {
+    let other = (1, Axis::Vertical);
+    let couple = DMatrix::from_fn(7, 7, |i, j| 0.2 * (VERTICAL[i][j] * LATERAL[i][j]).abs().sqrt());
+    let couple = Table::new(STATIONS.to_vec(), STATIONS.to_vec(), couple).expect("a table");
+    let sheets = [
+        own(UP, table(&VERTICAL)),
+        Sheet { deflection: UP, load: SIDE, table: couple.clone() },
+        own(other, table(&VERTICAL)),
+        own(SIDE, table(&LATERAL)),
+    ];
+    let factored = Factored::new(&sheets, Rank::Full).expect("consistent");
+    let ways: Vec<Vec<_>> =
+        factored.factors().iter().map(|factor| factor.curves.iter().map(|c| c.way).collect()).collect();
+    assert_eq!(ways, [vec![UP, SIDE], vec![other]]);
+    let bound = factored.factors()[0].error_bound();
+    let at = [
+        probe(Axis::Vertical, 15.0),
+        probe(Axis::Lateral, 45.0),
+        Probe { rail: 1, x: 30.0, ..probe(Axis::Vertical, 0.0) },
+    ];
+    let value = fill(&factored, &at).value;
+    assert!((value[(0, 1)] - couple.values()[(2, 4)]).abs() <= bound + 1e-21);
+    assert!((value[(1, 1)] - LATERAL[4][4]).abs() <= bound + 1e-21);
+    assert_eq!((value[(0, 2)], value[(2, 1)]), (0.0, 0.0));
+}
+
+#[test]
+fn curves_are_taken_back_to_the_last_bit_and_unfit_ones_refused() {
+    let first = factored(table(&VERTICAL), Rank::Count(3));
+    let again = Factored::of(first.factors().to_vec()).expect("the same curves");
+    let at = [probe(Axis::Vertical, 11.0), probe(Axis::Vertical, 52.5)];
+    assert_eq!(fill(&first, &at).value, fill(&again, &at).value);
+    let tables = first.factors()[0].curves[0].tables().expect("seven stations");
+    assert_eq!((tables.len(), tables[0].x(), tables[0].z().len()), (3, &STATIONS[..], 0));
+    let factor = first.factors()[0].clone();
+    let with = |change: &dyn Fn(&mut Curves)| {
+        let mut factor = factor.clone();
+        change(&mut factor.curves[0]);
+        Factored::of(vec![factor]).map(|_| ()).expect_err("refused")
+    };
+    assert_eq!(with(&|c| c.stations[2] = 40.0), Error::PointOrder { index: 3 });
+    assert!(matches!(with(&|c| c.values[(1, 1)] = f64::NAN), Error::PointNumber { .. }));
+    assert!(matches!(with(&|c| c.values = DMatrix::zeros(7, 2)), Error::TableShape { .. }));
+    assert_eq!(Factored::of(vec![]).map(|_| ()), Err(Error::NoSheets));
+    let twice: Vec<Factor> = vec![factor.clone(), factor];
+    assert!(matches!(Factored::of(twice), Err(Error::SheetTwice { .. })));
+    let off = first.fill(&[probe(Axis::Vertical, 76.0)], &mut Influence::zeros(1));
+    assert_eq!(off, Err(Error::OffRail { rail: 0, x: 76.0 }));
+}
