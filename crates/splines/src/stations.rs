@@ -22,6 +22,9 @@ const UNCOUPLED: f64 = 1e-9;
 /// Beside every station errors are looked for at this share of the range.
 const BESIDE: f64 = 1e-7;
 
+/// Makes a reading of tables.
+pub type Read<'a> = dyn Fn(&[Sheet]) -> Result<Box<dyn Compliance>, Error> + 'a;
+
 /// What stations are wanted for.
 #[derive(Clone, Copy)]
 pub struct Search<'a> {
@@ -36,7 +39,7 @@ pub struct Search<'a> {
     /// Places that must be stations: breaks, supports, hinges. Those outside the range do not count.
     pub fixed: &'a [f64],
     /// Makes a reading of tables.
-    pub read: &'a dyn Fn(&[Sheet]) -> Result<Box<dyn Compliance>, Error>,
+    pub read: &'a Read<'a>,
     /// Power of the distance of stations with which the reading's error falls, > 0: 2 for AKISPL and CUBSPL, 3 for
     /// the natural tensor and products of curves.
     pub order: f64,
