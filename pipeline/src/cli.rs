@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::appraisal::Manner;
 use crate::deck::Form;
 use crate::import::rail::triple;
 use crate::import::{fix, rail};
@@ -47,7 +48,7 @@ pub enum Command {
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(Fea),
-    /// Write the tables of a grid, as an ADAMS data set or in the format of the file's ending
+    /// Write the tables of a grid, at its stations or the fewest that do, or tell what readings of tables cost
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
     /// Write a scene as a complete ADAMS data set, with its command file; --check executes it against the simulator
@@ -81,11 +82,67 @@ pub struct Crosscheck {
 /// Arguments of `splines`.
 #[derive(Clone, Debug, Args)]
 pub struct Splines {
-    /// Grid file
+    /// Grid file; with --check also tables (.adm)
     pub grid: PathBuf,
-    /// File to write: .adm, .json or .csv [default: an ADAMS data set on standard output]
+    /// File to write: .adm, .json or .csv [default: an ADAMS data set on standard output]; with --check a picture
+    /// (.svg), a page (.html) or all numbers (.json)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Tell what each reading of the tables costs, on standard output
+    #[arg(long)]
+    pub check: bool,
+    /// Reading that must keep the tolerance: writes tables at the fewest stations with which it does; with --check a
+    /// larger error is a failure [default with --check: akispl]
+    #[arg(long, requires = "tolerance")]
+    pub reading: Option<Manner>,
+    /// Error allowed, of the largest coefficient
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub tolerance: Option<f64>,
+    /// Directions that must keep the tolerance [default: vertical,lateral]
+    #[arg(
+        long,
+        value_name = "DIRECTIONS",
+        value_delimiter = ',',
+        conflicts_with = "check",
+        requires = "reading"
+    )]
+    pub directions: Vec<Direction>,
+    /// Force of one wheel, for work and angles
+    #[arg(long, value_name = "FORCE", value_parser = positive, requires = "check")]
+    pub load: Option<f64>,
+    /// Distance of two wheels that move together
+    #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
+    pub spacing: Option<f64>,
+    /// Compare rules for what lies beyond a table this far out [default: its last distance of stations]
+    #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
+    pub beyond: Option<f64>,
+}
+
+/// Words of the directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Direction {
+    /// Up
+    Vertical,
+    /// To the right
+    Lateral,
+    /// Along the rail
+    Longitudinal,
+}
+
+impl From<Direction> for splines::Axis {
+    fn from(direction: Direction) -> splines::Axis {
+        match direction {
+            Direction::Vertical => splines::Axis::Vertical,
+            Direction::Lateral => splines::Axis::Lateral,
+            Direction::Longitudinal => splines::Axis::Longitudinal,
+        }
+    }
+}
+
+/// A positive number.
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value < 1e60 { Ok(value) } else { Err("must be positive, below 1e60".to_owned()) }
 }
 
 /// Arguments of `deck`.

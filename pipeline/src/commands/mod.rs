@@ -1,5 +1,6 @@
 //! The commands, one file each.
 
+pub mod check_tables;
 pub mod crosscheck;
 pub mod deck;
 pub mod fea;

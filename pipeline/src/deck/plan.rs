@@ -233,7 +233,9 @@ fn gives(
                 out.push(give);
             }
             scene::Foundation::Rigid | scene::Foundation::Influence => out.push(Give::rigid(structure, form)),
-            scene::Foundation::Parts { .. } => {
+            scene::Foundation::Parts { .. }
+            | scene::Foundation::Modal { .. }
+            | scene::Foundation::Full { .. } => {
                 let why = format!("a deck cannot have the foundation \"{}\"", structure.foundation.word());
                 return Err(refuse(why, "use \"influence\" or \"rigid\""));
             }

@@ -47,7 +47,9 @@ impl Search<'_> {
         let mut drag = 0.0;
         let mut before = f64::INFINITY;
         let mut worst = (0, f64::INFINITY);
-        for iterations in 1..=MOST {
+        let mut iterations = 0;
+        while iterations < MOST {
+            iterations += 1;
             let (residual, matrix) = self.slope(&place)?;
             let rows = self.rows(&place);
             let left = size(&residual, &rows);
@@ -60,7 +62,7 @@ impl Search<'_> {
             }
             let scales = self.scales(&place, &step);
             let long = size(&step, &scales);
-            let rounding = long <= STALLED && long >= 0.5 * before;
+            let rounding = long <= STALLED && long >= 0.1 * before;
             if (long <= ROUNDING || rounding) && left <= LEFT {
                 let place = if rounding { place } else { place.ahead(&self.unknowns, &step, 1.0) };
                 return self.report(&place, iterations, linear.missing());
@@ -75,7 +77,7 @@ impl Search<'_> {
             }
         }
         let (keyword, id) = self.name(worst.0);
-        Err(Error::Equilibrium { keyword: keyword.to_owned(), id, residual: worst.1, iterations: MOST })
+        Err(Error::Equilibrium { keyword: keyword.to_owned(), id, residual: worst.1, iterations })
     }
 
     /// The matrix with drag, factored in scales in which what holds a part counts and rounding does not.
