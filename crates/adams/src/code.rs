@@ -168,6 +168,20 @@ impl Code {
         }
     }
 
+    /// Whether the value depends on TIME alone.
+    pub fn of_time(&self) -> bool {
+        match self {
+            Code::Number(_) | Code::Time | Code::Mode => true,
+            Code::Measure(..) | Code::Load { .. } | Code::Reaction { .. } | Code::Slot(_) => false,
+            Code::Differential(_) => false,
+            Code::Spline { x, z, .. } | Code::Power(x, z) => x.of_time() && z.of_time(),
+            Code::Choice(parts) => parts.iter().all(Code::of_time),
+            Code::Call(_, parts) => parts.iter().all(Code::of_time),
+            Code::Sum(parts) => parts.iter().all(|(_, part)| part.of_time()),
+            Code::Product(parts) => parts.iter().all(|(_, part)| part.of_time()),
+        }
+    }
+
     /// The slots whose values this one needs.
     pub fn needs(&self, model: &Model, out: &mut BTreeSet<usize>) {
         match self {

@@ -22,6 +22,7 @@ mod solve;
 mod space;
 pub mod state;
 pub mod statement;
+pub mod statics;
 pub mod tables;
 pub mod units;
 
@@ -35,5 +36,6 @@ pub use scalar::{Dual, Scalar};
 pub use solve::{Load, Solution};
 pub use state::{Pose, State};
 pub use statement::{Argument, Statement, Value};
+pub use statics::{Equilibrium, Reaction};
 pub use tables::{Spline, Tables};
 pub use units::{Force, Length, Mass, Units};

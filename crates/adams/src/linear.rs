@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Dyn, FullPivLU, SVD};
 
 /// A square matrix, factored.
 ///
-/// Rows and columns are scaled to largest entries near one. A regular matrix is solved by elimination; a singular
+/// A regular matrix is solved by elimination; a singular
 /// one by least squares and, among their solutions, with the least norm of the scaled unknowns.
 pub(crate) struct Linear {
     rows: Vec<f64>,
@@ -25,22 +25,16 @@ const PIVOT: f64 = 1e-13;
 const SINGULAR: f64 = 1e-11;
 
 impl Linear {
-    /// `None` for a matrix that is not finite.
-    pub fn new(matrix: &DMatrix<f64>) -> Option<Linear> {
-        if matrix.iter().any(|value| !value.is_finite()) {
-            return None;
-        }
+    /// Scaled by its own entries. `None` for a matrix that is not finite.
+    pub fn balanced(matrix: &DMatrix<f64>) -> Option<Linear> {
         let n = matrix.nrows();
         let mut scaled = matrix.clone();
         let (mut rows, mut columns) = (vec![1.0; n], vec![1.0; n]);
         // Ruiz' scaling: each pass halves the logarithm of the spread.
         for _ in 0..8 {
-            let peak = |values: &mut dyn Iterator<Item = f64>| {
-                let top = values.fold(0.0_f64, |top, value| top.max(value.abs()));
-                if top > 0.0 { 1.0 / top.sqrt() } else { 1.0 }
-            };
-            let by_row: Vec<f64> = (0..n).map(|i| peak(&mut scaled.row(i).iter().copied())).collect();
-            let by_column: Vec<f64> = (0..n).map(|j| peak(&mut scaled.column(j).iter().copied())).collect();
+            let factor = |peak: f64| if peak > 0.0 { 1.0 / peak.sqrt() } else { 1.0 };
+            let by_row: Vec<f64> = (0..n).map(|i| factor(scaled.row(i).amax())).collect();
+            let by_column: Vec<f64> = (0..n).map(|j| factor(scaled.column(j).amax())).collect();
             for j in 0..n {
                 for i in 0..n {
                     scaled[(i, j)] *= by_row[i] * by_column[j];
@@ -48,6 +42,20 @@ impl Linear {
                 rows[j] *= by_row[j];
                 columns[j] *= by_column[j];
             }
+        }
+        Linear::new(matrix, rows, columns)
+    }
+
+    /// Scaled by what counts as large: the inverse for rows, itself for columns.
+    pub fn scaled(matrix: &DMatrix<f64>, rows: &[f64], columns: &[f64]) -> Option<Linear> {
+        Linear::new(matrix, rows.iter().map(|row| 1.0 / row).collect(), columns.to_vec())
+    }
+
+    fn new(matrix: &DMatrix<f64>, rows: Vec<f64>, columns: Vec<f64>) -> Option<Linear> {
+        let scaled =
+            DMatrix::from_fn(matrix.nrows(), matrix.ncols(), |i, j| matrix[(i, j)] * rows[i] * columns[j]);
+        if scaled.iter().any(|value| !value.is_finite()) {
+            return None;
         }
         let lu = scaled.clone().full_piv_lu();
         let pivots = lu.u().diagonal();
@@ -60,6 +68,16 @@ impl Linear {
             Factor::Singular(Box::new(svd), SINGULAR * top)
         };
         Some(Linear { rows, columns, factor, scaled })
+    }
+
+    /// How far the rank is below full.
+    pub fn missing(&self) -> usize {
+        match &self.factor {
+            Factor::Regular(_) => 0,
+            Factor::Singular(svd, least) => {
+                svd.singular_values.iter().filter(|value| **value <= *least).count()
+            }
+        }
     }
 
     /// x of A x = b.

@@ -17,16 +17,78 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Corrections that no longer shrink are rounding below this size.
 const STALLED: f64 = 1e-11;
 
+/// r and its derivatives.
+type Slope = (Vec<f64>, DMatrix<f64>);
+
 /// x with r(x) = 0 from a first guess, and the iterations done.
+///
+/// Newton's method; where it gets stuck, as at a kink from the side that does not lead on, the guess first flows
+/// along x' = -r(x), implicitly and in growing steps, in the unknowns that `flows`.
+///
+/// # Source
+/// C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM Journal on Numerical
+/// Analysis 35(2), 1998.
+pub(crate) fn solve<E>(
+    start: Vec<f64>,
+    flows: &[bool],
+    mut slope: impl FnMut(&[f64]) -> Result<Slope, E>,
+    mut value: impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
+) -> Result<Result<(Vec<f64>, usize), Stuck>, E> {
+    let first = newton(start.clone(), &mut slope, &mut value)?;
+    let Err(stuck) = first else { return Ok(first) };
+    let Some((near, iterations)) = flow(start, flows, &mut slope, &mut value) else { return Ok(first) };
+    let iterations = stuck.iterations + iterations;
+    Ok(match newton(near, slope, value)? {
+        Ok((x, more)) => Ok((x, iterations + more)),
+        Err(stuck) => Err(Stuck { iterations: iterations + stuck.iterations, ..stuck }),
+    })
+}
+
+/// Where the flow leads; `None` where it leads nowhere.
+fn flow<E>(
+    mut x: Vec<f64>,
+    flows: &[bool],
+    slope: &mut impl FnMut(&[f64]) -> Result<Slope, E>,
+    value: &mut impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
+) -> Option<(Vec<f64>, usize)> {
+    let top = |all: &[f64]| all.iter().fold(0.0_f64, |top, one| top.max(one.abs()));
+    // Inverse of the step in time.
+    let mut rate = 1.0;
+    for iterations in 1..=MOST {
+        let (residual, mut matrix) = slope(&x).ok()?;
+        let before = top(&residual);
+        if before == 0.0 || rate < 1e-4 {
+            return Some((x, iterations));
+        }
+        for (k, _) in flows.iter().enumerate().filter(|(_, flows)| **flows) {
+            matrix[(k, k)] += rate;
+        }
+        let step = Linear::balanced(&matrix).and_then(|linear| linear.solve(&residual))?;
+        let next: Vec<f64> = x.iter().zip(&step).map(|(x, d)| x - d).collect();
+        match value(&next).map(|residual| top(&residual)) {
+            Ok(after) if after <= 1.5 * before => {
+                x = next;
+                rate *= (after / before).clamp(0.1, 0.8);
+            }
+            _ => rate *= 8.0,
+        }
+        if rate > 1e12 {
+            return None;
+        }
+    }
+    Some((x, MOST))
+}
+
+/// x with r(x) = 0, and the iterations done.
 ///
 /// The full step J^-1 r is halved until the correction that the same J gives at the new place is smaller:
 /// a test that neither units of x nor of r change. Ends when corrections are rounding.
 ///
 /// # Source
 /// P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 3.3: natural monotonicity.
-pub(crate) fn newton<E>(
+fn newton<E>(
     mut x: Vec<f64>,
-    mut slope: impl FnMut(&[f64]) -> Result<(Vec<f64>, DMatrix<f64>), E>,
+    mut slope: impl FnMut(&[f64]) -> Result<Slope, E>,
     mut value: impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
 ) -> Result<Result<(Vec<f64>, usize), Stuck>, E> {
     let mut top: Vec<f64> = x.iter().map(|x| x.abs()).collect();
@@ -37,7 +99,7 @@ pub(crate) fn newton<E>(
             let all = linear.solve(residual)?;
             Some(all.iter().map(|value| -value).collect::<Vec<f64>>())
         };
-        let linear = Linear::new(&matrix);
+        let linear = Linear::balanced(&matrix);
         let step = linear.as_ref().and_then(|linear| correct(linear, &residual));
         let (Some(linear), Some(step)) = (linear, step) else {
             return Ok(Err(Stuck { iterations, worst: largest(&residual) }));
@@ -65,7 +127,7 @@ pub(crate) fn newton<E>(
         };
         let length = size(&step);
         let rounding = length <= STALLED;
-        if rounding && length >= 0.5 * before {
+        if rounding && length >= 0.1 * before {
             return Ok(Ok((x, iterations + 1)));
         }
         before = length;

@@ -3,7 +3,7 @@
 use crate::code::View;
 use crate::frame::Frame;
 use crate::model::{Block, Marker, Model, Owner, Slot};
-use crate::newton::newton;
+use crate::newton;
 use crate::space::Vector;
 use crate::{Dual, Error, Fault, Scalar, State, expression};
 use nalgebra::{DMatrix, Vector3};
@@ -119,7 +119,8 @@ impl Model {
             }
             self.residuals(view, torn, rest)
         };
-        match newton(start, slope, value)? {
+        let flows: Vec<bool> = torn.iter().map(|slot| !self.slots[*slot].implicit).collect();
+        match newton::solve(start, &flows, slope, value)? {
             Ok((x, iterations)) => {
                 for (slot, x) in torn.iter().zip(&x) {
                     view.values[*slot] = *x;

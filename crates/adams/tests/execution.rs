@@ -123,3 +123,42 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
     );
     assert!(out.beyond.is_empty());
 }
+
+#[test]
+fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
+    // Compliance g of every wheel by every other falls off with distance; wheels of 1e10 lb/ft, initially touching.
+    let (n, stiffness) = (8, 1e10);
+    let compliance = |i: usize, j: usize| 1e-7 * (-0.3 * (i as f64 - j as f64).abs()).exp();
+    let mut text = String::from("many\nPART/1,GROUND\nMARKER/1,PART=1\n");
+    for i in 1..=n {
+        let (marker, floating) = (100 + i, 200 + i);
+        text += &format!("PART/{marker}\nMARKER/{marker},PART={marker}\nMARKER/{floating},PART=1,FLOATING\n");
+        text += &format!("VARIABLE/{i},IC=1.25,FUN=DY({marker},1)");
+        for j in 1..=n {
+            text += &format!("\n,+GFORCE({j},0,3,1)*{:E}", compliance(i, j));
+        }
+        text += &format!(
+            "\nGFORCE/{i},I={marker},JFLOAT={floating},RM=1,FX=0\\,FY=MAX(0,{stiffness:E}*(1.25-VARVAL({i})))\\,\
+             FZ=0\\,TX=0\\,TY=0\\,TZ=0\n"
+        );
+    }
+    let model = model(&text);
+    let mut seed = 1_u64;
+    for _ in 0..300 {
+        let mut state = model.initial();
+        for pose in state.parts.values_mut() {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            pose.origin.y = 1.3 - 0.6 * ((seed >> 11) as f64 / 2_f64.powi(53));
+        }
+        let out = model.solve(&state).unwrap_or_else(|error| panic!("{error}"));
+        for i in 1..=n {
+            let force = |k: usize| out.loads[&("GFORCE", k as u32)].components[1];
+            let sunk: f64 = (1..=n).map(|j| compliance(i, j) * force(j)).sum();
+            let gap = state.parts[&(100 + i as u32)].origin.y + sunk;
+            let found = out.variables[&(i as u32)];
+            // k g eps: what rounding of 1.25 makes of the gap.
+            assert!((gap - found).abs() < 1e-12, "{gap} {found}");
+            assert_eq!(force(i), (stiffness * (1.25 - found)).max(0.0));
+        }
+    }
+}

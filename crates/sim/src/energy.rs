@@ -91,10 +91,11 @@ impl Audit {
 
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
-    let mut energy = Stored { kinetic: 0.5 * quadratic(&system.mass, &state.v), ..Stored::default() };
-    if system.has_structures() {
-        energy.structure = 0.5 * quadratic(&system.stiffness, &state.q);
-    }
+    let mut energy = Stored {
+        kinetic: system.blocks.iter().map(|block| block.kinetic(state.v.as_slice())).sum(),
+        ..Stored::default()
+    };
+    energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
     for (b, body) in system.scene.bodies.iter().enumerate() {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
@@ -127,10 +128,8 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
-    let mut power = Exchanged::default();
-    if system.has_structures() {
-        power.structure = quadratic(&system.damping, &state.v);
-    }
+    let structure = system.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
+    let mut power = Exchanged { structure, ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] == 0.0 {
             continue;
@@ -241,12 +240,4 @@ fn ramp_integral(depth: f64, p: f64) -> f64 {
         let d = p / depth;
         depth * d * d * d * (1.0 - 0.5 * d)
     }
-}
-
-fn quadratic(matrix: &nalgebra::DMatrix<f64>, x: &nalgebra::DVector<f64>) -> f64 {
-    let mut sum = 0.0;
-    for (j, column) in matrix.column_iter().enumerate() {
-        sum += x[j] * dot(column.as_slice(), x.as_slice());
-    }
-    sum
 }

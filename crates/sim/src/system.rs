@@ -8,6 +8,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
+use crate::matter::Block;
 use crate::scene::arm_rows;
 use crate::{Body, Error, Foundation, Freedom, NormalLaw, Scene};
 
@@ -63,9 +64,8 @@ pub(crate) struct System<'a> {
     pub freedoms: usize,
     /// Mass matrix of each body over its six freedoms.
     pub body_mass: Vec<[[f64; 6]; 6]>,
-    pub mass: DMatrix<f64>,
-    pub damping: DMatrix<f64>,
-    pub stiffness: DMatrix<f64>,
+    /// M, C and K: the bodies and spins, then each structure.
+    pub blocks: Vec<Block>,
     pub gravity: DVector<f64>,
     /// Probes of each structure.
     pub entries: Vec<Vec<Entry>>,
@@ -161,9 +161,7 @@ impl<'a> System<'a> {
             structure,
             freedoms,
             body_mass: scene.bodies.iter().map(Body::mass_matrix).collect(),
-            mass: DMatrix::zeros(freedoms, freedoms),
-            damping: DMatrix::zeros(freedoms, freedoms),
-            stiffness: DMatrix::zeros(freedoms, freedoms),
+            blocks: Vec::new(),
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
             is_direct: Vec::new(),
@@ -255,6 +253,8 @@ impl<'a> System<'a> {
     }
 
     fn fill_matrices(&mut self) -> Result<(), Error> {
+        let bodies = self.structure.first().map_or(self.freedoms, |range| range.start);
+        let mut mass = DMatrix::zeros(bodies, bodies);
         for (b, body) in self.scene.bodies.iter().enumerate() {
             let matrix = self.body_mass[b];
             let numbers = self.freedom[b];
@@ -265,7 +265,7 @@ impl<'a> System<'a> {
                 }
                 for j in 0..6 {
                     if let Some(column) = numbers[j] {
-                        self.mass[(row, column)] = matrix[i][j];
+                        mass[(row, column)] = matrix[i][j];
                     }
                 }
                 self.gravity[row] = -body.mass * self.scene.gravity * arm_rows(body.cg)[1][i];
@@ -273,15 +273,14 @@ impl<'a> System<'a> {
         }
         for wheel in &self.wheels {
             if let (Some(number), Some(inertia)) = (wheel.spin, self.scene.wheels[wheel.kind].spin_inertia) {
-                self.mass[(number, number)] = inertia;
+                mass[(number, number)] = inertia;
             }
         }
+        self.blocks.push(Block::bodies(mass));
         for (range, foundation) in self.structure.iter().zip(self.foundations) {
-            let Some(structure) = &foundation.structure else { continue };
-            let (at, size) = ((range.start, range.start), (range.len(), range.len()));
-            self.mass.view_mut(at, size).copy_from(&structure.mass);
-            self.damping.view_mut(at, size).copy_from(&structure.damping);
-            self.stiffness.view_mut(at, size).copy_from(&structure.stiffness);
+            if let Some(structure) = &foundation.structure {
+                self.blocks.push(Block::structure(range.clone(), structure));
+            }
         }
         Ok(())
     }

@@ -13,6 +13,7 @@ pub mod error;
 pub mod factored;
 mod family;
 mod kernel;
+mod lean;
 pub mod lift;
 pub mod line;
 pub mod probe;

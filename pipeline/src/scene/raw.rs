@@ -13,6 +13,7 @@ crate::object::objects!(
     RawScene,
     RawStructure,
     RawTables,
+    RawGauge,
     RawBody,
     RawStart,
     RawWheel,
@@ -69,6 +70,11 @@ pub(crate) struct RawStructure {
     pub count: Option<usize>,
     pub handover: Option<String>,
     pub blend: Option<f64>,
+    pub modes: Option<usize>,
+    pub elements: Option<usize>,
+    pub damping: Option<f64>,
+    #[serde(default)]
+    pub gauges: Entries<RawGauge>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
 }
@@ -79,6 +85,14 @@ pub(crate) struct RawTables {
     pub file: Option<String>,
     pub vertical: Option<u32>,
     pub lateral: Option<u32>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawGauge {
+    pub rail: Option<String>,
+    pub x: Option<f64>,
+    pub direction: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]

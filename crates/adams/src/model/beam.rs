@@ -80,14 +80,8 @@ fn lower(list: &[f64]) -> Option<[[f64; 6]; 6]> {
     if list.len() != 21 {
         return None;
     }
-    let mut out = [[0.0; 6]; 6];
-    let mut next = list.iter();
-    for column in 0..6 {
-        for row in column..6 {
-            let value = *next.next()?;
-            out[row][column] = value;
-            out[column][row] = value;
-        }
-    }
-    Some(out)
+    // Column k begins after 6 + 5 + ... numbers.
+    let start = |column: usize| column * (13 - column) / 2;
+    let entry = |a: usize, b: usize| list[start(a.min(b)) + a.abs_diff(b)];
+    Some(std::array::from_fn(|row| std::array::from_fn(|column| entry(row, column))))
 }

@@ -21,7 +21,6 @@ pub(crate) struct Part {
 
 #[derive(Clone, Debug)]
 pub(crate) struct Marker {
-    pub id: u32,
     pub part: usize,
     /// In part coordinates.
     pub position: Vector<f64>,
@@ -60,7 +59,7 @@ impl Marker {
     pub fn read(fields: &Fields<'_>, part: usize) -> Result<Marker, Error> {
         let (position, axes) = placement(fields, ["QP", "ZP", "XP"])?;
         let floating = fields.flag("FLOATING");
-        Ok(Marker { id: fields.id()?, part, position, axes, floating, follows: None })
+        Ok(Marker { part, position, axes, floating, follows: None })
     }
 }
 

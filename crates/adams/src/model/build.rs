@@ -381,6 +381,9 @@ impl<'a> Build<'a> {
                 Target::Request(request, column) => self.model.requests[request].columns[column].1 = code,
                 Target::Drive(constraint) => {
                     if let Some(drive) = &mut self.model.constraints[constraint].drive {
+                        if drive.start.is_some() && !code.of_time() {
+                            return Err(fields.fault(Fault::Unsupported));
+                        }
                         drive.code = code;
                     }
                 }
