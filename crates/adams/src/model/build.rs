@@ -8,19 +8,23 @@ use crate::interpolation::{Family, Method};
 use crate::{DataSet, Error, Fault, Statement, expression, tables};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Statements that say how to solve, draw and print, and change no force.
+/// Statements that say how to solve, draw and print, and values that only statements which are not executed read.
 const SILENT: &[&str] = &[
+    "ARRAY",
     "DEBUG",
     "EQUILIBRIUM",
     "GRAPHICS",
     "IC",
     "INTEGRATOR",
     "KINEMATICS",
+    "LIST",
     "LSOLVER",
     "MATERIAL",
+    "MATRIX",
     "OUTPUT",
     "PREFERENCES",
     "RESULTS",
+    "STRING",
 ];
 
 const EXECUTED: &[&str] = &[
