@@ -108,9 +108,7 @@ fn newton<E>(
         let goal = ahead(1.0);
         let now: Vec<f64> = x.iter().zip(&goal).map(|(a, b)| a.abs().max(b.abs())).collect();
         if step.iter().zip(&now).all(|(d, scale)| d.abs() <= ROUNDING * scale) {
-            // A singular matrix may have no step to offer.
-            let closed =
-                residual.iter().all(|r| *r == 0.0) || step.iter().any(|d| *d != 0.0) || small(&residual);
+            let closed = linear.missing() == 0 || holds(&matrix, &step, &residual, &goal);
             return Ok(if closed {
                 Ok((goal, iterations + 1))
             } else {
@@ -158,8 +156,14 @@ fn newton<E>(
     Ok(Err(Stuck { iterations: MOST, worst: 0 }))
 }
 
-fn small(residual: &[f64]) -> bool {
-    residual.iter().all(|r| r.abs() < 1e-13)
+/// Whether a step solves the linear equations: those that are singular may have no solution.
+fn holds(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], x: &[f64]) -> bool {
+    let sum = |i: usize, of: &dyn Fn(usize) -> f64| (0..x.len()).map(of).sum::<f64>() + residual[i];
+    (0..x.len()).all(|i| {
+        let left = sum(i, &|j| matrix[(i, j)] * step[j]);
+        let scale: f64 = (0..x.len()).map(|j| (matrix[(i, j)] * x[j]).abs()).sum();
+        left.abs() <= 1e-10 * scale + 1e-13
+    })
 }
 
 fn largest(all: &[f64]) -> usize {

@@ -185,3 +185,35 @@ fn references_are_checked_by_statement() {
         }
     }
 }
+
+#[test]
+fn nothing_at_all_is_at_rest() {
+    for text in ["empty\nEND\n", "ground\nPART/1,GROUND\nMARKER/1,PART=1\nVARIABLE/1,FUN=DX(1)\nEND\n"] {
+        let out = at_rest(text, 0.0);
+        assert!(out.state.parts.is_empty() && out.reactions.is_empty());
+    }
+}
+
+#[test]
+fn damaged_listing_comes_to_rest_or_is_refused_without_panic() {
+    let whole = include_str!("listings/rigid.adm");
+    let letters: Vec<char> = "0123456789,./=()*-+E".chars().collect();
+    let mut seed = 3_u64;
+    let mut below = |n: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % n
+    };
+    let mut rested = 0;
+    for _ in 0..300 {
+        let mut text: Vec<char> = whole.chars().collect();
+        let at = text.len() - 1 - below(text.len() - 500);
+        text[at] = letters[below(letters.len())];
+        let text: String = text.into_iter().collect();
+        let Ok(model) = DataSet::read(&text).and_then(|set| Model::new(&set)) else { continue };
+        if let Ok(out) = model.equilibrium(0.0, &model.initial()) {
+            rested += 1;
+            assert!(out.state.parts.values().all(|pose| pose.origin.iter().all(|value| value.is_finite())));
+        }
+    }
+    assert!(rested > 50, "{rested}");
+}

@@ -31,6 +31,11 @@ fn newton_closes_the_loop_where_substitution_diverges() {
     let exact = (1.2 + 10.9 * 1.25) / 11.9;
     assert!((out.variables[&1] - exact).abs() < 4e-16 * exact, "{}", out.variables[&1]);
     assert!(out.iterations <= 3, "{}", out.iterations);
+    let mut substituted = exact + 1e-9;
+    for _ in 0..5 {
+        substituted = 1.2 + 10.9 * (1.25 - substituted);
+    }
+    assert!((substituted - exact).abs() > 1e-4);
     // One-sided and progressive, from penetrations of 1.25 ft and from no contact at all.
     for start in [0.0, 1.25, 3.0] {
         let out = solved(&looped(1e8, start, "IMPACT(VARVAL(1),VY(2,1),1.25,$K,1.1,1E5,.01)"), 0.0);
@@ -161,4 +166,23 @@ fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
             assert_eq!(force(i), (stiffness * (1.25 - found)).max(0.0));
         }
     }
+}
+
+#[test]
+fn implicit_rate_that_its_expression_lacks_stays_if_the_expression_holds() {
+    // A wheel over a support: the girder gives nothing, so its rate is not in the expression.
+    let text = "rate\nVARIABLE/1,FUN=TIME*DIF1(1)\nDIFF/1,IC=0,7,IMPLICIT,FUN=DIF(1)-VARVAL(1)\n\
+                DIFF/2,IC=3,IMPLICIT,FUN=DIF1(2)*2-VARVAL(1)-DIF(2)\nEND\n";
+    let model = model(text);
+    let mut state = model.initial();
+    let out = model.solve(&state).expect("rates");
+    assert_eq!((out.rates[&1], out.rates[&2]), (7.0, 1.5));
+    state.time = 2.0;
+    state.differentials.insert(1, 8.0);
+    let out = model.solve(&state).expect("rates");
+    assert_eq!((out.rates[&1], out.rates[&2]), (4.0, 5.5));
+    // At the support, but not zero.
+    state.time = 0.0;
+    let error = model.solve(&state);
+    assert!(matches!(error, Err(Error::Loop { ref keyword, id: 1, .. }) if keyword == "DIFF"), "{error:?}");
 }

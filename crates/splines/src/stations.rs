@@ -13,6 +13,8 @@ const IDLE: usize = 3;
 const PARTS: [usize; 2] = [4, 8];
 /// Numbers of stations that must fail, one after the other, before the last that passed is called the fewest.
 const FAILURES: usize = 3;
+/// Predicted stations by those allowed, and errors by those allowed, from which no more work is spent.
+const HOPELESS: f64 = 1.5;
 /// Least order believed: kinks along the diagonal make every reading first order.
 const LEAST_ORDER: f64 = 0.7;
 /// Least density of stations, of the mean.
@@ -22,7 +24,7 @@ const UNCOUPLED: f64 = 1e-9;
 /// Beside every station errors are looked for at this share of the range.
 const BESIDE: f64 = 1e-7;
 
-/// Makes a reading of tables.
+/// Makes a reading of tables: for every direction its own, and couplings as there are.
 pub type Read<'a> = dyn Fn(&[Sheet]) -> Result<Box<dyn Compliance>, Error> + 'a;
 
 /// What stations are wanted for.
@@ -98,8 +100,15 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
         });
         let order = seen.map_or(search.order, |seen| seen.clamp(LEAST_ORDER, search.order));
         failures.push((count, found.error));
-        let more = (found.error / search.tolerance).powf(1.0 / order).min(4.0);
-        count = ((count as f64 * more).ceil() as usize).clamp(count + 1, most);
+        let wanted = count as f64 * (found.error / search.tolerance).powf(1.0 / order);
+        if wanted > HOPELESS * most as f64 && failures.len() > 1 {
+            // Placed once, not refined: far from enough.
+            let found = error_of(search, &density.stations(&fixed, most))?;
+            if found.error > HOPELESS * search.tolerance {
+                return Err(Error::Stations { most, error: found.error });
+            }
+        }
+        count = (wanted.min(4.0 * count as f64).ceil() as usize).clamp(count + 1, most);
     };
     let mut row = 0;
     while count > least && row < FAILURES {

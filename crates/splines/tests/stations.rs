@@ -9,7 +9,7 @@ use splines::{
     Axis, Compliance, Error, Factored, Kind, Rank, Reading, Search, Sheet, Stations, lift, stations,
 };
 
-type Read = Box<dyn Fn(&[Sheet]) -> Result<Box<dyn Compliance>, Error>>;
+type Read = Box<splines::stations::Read<'static>>;
 
 const VERTICAL: &[Axis] = &[Axis::Vertical];
 

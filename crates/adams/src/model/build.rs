@@ -1,27 +1,30 @@
 //! Data set to model.
 
 use super::fields::Fields;
-use super::load::{Kind, Law, Load};
 use super::names::{Compiler, Symbols};
-use super::{Beam, Constraint, Diff, Marker, Model, Owner, Part, Request, Slot, constraint, order, units};
+use super::{Diff, Marker, Model, Owner, Part, Request, Slot, order, units};
 use crate::code::Code;
 use crate::interpolation::{Family, Method};
 use crate::{DataSet, Error, Fault, Statement, expression, tables};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Statements that say how to solve, draw and print, and change no force.
+/// Statements that say how to solve, draw and print, and values that only statements which are not executed read.
 const SILENT: &[&str] = &[
+    "ARRAY",
     "DEBUG",
     "EQUILIBRIUM",
     "GRAPHICS",
     "IC",
     "INTEGRATOR",
     "KINEMATICS",
+    "LIST",
     "LSOLVER",
     "MATERIAL",
+    "MATRIX",
     "OUTPUT",
     "PREFERENCES",
     "RESULTS",
+    "STRING",
 ];
 
 const EXECUTED: &[&str] = &[
@@ -30,21 +33,23 @@ const EXECUTED: &[&str] = &[
 ];
 
 /// What is being built.
-struct Build<'a> {
+pub(super) struct Build<'a> {
     set: &'a DataSet,
-    symbols: Symbols,
-    model: Model,
+    pub symbols: Symbols,
+    pub model: Model,
     /// Expressions to compile once every name is known: slot or, for requests and motions, another place.
-    pending: Vec<Pending<'a>>,
+    pub pending: Vec<Pending<'a>>,
 }
 
-struct Pending<'a> {
-    statement: &'a Statement,
-    argument: &'static str,
-    target: Target,
+/// An expression to compile, and where its code goes.
+pub(super) struct Pending<'a> {
+    pub statement: &'a Statement,
+    pub argument: &'static str,
+    pub target: Target,
 }
 
-enum Target {
+/// Where the code of an expression goes.
+pub(super) enum Target {
     Slot(usize),
     Drive(usize),
     Request(usize, usize),
@@ -88,7 +93,7 @@ impl Model {
 }
 
 impl<'a> Build<'a> {
-    fn each(&self, keyword: &str) -> impl Iterator<Item = Fields<'a>> + use<'a> {
+    pub fn each(&self, keyword: &str) -> impl Iterator<Item = Fields<'a>> + use<'a> {
         let keyword = keyword.to_owned();
         let all = self.set.statements.iter().filter(move |one| one.keyword == keyword);
         all.map(|statement| Fields { statement })
@@ -156,18 +161,23 @@ impl<'a> Build<'a> {
         Ok(())
     }
 
-    fn marker(&self, fields: &Fields<'_>, name: &str) -> Result<Option<usize>, Error> {
+    pub fn marker(&self, fields: &Fields<'_>, name: &str) -> Result<Option<usize>, Error> {
         let Some(id) = fields.reference(name)? else { return Ok(None) };
         let found = self.symbols.markers.get(&id).copied();
         found.map(Some).ok_or_else(|| missing(fields, "MARKER", id))
     }
 
-    fn needed(&self, fields: &Fields<'_>, name: &str) -> Result<usize, Error> {
+    pub fn needed(&self, fields: &Fields<'_>, name: &str) -> Result<usize, Error> {
         self.marker(fields, name)?.ok_or_else(|| fields.lacks(name))
     }
 
     /// A new slot for the expression of an argument.
-    fn slot(&mut self, fields: &Fields<'a>, argument: &'static str, owner: Owner) -> Result<usize, Error> {
+    pub fn slot(
+        &mut self,
+        fields: &Fields<'a>,
+        argument: &'static str,
+        owner: Owner,
+    ) -> Result<usize, Error> {
         let slot = self.model.slots.len();
         self.model.slots.push(Slot {
             owner,
@@ -197,152 +207,6 @@ impl<'a> Build<'a> {
             self.symbols.diffs.insert(id, (index, slot));
         }
         Ok(())
-    }
-
-    fn loads(&mut self) -> Result<(), Error> {
-        for kind in [Kind::Sforce, Kind::Vforce, Kind::Gforce, Kind::Beam] {
-            for fields in self.each(kind.keyword()) {
-                let index = self.model.loads.len();
-                let id = fields.id()?;
-                let i = self.needed(&fields, "I")?;
-                let other = if matches!(kind, Kind::Vforce | Kind::Gforce) { "JFLOAT" } else { "J" };
-                let j = self.needed(&fields, other)?;
-                if self.model.markers[i].floating || (other == "J" && self.model.markers[j].floating) {
-                    return Err(fields.fault(Fault::Floating));
-                }
-                let law = match kind {
-                    Kind::Beam => Law::Beam(Box::new(Beam::read(&fields)?)),
-                    Kind::Sforce => {
-                        let slot = self.slot(&fields, "FUNCTION", Owner::Load(index, 0))?;
-                        let alone = fields.flag("ACTIONONLY");
-                        let twists = fields.one_of(&["TRANSLATIONAL", "ROTATIONAL"])? == Some("ROTATIONAL");
-                        if twists { Law::Twist { slot, alone } } else { Law::Line { slot, alone } }
-                    }
-                    Kind::Vforce | Kind::Gforce => self.components(&fields, index, i, j)?,
-                };
-                self.symbols.loads.insert((kind, id), index);
-                self.model.loads.push(Load { kind, id, i, j, law });
-            }
-        }
-        Ok(())
-    }
-
-    fn components(&mut self, fields: &Fields<'a>, index: usize, i: usize, j: usize) -> Result<Law, Error> {
-        let floating = &mut self.model.markers[j];
-        if !floating.floating || floating.follows.replace(i).is_some() {
-            return Err(fields.fault(Fault::Floating));
-        }
-        let rm = self.needed(fields, "RM")?;
-        if self.model.markers[rm].floating {
-            return Err(fields.fault(Fault::Floating));
-        }
-        let mut slots = [None; 6];
-        for (k, name) in ["FX", "FY", "FZ", "TX", "TY", "TZ"].into_iter().enumerate() {
-            if fields.flag(name) {
-                slots[k] = Some(self.slot(fields, name, Owner::Load(index, k))?);
-            }
-        }
-        if fields.flag("FUNCTION") {
-            return Err(fields.fault(Fault::Unsupported));
-        }
-        if slots.iter().all(Option::is_none) {
-            return Err(fields.lacks("FX"));
-        }
-        Ok(Law::Components { slots, rm })
-    }
-
-    fn constraints(&mut self) -> Result<(), Error> {
-        const JOINTS: &[&str] = &[
-            "REVOLUTE",
-            "TRANSLATIONAL",
-            "FIXED",
-            "PLANAR",
-            "CYLINDRICAL",
-            "SPHERICAL",
-            "HOOKE",
-            "UNIVERSAL",
-            "CONVEL",
-            "SCREW",
-            "RACKPIN",
-        ];
-        const PRIMITIVES: &[&str] =
-            &["ATPOINT", "INLINE", "INPLANE", "ORIENTATION", "PARALLEL_AXES", "PERPENDICULAR"];
-        for (keyword, kinds) in [("JOINT", JOINTS), ("JPRIM", PRIMITIVES)] {
-            for fields in self.each(keyword) {
-                let kind = fields.one_of(kinds)?.ok_or_else(|| fields.fault(Fault::Type))?;
-                let (i, j) = (self.needed(&fields, "I")?, self.needed(&fields, "J")?);
-                let equations = constraint::equations(kind);
-                if equations.is_empty() {
-                    return Err(fields.fault(Fault::Unsupported));
-                }
-                self.constrain(keyword, &fields, [i, j], equations, None)?;
-            }
-        }
-        for fields in self.each("MOTION") {
-            let (markers, equation) = self.motion(&fields)?;
-            let level = fields.one_of(&["DISPLACEMENT", "VELOCITY", "ACCELERATION"])?;
-            let start = match level {
-                Some("VELOCITY") => Some(fields.number("ICDISP")?.unwrap_or(0.0)),
-                Some("ACCELERATION") => return Err(fields.fault(Fault::Unsupported)),
-                _ => None,
-            };
-            let drive = constraint::Drive { code: Code::Number(0.0), start };
-            let index = self.constrain("MOTION", &fields, markers, vec![equation], Some(drive))?;
-            let target = Target::Drive(index);
-            self.pending.push(Pending { statement: fields.statement, argument: "FUNCTION", target });
-        }
-        Ok(())
-    }
-
-    fn constrain(
-        &mut self,
-        keyword: &'static str,
-        fields: &Fields<'_>,
-        [i, j]: [usize; 2],
-        equations: Vec<constraint::Equation>,
-        drive: Option<constraint::Drive>,
-    ) -> Result<usize, Error> {
-        let (id, index) = (fields.id()?, self.model.constraints.len());
-        if self.model.markers[i].floating || self.model.markers[j].floating {
-            return Err(fields.fault(Fault::Floating));
-        }
-        self.symbols.constraints.insert((keyword, id), index);
-        self.model.constraints.push(Constraint { keyword, id, i, j, equations, drive });
-        Ok(index)
-    }
-
-    /// Markers and equation of a motion: of a joint, or between two markers.
-    fn motion(&self, fields: &Fields<'_>) -> Result<([usize; 2], constraint::Equation), Error> {
-        use constraint::Equation::{About, Along};
-        if let Some(joint) = fields.reference("JOINT")? {
-            let found = self.symbols.constraints.get(&("JOINT", joint));
-            let index = *found.ok_or_else(|| missing(fields, "JOINT", joint))?;
-            let joint = &self.model.constraints[index];
-            let turns = !joint.equations.contains(&constraint::Equation::Normal(0, 1));
-            let slides = !joint.equations.contains(&Along(2));
-            let kind = match fields.one_of(&["ROTATIONAL", "TRANSLATIONAL"])? {
-                Some("ROTATIONAL") if turns => About,
-                Some("TRANSLATIONAL") if slides => Along(2),
-                None if turns != slides => {
-                    if turns {
-                        About
-                    } else {
-                        Along(2)
-                    }
-                }
-                _ => return Err(fields.fault(Fault::Type)),
-            };
-            return Ok(([joint.i, joint.j], kind));
-        }
-        let markers = [self.needed(fields, "I")?, self.needed(fields, "J")?];
-        let equation = match fields.one_of(&["X", "Y", "Z", "B1", "B2", "B3"])? {
-            Some("X") => Along(0),
-            Some("Y") => Along(1),
-            Some("Z") => Along(2),
-            Some(_) => return Err(fields.fault(Fault::Unsupported)),
-            None => return Err(fields.fault(Fault::Type)),
-        };
-        Ok((markers, equation))
     }
 
     fn requests(&mut self) -> Result<(), Error> {
@@ -407,6 +271,6 @@ impl<'a> Build<'a> {
     }
 }
 
-fn missing(fields: &Fields<'_>, keyword: &str, id: u32) -> Error {
+pub(super) fn missing(fields: &Fields<'_>, keyword: &str, id: u32) -> Error {
     fields.fault(Fault::Missing { keyword: keyword.to_owned(), id })
 }

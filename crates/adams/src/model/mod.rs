@@ -5,6 +5,8 @@ mod body;
 mod build;
 mod constraint;
 mod fields;
+mod forces;
+mod joints;
 mod load;
 mod names;
 mod order;

@@ -29,6 +29,9 @@ pub(super) fn search(
     }
     let search =
         Search { model, unknowns: unknowns(model), length: length(model, &place), force: force(model) };
+    if search.unknowns.is_empty() {
+        return search.report(&place, 0, 0);
+    }
     search.run(place)
 }
 
