@@ -78,3 +78,10 @@ fn a_scene_read_by_akispl_has_its_deck_so() {
     assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
     assert!(String::from_utf8_lossy(&run.stdout).starts_with("printed: 2 wheels, form akispl\n"));
 }
+
+#[test]
+fn a_data_set_must_have_its_ending() {
+    let run = girderway(&["deck", path(&example("bogie")), "-o", "bogie.acf"]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&run.stderr).contains("must end in .adm"));
+}
