@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::appraisal::Manner;
+use crate::deck::Form;
 use crate::import::rail::triple;
 use crate::import::{fix, rail};
 use crate::units::{Force, Length};
@@ -50,6 +51,11 @@ pub enum Command {
     /// Write the tables of a grid, at its stations or the fewest that do, or tell what readings of tables cost
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
+    /// Write a scene as a complete ADAMS data set, with its command file; --check executes it against the simulator
+    #[command(
+        after_help = "Example:\n  girderway deck examples/bogie/scene.json -o bogie.adm --form symmetrised --check"
+    )]
+    Deck(Deck),
     /// Turn a model of another program into a beam spec: NASTRAN bulk data or a gmsh mesh
     #[command(
         after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
@@ -137,6 +143,25 @@ impl From<Direction> for splines::Axis {
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if value > 0.0 && value < 1e60 { Ok(value) } else { Err("must be positive, below 1e60".to_owned()) }
+}
+
+/// Arguments of `deck`.
+#[derive(Clone, Debug, Args)]
+pub struct Deck {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Data set to write; its command file stands beside it [default: standard output, data set alone]
+    #[arg(short, long, value_name = "FILE.adm")]
+    pub output: Option<PathBuf>,
+    /// How the rails' give is read [default: factored; akispl where the scene reads a structure by it]
+    #[arg(long)]
+    pub form: Option<Form>,
+    /// Execute the deck and compare its forces with the simulator's; status 1 where they differ
+    #[arg(long)]
+    pub check: bool,
+    /// Random states of the check
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
+    pub states: u32,
 }
 
 /// Arguments of `import`.

@@ -12,6 +12,7 @@ pub mod clock;
 pub mod commands;
 pub mod coupling;
 pub mod crosscheck;
+pub mod deck;
 pub mod diagnostic;
 pub mod effect;
 mod effect_file;

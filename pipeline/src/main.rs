@@ -34,6 +34,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Sim(args) => commands::sim::run(&args, cli.global),
         Command::Fea(args) => commands::fea::run(&args, cli.global),
         Command::Splines(args) => commands::splines::run(&args, cli.global),
+        Command::Deck(args) => commands::deck::run(&args, cli.global),
         Command::Import(args) => commands::import::run(&args, cli.global),
         Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),
     }

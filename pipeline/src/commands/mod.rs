@@ -2,6 +2,7 @@
 
 pub mod check_tables;
 pub mod crosscheck;
+pub mod deck;
 pub mod fea;
 pub mod import;
 pub mod run;

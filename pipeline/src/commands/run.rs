@@ -16,6 +16,7 @@ use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
 use crate::record::peak;
 use crate::scene::{Document, Scene};
+use crate::spec::Spec;
 use crate::{grid_file, story, summary, tables};
 
 /// The main job: from a scene to its output folder.
@@ -114,9 +115,18 @@ fn finish(
 
 /// Solves every spec of every case once.
 fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<Known>, Failure> {
+    solve_all(document, &specs(document), progress)
+}
+
+/// Solves the given specs of a document.
+pub(super) fn solve_all(
+    document: &Document,
+    specs: &[(String, &str, &Arc<Spec>)],
+    progress: &Progress,
+) -> Result<Vec<Known>, Failure> {
     let mut known: Vec<Known> = Vec::new();
     let stage = progress.stage("solving the structures");
-    for (_, file, spec) in specs(document) {
+    for &(_, file, spec) in specs {
         let solved = link::solve(spec).map_err(|error| match document.inputs.find(file) {
             Some(input) => spec.refuse(&input.source, &error),
             None => Failure::untrusted(error),

@@ -116,6 +116,22 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
         return Ok(Foundation::influence(Box::new(surface.clone()), rails));
     }
+    let sheets = sheets(structure, solved)?;
+    let kind = match structure.reading {
+        // A table of values alone has no exact form; its natural splines are the closest reading.
+        scene::Reading::Exact | scene::Reading::Natural => Kind::Natural,
+        scene::Reading::Akispl => Kind::Akispl,
+        scene::Reading::Cubspl => Kind::Cubspl,
+    };
+    let reading = Reading::new(kind, &sheets).map_err(|error| failure(&structure.name, &error))?;
+    Ok(Foundation::influence(Box::new(reading), rails))
+}
+
+/// The tables of a structure: its direct and coupling grids, station by station.
+///
+/// # Errors
+/// A spec that has not been solved; what a table refuses.
+pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Sheet>, Failure> {
     let mut sheets = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
         let [at, loads] = stations.map(<[f64]>::to_vec);
@@ -157,14 +173,7 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
             return Err(Failure::Untrusted(format!("{}: its beam spec has not been solved", structure.name)));
         }
     }
-    let kind = match structure.reading {
-        // A table of values alone has no exact form; its natural splines are the closest reading.
-        scene::Reading::Exact | scene::Reading::Natural => Kind::Natural,
-        scene::Reading::Akispl => Kind::Akispl,
-        scene::Reading::Cubspl => Kind::Cubspl,
-    };
-    let reading = Reading::new(kind, &sheets).map_err(|error| failure(&structure.name, &error))?;
-    Ok(Foundation::influence(Box::new(reading), rails))
+    Ok(sheets)
 }
 
 /// A girder as massless rigid parts with one contact a wheel on a datum blended over `window` (none: from centre

@@ -1,0 +1,62 @@
+//! `girderway deck`: a scene as an ADAMS data set.
+
+use std::path::{Path, PathBuf};
+
+use super::run::solve_all;
+use crate::cases::specs;
+use crate::cli::{Deck as Arguments, Global};
+use crate::deck::{self, Form, check};
+use crate::exit::{Exit, Failure};
+use crate::output;
+use crate::progress::Progress;
+use crate::scene::Document;
+
+/// Writes the data set to the file named, with its command file beside it, or to standard output.
+///
+/// # Errors
+/// What is wrong with the scene or its files; a foundation that a deck cannot have; a scene that cannot start.
+pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let document = Document::open(&args.scene)?;
+    let scene = document.scene();
+    let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
+    let known = solve_all(&document, &specs(&only), &progress)?;
+    let form = args
+        .form
+        .unwrap_or_else(|| Form::of_readings(scene.structures.iter().map(|structure| structure.reading)));
+    let file = args.scene.display().to_string();
+    let plan = deck::plan(scene, &known, form, &file)?;
+    let model = args.output.as_deref().map_or_else(|| scene.name.clone(), stem);
+    let deck = deck::deck(&plan, &known, &model)?;
+    let text = deck.set.write().map_err(Failure::untrusted)?;
+    output::deliver(args.output.as_deref(), &text, &progress)?;
+    if let Some(path) = &args.output {
+        output::deliver(Some(&command_file(path)), &deck.commands, &progress)?;
+    }
+    if !args.check {
+        return Ok(Exit::Done);
+    }
+    let stage = progress.stage("executing the deck");
+    let report = check::check(&plan, &text, args.states as usize)?;
+    drop(stage);
+    for line in report.lines() {
+        progress.say(&line);
+    }
+    if global.json {
+        output::print(&output::json(&report.json()))?;
+    }
+    if report.holds() {
+        Ok(Exit::Done)
+    } else {
+        Err(Failure::Differs("the deck differs from the simulator".to_owned()))
+    }
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map_or_else(|| "model".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// The command file beside a data set.
+fn command_file(path: &Path) -> PathBuf {
+    path.with_extension("acf")
+}

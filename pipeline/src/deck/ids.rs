@@ -1,0 +1,63 @@
+//! Identifiers of the statements, unique within each kind.
+
+/// VARIABLEs of a wheel, by the last two digits of their identifiers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slot {
+    /// Rail coordinate of the wheel.
+    Place = 1,
+    /// Vertical displacement of the rail under the wheel, up.
+    Rise = 2,
+    /// Lateral displacement of the rail under the wheel.
+    Shift = 3,
+    /// Penetration, a contact.
+    Penetration = 4,
+    /// Vertical force on the rail, down, of each wheel of a contact.
+    Press = 5,
+    /// Lateral displacement of the wheel's contact from the rail.
+    Sideways = 6,
+    /// Flange force on the rail.
+    Flange = 7,
+    /// Friction on the rail, +x.
+    Traction = 8,
+    /// Force along the rail from the slope of the deflected rail, by the vertical force.
+    Slope = 9,
+    /// The same by the flange force.
+    Tilt = 10,
+}
+
+/// Identifier of a VARIABLE of wheel `wheel`, counted from 0.
+#[must_use]
+pub fn variable(wheel: usize, slot: Slot) -> u32 {
+    100 * number(wheel) + slot as u32
+}
+
+/// Identifier of the VARIABLE of product `k` of factor `factor`, both counted from 0.
+#[must_use]
+pub fn product(factor: usize, k: usize) -> u32 {
+    1_000_000 * number(factor) + number(k)
+}
+
+/// An index as an identifier: counted from 1.
+#[must_use]
+pub fn number(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX - 1).saturating_add(1)
+}
+
+/// Identifiers given out one after the other.
+#[derive(Clone, Copy, Debug)]
+pub struct Next(u32);
+
+impl Next {
+    /// From `first` on.
+    #[must_use]
+    pub const fn from(first: u32) -> Next {
+        Next(first)
+    }
+
+    /// One more.
+    pub fn take(&mut self) -> u32 {
+        let id = self.0;
+        self.0 = id.saturating_add(1);
+        id
+    }
+}

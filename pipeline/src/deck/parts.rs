@@ -1,0 +1,120 @@
+//! PART and MARKER statements: ground, rails, bodies, wheels with a spin.
+
+use adams::Statement;
+
+use super::mass;
+use super::name::plain;
+use super::plan::{GROUND, Plan};
+use super::remark;
+use super::start::{euler, rotation, turned};
+
+/// Share of a body's mass that each of its spinning wheels takes.
+const WHEEL: f64 = 1e-9;
+
+/// All of them.
+pub(super) fn statements(plan: &Plan<'_>) -> Vec<Statement> {
+    let mut out = ground(plan);
+    for b in 0..plan.bodies.len() {
+        body(plan, b, &mut out);
+    }
+    let mut said = false;
+    for w in 0..plan.wheels.len() {
+        wheel(plan, w, &mut said, &mut out);
+    }
+    out
+}
+
+fn marker(id: u32, part: u32, at: [f64; 3], name: &str) -> Statement {
+    Statement::new("MARKER", id).named(plain(name)).reference("PART", part).numbers("QP", &at)
+}
+
+fn ground(plan: &Plan<'_>) -> Vec<Statement> {
+    let mut out = vec![Statement::new("PART", GROUND).named("ground").flag("GROUND")];
+    for (d, datum) in plan.datums.iter().enumerate() {
+        let [y, z] = datum.at;
+        let name = &plan.scene.rails[datum.rail].name;
+        let mut statement = marker(datum.marker, GROUND, [0.0, y, z], &format!("rail_{name}"));
+        if d == 0 {
+            statement = statement.remark(remark::FRAME);
+        }
+        out.push(statement);
+    }
+    for (plan_body, body) in plan.bodies.iter().zip(&plan.scene.bodies) {
+        let [y, z] = plan_body.datum;
+        out.push(marker(plan_body.track, GROUND, [0.0, y, z], &format!("track_{}", body.name)));
+    }
+    for wheel in &plan.wheels {
+        let name = plain(&format!("float_{}", wheel.name));
+        let statement = Statement::new("MARKER", wheel.float).named(name);
+        out.push(statement.reference("PART", GROUND).flag("FLOATING"));
+    }
+    out
+}
+
+/// Place and 3-1-3 angles of body `b`'s origin at time 0.
+fn place(plan: &Plan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
+    let [x, y, z, roll, yaw, pitch] = plan.start.displacement[b];
+    let [height, side] = plan.bodies[b].datum;
+    ([x, height + y, side + z], rotation([roll, yaw, pitch]))
+}
+
+fn placed(id: u32, name: &str, at: [f64; 3], turn: [[f64; 3]; 3]) -> Statement {
+    let statement = Statement::new("PART", id).named(plain(name)).numbers("QG", &at);
+    let angles = euler(turn);
+    if angles == [0.0; 3] { statement } else { statement.numbers("REULER", &angles) }
+}
+
+/// With the speed along the rail at time 0.
+fn moving(statement: Statement, speed: f64) -> Statement {
+    if speed == 0.0 { statement } else { statement.numbers("VX", &[speed]) }
+}
+
+fn body(plan: &Plan<'_>, b: usize, out: &mut Vec<Statement>) {
+    let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
+    let (at, turn) = place(plan, b);
+    let unit = mass::factor(plan.scene.units);
+    let spinning = plan.wheels.iter().filter(|wheel| wheel.body == b && wheel.spin.is_some()).count();
+    let mass = body.mass * unit * (1.0 - WHEEL * spinning as f64);
+    let statement = placed(own.part, &body.name, at, turn)
+        .numbers("MASS", &[mass])
+        .reference("CM", own.cm)
+        .numbers("IP", &body.inertia.map(|inertia| inertia * unit));
+    out.push(moving(statement, plan.start.speed[b]));
+    out.push(marker(own.origin, own.part, [0.0; 3], &format!("{}_origin", body.name)));
+    out.push(marker(own.cm, own.part, body.cg, &format!("{}_cm", body.name)));
+    for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.body == b) {
+        out.push(marker(wheel.marker, own.part, wheel.hub, &format!("hub_{}", wheel.name)));
+        if let Some(tread) = wheel.tread {
+            let [x, y, z] = wheel.hub;
+            let at = [x, y - plan.kind(w).radius, z];
+            out.push(marker(tread, own.part, at, &format!("tread_{}", wheel.name)));
+        }
+    }
+}
+
+fn wheel(plan: &Plan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement>) {
+    let wheel = &plan.wheels[w];
+    let Some((part, centre)) = wheel.spin else { return };
+    let unit = mass::factor(plan.scene.units);
+    let (origin, turn) = place(plan, wheel.body);
+    let arm = turned(turn, wheel.hub);
+    let at = std::array::from_fn(|i| origin[i] + arm[i]);
+    let inertia = plan.kind(w).spin_inertia.unwrap_or_default() * unit;
+    let mut statement = placed(part, &wheel.name, at, turn)
+        .numbers("MASS", &[plan.scene.bodies[wheel.body].mass * unit * WHEEL])
+        .reference("CM", centre)
+        .numbers("IP", &[0.0, 0.0, inertia]);
+    if !*said {
+        *said = true;
+        statement = statement.remark(remark::SPIN);
+    }
+    out.push(moving(statement, plan.start.speed[wheel.body]));
+    out.push(marker(centre, part, [0.0; 3], &format!("centre_{}", wheel.name)));
+    out.push(
+        Statement::new("JOINT", super::ids::number(w))
+            .named(plain(&format!("axle_{}", wheel.name)))
+            .flag("REVOLUTE")
+            .reference("I", centre)
+            .reference("J", wheel.marker),
+    );
+}
