@@ -46,7 +46,7 @@ pub enum Command {
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(Fea),
-    /// Write the tables of a grid, as an ADAMS data set or in the format of the file's ending
+    /// Write the tables of a grid, or those of another file, in the format of the file's ending
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
     /// Turn a model of another program into a beam spec: NASTRAN bulk data or a gmsh mesh
@@ -75,11 +75,38 @@ pub struct Crosscheck {
 /// Arguments of `splines`.
 #[derive(Clone, Debug, Args)]
 pub struct Splines {
-    /// Grid file
+    /// Grid file, or a file of tables: .adm, .cmd, .csv, .json or .npz
     pub grid: PathBuf,
-    /// File to write: .adm, .json or .csv [default: an ADAMS data set on standard output]
+    /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
+    #[arg(long)]
+    pub form: Option<Form>,
+    /// Most products of the factored form [default: all that are more than rounding]
+    #[arg(long, value_name = "R", conflicts_with = "tolerance", value_parser = clap::value_parser!(u16).range(1..))]
+    pub rank: Option<u16>,
+    /// Leave out products below this share of the largest value
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub tolerance: Option<f64>,
+    /// Round to N significant digits (Adams View writes 10) [default: all digits]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    pub digits: Option<u8>,
+    /// Unit of length of tables that do not say it
+    #[arg(long, requires = "force")]
+    pub length: Option<LengthUnit>,
+    /// Unit of force of tables that do not say it
+    #[arg(long, requires = "length")]
+    pub force: Option<ForceUnit>,
+}
+
+/// Words of the forms of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Form {
+    /// G over load and deflection
+    Table,
+    /// One-curve splines, and G as the sum of their products
+    Factored,
 }
 
 /// Arguments of `import`.

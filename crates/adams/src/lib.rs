@@ -11,6 +11,7 @@ pub mod number;
 pub mod statement;
 pub mod tables;
 pub mod units;
+pub mod view;
 
 pub use curves::Curves;
 pub use dataset::DataSet;

@@ -1,66 +1,129 @@
-//! `girderway splines`: the tables of a grid.
-
-use std::path::Path;
+//! `girderway splines`: the tables of a grid, or of a file of tables, in another format.
 
 use adams::Curves;
+use serde_json::{Map, Value, json};
+use splines::{Rank, Surface};
 
-use crate::cli::{Global, Splines};
+use crate::cli::{Form, Global, Splines};
 use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::fault::{Fault, Faults};
+use crate::grid::{Grid, GridRail};
 use crate::grid_file;
-use crate::inputs::Inputs;
+use crate::inputs::{Input, Inputs};
 use crate::output;
 use crate::place::Place;
 use crate::progress::Progress;
-use crate::tables;
+use crate::tables::{self, Format, TableSet};
+use crate::units::Units;
 
-/// Reads the grid, writes its tables in the format of the file's ending, as an ADAMS data set to standard output.
+/// Reads a grid or tables, writes the tables in the format of the file's ending, as an ADAMS data set to
+/// standard output.
 ///
 /// # Errors
-/// What is wrong with the grid; an ending without a format; a file that cannot be written.
+/// What is wrong with the input; an ending without a format; tables without a factored form; a file that cannot
+/// be written.
 pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
-    let format = args.output.as_deref().map_or(Ok(Format::Adams), format)?;
-    let (_, source) = Inputs::open(&args.grid)?;
-    let (grid, _) = grid_file::read(&source)?;
+    let format = match &args.output {
+        Some(path) => Format::of(&path.display().to_string()).map_err(|fault| *fault)?,
+        None => Format::Adams,
+    };
+    if args.form != Some(Form::Factored) && (args.rank.is_some() || args.tolerance.is_some()) {
+        let fault = Diagnostic::of_file("girderway", "--rank and --tolerance are of the factored form");
+        return Err(fault.hint("add --form factored").into());
+    }
     let progress = Progress::new(global);
+    let inputs = Inputs::open_bytes(&args.grid).map_err(|fault| *fault)?;
+    let input = &inputs.all()[0];
+    let mut told = Map::new();
+    let (mut set, exact) = given(args, input, &progress)?;
+    match args.form {
+        Some(Form::Table) => set = tables::expand(&set),
+        Some(Form::Factored) => set = factored(args, &set, exact.as_ref(), input, &progress, &mut told)?,
+        None => {}
+    }
+    if let Some(digits) = args.digits {
+        let refused = |why: tables::Unrounded| Diagnostic::of_file(&input.shown, why.to_string());
+        let (rounded, rounding) = tables::round(&set, usize::from(digits)).map_err(refused)?;
+        progress.say(&rounding.message());
+        told.insert("rounding".into(), rounding.json());
+        set = rounded;
+    }
+    let bytes = tables::write(&set, format)?;
+    output::deliver_bytes(args.output.as_deref(), &bytes, &progress)?;
+    if let Some(path) = args.output.as_ref().filter(|_| global.json) {
+        told.insert("output".into(), json!(path.display().to_string()));
+        told.insert("tables".into(), json!(set.tables.len()));
+        output::print(&output::json(&Value::Object(told)))?;
+    }
+    Ok(Exit::Done)
+}
+
+/// The tables asked for; the exact surface of a grid that has one.
+type Given = (TableSet, Option<(Surface, Vec<GridRail>)>);
+
+fn given(args: &Splines, input: &Input, progress: &Progress) -> Result<Given, Failure> {
+    let told = args.length.zip(args.force);
+    let told = told.map(|(length, force)| Units { length: length.into(), force: force.into() });
+    if tables::is_tables(&input.shown, &input.bytes) {
+        return Ok((tables::read(&input.shown, &input.bytes, told)?, None));
+    }
+    let source = input.source()?;
+    let (grid, surface) = grid_file::read(&source)?;
+    if told.is_some_and(|told| told != grid.units) {
+        let fault = Diagnostic::of_file(&input.shown, "a grid says its units itself");
+        return Err(fault.hint("leave out --length and --force").into());
+    }
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {
         progress
             .say(&format!("note: no tables of loads on rail {}: it has fewer than four stations", rail.name));
     }
-    let set = tables::data_set(&grid);
-    if set.splines.is_empty() {
+    let set = TableSet::of_grid(&grid);
+    if set.tables.is_empty() {
         let root = Place::root();
         let fault = Fault::new(&root.key("rails"), "must have a rail of at least four stations");
         let fault = fault.hint("a SPLINE has four x values or more");
         return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
     }
-    let text = match format {
-        Format::Adams => adams::tables::write(&set).map_err(Failure::untrusted)?,
-        Format::Json => tables::to_json(&grid, &set),
-        Format::Csv => tables::to_csv(&set),
-    };
-    output::deliver(args.output.as_deref(), &text, &progress)?;
-    Ok(Exit::Done)
+    let Grid { rails, .. } = grid;
+    Ok((set, surface.map(|surface| (surface, rails))))
 }
 
-#[derive(Clone, Copy, Debug)]
-enum Format {
-    Adams,
-    Json,
-    Csv,
-}
-
-fn format(path: &Path) -> Result<Format, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let refuse = |expected: String| {
-        Err(Diagnostic::of_file(path.display().to_string(), expected).hint("use .adm, .json or .csv").into())
+fn factored(
+    args: &Splines,
+    set: &TableSet,
+    exact: Option<&(Surface, Vec<GridRail>)>,
+    input: &Input,
+    progress: &Progress,
+    told: &mut Map<String, Value>,
+) -> Result<TableSet, Failure> {
+    let rank = match (args.rank, args.tolerance) {
+        (Some(rank), _) => Rank::Count(usize::from(rank)),
+        (None, Some(tolerance)) => Rank::Tolerance(tolerance),
+        (None, None) => Rank::Full,
     };
-    match ending.as_str() {
-        "adm" => Ok(Format::Adams),
-        "json" => Ok(Format::Json),
-        "csv" => Ok(Format::Csv),
-        "cmd" | "npz" => refuse(format!("the format .{ending} is not available in this version")),
-        _ => refuse("the ending says no format".to_owned()),
+    let refused = |why: tables::Unfactored| {
+        Failure::from(Diagnostic::of_file(&input.shown, format!("has no factored form: {why}")))
+    };
+    let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
+    for id in &factoring.skipped {
+        progress.say(&format!("note: SPLINE/{id} is left out: a curve needs four stations"));
     }
+    let ranks: Vec<String> = factoring.ranks.iter().map(|[kept, of]| format!("{kept} of {of}")).collect();
+    progress.say(&format!("factored form: {} products", ranks.join(", ")));
+    progress.say(&format!("  error at the stations: {}", factoring.stations.message()));
+    let between = exact.and_then(|(surface, rails)| factoring.against(surface, rails));
+    match &between {
+        Some(found) => progress.say(&format!("  error against the exact surface: {}", found.message())),
+        None => {
+            progress.say("  error between the stations: not known without the exact surface of a grid file")
+        }
+    }
+    let ranks: Vec<Value> =
+        factoring.ranks.iter().map(|[kept, of]| json!({ "kept": kept, "of": of })).collect();
+    let between = between.map(|found| found.json());
+    let object =
+        json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });
+    told.insert("factored".into(), object);
+    Ok(factoring.set)
 }

@@ -1,0 +1,26 @@
+//! Influence tables as files, both ways.
+//!
+//! A [`TableSet`] is what every format holds; [`read`] and [`write`] go by the ending of the file's name.
+
+mod adm;
+mod build;
+mod csv;
+mod digits;
+mod expand;
+mod factor;
+mod format;
+mod json;
+mod npz;
+mod product;
+mod set;
+mod units;
+mod view;
+mod wrong;
+
+pub use build::{adm, data_set};
+pub use digits::{Rounding, Unrounded, round};
+pub use expand::expand;
+pub use factor::{Deviation, Factoring, Unfactored, factor};
+pub use format::{Format, is_tables, read, write};
+pub use product::Product;
+pub use set::{Table, TableSet};
