@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::crosscheck::Quantity;
 use crate::import::rail::triple;
 use crate::import::{fix, rail};
 use crate::units::{Force, Length};
@@ -80,6 +81,9 @@ pub struct Splines {
     /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Tables of these directions alone, such as vertical,lateral [default: all]
+    #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', value_parser = direction)]
+    pub directions: Vec<Quantity>,
     /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
     #[arg(long)]
     pub form: Option<Form>,
@@ -98,6 +102,13 @@ pub struct Splines {
     /// Unit of force of tables that do not say it
     #[arg(long, requires = "length")]
     pub force: Option<ForceUnit>,
+}
+
+/// A direction of deflection and load.
+fn direction(text: &str) -> Result<Quantity, String> {
+    let direct = Quantity::ALL.into_iter().filter(|one| one.direct() == [*one; 2]);
+    let found = direct.into_iter().find(|one| one.name() == text);
+    found.ok_or_else(|| "must be vertical, lateral or longitudinal".to_owned())
 }
 
 /// Words of the forms of tables.

@@ -37,6 +37,15 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     let input = &inputs.all()[0];
     let mut told = Map::new();
     let (mut set, exact) = given(args, input, &progress)?;
+    if !args.directions.is_empty() {
+        set = tables::only(&set, &args.directions);
+        if set.tables.is_empty() {
+            let fault = Diagnostic::of_file(&input.shown, "has no table of these directions");
+            return Err(fault
+                .hint("a table's direction is known from a grid, or from the end of its name")
+                .into());
+        }
+    }
     match args.form {
         Some(Form::Table) => set = tables::expand(&set),
         Some(Form::Factored) => set = factored(args, &set, exact.as_ref(), input, &progress, &mut told)?,
@@ -107,7 +116,7 @@ fn factored(
     };
     let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
     for id in &factoring.skipped {
-        progress.say(&format!("note: SPLINE/{id} is left out: a curve needs four stations"));
+        progress.say(&format!("note: SPLINE/{id} is left out: it is zero, or has fewer than four stations"));
     }
     let ranks: Vec<String> = factoring.ranks.iter().map(|[kept, of]| format!("{kept} of {of}")).collect();
     progress.say(&format!("factored form: {} products", ranks.join(", ")));

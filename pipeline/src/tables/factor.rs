@@ -23,7 +23,7 @@ pub struct Factoring {
     pub ranks: Vec<[usize; 2]>,
     /// At the stations, against the tables.
     pub stations: Deviation,
-    /// Tables left out: of a rail with fewer stations than a curve needs.
+    /// Tables left out: of a rail with fewer stations than a curve needs, or zero couplings.
     pub skipped: Vec<u32>,
     form: Factored,
     /// Number of the product's table in the plain form, deflection and load.
@@ -73,8 +73,12 @@ struct Ways {
 /// # Errors
 /// Why the tables have no factored form.
 pub fn factor(set: &TableSet, rank: Rank) -> Result<Factoring, Unfactored> {
-    let (tables, skipped): (Vec<&Table>, Vec<&Table>) =
-        set.tables.iter().partition(|table| table.curves.z().len() >= Curves::LEAST);
+    let (tables, skipped): (Vec<&Table>, Vec<&Table>) = set.tables.iter().partition(|table| {
+        let relates = |quantity: Quantity| quantity.direct() != [quantity; 2];
+        let coupling = table.quantity.is_some_and(relates) || table.curves.x() != table.curves.z();
+        let zero = table.curves.y().iter().flatten().all(|value| *value == 0.0);
+        table.curves.z().len() >= Curves::LEAST && !(coupling && zero)
+    });
     let ways = ways(&tables)?;
     let mut sheets = Vec::new();
     for (table, [deflection, load]) in tables.iter().zip(&ways.of) {

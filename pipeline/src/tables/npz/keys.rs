@@ -43,7 +43,7 @@ impl Keys {
 fn clash(a: &str, b: &str) -> bool {
     let belongs = |a: &str, b: &str| {
         b.strip_prefix(a)
-            .is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms", "_phi"].contains(&end))
+            .is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
     };
     belongs(a, b) || belongs(b, a)
 }
