@@ -114,7 +114,8 @@ fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Name
         return Err(sheet.fault(&row[width], format!("a row must have {width} cells, as the header")));
     }
     let last = &row[row.len() - 1];
-    let missing = Cell { text: String::new(), ..last.clone() };
+    let missing =
+        Cell { line: last.line, column: last.column + last.text.chars().count() + 1, text: String::new() };
     let number = |column: usize| sheet.number(row.get(column).unwrap_or(&missing));
     let id = match header.id.and_then(|column| row.get(column)) {
         None => None,

@@ -14,7 +14,7 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
         let fault = sheet.fault(&head[0], "must have rows of values below x");
         return Err(one(fault.hint(HINT)));
     };
-    let cornerless = head.len() + 1 == first.len();
+    let cornerless = head.len() + 1 == first.len() && sheet.maybe_number(&head[0]).is_some();
     let heads = if cornerless { &head[..] } else { &head[1..] };
     let numbers =
         |cells: &[Cell]| cells.iter().map(|cell| sheet.number(cell)).collect::<Result<Vec<f64>, _>>();

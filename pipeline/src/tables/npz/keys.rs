@@ -42,8 +42,7 @@ impl Keys {
 /// Whether the arrays that belong to one key would be called like the other, or like its arrays.
 fn clash(a: &str, b: &str) -> bool {
     let belongs = |a: &str, b: &str| {
-        b.strip_prefix(a)
-            .is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
+        b.strip_prefix(a).is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
     };
     belongs(a, b) || belongs(b, a)
 }
