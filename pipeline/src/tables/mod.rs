@@ -5,6 +5,7 @@
 mod adm;
 mod build;
 mod csv;
+mod deviation;
 mod digits;
 mod expand;
 mod factor;
@@ -19,9 +20,10 @@ mod view;
 mod wrong;
 
 pub use build::{adm, data_set};
+pub use deviation::Deviation;
 pub use digits::{Rounding, Unrounded, round};
 pub use expand::expand;
-pub use factor::{Deviation, Factoring, Unfactored, factor};
+pub use factor::{Factoring, Unfactored, factor};
 pub use format::{Format, is_tables, read, write};
 pub use only::only;
 pub use product::Product;

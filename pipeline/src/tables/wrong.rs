@@ -41,8 +41,8 @@ pub(super) fn curves(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<
         let hint = Some("a SPLINE has four x values or more");
         return Err(Wrong { hint, ..Wrong::of(Part::Xs, expected, x.len()) });
     }
-    let places: [(&[f64], fn(usize) -> Part); 2] = [(&x, Part::X), (&z, Part::Z)];
-    for (list, part) in places {
+    let part_x: fn(usize) -> Part = Part::X;
+    for (list, part) in [(&x, part_x), (&z, Part::Z)] {
         if let Some(k) = list.iter().position(|value| !value.is_finite()) {
             return Err(Wrong::of(part(k), "must be finite", list[k]));
         }

@@ -63,12 +63,12 @@ impl<'s> Sheet<'s> {
     }
 
     /// The finite number of a cell.
-    pub fn number(&self, cell: &Cell) -> Result<f64, Diagnostic> {
+    pub fn number(&self, cell: &Cell) -> Result<f64, Box<Diagnostic>> {
         self.maybe_number(cell).ok_or_else(|| {
             let mut fault = self.fault(cell, "must be a finite number");
             fault.found =
                 Some(if cell.text.is_empty() { "nothing".to_owned() } else { format!("\"{}\"", cell.text) });
-            fault
+            Box::new(fault)
         })
     }
 

@@ -88,7 +88,7 @@ struct Group<'s> {
 pub(super) fn read(sheet: &Sheet<'_>, header: &Header) -> Result<Vec<Draft>, Vec<Diagnostic>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for row in &sheet.rows[1..] {
-        let (id, name, entry) = entry(sheet, header, row).map_err(|fault| vec![fault])?;
+        let (id, name, entry) = entry(sheet, header, row).map_err(|fault| vec![*fault])?;
         match groups.iter_mut().rfind(|group| group.id == id && group.name == name) {
             Some(group) => group.entries.push(entry),
             None => {
@@ -103,15 +103,15 @@ pub(super) fn read(sheet: &Sheet<'_>, header: &Header) -> Result<Vec<Draft>, Vec
     if groups.is_empty() {
         return Err(vec![sheet.fault(&sheet.rows[0][0], "the file has no values")]);
     }
-    groups.into_iter().map(|group| draft(sheet, header, group).map_err(|fault| vec![fault])).collect()
+    groups.into_iter().map(|group| draft(sheet, header, group).map_err(|fault| vec![*fault])).collect()
 }
 
 type Named<'s> = (Option<u32>, Option<String>, Entry<'s>);
 
-fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Named<'s>, Diagnostic> {
+fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Named<'s>, Box<Diagnostic>> {
     let width = sheet.rows[0].len();
     if row.len() > width {
-        return Err(sheet.fault(&row[width], format!("a row must have {width} cells, as the header")));
+        return Err(sheet.fault(&row[width], format!("a row must have {width} cells, as the header")).into());
     }
     let last = &row[row.len() - 1];
     let missing =
@@ -132,12 +132,12 @@ fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Name
     Ok((id, name, Entry { z, x: number(header.x)?, value: number(header.value)?, row }))
 }
 
-fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Draft, Diagnostic> {
+fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Draft, Box<Diagnostic>> {
     let cell = |entry: &Entry<'_>, column: usize| entry.row.get(column).unwrap_or(&entry.row[0]).clone();
     let lone = group.entries.iter().all(|entry| entry.z.is_none());
     if let Some(entry) = group.entries.iter().find(|entry| !lone && entry.z.is_none()) {
         let z = header.z.unwrap_or(header.x);
-        return Err(sheet.fault(&cell(entry, z), "must have a z, as the other rows of the table"));
+        return Err(sheet.fault(&cell(entry, z), "must have a z, as the other rows of the table").into());
     }
     let z_of = |entry: &Entry<'_>| entry.z.unwrap_or(0.0);
     // -0 and 0 are one place
@@ -151,7 +151,7 @@ fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Dra
     for row in &rows {
         if let Some(pair) = row.windows(2).find(|pair| pair[0].x == pair[1].x) {
             let later = pair.iter().max_by_key(|entry| entry.row[0].line).unwrap_or(&pair[0]);
-            return Err(sheet.fault(&cell(later, header.x), "the value of this z and x stands twice"));
+            return Err(sheet.fault(&cell(later, header.x), "the value of this z and x stands twice").into());
         }
         let differs = row.iter().zip(&x).position(|(entry, x)| entry.x != *x);
         let short = || if row.len() == x.len() { None } else { Some(row.len().min(x.len())) };
@@ -160,7 +160,7 @@ fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Dra
             let expected = "every z must have values at the same x";
             let mut fault = sheet.fault(&cell(entry, header.x), expected);
             fault.found = Some(format!("x = {} at z = {}", entry.x, z_of(entry)));
-            return Err(fault);
+            return Err(fault.into());
         }
     }
     let z = if lone { Vec::new() } else { rows.iter().map(|row| z_of(&row[0])).collect() };

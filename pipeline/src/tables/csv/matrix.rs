@@ -9,10 +9,10 @@ use crate::tables::wrong::{self, Part};
 /// The one table. The corner is empty or text, or left out; or 0, where x and z are the same stations.
 pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
     let (head, body) = (&sheet.rows[0], &sheet.rows[1..]);
-    let one = |fault: Diagnostic| vec![fault];
+    let one = |fault: Box<Diagnostic>| vec![*fault];
     let Some(first) = body.first() else {
         let fault = sheet.fault(&head[0], "must have rows of values below x");
-        return Err(one(fault.hint(HINT)));
+        return Err(vec![fault.hint(HINT)]);
     };
     let cornerless = head.len() + 1 == first.len() && sheet.maybe_number(&head[0]).is_some();
     let heads = if cornerless { &head[..] } else { &head[1..] };
@@ -30,7 +30,7 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
     if corner.is_some_and(|corner| corner != 0.0 || x != z) {
         let mut fault = sheet.fault(&head[0], "the corner must be empty or text");
         fault.found = Some(head[0].text.clone());
-        return Err(one(fault.hint(HINT)));
+        return Err(vec![fault.hint(HINT)]);
     }
     let curves = wrong::curves(x, z, values).map_err(|wrong| {
         let cell = match wrong.part {
@@ -40,7 +40,7 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
             Part::Xs | Part::Values => None,
         };
         let fault = sheet.fault(cell.unwrap_or(&head[0]), wrong.expected);
-        one(Diagnostic { found: wrong.found, hint: wrong.hint.map(str::to_owned), ..fault })
+        vec![Diagnostic { found: wrong.found, hint: wrong.hint.map(str::to_owned), ..fault }]
     })?;
     Ok(Draft { id: None, name: None, quantity: None, rails: None, curves })
 }

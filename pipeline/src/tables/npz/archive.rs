@@ -13,7 +13,7 @@ use crate::diagnostic::Diagnostic;
 const LARGEST: u64 = 1 << 30;
 
 /// The arrays of an archive, by name without `.npy`, in its order.
-pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Diagnostic> {
+pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box<Diagnostic>> {
     let refuse = |error: ZipError| {
         let mut fault = Diagnostic::of_file(file, "must be a zip archive of arrays");
         fault.found = Some(error.to_string());
@@ -39,7 +39,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Dia
         })?;
         match left.checked_sub(size as u64) {
             Some(rest) => left = rest,
-            None => return Err(at(format!("the arrays have more than {LARGEST} bytes"))),
+            None => return Err(at(format!("the arrays have more than {LARGEST} bytes")).into()),
         }
         let array = Array::read(&data).map_err(|refusal| match refusal {
             Refusal::NoArray => at("must be an .npy array".to_owned()).hint("numpy.savez writes them"),
@@ -55,7 +55,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Dia
             }
         })?;
         if out.iter().any(|(known, _)| *known == name) {
-            return Err(at("stands twice".to_owned()));
+            return Err(at("stands twice".to_owned()).into());
         }
         out.push((name, array));
     }

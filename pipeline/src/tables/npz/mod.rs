@@ -16,6 +16,7 @@ mod archive;
 mod array;
 mod header;
 mod keys;
+mod pack;
 mod reader;
 mod writer;
 

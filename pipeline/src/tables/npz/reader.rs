@@ -1,16 +1,14 @@
 //! Arrays to tables.
 
 use super::archive;
-use super::array::{Array, Data};
+use super::array::Data;
 use super::keys::META;
-use crate::crosscheck::Quantity;
+use super::pack::Pack;
 use crate::diagnostic::Diagnostic;
 use crate::tables::product::Product;
 use crate::tables::set::{Draft, TableSet};
 use crate::tables::wrong::{self, Part, Wrong};
 use crate::units::Units;
-
-type Rails = Option<[String; 2]>;
 
 /// Reads an archive of ours, or of arrays as numpy users write them: every matrix is a table, called by its
 /// name; its stations are `K_x` and `K_z`, or `x` and `z`, or `stations` for both.
@@ -19,7 +17,7 @@ pub(in crate::tables) fn read(
     bytes: &[u8],
     told: Option<Units>,
 ) -> Result<TableSet, Vec<Diagnostic>> {
-    let one = |fault: Diagnostic| vec![fault];
+    let one = |fault: Box<Diagnostic>| vec![*fault];
     let arrays = archive::read(file, bytes).map_err(one)?;
     let pack = Pack { file, arrays };
     let given = match pack.words("units").map_err(one)? {
@@ -39,13 +37,13 @@ pub(in crate::tables) fn read(
     drafts.extend(pack.curves().map_err(one)?);
     if drafts.is_empty() {
         let fault = Diagnostic::of_file(file, "has no table");
-        return Err(one(
-            fault.hint("a table is a matrix: row z, column x; its stations are an array `stations`")
-        ));
+        return Err(vec![
+            fault.hint("a table is a matrix: row z, column x; its stations are an array `stations`"),
+        ]);
     }
     for (k, draft) in drafts.iter().enumerate() {
         if draft.id.is_some() && drafts[..k].iter().any(|other| other.id == draft.id) {
-            return Err(one(pack.fault("ids", "must all differ")));
+            return Err(vec![pack.fault("ids", "must all differ")]);
         }
     }
     let units = crate::tables::format::units(
@@ -62,97 +60,9 @@ pub(in crate::tables) fn read(
     Ok(set)
 }
 
-/// The arrays of a file.
-struct Pack<'f> {
-    file: &'f str,
-    arrays: Vec<(String, Array)>,
-}
-
 impl Pack<'_> {
-    fn fault(&self, path: &str, expected: impl Into<String>) -> Diagnostic {
-        Diagnostic { path: path.to_owned(), ..Diagnostic::of_file(self.file, expected) }
-    }
-
-    fn find(&self, name: &str) -> Option<&Array> {
-        self.arrays.iter().find(|(known, _)| known == name).map(|(_, array)| array)
-    }
-
-    fn words(&self, name: &str) -> Result<Option<Vec<String>>, Diagnostic> {
-        match self.find(name).map(|array| &array.data) {
-            None => Ok(None),
-            Some(Data::Words(words)) => Ok(Some(words.clone())),
-            Some(Data::Numbers(_)) => {
-                Err(self.fault(name, "must be words").hint("such as numpy.array([\"ft\", \"lbf\", \"s\"])"))
-            }
-        }
-    }
-
-    /// Numbers of one dimension.
-    fn line(&self, name: &str) -> Result<Option<&[f64]>, Diagnostic> {
-        let Some(array) = self.find(name) else { return Ok(None) };
-        match (&array.data, array.shape.as_slice()) {
-            (Data::Numbers(list), [_]) => Ok(Some(list)),
-            (Data::Numbers(_), shape) => {
-                Err(self.got(name, "must have one dimension", format!("the shape {shape:?}")))
-            }
-            (Data::Words(_), _) => Err(self.fault(name, "must be numbers")),
-        }
-    }
-
-    fn got(&self, path: &str, expected: &str, found: impl ToString) -> Diagnostic {
-        Diagnostic { found: Some(found.to_string()), ..self.fault(path, expected) }
-    }
-
-    /// As many words as there are keys, where the array is there.
-    fn matched(&self, name: &str, count: usize) -> Result<Option<Vec<String>>, Diagnostic> {
-        let words = self.words(name)?;
-        match &words {
-            Some(list) if list.len() != count => {
-                Err(self.got(name, &format!("must have {count} items"), list.len()))
-            }
-            _ => Ok(words),
-        }
-    }
-
-    /// Numbers of tables.
-    fn ids(&self, name: &str, count: usize) -> Result<Option<Vec<u32>>, Diagnostic> {
-        let Some(list) = self.line(name)? else { return Ok(None) };
-        if list.len() != count {
-            return Err(self.got(name, &format!("must have {count} items"), list.len()));
-        }
-        let ids = list.iter().enumerate().map(|(k, value)| self.id(&format!("{name}[{k}]"), *value));
-        ids.collect::<Result<Vec<u32>, _>>().map(Some)
-    }
-
-    fn id(&self, path: &str, value: f64) -> Result<u32, Diagnostic> {
-        let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
-        if whole { Ok(value as u32) } else { Err(self.got(path, "must be a whole number above 0", value)) }
-    }
-
-    /// Quantities and rails of so many keys.
-    fn relations(&self, before: &str, count: usize) -> Result<Vec<(Option<Quantity>, Rails)>, Diagnostic> {
-        let named = |name: &str| self.matched(&format!("{before}{name}"), count);
-        let (quantities, rails, loads) = (named("quantity")?, named("rail")?, named("load_rail")?);
-        let mut out = Vec::new();
-        for k in 0..count {
-            let quantity =
-                match quantities.as_ref().map(|list| list[k].as_str()).filter(|word| !word.is_empty()) {
-                    None => None,
-                    Some(word) => {
-                        let known = Quantity::ALL.into_iter().find(|one| one.name() == word);
-                        let path = format!("{before}quantity[{k}]");
-                        Some(known.ok_or_else(|| self.got(&path, "must be the name of a quantity", word))?)
-                    }
-                };
-            let pair =
-                rails.as_ref().zip(loads.as_ref()).map(|(rails, loads)| [rails[k].clone(), loads[k].clone()]);
-            out.push((quantity, pair.filter(|pair| pair.iter().all(|rail| !rail.is_empty()))));
-        }
-        Ok(out)
-    }
-
     /// The plain tables: those listed, or every matrix.
-    fn tables(&self) -> Result<Vec<Draft>, Diagnostic> {
+    fn tables(&self) -> Result<Vec<Draft>, Box<Diagnostic>> {
         let listed = self.words("tables")?;
         let ours = listed.is_some() || self.find("curves").is_some();
         let keys = match listed {
@@ -193,7 +103,7 @@ impl Pack<'_> {
     }
 
     /// Names of the arrays that are tables in a file that does not list them.
-    fn matrices(&self) -> Result<Vec<String>, Diagnostic> {
+    fn matrices(&self) -> Result<Vec<String>, Box<Diagnostic>> {
         let mut out = Vec::new();
         for (name, array) in &self.arrays {
             let stations = name.strip_suffix("_x").or_else(|| name.strip_suffix("_z"));
@@ -203,25 +113,13 @@ impl Pack<'_> {
                 (Data::Numbers(_), 1 | 2) => out.push(name.clone()),
                 _ => {
                     let fault = self.got(name, "unknown array", format!("the shape {:?}", array.shape));
-                    return Err(
-                        fault.hint(format!("tables are matrices; other arrays are {}", META.join(", ")))
-                    );
+                    return Err(fault
+                        .hint(format!("tables are matrices; other arrays are {}", META.join(", ")))
+                        .into());
                 }
             }
         }
         Ok(out)
-    }
-
-    /// x or z of a table, and the array they are in.
-    fn stations(&self, key: &str, side: &str) -> Result<(String, Vec<f64>), Diagnostic> {
-        for name in [format!("{key}_{side}"), side.to_owned(), "stations".to_owned()] {
-            if let Some(list) = self.line(&name)? {
-                return Ok((name, list.to_vec()));
-            }
-        }
-        let fault =
-            self.fault(key, format!("has no stations: no array `{key}_{side}`, `{side}` or `stations`"));
-        Err(fault.hint("numpy.savez(file, stations=x, vertical=values, units=[\"ft\", \"lbf\", \"s\"])"))
     }
 
     fn wrong(&self, wrong: Wrong, key: &str, [x, z]: [&str; 2], line: bool) -> Diagnostic {
@@ -240,7 +138,7 @@ impl Pack<'_> {
     }
 
     /// One-curve tables: columns of the arrays that `curves` lists.
-    fn curves(&self) -> Result<Vec<Draft>, Diagnostic> {
+    fn curves(&self) -> Result<Vec<Draft>, Box<Diagnostic>> {
         let Some(keys) = self.words("curves")? else { return Ok(Vec::new()) };
         let relations = self.relations("curves_", keys.len())?;
         let mut out = Vec::new();
@@ -282,7 +180,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    fn products(&self, drafts: &[Draft]) -> Result<Vec<Product>, Diagnostic> {
+    fn products(&self, drafts: &[Draft]) -> Result<Vec<Product>, Box<Diagnostic>> {
         let Some(keys) = self.words("products")? else { return Ok(Vec::new()) };
         let names = self.matched("products_names", keys.len())?;
         let relations = self.relations("products_", keys.len())?;
