@@ -152,6 +152,9 @@ fn commands_are_refused_at_line_and_column() {
     assert_eq!(refusal("a.cmd", text.as_bytes(), None), "a.cmd:3:16: unexpected text");
 }
 
+/// Names and bytes.
+type Members = Vec<(&'static str, Vec<u8>)>;
+
 /// An archive of one or more members, as given.
 fn archive(members: &[(&str, Vec<u8>)]) -> Vec<u8> {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
@@ -177,7 +180,7 @@ fn numbers(list: &[f64], shape: &str) -> Vec<u8> {
 fn archives_are_refused_by_array_and_index() {
     let stations = || ("stations.npy", numbers(&[0.0, 1.0, 2.0, 3.0], "(4,)"));
     let row = |shape: &str| ("vertical.npy", numbers(&[1.0, 2.0, 3.0, 4.0], shape));
-    let cases: Vec<(Vec<(&str, Vec<u8>)>, &str)> = vec![
+    let cases: Vec<(Members, &str)> = vec![
         (
             vec![],
             "has no table  hint: a table is a matrix: row z, column x; its stations are an array `stations`",
