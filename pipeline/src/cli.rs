@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::appraisal::Manner;
 use crate::crosscheck::Quantity;
 use crate::import::rail::triple;
 use crate::import::{fix, rail};
@@ -47,7 +48,7 @@ pub enum Command {
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(Fea),
-    /// Write the tables of a grid, or those of another file, in the format of the file's ending
+    /// Write the tables of a grid or of another file, at their stations or the fewest that do, or tell what readings cost
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
     /// Turn a model of another program into a beam spec: NASTRAN bulk data or a gmsh mesh
@@ -78,23 +79,21 @@ pub struct Crosscheck {
 pub struct Splines {
     /// Grid file, or a file of tables: .adm, .cmd, .csv, .json or .npz
     pub grid: PathBuf,
-    /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]
+    /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]; with --check a
+    /// picture (.svg), a page (.html) or all numbers (.json)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Tables of these directions alone, such as vertical,lateral [default: all]
-    #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', value_parser = direction)]
-    pub directions: Vec<Quantity>,
+    /// Tables of these directions alone [default: all]
+    #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', conflicts_with = "check")]
+    pub only: Vec<Direction>,
     /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
-    #[arg(long)]
+    #[arg(long, conflicts_with = "check")]
     pub form: Option<Form>,
     /// Most products of the factored form [default: all that are more than rounding]
-    #[arg(long, value_name = "R", conflicts_with = "tolerance", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u16).range(1..))]
     pub rank: Option<u16>,
-    /// Leave out products below this share of the largest value
-    #[arg(long, value_name = "SHARE", value_parser = share)]
-    pub tolerance: Option<f64>,
     /// Round to N significant digits (Adams View writes 10) [default: all digits]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=17))]
+    #[arg(long, value_name = "N", conflicts_with = "check", value_parser = clap::value_parser!(u8).range(1..=17))]
     pub digits: Option<u8>,
     /// Unit of length of tables that do not say it
     #[arg(long, requires = "force")]
@@ -102,13 +101,34 @@ pub struct Splines {
     /// Unit of force of tables that do not say it
     #[arg(long, requires = "length")]
     pub force: Option<ForceUnit>,
-}
-
-/// A direction of deflection and load.
-fn direction(text: &str) -> Result<Quantity, String> {
-    let direct = Quantity::ALL.into_iter().filter(|one| one.direct() == [*one; 2]);
-    let found = direct.into_iter().find(|one| one.name() == text);
-    found.ok_or_else(|| "must be vertical, lateral or longitudinal".to_owned())
+    /// Tell what each reading of the tables costs, on standard output
+    #[arg(long)]
+    pub check: bool,
+    /// Reading that must keep the tolerance: writes tables at the fewest stations with which it does; with --check a
+    /// larger error is a failure [default with --check: akispl]
+    #[arg(long, requires = "tolerance")]
+    pub reading: Option<Manner>,
+    /// Error allowed, of the largest coefficient; of the factored form without a reading, that at the stations
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub tolerance: Option<f64>,
+    /// Directions that must keep the tolerance [default: vertical,lateral]
+    #[arg(
+        long,
+        value_name = "DIRECTIONS",
+        value_delimiter = ',',
+        conflicts_with = "check",
+        requires = "reading"
+    )]
+    pub directions: Vec<Direction>,
+    /// Force of one wheel, for work and angles
+    #[arg(long, value_name = "FORCE", value_parser = positive, requires = "check")]
+    pub load: Option<f64>,
+    /// Distance of two wheels that move together
+    #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
+    pub spacing: Option<f64>,
+    /// Compare rules for what lies beyond a table this far out [default: its last distance of stations]
+    #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
+    pub beyond: Option<f64>,
 }
 
 /// Words of the forms of tables.
@@ -118,6 +138,43 @@ pub enum Form {
     Table,
     /// One-curve splines, and G as the sum of their products
     Factored,
+}
+
+/// Words of the directions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Direction {
+    /// Up
+    Vertical,
+    /// To the right
+    Lateral,
+    /// Along the rail
+    Longitudinal,
+}
+
+impl From<Direction> for splines::Axis {
+    fn from(direction: Direction) -> splines::Axis {
+        match direction {
+            Direction::Vertical => splines::Axis::Vertical,
+            Direction::Lateral => splines::Axis::Lateral,
+            Direction::Longitudinal => splines::Axis::Longitudinal,
+        }
+    }
+}
+
+impl From<Direction> for Quantity {
+    fn from(direction: Direction) -> Quantity {
+        match direction {
+            Direction::Vertical => Quantity::Vertical,
+            Direction::Lateral => Quantity::Lateral,
+            Direction::Longitudinal => Quantity::Longitudinal,
+        }
+    }
+}
+
+/// A positive number.
+fn positive(text: &str) -> Result<f64, String> {
+    let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
+    if value > 0.0 && value < 1e60 { Ok(value) } else { Err("must be positive, below 1e60".to_owned()) }
 }
 
 /// Arguments of `import`.

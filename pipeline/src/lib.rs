@@ -3,6 +3,7 @@
 //! [`spec`] and [`scene`] read and check input files; [`commands`] do the work; every number that reaches them is
 //! finite, checked and in the units asked for.
 
+pub mod appraisal;
 pub mod cases;
 pub mod chart;
 pub mod check;
@@ -35,6 +36,7 @@ pub mod report;
 pub mod scene;
 pub mod source;
 pub mod spec;
+pub mod stations;
 pub mod story;
 pub mod summary;
 pub mod surface_file;

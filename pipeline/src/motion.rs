@@ -1,9 +1,10 @@
 //! A scene of the file format as a scene of the simulator.
 
 use sim::{Contact, NormalLaw};
+use splines::Probe;
 
 use crate::exit::Failure;
-use crate::scene::{Along, Analysis, Damper, Law, Scene};
+use crate::scene::{Along, Analysis, Damper, Gauge, Law, Scene};
 
 /// The simulator's scene, and its wheels by name.
 pub struct Cast {
@@ -68,6 +69,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         }
     }
     let scene = sim::Scene {
+        gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
         wheels,
@@ -81,6 +83,17 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         accuracy: scene.accuracy,
     };
     Ok(Cast { scene, wheels: cast })
+}
+
+/// Gauges of all structures, in their order.
+fn gauges(scene: &Scene) -> Vec<sim::Gauge> {
+    let structures = scene.structures.iter().enumerate();
+    structures
+        .flat_map(|(structure, given)| {
+            let probe = |gauge: &Gauge| Probe { rail: gauge.rail, x: gauge.x, axis: gauge.axis };
+            given.gauges.iter().map(move |gauge| sim::Gauge { structure, probe: probe(gauge) })
+        })
+        .collect()
 }
 
 fn body(body: &crate::scene::Body) -> sim::Body {

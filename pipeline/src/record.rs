@@ -1,6 +1,7 @@
 //! Histories as named columns.
 
 use sim::{Channel, Freedom, History};
+use splines::Axis;
 
 use crate::motion::Cast;
 use crate::scene::{Along, FREEDOMS, Scene};
@@ -79,6 +80,14 @@ impl Record {
                 let rate = Dimension::of(0, 0, -1);
                 record.push(format!("{name}.spin_speed"), rate, history.column(Channel::SpinSpeed(w)));
             }
+        }
+        let gauges = scene.structures.iter().flat_map(|structure| {
+            structure.gauges.iter().map(move |gauge| (format!("{}.{}", structure.name, gauge.name), gauge))
+        });
+        for (k, (name, gauge)) in gauges.enumerate() {
+            let sign = if gauge.axis == Axis::Vertical { -1.0 } else { 1.0 };
+            let values = history.column(Channel::Gauge(k)).into_iter().map(|u| sign * u).collect();
+            record.push(name, Dimension::LENGTH, values);
         }
         for (r, rail) in scene.rails.iter().enumerate() {
             let on_rail: Vec<Vec<f64>> = (0..cast.wheels.len())

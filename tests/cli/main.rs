@@ -2,6 +2,7 @@
 
 mod grids;
 mod modes;
+mod tables;
 
 use std::fs;
 use std::path::{Path, PathBuf};

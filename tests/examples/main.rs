@@ -107,6 +107,11 @@ fn mill_girderway_gives_its_expected_numbers() {
 }
 
 #[test]
+fn yang_yau_gives_its_expected_numbers() {
+    check("yang_yau");
+}
+
+#[test]
 fn grids_of_the_mill_girderway_are_those_of_other_codes() {
     let example = root().join("examples/mill_girderway");
     let expected = json(&example.join("expected.json"));
@@ -147,7 +152,10 @@ fn grids_of_the_mill_girderway_are_those_of_other_codes() {
 fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
         let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
-        assert!(["bogie", "mill_girderway", "wheel"].contains(&name.as_str()), "examples/{name} has no test");
+        assert!(
+            ["bogie", "mill_girderway", "wheel", "yang_yau"].contains(&name.as_str()),
+            "examples/{name} has no test"
+        );
         for file in ["scene.json", "README.md", "expected.json"] {
             assert!(
                 root().join("examples").join(&name).join(file).is_file(),

@@ -14,7 +14,7 @@ use super::{bogie_grid, bytes, folder, girderway, told};
 fn five_curves_of_the_paper_girder_err_as_published() {
     let folder = folder();
     bogie_grid(folder.path());
-    let arguments = ["--form", "factored", "--rank", "5", "--directions", "vertical", "--json"];
+    let arguments = ["--form", "factored", "--rank", "5", "--only", "vertical", "--json"];
     let run = girderway(folder.path(), &[&["splines", "grid.json", "-o", "f.json"], &arguments[..]].concat());
     assert_eq!(run.status.code(), Some(0), "{}", told(&run));
     let result: Value = serde_json::from_slice(&run.stdout).expect("JSON");
@@ -29,10 +29,8 @@ fn five_curves_of_the_paper_girder_err_as_published() {
 fn fewer_curves_err_more_and_the_report_is_the_largest_difference() {
     let folder = folder();
     bogie_grid(folder.path());
-    let run = girderway(
-        folder.path(),
-        &["splines", "grid.json", "-o", "t.npz", "--directions", "vertical,longitudinal"],
-    );
+    let run =
+        girderway(folder.path(), &["splines", "grid.json", "-o", "t.npz", "--only", "vertical,longitudinal"]);
     assert_eq!(run.status.code(), Some(0), "{}", told(&run));
     let set = read("t.npz", &bytes(&folder.path().join("t.npz")), None).expect("our own file");
     assert_eq!(set.tables.len(), 3);
@@ -79,7 +77,7 @@ fn a_tolerance_keeps_the_stations_within_it() {
                 "--json",
                 "--form",
                 "factored",
-                "--directions",
+                "--only",
                 "lateral",
                 "--tolerance",
                 tolerance,

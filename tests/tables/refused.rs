@@ -124,7 +124,7 @@ fn json_is_refused_by_path() {
     let bare = "{\"x\": [0,1,2,3], \"values\": [[1,2,3,4]]}";
     assert!(
         refusal("a.json", bare.as_bytes(), None)
-            .starts_with("a.json:1:1: missing key `units`  hint: none is guessed")
+            .starts_with("a.json: has no `units`  hint: such as \"units\": {\"length\": \"ft\"")
     );
     let factored = format!(
         "{{\"format\": \"girderway-tables/1\", {units}, \"tables\": [{{\"id\": 1, \"x\": [0,1,2,3], \"values\": [[1,2,3,4]]}}],

@@ -106,3 +106,28 @@ fn a_plain_set_expands_to_itself() {
     let set = random_set(&mut Dice(15));
     assert_eq!(expand(&set), set);
 }
+
+/// `--check` tells the same of a grid's tables in every format.
+#[test]
+fn a_check_finds_the_same_in_every_format() {
+    let folder = folder();
+    bogie_grid(folder.path());
+    let mut first: Option<String> = None;
+    for ending in ENDINGS {
+        let name = format!("bridge.{ending}");
+        for arguments in
+            [&["splines", "grid.json", "-o", &name][..], &["splines", &name, "--check", "--json"]]
+        {
+            let run = girderway(folder.path(), arguments);
+            assert_eq!(run.status.code(), Some(0), "{}", told(&run));
+            if arguments.contains(&"--check") {
+                let found: serde_json::Value = serde_json::from_slice(&run.stdout).expect("JSON");
+                let tables = found["tables"].as_array().expect("a list");
+                assert_eq!(tables.len(), 6);
+                let symmetry: String = tables.iter().map(|table| table["readings"].to_string()).collect();
+                assert_eq!(first.get_or_insert_with(|| symmetry.clone()), &symmetry, "{ending}");
+            }
+        }
+    }
+    assert!(first.is_some_and(|text| text.contains("akispl")));
+}

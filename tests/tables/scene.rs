@@ -69,7 +69,7 @@ fn a_scene_runs_on_the_factored_form_as_on_the_tables() {
     for (name, form) in [("plain.npz", "table"), ("factored.adm", "factored")] {
         let run = girderway(
             folder.path(),
-            &["splines", "grid.json", "-o", name, "--form", form, "--directions", "vertical"],
+            &["splines", "grid.json", "-o", name, "--form", form, "--only", "vertical"],
         );
         assert_eq!(run.status.code(), Some(0), "{}", told(&run));
         scene(folder.path(), &format!("{{\"file\": \"{name}\", \"vertical\": \"vertical\"}}"), "natural");

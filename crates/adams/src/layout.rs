@@ -42,12 +42,20 @@ impl Layout {
             let name = &argument.name;
             match &argument.value {
                 Value::Flag => self.line(&format!(", {name}")),
-                Value::Word(word) => {
-                    let line = format!(", {name} = {word}");
-                    if line.len() > WIDTH || !line.bytes().all(|c| c.is_ascii_graphic() || c == b' ') {
+                Value::Word(words) => {
+                    if !words.bytes().all(|c| c.is_ascii_graphic() || c == b' ') {
                         return Err(long());
                     }
-                    self.line(&line);
+                    let line = format!(", {name} = {words}");
+                    if line.len() <= WIDTH {
+                        self.line(&line);
+                        continue;
+                    }
+                    let items = items(words);
+                    if items.iter().any(|item| item.len() + name.len() + 6 > WIDTH) {
+                        return Err(long());
+                    }
+                    self.list(name, items.into_iter().map(str::to_owned));
                 }
                 Value::Whole(whole) => self.line(&format!(", {name} = {whole}")),
                 Value::Numbers(values) => self.list(name, values.iter().map(|&value| number::write(value))),
@@ -123,6 +131,16 @@ impl Layout {
         self.line(&line);
         Some(())
     }
+}
+
+/// Items of a list of words, which commas outside of double quotes separate.
+fn items(text: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let pieces = text.split(|c| {
+        quoted ^= c == '"';
+        c == ',' && !quoted
+    });
+    pieces.map(str::trim).collect()
 }
 
 /// Pieces of an expression between which a line may end: each ends with a comma, an operator or a bracket.

@@ -8,6 +8,8 @@ pub(crate) struct Statement<'a> {
     pub pieces: Vec<Piece<'a>>,
     pub name: Option<&'a str>,
     pub units: Option<&'a str>,
+    /// Other comments before it.
+    pub remarks: Vec<&'a str>,
 }
 
 /// Part of a line: its number and first column, counted from 1.
@@ -65,19 +67,23 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<Statement<'_>>
         _ => None,
     };
     let mut all: Vec<Statement<'_>> = Vec::new();
-    let (mut name, mut units) = (None, None);
+    let (mut name, mut units, mut remarks) = (None, None, Vec::new());
     let (mut open, mut comma) = (false, false);
     for (number, line) in lines {
         let body = line.trim_start();
         if let Some(comment) = body.strip_prefix('!') {
-            name = view(comment, "adams_view_name").or(name);
-            units = view(comment, "adams_view_units").or(units);
+            let views = (view(comment, "adams_view_name"), view(comment, "adams_view_units"));
+            if views == (None, None) && !comment.trim().is_empty() {
+                remarks.push(comment.trim());
+            }
+            name = views.0.or(name);
+            units = views.1.or(units);
             continue;
         }
-        let code = line.split('!').next().unwrap_or(line);
-        let ends = code.matches(';').count();
+        let parts = code(line);
+        let ends = parts.len() - 1;
         let mut column = 1;
-        for (k, part) in code.split(';').enumerate() {
+        for (k, part) in parts.into_iter().enumerate() {
             let piece = Piece { line: number + 1, column, text: part };
             column += part.chars().count() + 1;
             let trimmed = part.trim();
@@ -99,13 +105,36 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<Statement<'_>>
                 if head(trimmed).is_some_and(|word| word.eq_ignore_ascii_case("END")) {
                     return Ok((title, all));
                 }
-                all.push(Statement { pieces: vec![piece], name: name.take(), units: units.take() });
+                let remarks = std::mem::take(&mut remarks);
+                all.push(Statement { pieces: vec![piece], name: name.take(), units: units.take(), remarks });
             }
             open = k == ends;
             comma = trimmed.ends_with(',');
         }
     }
     Ok((title, all))
+}
+
+/// What stands before `!`, cut at `;`; neither counts between double quotes.
+fn code(line: &str) -> Vec<&str> {
+    let mut parts = Vec::new();
+    let (mut start, mut quoted) = (0, false);
+    for (k, c) in line.char_indices() {
+        match c {
+            '"' => quoted = !quoted,
+            ';' if !quoted => {
+                parts.push(&line[start..k]);
+                start = k + 1;
+            }
+            '!' if !quoted => {
+                parts.push(&line[start..k]);
+                return parts;
+            }
+            _ => {}
+        }
+    }
+    parts.push(&line[start..]);
+    parts
 }
 
 /// The value of `key='value'` in a comment.

@@ -76,6 +76,14 @@ pub enum Error {
         /// How many were found.
         found: usize,
     },
+    /// All modes of a frame that has too many.
+    #[error("all modes of {unknowns} unknowns: at most {most} can be found together")]
+    TooManyModes {
+        /// Unknown freedoms.
+        unknowns: usize,
+        /// Most of them.
+        most: usize,
+    },
     /// A rail was asked for where none was given.
     #[error("no rail was given")]
     NoRails,

@@ -44,7 +44,7 @@ pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Sup
 pub use modes::{Mode, Modes, modes};
 pub use rail::{Rail, Segment};
 pub use reaction::{Hold, Reactions, reactions};
-pub use refine::{Refined, refined_modes};
+pub use refine::{Refined, full_modes, refined_modes};
 pub use section::{Section, Theory};
 pub use splines::Component;
 pub use surface::{Exact, nodal, surface};

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use faer::{Mat, Side};
 use nalgebra::{DVector, DVectorView, SVector, Vector3};
 use splines::{Axis, Line, Probe, Surface};
 use sprs::CsMat;
@@ -28,6 +29,10 @@ const TRIES: usize = 3;
 const STEP: usize = 8;
 /// Rounding, amplified by the condition, that doubles may leave in a frequency.
 const DIGITS: f64 = 1e-9;
+/// Most unknowns of a frame all of whose modes are asked for.
+pub const DENSE: usize = 3000;
+/// Share of the largest 1/lambda below which an eigenvalue is that of a freedom without mass.
+const MASSLESS: f64 = 1e-13;
 /// How often a search is taken up again after a count that found more.
 const ATTEMPTS: usize = 12;
 
@@ -108,20 +113,8 @@ impl Frame {
         let cut = search(&mut space, count)?;
         let found = count.min(space.pairs.converged);
         let next = space.pairs.inverse[..space.pairs.converged].get(found).map(|x| x.recip().sqrt());
-        let modes = space
-            .modes(found)
-            .into_iter()
-            .map(|(lambda, phi)| {
-                let force = product(pencil.stiffness, phi.as_view());
-                let momentum = product(pencil.mass, phi.as_view());
-                let size = (norms[0] + lambda * norms[1]) * phi.norm();
-                let residual = (force - momentum * lambda).norm() / size;
-                let coupling =
-                    mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(&phi));
-                let [states, points] = self.shapes(phi.as_slice());
-                Mode { omega: lambda.sqrt(), states, points, coupling, residual }
-            })
-            .collect();
+        let mode = |(lambda, phi)| self.mode(&mass, norms, lambda, &phi);
+        let modes = space.modes(found).into_iter().map(mode).collect();
         Ok(Modes {
             modes,
             shift: cut.lambda.sqrt(),
@@ -130,6 +123,49 @@ impl Frame {
             total: std::array::from_fn(|i| std::array::from_fn(|j| mass.total[(i, j)])),
             line: self.line().ok().cloned(),
         })
+    }
+
+    /// All modes of finite frequency, from dense matrices: K phi = omega^2 M phi by the eigenvalues of
+    /// L^-1 M L^-T, K = L L^T. Time grows with the cube of the unknowns, memory with their square.
+    ///
+    /// # Errors
+    /// As [`Frame::modes`], and more unknowns than [`DENSE`].
+    pub fn all_modes(&self, m: &Model) -> Result<Modes, Error> {
+        let (assembly, _) = self.system();
+        let mass = Mass::new(m, &self.elements, &self.freedoms, assembly)?;
+        let size = assembly.numbering.column.len();
+        if size > DENSE {
+            return Err(Error::TooManyModes { unknowns: size, most: DENSE });
+        }
+        let norms = [assembly.norm(), column_norm(&mass.upper)];
+        if norms[1] == 0.0 {
+            return Err(Error::NoMass);
+        }
+        let modes: Vec<Mode> = spectrum(&assembly.upper, &mass.upper)
+            .ok_or(Error::Modes { asked: size, found: 0 })?
+            .into_iter()
+            .map(|(lambda, phi)| self.mode(&mass, norms, lambda, &phi))
+            .collect();
+        Ok(Modes {
+            shift: modes.last().map_or(0.0, |mode| mode.omega),
+            below: modes.len(),
+            next: None,
+            total: std::array::from_fn(|i| std::array::from_fn(|j| mass.total[(i, j)])),
+            line: self.line().ok().cloned(),
+            modes,
+        })
+    }
+
+    /// A mode from its eigenvalue and its scaled unknowns, of modal mass 1.
+    fn mode(&self, mass: &Mass, norms: [f64; 2], lambda: f64, phi: &DVector<f64>) -> Mode {
+        let stiffness = &self.system().0.upper;
+        let (force, momentum) = (product(stiffness, phi.as_view()), product(&mass.upper, phi.as_view()));
+        let size = (norms[0] + lambda * norms[1]) * phi.norm();
+        let residual = (force - momentum * lambda).norm() / size;
+        let coupling =
+            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(phi));
+        let [states, points] = self.shapes(phi.as_slice());
+        Mode { omega: lambda.sqrt(), states, points, coupling, residual }
     }
 
     /// Motion of the states of the rails and of the points by scaled unknowns.
@@ -272,6 +308,38 @@ fn gaps(known: &[f64], count: usize, exhausted: bool) -> Vec<(usize, [f64; 2])> 
         out.push((0, [0.0, known[0]]));
     }
     out
+}
+
+/// All (lambda, phi) of K phi = lambda M phi with finite lambda, phi^T M phi = 1, lowest first; K and M by their
+/// upper triangles. `None` where the factor or the eigenvalues fail.
+fn spectrum(stiffness: &CsMat<f64>, mass: &CsMat<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
+    let dense = |upper: &CsMat<f64>| {
+        let mut full = Mat::<f64>::zeros(upper.rows(), upper.rows());
+        for (value, (i, j)) in upper.iter() {
+            (full[(i, j)], full[(j, i)]) = (*value, *value);
+        }
+        full
+    };
+    let factor = dense(stiffness).llt(Side::Lower).ok()?;
+    let mut matrix = dense(mass);
+    let lower = factor.L();
+    lower.solve_lower_triangular_in_place(&mut matrix);
+    let mut matrix = matrix.transpose().to_owned();
+    lower.solve_lower_triangular_in_place(&mut matrix);
+    let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
+    let (values, mut vectors) = (eigen.S(), eigen.U().to_owned());
+    lower.transpose().solve_upper_triangular_in_place(&mut vectors);
+    let size = vectors.nrows();
+    let largest = if size == 0 { 0.0 } else { values[size - 1] };
+    let finite = (0..size).rev().filter(|&k| values[k] > MASSLESS * largest);
+    Some(
+        finite
+            .map(|k| {
+                let phi = DVector::from_fn(size, |i, _| vectors[(i, k)] / values[k].sqrt());
+                (1.0 / values[k], phi)
+            })
+            .collect(),
+    )
 }
 
 /// Largest column sum of the magnitudes of the symmetric matrix whose upper triangle is given.

@@ -23,8 +23,8 @@ pub struct Refined {
     /// Parts of each member given.
     pub parts: Vec<usize>,
     /// Largest relative error of a frequency by the length of the parts, estimated at the highest: above the
-    /// accuracy asked where a member would need more than 128 parts.
-    pub error: f64,
+    /// accuracy asked where a member would need more than 128 parts. `None`: not estimated.
+    pub error: Option<f64>,
     /// Modes of the model.
     pub modes: Modes,
 }
@@ -73,10 +73,27 @@ pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> 
                 all.map(move |(size, power)| size / (parts as f64).powi(power))
             });
             let error = errors.fold(0.0, f64::max);
-            return Ok(Refined { model, rails, parts, error, modes: found });
+            return Ok(Refined { model, rails, parts, error: Some(error), modes: found });
         }
         parts = wanted;
     }
+}
+
+/// All modes of a frame whose beams are cut into `parts` equal parts each: the finite-element model whole, in
+/// coordinates that do not couple.
+///
+/// No [`Refined::error`] is estimated: the highest modes of any mesh are the mesh's own.
+///
+/// # Errors
+/// As [`Frame::all_modes`](crate::Frame::all_modes).
+pub fn full_modes(m: &Model, rails: &[Rail], parts: usize) -> Result<Refined, Error> {
+    m.check()?;
+    crate::Frame::new(m, rails)?;
+    let parts: Vec<usize> =
+        m.members.iter().map(|member| if divisible(m, member) { parts.max(1) } else { 1 }).collect();
+    let (model, rails) = divided(m, rails, &parts);
+    let modes = crate::Frame::new(&model, &rails)?.all_modes(&model)?;
+    Ok(Refined { model, rails, parts, error: None, modes })
 }
 
 /// Whether a member may be cut: a beam that resists whatever any member resists.

@@ -91,8 +91,11 @@ impl Audit {
 
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
-    let mut energy = Stored { kinetic: 0.5 * quadratic(&system.mass, &state.v), ..Stored::default() };
-    energy.structure = 0.5 * quadratic(&system.stiffness, &state.q);
+    let mut energy = Stored {
+        kinetic: system.blocks.iter().map(|block| block.kinetic(state.v.as_slice())).sum(),
+        ..Stored::default()
+    };
+    energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
     for (b, body) in system.scene.bodies.iter().enumerate() {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
@@ -125,7 +128,8 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
-    let mut power = Exchanged { structure: quadratic(&system.damping, &state.v), ..Exchanged::default() };
+    let structure = system.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
+    let mut power = Exchanged { structure, ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] == 0.0 {
             continue;
@@ -163,8 +167,8 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         power.friction += state.force[i] * rate(i);
     }
     for (b, body) in system.scene.bodies.iter().enumerate() {
-        if let Some(profile) = &body.motion {
-            power.drives += drive_force(system, geometry, state, b) * profile.at(state.t).v;
+        if body.motion.is_some() {
+            power.drives += drive_force(system, geometry, state, b) * geometry.travel[b].v;
         }
     }
     power
@@ -191,9 +195,11 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
 /// get from the rail's slope and from friction.
 pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
     let body = &system.scene.bodies[b];
-    let Some(profile) = &body.motion else { return 0.0 };
+    if body.motion.is_none() {
+        return 0.0;
+    }
     let line = system.body_mass[b][0];
-    let mut force = line[0] * profile.at(state.t).a;
+    let mut force = line[0] * geometry.travel[b].a;
     for (number, inertia) in system.freedom[b].iter().zip(line).skip(1) {
         force += number.map_or(0.0, |number| inertia * state.a[number]);
     }
@@ -234,12 +240,4 @@ fn ramp_integral(depth: f64, p: f64) -> f64 {
         let d = p / depth;
         depth * d * d * d * (1.0 - 0.5 * d)
     }
-}
-
-fn quadratic(matrix: &nalgebra::DMatrix<f64>, x: &nalgebra::DVector<f64>) -> f64 {
-    let mut sum = 0.0;
-    for (j, column) in matrix.column_iter().enumerate() {
-        sum += x[j] * dot(column.as_slice(), x.as_slice());
-    }
-    sum
 }

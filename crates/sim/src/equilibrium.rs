@@ -63,16 +63,11 @@ impl Solver<'_> {
         let system = self.system;
         let (n, m, count) = (system.freedoms, system.components(), system.normals.len());
         let mut compliance = DMatrix::from_fn(count, count, |i, j| self.geometry.compliance[i * m + j]);
-        for range in system.structure.iter().filter(|range| !range.is_empty()) {
-            let size = range.len();
-            let stiffness = system.stiffness.view((range.start, range.start), (size, size)).into_owned();
-            let phi = DMatrix::from_fn(size, count, |k, i| self.geometry.rows[i * n + range.start + k]);
-            let factor = stiffness.cholesky().ok_or(Error::Number {
-                what: "stiffness of a structure",
-                wanted: "positive definite",
-                found: 0.0,
-            })?;
-            compliance += phi.transpose() * factor.solve(&phi);
+        for block in &system.blocks[1..] {
+            let first = block.range.start;
+            let phi =
+                DMatrix::from_fn(block.range.len(), count, |k, i| self.geometry.rows[i * n + first + k]);
+            compliance += phi.transpose() * block.rest(&phi)?;
         }
         Ok(compliance)
     }
@@ -81,17 +76,13 @@ impl Solver<'_> {
     fn settle_structures(&mut self, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let n = system.freedoms;
-        for range in system.structure.iter().filter(|range| !range.is_empty()) {
-            let size = range.len();
-            let stiffness = system.stiffness.view((range.start, range.start), (size, size)).into_owned();
-            let load = DVector::from_fn(size, |k, _| {
-                -(0..system.normals.len())
-                    .map(|i| self.geometry.rows[i * n + range.start + k] * at.force[i])
-                    .sum::<f64>()
+        for block in &system.blocks[1..] {
+            let (first, size) = (block.range.start, block.range.len());
+            let load = DMatrix::from_fn(size, 1, |k, _| {
+                let forces = at.force[..system.normals.len()].iter().enumerate();
+                -forces.map(|(i, force)| self.geometry.rows[i * n + first + k] * force).sum::<f64>()
             });
-            if let Some(factor) = stiffness.cholesky() {
-                at.q.rows_mut(range.start, size).copy_from(&factor.solve(&load));
-            }
+            at.q.rows_mut(first, size).copy_from(&block.rest(&load)?.column(0));
         }
         Ok(())
     }

@@ -49,4 +49,10 @@ pub enum Error {
         /// Which body.
         body: usize,
     },
+    /// Contact forces that do not exist at a given state.
+    #[error("no contact forces at t = {time}: the penetrations given do not belong to the state")]
+    NoForces {
+        /// Time of the state.
+        time: f64,
+    },
 }

@@ -20,14 +20,42 @@ pub trait Shapes: Send + Sync {
 
 /// Freedoms of a structure that has mass.
 pub struct Structure {
-    /// M, symmetric and positive definite.
-    pub mass: DMatrix<f64>,
-    /// C, symmetric.
-    pub damping: DMatrix<f64>,
-    /// K, symmetric and positive definite.
-    pub stiffness: DMatrix<f64>,
+    /// M, C and K.
+    pub dynamics: Dynamics,
     /// Phi.
     pub shapes: Box<dyn Shapes>,
+}
+
+/// How the freedoms of a structure move.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Dynamics {
+    /// Freedoms of any kind, n x n matrices.
+    Matrices {
+        /// M, symmetric and positive definite.
+        mass: DMatrix<f64>,
+        /// C, symmetric.
+        damping: DMatrix<f64>,
+        /// K, symmetric and positive definite.
+        stiffness: DMatrix<f64>,
+    },
+    /// Natural modes of modal mass 1: q'' + 2 zeta omega q' + omega^2 q = load.
+    Modes {
+        /// omega, > 0, radian/time.
+        omega: Vec<f64>,
+        /// zeta, >= 0, one a mode.
+        ratio: Vec<f64>,
+    },
+}
+
+impl Dynamics {
+    /// Number of freedoms.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        match self {
+            Dynamics::Matrices { mass, .. } => mass.nrows(),
+            Dynamics::Modes { omega, .. } => omega.len(),
+        }
+    }
 }
 
 /// One rail's extent.
@@ -80,6 +108,6 @@ impl Foundation {
     /// Number of freedoms with mass.
     #[must_use]
     pub fn freedoms(&self) -> usize {
-        self.structure.as_ref().map_or(0, |structure| structure.mass.nrows())
+        self.structure.as_ref().map_or(0, |structure| structure.dynamics.freedoms())
     }
 }

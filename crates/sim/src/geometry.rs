@@ -3,14 +3,16 @@
 use nalgebra::DVector;
 use splines::{Influence, Probe};
 
-use crate::Error;
 use crate::dense::along;
 use crate::scene::arm_rows;
 use crate::system::System;
+use crate::{Error, Moving};
 
 /// Everything about the contacts that depends on where the wheels are.
 #[derive(Clone)]
 pub(crate) struct Geometry {
+    /// Travel of each body whose x is prescribed.
+    pub travel: Vec<Moving>,
     /// Rail coordinate of each wheel.
     pub x: Vec<f64>,
     /// Height of each wheel's centre above its rail, from the last solution.
@@ -44,6 +46,7 @@ impl Geometry {
     pub fn new(system: &System) -> Self {
         let (m, n) = (system.components(), system.freedoms);
         Geometry {
+            travel: vec![Moving::default(); system.scene.bodies.len()],
             x: vec![0.0; system.wheels.len()],
             height: system.wheels.iter().map(|wheel| system.scene.wheels[wheel.kind].radius).collect(),
             share: vec![[1.0, 0.0]; system.normals.len()],
@@ -76,25 +79,26 @@ impl Geometry {
 
     /// Updates everything for the wheels' places at (t, q); `force` are the latest forces, for the rail's slope.
     pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
-        let speed_is_needed = !system.tractions.is_empty();
+        for (travel, body) in self.travel.iter_mut().zip(&system.scene.bodies) {
+            if let Some(profile) = &body.motion {
+                *travel = profile.at(t);
+            }
+        }
         for (w, wheel) in system.wheels.iter().enumerate() {
             let body = &system.scene.bodies[wheel.body];
             let numbers = &system.freedom[wheel.body];
             let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
-            let x = body.motion.as_ref().map_or_else(|| value(0), |profile| profile.at(t).x);
+            let x = if body.motion.is_some() { self.travel[wheel.body].x } else { value(0) };
             self.x[w] = x + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1];
         }
         self.update_compliance(system)?;
-        if !(self.built && system.constant_rows) {
-            self.update_rows(system)?;
-            self.built = true;
+        if self.built && system.constant_rows {
+            return Ok(());
         }
-        if speed_is_needed {
-            for (i, &w) in system.tractions.iter().enumerate() {
-                let body = &system.scene.bodies[system.wheels[w].body];
-                self.rate_held[system.traction(i)] =
-                    body.motion.as_ref().map_or(0.0, |profile| profile.at(t).v);
-            }
+        self.update_rows(system)?;
+        self.built = true;
+        for (i, &w) in system.tractions.iter().enumerate() {
+            self.rate_held[system.traction(i)] = self.travel[system.wheels[w].body].v;
         }
         self.update_force_rows(system, q, force)
     }
@@ -121,6 +125,17 @@ impl Geometry {
             compliance
                 .fill(&self.probes[s], influence)
                 .map_err(|source| Error::Compliance { structure: s, source })?;
+            if system.is_direct[s] {
+                for (j, (values, slopes)) in
+                    influence.value.column_iter().zip(influence.slope.column_iter()).enumerate()
+                {
+                    for (i, (value, slope)) in values.iter().zip(slopes.iter()).enumerate() {
+                        self.compliance[i * m + j] = *value;
+                        self.slope[i * m + j] = *slope;
+                    }
+                }
+                continue;
+            }
             for row in entries {
                 self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
                 self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
@@ -220,12 +235,6 @@ impl Geometry {
     /// Rows of the forces: those of the approach, less the rail's slope times the rows of the wheel's x.
     fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
         let n = system.freedoms;
-        if system.constant_rows {
-            if self.force_rows != self.rows {
-                self.force_rows.copy_from_slice(&self.rows);
-            }
-            return Ok(());
-        }
         let first_traction = system.traction(0);
         self.force_rows.copy_from_slice(&self.rows);
         self.force_rows[first_traction * n..].copy_from_slice(&self.rate_rows[first_traction * n..]);

@@ -29,6 +29,8 @@ pub enum Channel {
     SpinAngle(usize),
     /// Angular speed of a wheel about z.
     SpinSpeed(usize),
+    /// Displacement of a gauge along its axis.
+    Gauge(usize),
 }
 
 /// Samples of every channel at increasing times.

@@ -34,7 +34,7 @@ pub struct Profile {
 }
 
 /// State of travel at one time.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Moving {
     /// Position along the rail.
     pub x: f64,
@@ -87,7 +87,7 @@ impl Profile {
         let next = self.pieces.partition_point(|piece| piece.start <= t);
         match self.pieces.get(next.saturating_sub(1)) {
             Some(piece) => piece.at(t),
-            None => Moving { x: 0.0, v: 0.0, a: 0.0 },
+            None => Moving::default(),
         }
     }
 

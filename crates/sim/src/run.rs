@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use nalgebra::DVector;
+use splines::{Influence, Probe};
 
 use crate::dense::dot;
 use crate::energy::{Audit, drive_force};
@@ -12,7 +13,7 @@ use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Freedom, Scene};
+use crate::{Body, Error, Foundation, Freedom, Gauge, Scene};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -96,7 +97,7 @@ fn integrate(
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
     let mut recorder = Recorder::new(system);
-    recorder.record(system, solver, &state);
+    recorder.record(system, solver, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
     let mut breaks: Vec<f64> = scene
         .bodies
@@ -135,7 +136,7 @@ fn integrate(
                     sample.interpolate(&stepper.from, &stepper.to, (t - from) / (to - from));
                 }
                 stepper.solver.settle(&mut sample)?;
-                recorder.record(system, stepper.solver, &sample);
+                recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
                 next += 1;
             }
@@ -177,7 +178,7 @@ fn sweep(
             }
         }
         counts.steps += 1;
-        recorder.record(system, solver, &state);
+        recorder.record(system, solver, &state)?;
         if watch(t).is_break() {
             status = Status::Stopped;
             break;
@@ -189,6 +190,9 @@ fn sweep(
 /// Writes samples.
 struct Recorder {
     history: History,
+    /// Scratch of the gauges.
+    probes: Vec<Probe>,
+    shape: Vec<f64>,
 }
 
 impl Recorder {
@@ -211,11 +215,13 @@ impl Recorder {
                 Channel::SpinSpeed(w),
             ]);
         }
-        Recorder { history: History { channels, values: Vec::new() } }
+        channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
+        let history = History { channels, values: Vec::new() };
+        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
     }
 
     /// Adds a sample; the solver's geometry belongs to `at`.
-    fn record(&mut self, system: &System, solver: &Solver, at: &State) {
+    fn record(&mut self, system: &System, solver: &Solver, at: &State) -> Result<(), Error> {
         let values = &mut self.history.values;
         values.push(at.t);
         for b in 0..system.scene.bodies.len() {
@@ -251,5 +257,43 @@ impl Recorder {
                 speed,
             ]);
         }
+        for gauge in &system.scene.gauges {
+            let displacement = self.displacement(system, solver, at, gauge)?;
+            self.history.values.push(displacement);
+        }
+        Ok(())
+    }
+
+    /// G F + Phi q at a gauge.
+    fn displacement(
+        &mut self,
+        system: &System,
+        solver: &Solver,
+        at: &State,
+        gauge: &Gauge,
+    ) -> Result<f64, Error> {
+        let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
+        let failed = |source| Error::Compliance { structure: s, source };
+        let mut sum = 0.0;
+        if let Some(compliance) = &foundation.compliance {
+            let entries = &system.entries[s];
+            self.probes.clear();
+            self.probes.push(gauge.probe);
+            let wheels = entries.iter().map(|e| Probe { x: solver.geometry.x[e.wheel], ..e.probe });
+            self.probes.extend(wheels);
+            let mut influence = Influence::zeros(self.probes.len());
+            compliance.fill(&self.probes, &mut influence).map_err(failed)?;
+            for (j, entry) in entries.iter().enumerate() {
+                sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.component];
+            }
+        }
+        if let Some(structure) = &foundation.structure {
+            let range = system.structure[s].clone();
+            let (value, slope) = self.shape.split_at_mut(system.freedoms);
+            let value = &mut value[..range.len()];
+            structure.shapes.row(gauge.probe, value, &mut slope[..range.len()]).map_err(failed)?;
+            sum += dot(value, &at.q.as_slice()[range]);
+        }
+        Ok(sum)
     }
 }

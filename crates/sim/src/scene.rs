@@ -1,5 +1,7 @@
 //! A scene: bodies that ride on wheels along the rails of structures.
 
+use splines::Probe;
+
 use crate::{Error, Profile, Wheel};
 
 /// Freedom of a body on its track; rotations are small and right-handed about x, y and z.
@@ -91,6 +93,15 @@ pub struct Contact {
     pub wheel: usize,
 }
 
+/// A place on a rail whose displacement is recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gauge {
+    /// Which structure.
+    pub structure: usize,
+    /// Where on its rails, and in which direction.
+    pub probe: Probe,
+}
+
 /// How the scene is solved.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Analysis {
@@ -112,6 +123,8 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Contacts.
     pub contacts: Vec<Contact>,
+    /// Places whose displacement is recorded.
+    pub gauges: Vec<Gauge>,
     /// How it is solved.
     pub analysis: Analysis,
     /// Time at the end, from 0.
@@ -153,6 +166,11 @@ impl Scene {
             }
             if let Some(inertia) = wheel.spin_inertia {
                 positive("spin inertia", inertia)?;
+            }
+        }
+        for gauge in &self.gauges {
+            if gauge.structure >= structures {
+                return Err(Error::NoSuch { what: "structure", index: gauge.structure });
             }
         }
         for contact in &self.contacts {

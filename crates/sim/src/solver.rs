@@ -1,10 +1,11 @@
 //! Solutions at one instant and at one stage of a step, over the numbered scene.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::dense::dot;
 use crate::forces::Problem;
 use crate::geometry::Geometry;
+use crate::matter::Mobility;
 use crate::state::State;
 use crate::system::System;
 use crate::{Damper, Error};
@@ -26,11 +27,13 @@ pub(crate) struct Solver<'a> {
     /// Which vertical contacts act.
     pub active: Vec<bool>,
     pub problem: Problem,
-    inverse: DMatrix<f64>,
-    mobility: DMatrix<f64>,
-    mobility_step: f64,
+    inverse: Mobility,
+    mobility: Mobility,
     /// Z R^T, freedoms x components, column-major.
     spread: Vec<f64>,
+    /// R Z R^T, components x components, row-major; and the same with the rows of the rates.
+    mobile: Vec<f64>,
+    mobile_rate: Vec<f64>,
     free_a: DVector<f64>,
     free_q: DVector<f64>,
     free_v: DVector<f64>,
@@ -41,16 +44,16 @@ pub(crate) struct Solver<'a> {
 impl<'a> Solver<'a> {
     pub fn new(system: &'a System<'a>) -> Result<Self, Error> {
         let n = system.freedoms;
-        let inverse = inverse(system.mass.clone())?;
         Ok(Solver {
             system,
             geometry: Geometry::new(system),
             active: vec![false; system.normals.len()],
             problem: Problem::new(system),
-            mobility: inverse.clone(),
-            inverse,
-            mobility_step: 0.0,
+            mobility: Mobility::new(&system.blocks)?,
+            inverse: Mobility::new(&system.blocks)?,
             spread: vec![0.0; n * system.components()],
+            mobile: vec![0.0; system.components() * system.components()],
+            mobile_rate: vec![0.0; system.components() * system.components()],
             free_a: DVector::zeros(n),
             free_q: DVector::zeros(n),
             free_v: DVector::zeros(n),
@@ -81,17 +84,6 @@ impl<'a> Solver<'a> {
         }
     }
 
-    fn set_mobility(&mut self, step: f64) -> Result<(), Error> {
-        let dynamic = self.system.foundations.iter().any(|foundation| foundation.structure.is_some());
-        if dynamic && step != self.mobility_step {
-            let matrix =
-                &self.system.mass + step * &self.system.damping + step * step * &self.system.stiffness;
-            self.mobility = inverse(matrix)?;
-            self.mobility_step = step;
-        }
-        Ok(())
-    }
-
     fn fill_spread(&mut self) {
         if self.spread_is_fixed {
             return;
@@ -99,8 +91,14 @@ impl<'a> Solver<'a> {
         let (n, m) = (self.system.freedoms, self.system.components());
         for j in 0..m {
             let row = &self.geometry.force_rows[j * n..(j + 1) * n];
-            for i in 0..n {
-                self.spread[j * n + i] = dot(self.mobility.column(i).as_slice(), row);
+            self.mobility.apply(row, &mut self.spread[j * n..(j + 1) * n]);
+        }
+        for i in 0..m {
+            let (row, rate_row) = (&self.geometry.rows[i * n..], &self.geometry.rate_rows[i * n..]);
+            for j in 0..m {
+                let column = &self.spread[j * n..(j + 1) * n];
+                self.mobile[i * m + j] = dot(&row[..n], column);
+                self.mobile_rate[i * m + j] = dot(&rate_row[..n], column);
             }
         }
         self.spread_is_fixed = self.system.constant_rows;
@@ -111,18 +109,17 @@ impl<'a> Solver<'a> {
     pub fn stage(&mut self, g: f64, known: &Known, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
-        self.set_mobility(g)?;
+        self.mobility.set_step(&system.blocks, g)?;
         self.fill_load(at.t);
         // Motion without contacts.
-        if self.mobility_step > 0.0 {
-            for j in 0..n {
-                let reach = known.q[j] + g * known.v[j];
-                for i in 0..n {
-                    self.load[i] -= system.damping[(i, j)] * known.v[j] + system.stiffness[(i, j)] * reach;
-                }
+        if system.has_structures() {
+            self.free_q.copy_from(&known.q);
+            self.free_q.axpy(g, &known.v, 1.0);
+            for block in &system.blocks {
+                block.resist(known.v.as_slice(), self.free_q.as_slice(), self.load.as_mut_slice());
             }
         }
-        self.free_a.gemv(1.0, &self.mobility, &self.load, 0.0);
+        self.mobility.apply(self.load.as_slice(), self.free_a.as_mut_slice());
         for i in 0..n {
             self.free_v[i] = known.v[i] + g * self.free_a[i];
             self.free_q[i] = known.q[i] + g * self.free_v[i];
@@ -136,32 +133,29 @@ impl<'a> Solver<'a> {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             self.fill_spread();
             for i in 0..m {
-                let span = i * n..(i + 1) * n;
-                let (row, rate_row) = (&self.geometry.rows[span.clone()], &self.geometry.rate_rows[span]);
                 let is_normal = i < system.normals.len();
                 let memory = is_normal && self.remembers(i);
                 let grounded =
                     if is_normal { system.law(i).damper == Damper::Ground } else { i >= system.traction(0) };
-                let mut approach = self.geometry.held[i];
-                let mut rate = self.geometry.rate_held[i];
-                for k in 0..n {
-                    approach += row[k] * self.free_q[k];
-                    rate += rate_row[k] * self.free_v[k];
+                let approach = self.geometry.approach(i, &self.free_q);
+                let span = i * m..(i + 1) * m;
+                let w = &mut self.problem.w[span.clone()];
+                let y = &mut self.problem.y[span.clone()];
+                for ((w, give), mobile) in
+                    w.iter_mut().zip(&self.geometry.compliance[span.clone()]).zip(&self.mobile[span.clone()])
+                {
+                    *w = give + g * g * mobile;
                 }
-                for j in 0..m {
-                    let column = &self.spread[j * n..(j + 1) * n];
-                    let w = self.geometry.compliance[i * m + j] + g * g * dot(row, column);
-                    self.problem.w[i * m + j] = w;
-                    self.problem.y[i * m + j] = if memory {
-                        w / g
-                    } else if grounded {
-                        g * dot(rate_row, column)
-                    } else {
-                        0.0
-                    };
+                if memory {
+                    y.iter_mut().zip(w).for_each(|(y, w)| *y = *w / g);
+                } else if grounded {
+                    y.iter_mut().zip(&self.mobile_rate[span]).for_each(|(y, mobile)| *y = g * mobile);
+                } else {
+                    y.fill(0.0);
                 }
                 self.problem.approach[i] = approach;
-                self.problem.rate[i] = if memory { (approach - known.p[i]) / g } else { rate };
+                self.problem.rate[i] =
+                    if memory { (approach - known.p[i]) / g } else { self.geometry.rate(i, &self.free_v) };
                 self.problem.memory[i] = memory.then_some(1.0 / g);
                 self.problem.known[i] = false;
             }
@@ -169,9 +163,11 @@ impl<'a> Solver<'a> {
                 return Ok(false);
             }
             let mut moved = 0.0_f64;
+            at.a.copy_from(&self.free_a);
+            for (column, force) in self.spread.chunks_exact(n.max(1)).zip(&at.force) {
+                at.a.iter_mut().zip(column).for_each(|(a, spread)| *a -= spread * force);
+            }
             for i in 0..n {
-                let give: f64 = (0..m).map(|j| self.spread[j * n + i] * at.force[j]).sum();
-                at.a[i] = self.free_a[i] - give;
                 at.v[i] = known.v[i] + g * at.a[i];
                 let q = known.q[i] + g * at.v[i];
                 moved = moved.max((q - at.q[i]).abs() / (1.0 + q.abs()));
@@ -225,18 +221,15 @@ impl<'a> Solver<'a> {
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         self.geometry.update_rail_slope(system, &at.q, &at.force);
         self.fill_load(at.t);
-        for j in 0..n {
-            let (q, v) = (at.q[j], at.v[j]);
-            for i in 0..n {
-                self.load[i] -= system.damping[(i, j)] * v + system.stiffness[(i, j)] * q;
-            }
+        for block in &system.blocks {
+            block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
         for j in 0..m {
             for i in 0..n {
                 self.load[i] -= self.geometry.force_rows[j * n + i] * at.force[j];
             }
         }
-        at.a.gemv(1.0, &self.inverse, &self.load, 0.0);
+        self.inverse.apply(self.load.as_slice(), at.a.as_mut_slice());
         Ok(true)
     }
 
@@ -254,16 +247,4 @@ impl<'a> Solver<'a> {
         }
         moved
     }
-}
-
-fn inverse(matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    if matrix.is_empty() {
-        return Ok(matrix);
-    }
-    let smallest = matrix.diagonal().min();
-    matrix.cholesky().map(|factor| factor.inverse()).ok_or(Error::Number {
-        what: "mass matrix",
-        wanted: "positive definite",
-        found: smallest,
-    })
 }

@@ -8,6 +8,7 @@ use std::ops::Range;
 use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
+use crate::matter::Block;
 use crate::scene::arm_rows;
 use crate::{Body, Error, Foundation, Freedom, NormalLaw, Scene};
 
@@ -63,12 +64,14 @@ pub(crate) struct System<'a> {
     pub freedoms: usize,
     /// Mass matrix of each body over its six freedoms.
     pub body_mass: Vec<[[f64; 6]; 6]>,
-    pub mass: DMatrix<f64>,
-    pub damping: DMatrix<f64>,
-    pub stiffness: DMatrix<f64>,
+    /// M, C and K: the bodies and spins, then each structure.
+    pub blocks: Vec<Block>,
     pub gravity: DVector<f64>,
     /// Probes of each structure.
     pub entries: Vec<Vec<Entry>>,
+    /// Whether the probes of a structure are the components in their order, with weight -1 each: the compliance
+    /// of the components is then the structure's.
+    pub is_direct: Vec<bool>,
     /// Whether some wheel's place along the rail depends on the freedoms.
     pub moves_freely: bool,
     /// Whether the rows of contact are the same at every time and place.
@@ -158,11 +161,10 @@ impl<'a> System<'a> {
             structure,
             freedoms,
             body_mass: scene.bodies.iter().map(Body::mass_matrix).collect(),
-            mass: DMatrix::zeros(freedoms, freedoms),
-            damping: DMatrix::zeros(freedoms, freedoms),
-            stiffness: DMatrix::zeros(freedoms, freedoms),
+            blocks: Vec::new(),
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
+            is_direct: Vec::new(),
             moves_freely: false,
             constant_rows: false,
             linear_normals: false,
@@ -170,6 +172,14 @@ impl<'a> System<'a> {
         };
         system.fill_matrices()?;
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
+        system.is_direct = system
+            .entries
+            .iter()
+            .map(|entries| {
+                entries.len() == system.components()
+                    && entries.iter().enumerate().all(|(i, e)| e.component == i && e.weight == -1.0)
+            })
+            .collect();
         system.moves_freely = system.wheels.iter().any(|wheel| {
             let numbers = &system.freedom[wheel.body];
             numbers[0].is_some()
@@ -197,6 +207,11 @@ impl<'a> System<'a> {
     /// Number of contact components.
     pub fn components(&self) -> usize {
         self.normals.len() + self.laterals.len() + self.tractions.len()
+    }
+
+    /// Whether some structure has freedoms of its own.
+    pub fn has_structures(&self) -> bool {
+        self.structure.iter().any(|range| !range.is_empty())
     }
 
     /// Law of vertical contact `i`, of one wheel.
@@ -238,6 +253,8 @@ impl<'a> System<'a> {
     }
 
     fn fill_matrices(&mut self) -> Result<(), Error> {
+        let bodies = self.structure.first().map_or(self.freedoms, |range| range.start);
+        let mut mass = DMatrix::zeros(bodies, bodies);
         for (b, body) in self.scene.bodies.iter().enumerate() {
             let matrix = self.body_mass[b];
             let numbers = self.freedom[b];
@@ -248,7 +265,7 @@ impl<'a> System<'a> {
                 }
                 for j in 0..6 {
                     if let Some(column) = numbers[j] {
-                        self.mass[(row, column)] = matrix[i][j];
+                        mass[(row, column)] = matrix[i][j];
                     }
                 }
                 self.gravity[row] = -body.mass * self.scene.gravity * arm_rows(body.cg)[1][i];
@@ -256,15 +273,14 @@ impl<'a> System<'a> {
         }
         for wheel in &self.wheels {
             if let (Some(number), Some(inertia)) = (wheel.spin, self.scene.wheels[wheel.kind].spin_inertia) {
-                self.mass[(number, number)] = inertia;
+                mass[(number, number)] = inertia;
             }
         }
+        self.blocks.push(Block::bodies(mass));
         for (range, foundation) in self.structure.iter().zip(self.foundations) {
-            let Some(structure) = &foundation.structure else { continue };
-            let (at, size) = ((range.start, range.start), (range.len(), range.len()));
-            self.mass.view_mut(at, size).copy_from(&structure.mass);
-            self.damping.view_mut(at, size).copy_from(&structure.damping);
-            self.stiffness.view_mut(at, size).copy_from(&structure.stiffness);
+            if let Some(structure) = &foundation.structure {
+                self.blocks.push(Block::structure(range.clone(), structure));
+            }
         }
         Ok(())
     }

@@ -54,6 +54,7 @@ fn wheel() -> Scene {
             offsets: vec![0.0],
             wheel: 0,
         }],
+        gauges: Vec::new(),
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1e-3,

@@ -1,4 +1,4 @@
-//! Influence matrices of 2, 8 and 32 wheels: the exact surface beside readings of a table.
+//! Influence of wheels on the paper's girder by every reading: one pair with its derivatives, and whole matrices.
 
 #[path = "../tests/beam/mod.rs"]
 mod beam;
@@ -6,45 +6,65 @@ mod beam;
 use beam::printed::STATIONS;
 use beam::{Beam, probe, read, tabulate};
 use divan::{Bencher, black_box};
-use splines::{Axis, Compliance, Influence, Kind, Probe};
+use splines::{Axis, Factored, Influence, Jets, Kind, Probe, Rank, Sheet};
 
 fn main() {
     divan::main();
 }
 
-/// Vertical probes 5 ft apart at most, on the paper's girder.
-fn wheels(n: usize) -> Vec<Probe> {
-    let pitch = f64::min(8.0 / 3.0, 60.0 / n as f64);
-    (0..n).map(|k| probe(Axis::Vertical, 11.0 + pitch * k as f64)).collect()
+/// What is measured.
+#[derive(Clone, Copy, Debug)]
+enum Of {
+    Exact,
+    /// A rail above the axis and beside it: every row has twelve entries.
+    Coupled,
+    Natural,
+    /// All five products.
+    Factored,
+    Akispl,
+    Symmetrised,
+    Cubspl,
 }
 
-#[divan::bench(args = [2, 8, 32])]
-fn exact(bencher: Bencher<'_, '_>, n: usize) {
-    let surface = Beam::paper().surface(&STATIONS);
-    fill(bencher, &surface, n);
+const ALL: [Of; 7] =
+    [Of::Exact, Of::Coupled, Of::Natural, Of::Factored, Of::Akispl, Of::Symmetrised, Of::Cubspl];
+
+impl Of {
+    fn ready(self) -> Box<dyn Jets> {
+        let table = tabulate(&Beam::paper(), &STATIONS);
+        let way = (0, Axis::Vertical);
+        match self {
+            Of::Exact => Box::new(Beam::paper().surface(&STATIONS)),
+            Of::Coupled => Box::new(beam::coupled()),
+            Of::Natural => Box::new(read(Kind::Natural, table)),
+            Of::Factored => {
+                let sheet = Sheet { deflection: way, load: way, table };
+                Box::new(Factored::new(&[sheet], Rank::Full).expect("one table"))
+            }
+            Of::Akispl => Box::new(read(Kind::Akispl, table)),
+            Of::Symmetrised => Box::new(read(Kind::Symmetrised, table)),
+            Of::Cubspl => Box::new(read(Kind::Cubspl, table)),
+        }
+    }
 }
 
-/// A rail above the axis and beside it: every row has twelve entries.
-#[divan::bench(args = [2, 8, 32])]
-fn coupled(bencher: Bencher<'_, '_>, n: usize) {
-    fill(bencher, &beam::coupled(), n);
+/// Value, both slopes and three curvatures of one pair.
+#[divan::bench(args = ALL, sample_size = 1000)]
+fn jet(bencher: Bencher<'_, '_>, of: Of) {
+    let ready = of.ready();
+    let [p, q] = [11.0, 41.0].map(|x| probe(Axis::Vertical, x));
+    bencher.bench_local(|| ready.jet(black_box(p), black_box(q)));
 }
 
-#[divan::bench(args = [2, 8, 32])]
-fn akispl(bencher: Bencher<'_, '_>, n: usize) {
-    fill(bencher, &read(Kind::Akispl, tabulate(&Beam::paper(), &STATIONS)), n);
-}
-
-#[divan::bench(args = [2, 8, 32])]
-fn natural(bencher: Bencher<'_, '_>, n: usize) {
-    fill(bencher, &read(Kind::Natural, tabulate(&Beam::paper(), &STATIONS)), n);
-}
-
-fn fill(bencher: Bencher<'_, '_>, compliance: &dyn Compliance, n: usize) {
-    let at = wheels(n);
-    let mut out = Influence::zeros(n);
+/// Values and slopes of n vertical probes, 32 in apart or as close as the span asks.
+#[divan::bench(args = ALL, consts = [2, 8, 32, 100], sample_size = 100)]
+fn fill<const N: usize>(bencher: Bencher<'_, '_>, of: Of) {
+    let ready = of.ready();
+    let pitch = f64::min(8.0 / 3.0, 60.0 / N as f64);
+    let at: Vec<Probe> = (0..N).map(|k| probe(Axis::Vertical, 11.0 + pitch * k as f64)).collect();
+    let mut out = Influence::zeros(N);
     bencher.bench_local(|| {
-        let done = compliance.fill(black_box(&at), &mut out);
+        let done = ready.fill(black_box(&at), &mut out);
         black_box(&out.value);
         done
     });

@@ -19,16 +19,20 @@ use crate::curve::{Curve, check};
 /// de Boor, A Practical Guide to Splines (1978), chapter IV.
 pub fn natural(x: &[f64], y: &[f64]) -> Result<Curve, Error> {
     check(x, y, 2)?;
-    Ok(Curve::new(x, y, slopes(x, y)))
+    Ok(Curve::new(x, y, slopes(x, y, [false; 2])))
 }
 
-fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
+/// Slopes at the points; at a clamped end zero instead of no curvature.
+fn slopes(x: &[f64], y: &[f64], clamped: [bool; 2]) -> Vec<f64> {
     let n = x.len();
     let h = |i: usize| x[i + 1] - x[i];
     let m = |i: usize| (y[i + 1] - y[i]) / h(i);
     // Thomas' algorithm on a diagonally dominant matrix.
     let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
     for i in 0..n {
+        if (i == 0 && clamped[0]) || (i == n - 1 && clamped[1]) {
+            continue;
+        }
         let below = if i > 0 { 1.0 / h(i - 1) } else { 0.0 };
         let above = if i + 1 < n { 1.0 / h(i) } else { 0.0 };
         let mut load = 0.0;
@@ -49,15 +53,16 @@ fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     right
 }
 
-/// The matrix B, 2 N x N, of values and slopes (interleaved) of the natural spline by its N values.
-pub(crate) fn interleaved(x: &[f64]) -> DMatrix<f64> {
+/// The matrix B, 2 N x N, of values and slopes (interleaved) of the spline by its N values; its ends have no
+/// curvature, or no slope where clamped.
+pub(crate) fn interleaved(x: &[f64], clamped: [bool; 2]) -> DMatrix<f64> {
     let n = x.len();
     let mut out = DMatrix::zeros(2 * n, n);
     let mut unit = vec![0.0; n];
     for j in 0..n {
         unit[j] = 1.0;
         out[(2 * j, j)] = 1.0;
-        for (i, slope) in slopes(x, &unit).into_iter().enumerate() {
+        for (i, slope) in slopes(x, &unit, clamped).into_iter().enumerate() {
             out[(2 * i + 1, j)] = slope;
         }
         unit[j] = 0.0;

@@ -197,6 +197,22 @@ pub enum Error {
         /// Which table, from 0.
         sheet: usize,
     },
+    /// A coefficient that is infinite or not a number.
+    #[error("no finite coefficient for a load at {x} and a deflection at {z}")]
+    Coefficient {
+        /// Where the load stands.
+        x: f64,
+        /// Where the deflection is taken.
+        z: f64,
+    },
+    /// A tolerance that no number of stations meets, up to the most allowed.
+    #[error("{most} stations give an error of {error:e}, more than asked")]
+    Stations {
+        /// The most stations allowed.
+        most: usize,
+        /// Their relative error.
+        error: f64,
+    },
     /// A tolerance that is negative or not a number.
     #[error("tolerance {tolerance} is not a positive number")]
     Tolerance {

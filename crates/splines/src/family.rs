@@ -78,14 +78,15 @@ impl Families {
     /// As [`crate::Compliance::fill`].
     pub fn fill(&self, at: &[Probe], out: &mut Influence) {
         let n = at.len();
-        let mut few = [Spot::default(); 16];
-        let mut many = Vec::new();
-        let spots = if n <= few.len() {
-            &mut few[..n]
-        } else {
-            many.resize(n, few[0]);
-            &mut many[..]
-        };
+        match n {
+            0..=2 => self.assemble(at, &mut [Spot::default(); 2][..n], out),
+            3..=16 => self.assemble(at, &mut [Spot::default(); 16][..n], out),
+            _ => self.assemble(at, &mut vec![Spot::default(); n], out),
+        }
+    }
+
+    fn assemble(&self, at: &[Probe], spots: &mut [Spot], out: &mut Influence) {
+        let n = at.len();
         for (spot, p) in spots.iter_mut().zip(at) {
             *spot = Spot::new(&self.home[p.rail], p.x);
         }

@@ -335,6 +335,55 @@ impl Kernel {
     }
 }
 
+/// A clamped cell's kernel along one axis as far(s) . near(t), s >= t: far (2) and near (2) as cubics in the
+/// distance from the first end of the member, and from its last, in lengths of the member.
+///
+/// `None` where the axis asks for more than one plane or the axial bar, or for a moment.
+///
+/// The nearer force meets the shear V and the moment m0 that the farther one causes at the clamp:
+/// b = V (g t - c t^3/6) + m0 c t^2/2.
+pub(crate) fn sides(cell: &Cell, axis: usize) -> Option<[[[f64; 4]; 4]; 2]> {
+    if cell.ends[0] == cell.ends[1] {
+        return Some([[[0.0; 4]; 4]; 2]);
+    }
+    let f = &cell.flexibility;
+    let arm = Arm::along(cell, &cell.axes(), axis);
+    let (force, plane) = match arm.uses() {
+        [true, false, false, false] if f.axial.is_finite() => {
+            let give = f.axial * arm.axial * arm.axial * cell.length;
+            let (rise, fall) = ([0.0, 1.0, 0.0, 0.0], [1.0, -1.0, 0.0, 0.0]);
+            let zero = [0.0; 4];
+            let ends = [[fall, rise], [rise, fall]];
+            return Some(ends.map(|[far, near]| [far.map(|x| give * x), zero, near, zero]));
+        }
+        [false, false, true, false] if arm.xy[1] == 0.0 => {
+            (arm.xy[0], Plane::new(f.bending_z, f.shear_y, cell.length))
+        }
+        [false, false, false, true] if arm.xz[1] == 0.0 => {
+            (arm.xz[0], Plane::new(f.bending_y, f.shear_z, cell.length))
+        }
+        _ => return None,
+    };
+    let Plane { c, g, l, inverse, .. } = plane;
+    if inverse == 0.0 {
+        return Some([[[0.0; 4]; 4]; 2]);
+    }
+    let first = [
+        [1.0, -12.0 * g * inverse, -3.0 * c * l * inverse, 2.0 * c * inverse],
+        [0.0, 1.0 - 6.0 * g * l * inverse, -1.5 * c * l * l * inverse - 0.5 / l, c * l * inverse],
+        [0.0, g, 0.0, -c / 6.0],
+        [0.0, 0.0, 0.5 * c, 0.0],
+    ];
+    let last = [
+        [0.0, 12.0 * g * inverse, 3.0 * c * l * inverse, -2.0 * c * inverse],
+        [0.0, 6.0 * g * l * inverse, 1.5 * c * l * l * inverse - 0.5 / l, -c * l * inverse],
+        [g * l - c * l * l * l / 6.0, 0.5 * c * l * l - g, -0.5 * c * l, c / 6.0],
+        [0.5 * c * l * l, -c * l, 0.5 * c, 0.0],
+    ];
+    let powers = [1.0, l, l * l, l * l * l];
+    Some([first, last].map(|four| four.map(|cubic| std::array::from_fn(|p| force * cubic[p] * powers[p]))))
+}
+
 /// Along, about, across (x-y), across (x-z): where the section resists nothing.
 pub(crate) fn free(cell: &Cell) -> [bool; 4] {
     let flexibility = &cell.flexibility;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use crate::kernel::{Arm, Kernel, free};
+use crate::lean::Found;
 use crate::row::{Fraction, Row, Terms, terms};
 use crate::{Cell, Error, Probe};
 
@@ -41,6 +42,57 @@ struct Track {
     rail: usize,
     slack: f64,
     cells: Vec<Span>,
+    index: Index,
+}
+
+/// Equal shares of a rail, as many as cells: which cells begin in each, so that a search looks at few.
+#[derive(Clone, Debug)]
+struct Index {
+    start: f64,
+    scale: f64,
+    /// Cells that begin before share k; one more than shares.
+    before: Vec<u32>,
+}
+
+impl Index {
+    fn new(cells: &[Span]) -> Index {
+        let shares = cells.len();
+        let start = cells[0].x[0];
+        let mut index = Index {
+            start,
+            scale: shares as f64 / (cells[shares - 1].x[1] - start),
+            before: vec![0; shares + 1],
+        };
+        for span in cells {
+            let share = index.share(span.x[0]);
+            index.before[share + 1] += 1;
+        }
+        for k in 0..shares {
+            index.before[k + 1] += index.before[k];
+        }
+        index
+    }
+
+    /// Never decreases with x.
+    #[inline]
+    fn share(&self, x: f64) -> usize {
+        let share = ((x - self.start) * self.scale) as i32;
+        (share.max(0) as usize).min(self.before.len() - 2)
+    }
+
+    /// Number of cells that begin at x or before.
+    #[inline]
+    fn upto(&self, cells: &[Span], x: f64) -> usize {
+        let share = self.share(x);
+        let [low, high] = [self.before[share] as usize, self.before[share + 1] as usize];
+        let here = &cells[low..high];
+        // Mostly there is one: no search.
+        if let [one] = here {
+            low + usize::from(one.x[0] <= x)
+        } else {
+            low + here.partition_point(|span| span.x[0] <= x)
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -153,6 +205,21 @@ impl Line {
         Ok(())
     }
 
+    /// Where a probe stands that needs one plane or one bar; `None` where it needs more.
+    #[inline]
+    pub(crate) fn lean(&self, p: Probe) -> Result<Option<Found<'_>>, Error> {
+        let span = self.find(p.rail, p.x)?;
+        let axis = p.axis.component();
+        if self.ready[span.cell].free[axis] {
+            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
+        }
+        let found = |lean| {
+            let (block, at) = (3 * span.cell + axis, span.fraction(p.x));
+            Found { lean, block, at, scale: span.scale }
+        };
+        Ok(self.terms(span.cell, axis).lean().map(found))
+    }
+
     /// The row of a probe and second derivatives of its values by x.
     pub(crate) fn bends(&self, p: Probe) -> Result<(Row, [[f64; 4]; 3]), Error> {
         let row = self.row(p)?;
@@ -243,8 +310,8 @@ impl Line {
     }
 
     fn find(&self, rail: usize, x: f64) -> Result<&Span, Error> {
-        let Track { slack, cells, .. } = self.track(rail).ok_or(Error::NoRail { rail })?;
-        let after = cells.partition_point(|span| span.x[0] <= x);
+        let Track { slack, cells, index, .. } = self.track(rail).ok_or(Error::NoRail { rail })?;
+        let after = index.upto(cells, x);
         if let Some(k) = after.checked_sub(1) {
             let span = &cells[k];
             if x == span.x[0] && span.yields {
@@ -286,7 +353,7 @@ fn tracks(cells: &[Cell]) -> Result<Vec<Track>, Error> {
             }
             spans.push(span(cell, end >= start && before < cell));
         }
-        tracks.push(Track { rail, slack, cells: spans });
+        tracks.push(Track { rail, slack, index: Index::new(&spans), cells: spans });
     }
     Ok(tracks)
 }

@@ -6,19 +6,24 @@ use crate::tensor::tensor;
 use crate::{Axis, Compliance, Error, Influence, Jet2, Jets, Probe, Surface, akima, natural};
 
 /// How values between the stations are read.
+///
+/// Errors are those of the paper's girder with its overhangs at seven stations, of the largest entry; order is
+/// the power of the distance between stations by which they fall.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// W T W^T with natural cubic cardinal splines W along both directions: symmetric, positive
-    /// semi-definite where the table is, twice continuously differentiable.
+    /// W T W^T with natural cubic cardinal splines W along both directions: symmetric to the last bit, positive
+    /// semi-definite where the table is, twice continuously differentiable. Error 8.8e-3, order 3.
     Natural,
     /// As ADAMS reads a SPLINE by AKISPL: Akima's curve along x, where the load stands, linear along z, where
     /// the deflection is taken. Neither symmetric nor positive between stations; slopes jump at stations.
+    /// Error 6.6e-2, as much asymmetry, order 2.
     Akispl,
     /// The mean of AKISPL as it stands and with deflection and load exchanged, (A(x, z) + A(z, x))/2, an
     /// expression that ADAMS can be given. Symmetric to the last bit, but not positive between stations;
-    /// slopes jump at stations.
+    /// slopes jump at stations. Error 5.3e-2, order 2.
     Symmetrised,
-    /// As ADAMS reads it by CUBSPL: the natural cubic spline along x, linear along z.
+    /// As ADAMS reads it by CUBSPL: the natural cubic spline along x, linear along z. Neither symmetric nor
+    /// positive between stations; slopes along z jump at stations. Error 6.6e-2, as much asymmetry, order 2.
     Cubspl,
 }
 

@@ -2,6 +2,7 @@
 
 use crate::Cell;
 use crate::kernel::{Arm, clean, cross, free, unit};
+use crate::lean::Lean;
 
 /// One row of N: displacement of the rail at a probe = sum of `values` times state freedoms, plus what
 /// the clamped cell itself gives.
@@ -39,6 +40,11 @@ impl Fraction {
 }
 
 impl Terms {
+    #[inline]
+    pub(crate) fn lean(&self) -> Option<&Lean> {
+        self.lean.as_ref()
+    }
+
     /// What each value is added up from, in the order of [`Row::values`]: sums of |coefficient| r^p.
     pub(crate) fn magnitudes(&self, Fraction { end, r }: Fraction) -> impl Iterator<Item = f64> + '_ {
         let one = move |group: &Group, k: usize| {
@@ -128,13 +134,15 @@ impl Row {
 pub(crate) struct Terms {
     len: usize,
     groups: Vec<Group>,
+    /// Where four entries are enough and one plane or bar gives alone.
+    lean: Option<Lean>,
 }
 
 /// Four entries: cubics in r, the distance from either end; `cubic[end][p][k]` is the coefficient of r^p of entry k.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Group {
-    index: [usize; 4],
-    cubic: [[[f64; 4]; 4]; 2],
+pub(crate) struct Group {
+    pub index: [usize; 4],
+    pub cubic: [[[f64; 4]; 4]; 2],
 }
 
 /// Cubics of one axis of one cell, those that vanish left out.
@@ -152,7 +160,9 @@ pub(crate) fn terms(cell: &Cell, axis: usize) -> Terms {
             std::array::from_fn(|p| std::array::from_fn(|k| four.get(k).map_or(0.0, |&k| of[k][p])))
         }),
     });
-    Terms { len: used.len(), groups: groups.collect() }
+    let groups: Vec<Group> = groups.collect();
+    let lean = groups.first().filter(|_| groups.len() == 1).and_then(|group| Lean::new(cell, axis, group));
+    Terms { len: used.len(), groups, lean }
 }
 
 /// Cubics of all twelve freedoms in the distance from `end`.

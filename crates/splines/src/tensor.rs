@@ -25,7 +25,8 @@ pub(crate) fn tensor(pairs: &Pairs, sheets: &[Sheet]) -> Result<Surface, Error> 
     for (i, row) in pairs.iter().enumerate() {
         for (j, index) in row.iter().enumerate() {
             let Some(index) = *index else { continue };
-            let block = interleaved(own[i]) * sheets[index].table.values() * interleaved(own[j]).transpose();
+            let [left, right] = [i, j].map(|k| interleaved(own[k], [false; 2]));
+            let block = left * sheets[index].table.values() * right.transpose();
             let block = if i == j { 0.5 * (&block + block.transpose()) } else { block };
             scatter(&mut nodal, [first[i], first[j]], &block);
             if i != j {

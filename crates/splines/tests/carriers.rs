@@ -99,6 +99,21 @@ fn a_rail_read_backwards_is_the_same_rail() {
     assert!(mixed.value == mixed.value.transpose());
 }
 
+/// Identity: a lone cell whose member runs against it is the same cell, in plane bending too (the short way).
+#[test]
+fn a_member_that_runs_against_its_only_cell_changes_nothing() {
+    let own = cell(0, [0, 1], [0.0; 3]);
+    let back = Cell { carrier: Some(Carrier { member: 4, reversed: true }), ..own.clone() };
+    let at: Vec<Probe> = probes(0, &PLACES).into_iter().filter(|p| p.axis == Axis::Vertical).collect();
+    for at in [at, probes(0, &PLACES)] {
+        let [own, back] = [&own, &back].map(|cell| filled(&clamped(vec![cell.clone()]), &at));
+        let defect = (&own.value - &back.value).amax() / own.value.amax();
+        assert!(defect < 1e-14, "{defect:e}");
+        assert!((&own.slope - &back.slope).amax() < 1e-14 * own.slope.amax());
+        assert!(back.value == back.value.transpose());
+    }
+}
+
 /// Identity: second derivatives keep their sign when a rail is read backwards, slopes change it.
 #[test]
 fn jets_of_a_rail_read_backwards_turn_their_slopes_alone() {

@@ -15,6 +15,7 @@ pub mod legend;
 pub mod path;
 pub mod scale;
 pub mod series;
+pub mod stack;
 pub mod surface_plot;
 pub mod svg;
 pub mod text;
@@ -25,6 +26,7 @@ pub use error::Error;
 pub use frame::Frame;
 pub use girder_plot::{Deflected, GirderPlot, Support};
 pub use series::{Marker, Series, Style};
+pub use stack::stack;
 pub use surface_plot::SurfacePlot;
 
 #[cfg(test)]

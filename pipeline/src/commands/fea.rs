@@ -48,8 +48,8 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
         drop(stage);
         let refined = found.map_err(|error| refuse(&spec, &source, &error))?;
         progress.say(&modes_file::line(&refined.modes));
-        if refined.error > ACCURACY {
-            progress.say(&format!("note: the mesh shows in the modes by {:.1e}", refined.error));
+        if let Some(error) = refined.error.filter(|error| *error > ACCURACY) {
+            progress.say(&format!("note: the mesh shows in the modes by {error:.1e}"));
         }
         text = modes_file::insert(&text, &modes_file::write(&refined, &solved.grid.stations()));
     }

@@ -1,7 +1,10 @@
 //! The commands, one file each.
 
+pub mod check_tables;
 pub mod crosscheck;
+mod factored;
 pub mod fea;
+mod fewest;
 pub mod import;
 pub mod run;
 pub mod sim;

@@ -2,8 +2,10 @@
 
 use adams::Curves;
 use serde_json::{Map, Value, json};
-use splines::{Rank, Surface};
+use splines::Surface;
 
+use super::factored::factored;
+use super::{check_tables, fewest};
 use crate::cli::{Form, Global, Splines};
 use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
@@ -24,21 +26,22 @@ use crate::units::Units;
 /// What is wrong with the input; an ending without a format; tables without a factored form; a file that cannot
 /// be written.
 pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
+    if args.check {
+        return check_tables::run(args, global);
+    }
+    fits(args)?;
     let format = match &args.output {
         Some(path) => Format::of(&path.display().to_string()).map_err(|fault| *fault)?,
         None => Format::Adams,
     };
-    if args.form != Some(Form::Factored) && (args.rank.is_some() || args.tolerance.is_some()) {
-        let fault = Diagnostic::of_file("girderway", "--rank and --tolerance are of the factored form");
-        return Err(fault.hint("add --form factored").into());
-    }
     let progress = Progress::new(global);
     let inputs = Inputs::open_bytes(&args.grid).map_err(|fault| *fault)?;
     let input = &inputs.all()[0];
     let mut told = Map::new();
-    let (mut set, exact) = given(args, input, &progress)?;
-    if !args.directions.is_empty() {
-        set = tables::only(&set, &args.directions);
+    let (mut set, exact) = given(args, input, &progress, &mut told)?;
+    if !args.only.is_empty() {
+        let directions: Vec<_> = args.only.iter().map(|direction| (*direction).into()).collect();
+        set = tables::only(&set, &directions);
         if set.tables.is_empty() {
             let fault = Diagnostic::of_file(&input.shown, "has no table of these directions");
             return Err(fault
@@ -68,20 +71,47 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
+/// Refuses flags that do not go together.
+fn fits(args: &Splines) -> Result<(), Failure> {
+    let factored = args.form == Some(Form::Factored);
+    let (wrong, hint) = if args.tolerance.is_some() && args.reading.is_none() && !factored {
+        ("--tolerance is that of a reading", "add --reading akispl, --check or --form factored")
+    } else if args.rank.is_some() && !factored {
+        ("--rank is of the factored form", "add --form factored")
+    } else if args.rank.is_some() && args.tolerance.is_some() && args.reading.is_none() {
+        ("--rank and --tolerance both say how many products", "leave one out")
+    } else {
+        return Ok(());
+    };
+    Err(Diagnostic::of_file("command line", wrong).hint(hint).into())
+}
+
 /// The tables asked for; the exact surface of a grid that has one.
 type Given = (TableSet, Option<(Surface, Vec<GridRail>)>);
 
-fn given(args: &Splines, input: &Input, progress: &Progress) -> Result<Given, Failure> {
+fn given(
+    args: &Splines,
+    input: &Input,
+    progress: &Progress,
+    told_more: &mut Map<String, Value>,
+) -> Result<Given, Failure> {
     let told = args.length.zip(args.force);
     let told = told.map(|(length, force)| Units { length: length.into(), force: force.into() });
     if tables::is_tables(&input.shown, &input.bytes) {
+        if args.reading.is_some() {
+            let fault = Diagnostic::of_file(&input.shown, "does not say what is exact between its stations");
+            return Err(fault.hint("--reading and --tolerance need a grid file").into());
+        }
         return Ok((tables::read(&input.shown, &input.bytes, told)?, None));
     }
     let source = input.source()?;
-    let (grid, surface) = grid_file::read(&source)?;
+    let (mut grid, surface) = grid_file::read(&source)?;
     if told.is_some_and(|told| told != grid.units) {
         let fault = Diagnostic::of_file(&input.shown, "a grid says its units itself");
         return Err(fault.hint("leave out --length and --force").into());
+    }
+    if let Some(wanted) = args.reading.zip(args.tolerance) {
+        grid = fewest::chosen(args, wanted, &source, (&grid, surface.as_ref()), progress, told_more)?;
     }
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {
         progress
@@ -96,43 +126,4 @@ fn given(args: &Splines, input: &Input, progress: &Progress) -> Result<Given, Fa
     }
     let Grid { rails, .. } = grid;
     Ok((set, surface.map(|surface| (surface, rails))))
-}
-
-fn factored(
-    args: &Splines,
-    set: &TableSet,
-    exact: Option<&(Surface, Vec<GridRail>)>,
-    input: &Input,
-    progress: &Progress,
-    told: &mut Map<String, Value>,
-) -> Result<TableSet, Failure> {
-    let rank = match (args.rank, args.tolerance) {
-        (Some(rank), _) => Rank::Count(usize::from(rank)),
-        (None, Some(tolerance)) => Rank::Tolerance(tolerance),
-        (None, None) => Rank::Full,
-    };
-    let refused = |why: tables::Unfactored| {
-        Failure::from(Diagnostic::of_file(&input.shown, format!("has no factored form: {why}")))
-    };
-    let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
-    for id in &factoring.skipped {
-        progress.say(&format!("note: SPLINE/{id} is left out: it is zero, or has fewer than four stations"));
-    }
-    let ranks: Vec<String> = factoring.ranks.iter().map(|[kept, of]| format!("{kept} of {of}")).collect();
-    progress.say(&format!("factored form: {} products", ranks.join(", ")));
-    progress.say(&format!("  error at the stations: {}", factoring.stations.message()));
-    let between = exact.and_then(|(surface, rails)| factoring.against(surface, rails));
-    match &between {
-        Some(found) => progress.say(&format!("  error against the exact surface: {}", found.message())),
-        None => {
-            progress.say("  error between the stations: not known without the exact surface of a grid file")
-        }
-    }
-    let ranks: Vec<Value> =
-        factoring.ranks.iter().map(|[kept, of]| json!({ "kept": kept, "of": of })).collect();
-    let between = between.map(|found| found.json());
-    let object =
-        json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });
-    told.insert("factored".into(), object);
-    Ok(factoring.set)
 }

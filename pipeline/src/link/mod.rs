@@ -1,5 +1,6 @@
 //! From FE results to foundations: the transfer of data that used to be done by hand.
 
+mod modal;
 mod parts;
 
 use fea::Frame;
@@ -95,7 +96,18 @@ pub fn foundation(
             })?;
             parts::foundation(girder, count, handover, lateral)
         }
+        scene::Foundation::Modal { modes, damping } => {
+            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
+        }
+        scene::Foundation::Full { elements, damping } => {
+            modal::full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
+        }
     }
+}
+
+fn needed<'s>(structure: &Structure, solved: Option<&'s Solved>) -> Result<&'s Solved, Failure> {
+    let none = || Failure::Untrusted(format!("{}: modes need a beam spec", structure.name));
+    solved.ok_or_else(none)
 }
 
 fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundation, Failure> {
@@ -162,6 +174,14 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
     parts::foundation(girder, count, Handover::Blend { length: window }, false)
+}
+
+/// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
+///
+/// # Errors
+/// A structure without mass; too many unknowns.
+pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
+    modal::full("structure", solved, elements, 0.0, false)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

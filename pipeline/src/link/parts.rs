@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use fea::{Girder, Link, Member, Model, Support};
 use nalgebra::{DMatrix, DVector};
-use sim::{BlendedParts, Extent, Foundation, PartChain, PartShapes, Structure};
+use sim::{BlendedParts, Dynamics, Extent, Foundation, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line, Surface};
 
 use super::window;
@@ -158,9 +158,11 @@ impl Motion {
     fn structure(&self, shapes: PartShapes) -> Structure {
         let size = self.mass.nrows();
         Structure {
-            mass: self.mass.clone(),
-            damping: DMatrix::zeros(size, size),
-            stiffness: self.stiffness.clone(),
+            dynamics: Dynamics::Matrices {
+                mass: self.mass.clone(),
+                damping: DMatrix::zeros(size, size),
+                stiffness: self.stiffness.clone(),
+            },
             shapes: Box::new(shapes),
         }
     }

@@ -2,6 +2,7 @@
 
 mod body;
 mod compare;
+mod gauge;
 mod raw;
 mod read;
 mod structure;
@@ -11,6 +12,7 @@ mod wheel;
 
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
+pub use gauge::Gauge;
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};

@@ -13,6 +13,7 @@ crate::object::objects!(
     RawScene,
     RawStructure,
     RawTables,
+    RawGauge,
     RawBody,
     RawStart,
     RawWheel,
@@ -69,6 +70,11 @@ pub(crate) struct RawStructure {
     pub count: Option<usize>,
     pub handover: Option<String>,
     pub blend: Option<f64>,
+    pub modes: Option<usize>,
+    pub elements: Option<usize>,
+    pub damping: Option<f64>,
+    #[serde(default)]
+    pub gauges: Entries<RawGauge>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
 }
@@ -114,6 +120,14 @@ impl Visitor<'_> for PickVisitor {
     fn visit_str<E: Error>(self, name: &str) -> Result<Pick, E> {
         Ok(Pick::Name(name.to_owned()))
     }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawGauge {
+    pub rail: Option<String>,
+    pub x: Option<f64>,
+    pub direction: Option<String>,
 }
 
 #[derive(Debug, Deserialize)]

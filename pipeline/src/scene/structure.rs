@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -28,6 +29,8 @@ pub struct Structure {
     pub reading: Reading,
     /// Relative error allowed to the choice of the foundation.
     pub tolerance: f64,
+    /// Places whose displacement is recorded.
+    pub gauges: Vec<Gauge>,
 }
 
 /// Where influence coefficients come from.
@@ -74,6 +77,20 @@ pub enum Foundation {
     },
     /// By its influence coefficients, without mass.
     Influence,
+    /// In its lowest natural modes, with the static give of the others.
+    Modal {
+        /// Number of modes.
+        modes: usize,
+        /// Share of critical damping of each.
+        damping: f64,
+    },
+    /// In all modes of a finite-element mesh.
+    Full {
+        /// Elements a member.
+        elements: usize,
+        /// Share of critical damping of each mode.
+        damping: f64,
+    },
 }
 
 /// How a wheel passes from one rigid part to the next.
@@ -128,12 +145,20 @@ impl Foundation {
             Foundation::Rigid => "rigid",
             Foundation::Parts { .. } => "parts",
             Foundation::Influence => "influence",
+            Foundation::Modal { .. } => "modal",
+            Foundation::Full { .. } => "full",
         }
     }
 }
 
 /// Relative error allowed to the choice of a foundation where the scene gives none.
 pub const TOLERANCE: f64 = 1e-3;
+
+/// Modes where the scene gives no number of them.
+pub const MODES: usize = 5;
+
+/// Elements a member where the scene gives no number of them.
+pub const ELEMENTS: usize = 8;
 
 /// Parts of the chain where the scene gives no count.
 pub const PARTS: usize = 2;
@@ -143,6 +168,8 @@ enum Word {
     Rigid,
     Parts,
     Influence,
+    Modal,
+    Full,
     Auto,
 }
 
@@ -168,6 +195,7 @@ pub(super) fn read(
             .add(Fault::new(&at.key("count"), "must be at least 2").got(count).hint("parts of the chain"));
     }
     let handover = read_handover(raw, at, check);
+    let damping = read_damping(raw, at, check);
     let reading = match &raw.reading {
         Some(word) => check.faults.word(word, &at.key("reading"), &Reading::WORDS).unwrap_or(Reading::Exact),
         None => Reading::Exact,
@@ -197,6 +225,8 @@ pub(super) fn read(
         Word::Rigid => Foundation::Rigid,
         Word::Parts => Foundation::Parts { count, handover },
         Word::Influence | Word::Auto => Foundation::Influence,
+        Word::Modal => Foundation::Modal { modes: raw.modes.unwrap_or(MODES), damping },
+        Word::Full => Foundation::Full { elements: raw.elements.unwrap_or(ELEMENTS), damping },
     };
     let origin = origin?;
     if let (Word::Parts, Origin::Spec { spec, .. }) = (word, &origin)
@@ -221,24 +251,44 @@ pub(super) fn read(
         enough_stations(&rails, reading, at, check);
     }
     let auto = matches!(word, Word::Auto);
-    Some(Structure { name: name.to_owned(), origin, rails, foundation, auto, reading, tolerance })
+    let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
+    Some(Structure { name: name.to_owned(), origin, rails, foundation, auto, reading, tolerance, gauges })
 }
 
 fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Word {
     let Some(word) = &raw.foundation else { return Word::Auto };
     let place = at.key("foundation");
-    if ["modal", "full", "ties"].contains(&word.as_str()) {
-        let fault = Fault::new(&place, format!("the foundation \"{word}\" is not available in this version"));
-        check.faults.add(fault.hint("\"rigid\", \"parts\", \"influence\" and \"auto\" are"));
+    if word == "ties" {
+        let fault = Fault::new(&place, "the foundation \"ties\" is not available in this version");
+        let known = "\"rigid\", \"parts\", \"influence\", \"modal\", \"full\" and \"auto\" are";
+        check.faults.add(fault.hint(known));
         return Word::Auto;
     }
     let words = [
         ("rigid", Word::Rigid),
         ("parts", Word::Parts),
         ("influence", Word::Influence),
+        ("modal", Word::Modal),
+        ("full", Word::Full),
         ("auto", Word::Auto),
     ];
     check.faults.word(word, &place, &words).unwrap_or(Word::Auto)
+}
+
+/// Share of critical damping; modes and elements must be some.
+fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    for (key, count) in [("modes", raw.modes), ("elements", raw.elements)] {
+        if count == Some(0) {
+            check.faults.add(Fault::new(&at.key(key), "must be at least 1").got(0));
+        }
+    }
+    let (place, given) = (at.key("damping"), raw.damping.unwrap_or(0.0));
+    let damping = check.not_negative(given, &place, Dimension::NUMBER, "a share of critical, such as 0.01");
+    if damping >= 1.0 {
+        let fault = Fault::new(&place, "must be below 1").got(damping);
+        check.faults.add(fault.hint("a share of critical, such as 0.01"));
+    }
+    damping
 }
 
 fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Handover {
@@ -296,9 +346,9 @@ fn read_tables(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
-    if matches!(word, Word::Parts) {
-        let fault = Fault::new(at, "the foundation \"parts\" needs a `spec`")
-            .hint("tables do not say what lies between");
+    if matches!(word, Word::Parts | Word::Modal | Word::Full) {
+        let fault = Fault::new(at, "this foundation needs a `spec`")
+            .hint("tables know neither masses nor what lies between");
         check.faults.add(fault);
     }
     if raw.vertical.is_none() && raw.lateral.is_none() {

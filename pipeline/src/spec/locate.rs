@@ -51,9 +51,12 @@ impl Spec {
                 *most as f64 / 1e9,
                 "let the rails cover only what carriages reach, or join members"
             )),
-            Error::Factor { .. } | Error::NoRails | Error::Rail(_) | Error::NoMass | Error::Modes { .. } => {
-                Failure::Untrusted(format!("{}: {error}", source.name))
-            }
+            Error::Factor { .. }
+            | Error::NoRails
+            | Error::Rail(_)
+            | Error::NoMass
+            | Error::TooManyModes { .. }
+            | Error::Modes { .. } => Failure::Untrusted(format!("{}: {error}", source.name)),
         }
     }
 

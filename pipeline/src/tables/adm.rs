@@ -2,6 +2,7 @@
 
 use adams::DataSet;
 
+use super::format::Parsed;
 use super::set::{TableSet, name_of_title};
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
@@ -38,14 +39,20 @@ pub(super) fn comments(text: &str, mark: char) -> String {
 }
 
 /// Reads the SPLINE statements of a data set.
-pub(super) fn read(source: &Source, told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
+pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let set = adams::tables::read(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
-    let hint = "such as UNITS/ FORCE = POUND_FORCE, MASS = SLUG, LENGTH = FOOT, TIME = SECOND";
-    let given = set.units.map(Units::of_adams);
-    let units = super::format::units(&source.name, given, told, "has no UNITS statement", hint)?;
     let title = set.title.as_deref().map(name_of_title).filter(|name| !name.is_empty());
-    let name = title.map_or_else(|| crate::spec::stem(&source.name), str::to_owned);
-    Ok(TableSet::of_adams(set, name, units, &comments(&source.text, '!')))
+    Ok(Parsed {
+        name: title.map_or_else(|| crate::spec::stem(&source.name), str::to_owned),
+        units: set.units.map(Units::of_adams),
+        lacks: [
+            "has no UNITS statement",
+            "such as UNITS/ FORCE = POUND_FORCE, MASS = SLUG, LENGTH = FOOT, TIME = SECOND",
+        ],
+        drafts: TableSet::drafts(set.splines),
+        remarks: comments(&source.text, '!'),
+        products: Vec::new(),
+    })
 }
 
 /// A data set's error with its place in the file.

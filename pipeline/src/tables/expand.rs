@@ -33,11 +33,10 @@ pub fn expand(set: &TableSet) -> TableSet {
         let values = (0..z.len()).map(|i| (0..x.len()).map(|j| value(i, j)).collect()).collect();
         let Ok(curves) = Curves::new(x.to_vec(), z.to_vec(), values) else { continue };
         drafts.push(Draft {
-            id: None,
             name: Some(product.name.clone()),
             quantity: product.quantity,
             rails: product.rails.clone(),
-            curves,
+            ..Draft::of(curves)
         });
     }
     for table in set.tables.iter().filter(named) {
@@ -46,7 +45,7 @@ pub fn expand(set: &TableSet) -> TableSet {
             name: Some(table.name.clone()),
             quantity: table.quantity,
             rails: table.rails.clone(),
-            curves: table.curves.clone(),
+            ..Draft::of(table.curves.clone())
         });
     }
     TableSet::assemble(set.name.clone(), set.units, drafts, "")

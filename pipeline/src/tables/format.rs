@@ -5,11 +5,13 @@ use std::path::Path;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use super::{TableSet, adm, csv, json, npz, view};
+use super::product::Product;
+use super::set::{Draft, Table, TableSet};
+use super::{adm, csv, expand, json, npz, view};
 use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
 use crate::source::Source;
-use crate::units::Units;
+use crate::units::{Force, Length, Units};
 
 /// A format of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,18 +71,81 @@ pub fn write(set: &TableSet, format: Format) -> Result<Vec<u8>, Failure> {
 /// What is wrong, by line and column, path, or array and index; units that neither the file nor `told` says,
 /// or that differ.
 pub fn read(name: &str, bytes: &[u8], told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
+    let parsed = parse(name, bytes)?;
+    let units = match (parsed.units, told) {
+        (Some(given), Some(told)) if given != told => {
+            let words = |units: Units| format!("{} and {}", units.length.word(), units.force.word());
+            let expected = format!("says its units itself: {}", words(given));
+            let fault = Diagnostic { found: Some(words(told)), ..Diagnostic::of_file(name, expected) };
+            return Err(vec![fault.hint("leave the units out")]);
+        }
+        (Some(units), _) | (None, Some(units)) => units,
+        (None, None) => {
+            let [lacks, hint] = parsed.lacks;
+            let more = "none is guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
+            return Err(vec![Diagnostic::of_file(name, lacks).hint(format!("{hint}; {more}"))]);
+        }
+    };
+    Ok(parsed.set(units))
+}
+
+/// The tables of a file in the plain form, for a look at them: without units where the file says none.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contents {
+    /// Units, where the file says them.
+    pub units: Option<Units>,
+    /// The tables, and whether the file would have ADAMS go on with a line beyond their ends, where it says.
+    pub tables: Vec<(Table, Option<bool>)>,
+}
+
+/// Reads the tables of a file by the ending of its name.
+///
+/// # Errors
+/// What is wrong, but for units that are not said.
+pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
+    let parsed = parse(name, bytes)?;
+    let units = parsed.units;
+    let linear: Vec<Option<bool>> = parsed.drafts.iter().map(|draft| draft.linear).collect();
+    let any = Units { length: Length::Metre, force: Force::Newton };
+    let set = parsed.set(units.unwrap_or(any));
+    let said = |k: usize| if set.products.is_empty() { linear.get(k).copied().flatten() } else { None };
+    let tables = expand(&set).tables.into_iter().enumerate().map(|(k, table)| (table, said(k))).collect();
+    Ok(Contents { units, tables })
+}
+
+fn parse(name: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     let format = Format::of(name).map_err(|error| vec![*error])?;
     if format == Format::Npz {
-        return npz::read(name, bytes, told);
+        return npz::read(name, bytes);
     }
     let source = Source::from_bytes(name, bytes.to_vec()).map_err(|error| vec![*error])?;
-    let set = match format {
-        Format::Adams => adm::read(&source, told)?,
-        Format::View => view::read(&source, told)?,
-        Format::Csv => csv::read(&source, told)?,
-        Format::Json | Format::Npz => json::read(&source, told)?,
-    };
-    Ok(set)
+    match format {
+        Format::Adams => adm::read(&source),
+        Format::View => view::read(&source),
+        Format::Csv => csv::read(&source),
+        Format::Json | Format::Npz => json::read(&source),
+    }
+}
+
+/// What a file says.
+pub(super) struct Parsed {
+    pub name: String,
+    pub units: Option<Units>,
+    /// What to say where it has no units, with a hint.
+    pub lacks: [&'static str; 2],
+    pub drafts: Vec<Draft>,
+    /// Its comments.
+    pub remarks: String,
+    /// The products of a format that does not have them in comments.
+    pub products: Vec<Product>,
+}
+
+impl Parsed {
+    fn set(self, units: Units) -> TableSet {
+        let mut set = TableSet::assemble(self.name, units, self.drafts, &self.remarks);
+        set.products.extend(self.products);
+        set
+    }
 }
 
 /// Whether a file is one of tables, not a grid: by its ending, and of JSON by its members.
@@ -99,28 +164,5 @@ pub fn is_tables(name: &str, bytes: &[u8]) -> bool {
         }),
         Ok(_) => true,
         Err(_) => false,
-    }
-}
-
-/// The units of a file: its own, or those told.
-pub(super) fn units(
-    name: &str,
-    given: Option<Units>,
-    told: Option<Units>,
-    lacks: &str,
-    hint: &str,
-) -> Result<Units, Vec<Diagnostic>> {
-    match (given, told) {
-        (Some(given), Some(told)) if given != told => {
-            let words = |units: Units| format!("{} and {}", units.length.word(), units.force.word());
-            let expected = format!("says its units itself: {}", words(given));
-            let fault = Diagnostic { found: Some(words(told)), ..Diagnostic::of_file(name, expected) };
-            Err(vec![fault.hint("leave the units out")])
-        }
-        (Some(units), _) | (None, Some(units)) => Ok(units),
-        (None, None) => {
-            let more = "none is guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
-            Err(vec![Diagnostic::of_file(name, lacks).hint(format!("{hint}; {more}"))])
-        }
     }
 }

@@ -6,6 +6,7 @@ use adams::Curves;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
+use super::format::Parsed;
 use super::product::Product;
 use super::set::{Draft, TableSet};
 use super::wrong::{self, Part, Wrong};
@@ -111,13 +112,13 @@ struct RawProduct {
 }
 
 /// Reads `girderway-tables/1`, or an object of `x`, `z` (or `stations` for both) and `values`.
-pub(super) fn read(source: &Source, told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
+pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let raw: RawSet = source.parse(FORMAT).map_err(|error| vec![*error])?;
     let mut faults = Faults::default();
     let root = Place::root();
-    let given = match (&raw.units, told) {
-        (None, Some(_)) => None,
-        (units, _) => Units::read(units, &root, &mut faults),
+    let units = match &raw.units {
+        None => None,
+        units => Units::read(units, &root, &mut faults),
     };
     let name = raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name));
     let mut products = Vec::new();
@@ -150,10 +151,9 @@ pub(super) fn read(source: &Source, told: Option<Units>) -> Result<TableSet, Vec
     if !faults.0.is_empty() {
         return Err(source.diagnose(&faults));
     }
-    let units = super::format::units(&source.name, given, told, "has no `units`", "")?;
-    let mut set = TableSet::assemble(name, units, drafts, "");
-    set.products = products;
-    Ok(set)
+    let lacks =
+        ["has no `units`", "such as \"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}"];
+    Ok(Parsed { name, units, lacks, drafts, remarks: String::new(), products })
 }
 
 fn lone(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
@@ -176,7 +176,7 @@ fn lone(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     };
     let curves = wrong::curves(x.clone(), z, values.clone());
     let curves = curves.map_err(|wrong| faults.add(placed(wrong, root, key))).ok()?;
-    Some(Draft { id: None, name: raw.name.clone(), quantity: None, rails: None, curves })
+    Some(Draft { name: raw.name.clone(), ..Draft::of(curves) })
 }
 
 fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
@@ -187,7 +187,7 @@ fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     let curves: Result<Curves, Wrong> = wrong::curves(x.clone(), z, values.clone());
     let curves = curves.map_err(|wrong| faults.add(placed(wrong, at, "x"))).ok()?;
     let rails = raw.rail.clone().zip(raw.load_rail.clone()).map(|(rail, load)| [rail, load]);
-    Some(Draft { id: raw.id, name: raw.name.clone(), quantity, rails, curves })
+    Some(Draft { id: raw.id, name: raw.name.clone(), quantity, rails, ..Draft::of(curves) })
 }
 
 fn quantity(word: &Option<String>, at: &Place<'_>, faults: &mut Faults) -> Option<Quantity> {

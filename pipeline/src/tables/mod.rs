@@ -24,7 +24,7 @@ pub use deviation::Deviation;
 pub use digits::{Rounding, Unrounded, round};
 pub use expand::expand;
 pub use factor::{Factoring, Unfactored, factor};
-pub use format::{Format, is_tables, read, write};
+pub use format::{Contents, Format, contents, is_tables, read, write};
 pub use only::only;
 pub use product::Product;
 pub use set::{Table, TableSet};

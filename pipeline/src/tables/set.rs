@@ -111,16 +111,15 @@ impl TableSet {
         }
     }
 
-    /// Of SPLINE statements in a file that is called `stem`.
-    pub(super) fn of_adams(set: Tables, name: String, units: Units, remarks: &str) -> TableSet {
+    /// Of SPLINE statements.
+    pub(super) fn drafts(splines: Vec<Spline>) -> Vec<Draft> {
         let draft = |spline: Spline| Draft {
             id: Some(spline.id),
             name: Some(spline.name.unwrap_or_else(|| format!("SPLINE_{}", spline.id))),
-            quantity: None,
-            rails: None,
-            curves: spline.curves,
+            linear: Some(spline.linear),
+            ..Draft::of(spline.curves)
         };
-        TableSet::assemble(name, units, set.splines.into_iter().map(draft).collect(), remarks)
+        splines.into_iter().map(draft).collect()
     }
 
     /// Tables as a file has them, with numbers, names and quantities where it has none, and the products that
@@ -150,7 +149,16 @@ pub(super) struct Draft {
     pub name: Option<String>,
     pub quantity: Option<Quantity>,
     pub rails: Option<[String; 2]>,
+    /// Whether it goes on with a line beyond its ends.
+    pub linear: Option<bool>,
     pub curves: Curves,
+}
+
+impl Draft {
+    /// Of which nothing else is known.
+    pub fn of(curves: Curves) -> Draft {
+        Draft { id: None, name: None, quantity: None, rails: None, linear: None, curves }
+    }
 }
 
 /// A number for a table that has none: its quantity's own, or the next after all of these.

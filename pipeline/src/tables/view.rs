@@ -1,6 +1,7 @@
 //! Tables as commands of Adams View.
 
 use super::adm::{comments, remarks, unreadable};
+use super::format::Parsed;
 use super::set::{TableSet, plain};
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
@@ -29,11 +30,17 @@ fn word(name: &str) -> String {
 }
 
 /// Reads the splines of a command file.
-pub(super) fn read(source: &Source, told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
+pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let set = adams::view::read(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
-    let hint = "such as: defaults units length=foot force=pound_force mass=slug time=sec";
-    let given = set.units.map(Units::of_adams);
-    let units = super::format::units(&source.name, given, told, "has no `defaults units`", hint)?;
-    let name = set.title.clone().unwrap_or_else(|| crate::spec::stem(&source.name));
-    Ok(TableSet::of_adams(set, name, units, &comments(&source.text, '!')))
+    Ok(Parsed {
+        name: set.title.unwrap_or_else(|| crate::spec::stem(&source.name)),
+        units: set.units.map(Units::of_adams),
+        lacks: [
+            "has no `defaults units`",
+            "such as: defaults units length=foot force=pound_force mass=slug time=sec",
+        ],
+        drafts: TableSet::drafts(set.splines),
+        remarks: comments(&source.text, '!'),
+        products: Vec::new(),
+    })
 }

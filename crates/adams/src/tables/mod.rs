@@ -4,11 +4,13 @@
 //! of any content and keeps their SPLINE and UNITS statements.
 
 mod reader;
+mod statement;
 mod writer;
 
 use crate::{Curves, Units};
 
 pub use reader::read;
+pub use statement::of_statement;
 pub use writer::write;
 
 /// The tables of a data set.

@@ -34,6 +34,7 @@ fn scene() -> Scene {
             offsets: vec![0.0],
             wheel: 0,
         }],
+        gauges: Vec::new(),
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1.0,

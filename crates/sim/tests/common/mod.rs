@@ -2,6 +2,7 @@
 
 #![allow(dead_code)]
 
+pub mod modes;
 pub mod parts;
 
 use std::sync::Arc;
@@ -100,6 +101,7 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
                 wheel: 0,
             })
             .to_vec(),
+        gauges: Vec::new(),
         analysis: Analysis::Dynamic,
         end,
         output_dt: 0.01 * end,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
-use sim::{Extent, Foundation, PartChain, PartShapes, Structure};
+use sim::{Dynamics, Extent, Foundation, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line};
 
 use super::EI;
@@ -68,9 +68,11 @@ pub fn massive(factor: f64) -> Foundation {
     Foundation {
         rails: vec![Extent { range: Some(chain.range()), breaks: chain.breaks() }],
         structure: Some(Structure {
-            mass: DMatrix::identity(2, 2) * inertia(factor),
-            damping: DMatrix::zeros(2, 2),
-            stiffness: DMatrix::from_fn(2, 2, |i, j| stiffness[(i, j)]),
+            dynamics: Dynamics::Matrices {
+                mass: DMatrix::identity(2, 2) * inertia(factor),
+                damping: DMatrix::zeros(2, 2),
+                stiffness: DMatrix::from_fn(2, 2, |i, j| stiffness[(i, j)]),
+            },
             shapes: Box::new(PartShapes {
                 line: arms(&CENTRES),
                 basis: states,

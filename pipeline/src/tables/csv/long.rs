@@ -172,5 +172,5 @@ fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Dra
         ..sheet.fault(&first, wrong.expected)
     })?;
     let name = group.name.filter(|name| !name.is_empty());
-    Ok(Draft { id: group.id, name, quantity: None, rails: None, curves })
+    Ok(Draft { id: group.id, name, ..Draft::of(curves) })
 }

@@ -42,7 +42,7 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
         let fault = sheet.fault(cell.unwrap_or(&head[0]), wrong.expected);
         vec![Diagnostic { found: wrong.found, hint: wrong.hint.map(str::to_owned), ..fault }]
     })?;
-    Ok(Draft { id: None, name: None, quantity: None, rails: None, curves })
+    Ok(Draft::of(curves))
 }
 
 const HINT: &str = "a matrix has x in its first row and z in its first column";

@@ -8,6 +8,7 @@ use ::csv::WriterBuilder;
 use serde_json::json;
 
 use super::adm::remarks;
+use super::format::Parsed;
 use super::set::TableSet;
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
@@ -45,17 +46,20 @@ pub(super) fn write(set: &TableSet) -> String {
 }
 
 /// Reads either layout: a header that has a column `value` is of the first, any other of a matrix.
-pub(super) fn read(source: &Source, told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
+pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let sheet = Sheet::of(source).map_err(|error| vec![*error])?;
     let (drafts, given) = match long::Header::of(&sheet)? {
         Some(header) => (long::read(&sheet, &header)?, header.units),
         None => (vec![matrix::read(&sheet)?], None),
     };
-    let given = given.or_else(|| units_in(&sheet.comments));
-    let hint = "such as a comment line: # units: ft, lbf, s";
-    let units = super::format::units(&source.name, given, told, "says no units", hint)?;
-    let name = crate::spec::stem(&source.name);
-    Ok(TableSet::assemble(name, units, drafts, &sheet.comments))
+    Ok(Parsed {
+        name: crate::spec::stem(&source.name),
+        units: given.or_else(|| units_in(&sheet.comments)),
+        lacks: ["says no units", "such as a comment line: # units: ft, lbf, s"],
+        drafts,
+        remarks: sheet.comments,
+        products: Vec::new(),
+    })
 }
 
 /// The units in a comment `units: ft, lbf, s`.

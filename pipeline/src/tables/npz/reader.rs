@@ -5,18 +5,15 @@ use super::array::Data;
 use super::keys::META;
 use super::pack::Pack;
 use crate::diagnostic::Diagnostic;
+use crate::tables::format::Parsed;
 use crate::tables::product::Product;
-use crate::tables::set::{Draft, TableSet};
+use crate::tables::set::Draft;
 use crate::tables::wrong::{self, Part, Wrong};
 use crate::units::Units;
 
 /// Reads an archive of ours, or of arrays as numpy users write them: every matrix is a table, called by its
 /// name; its stations are `K_x` and `K_z`, or `x` and `z`, or `stations` for both.
-pub(in crate::tables) fn read(
-    file: &str,
-    bytes: &[u8],
-    told: Option<Units>,
-) -> Result<TableSet, Vec<Diagnostic>> {
+pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     let one = |fault: Box<Diagnostic>| vec![*fault];
     let arrays = archive::read(file, bytes).map_err(one)?;
     let pack = Pack { file, arrays };
@@ -46,18 +43,14 @@ pub(in crate::tables) fn read(
             return Err(vec![pack.fault("ids", "must all differ")]);
         }
     }
-    let units = crate::tables::format::units(
-        file,
-        given,
-        told,
-        "says no units",
-        "such as an array units=[\"ft\", \"lbf\", \"s\"]",
-    )?;
-    let name = name.unwrap_or_else(|| crate::spec::stem(file));
-    let products = pack.products(&drafts).map_err(one)?;
-    let mut set = TableSet::assemble(name, units, drafts, "");
-    set.products = products;
-    Ok(set)
+    Ok(Parsed {
+        name: name.unwrap_or_else(|| crate::spec::stem(file)),
+        units: given,
+        lacks: ["says no units", "such as an array units=[\"ft\", \"lbf\", \"s\"]"],
+        products: pack.products(&drafts).map_err(one)?,
+        drafts,
+        remarks: String::new(),
+    })
 }
 
 impl Pack<'_> {
@@ -96,7 +89,7 @@ impl Pack<'_> {
                 name: Some(names.as_ref().map_or_else(|| key.clone(), |list| list[k].clone())),
                 quantity,
                 rails,
-                curves,
+                ..Draft::of(curves)
             });
         }
         Ok(out)
@@ -173,7 +166,7 @@ impl Pack<'_> {
                     ),
                     quantity,
                     rails: rails.clone(),
-                    curves,
+                    ..Draft::of(curves)
                 });
             }
         }

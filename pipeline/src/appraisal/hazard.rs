@@ -1,0 +1,184 @@
+//! What about a table's stations, rather than its values, will hurt.
+
+use std::fmt;
+
+use splines::Table;
+use splines::check::supports;
+
+use super::text::short;
+
+/// Spacings that differ by more than this share are uneven.
+const EVEN: f64 = 1e-6;
+/// Fewest x values on which all documents of AKISPL's dialects agree.
+const PORTABLE: usize = 6;
+
+/// Breaks that are named one by one.
+const LISTED: usize = 6;
+
+/// Something that a user of the table should know.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Hazard {
+    /// Few x values.
+    Few {
+        /// How many.
+        found: usize,
+    },
+    /// Stations at unequal distances.
+    Uneven {
+        /// Shortest and longest distance.
+        spacing: [f64; 2],
+    },
+    /// Supports with stations on both sides.
+    Inside {
+        /// Where.
+        at: Vec<f64>,
+    },
+    /// Stations along z that differ from those along x.
+    Rectangle {
+        /// Curves, and values a curve.
+        shape: [usize; 2],
+    },
+    /// A rail that goes on beyond the table.
+    Short {
+        /// First and last place of the rail.
+        rail: [f64; 2],
+    },
+    /// Ends of cells (supports, hinges, changes of section) that are no stations.
+    Breaks {
+        /// Where.
+        at: Vec<f64>,
+    },
+    /// No LINEAR_EXTRAPOLATE.
+    NotLinear,
+    /// Deflections against their own load.
+    Negative {
+        /// Where.
+        at: f64,
+        /// The entry.
+        value: f64,
+    },
+    /// Nothing but zeros.
+    Zero,
+}
+
+impl Hazard {
+    /// All of a table; `breaks` are the ends of the cells of the rail that loads stand on, where they are known,
+    /// `direct` whether a diagonal must be positive.
+    #[must_use]
+    pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<Hazard> {
+        let mut out = Vec::new();
+        let (x, z) = (table.x(), table.z());
+        if table.values().amax() == 0.0 {
+            out.push(Hazard::Zero);
+        }
+        if z != x {
+            out.push(Hazard::Rectangle { shape: [z.len(), x.len()] });
+        }
+        if x.len() < PORTABLE {
+            out.push(Hazard::Few { found: x.len() });
+        }
+        let spacing =
+            |f: fn(f64, f64) -> f64, start| x.windows(2).fold(start, |a, pair| f(a, pair[1] - pair[0]));
+        let spacing = [spacing(f64::min, f64::INFINITY), spacing(f64::max, 0.0)];
+        if spacing[1] > spacing[0] * (1.0 + EVEN) {
+            out.push(Hazard::Uneven { spacing });
+        }
+        if direct {
+            let inside = |at: &f64| *at > z[0] && *at < z[z.len() - 1];
+            let at: Vec<f64> = supports(table).into_iter().filter(inside).collect();
+            if !at.is_empty() && table.values().amax() > 0.0 {
+                out.push(Hazard::Inside { at });
+            }
+            if z == x {
+                let worst =
+                    (0..x.len()).min_by(|&i, &j| table.values()[(i, i)].total_cmp(&table.values()[(j, j)]));
+                let negative =
+                    worst.map(|i| (x[i], table.values()[(i, i)])).filter(|(_, value)| *value < 0.0);
+                out.extend(negative.map(|(at, value)| Hazard::Negative { at, value }));
+            }
+        }
+        if linear == Some(false) {
+            out.push(Hazard::NotLinear);
+        }
+        let slack = EVEN * (x[x.len() - 1] - x[0]);
+        let (first, last) = (x[0], x[x.len() - 1]);
+        if let (Some(&from), Some(&to)) = (breaks.first(), breaks.last())
+            && (from < first - slack || to > last + slack)
+        {
+            out.push(Hazard::Short { rail: [from, to] });
+        }
+        let missing = |b: &&f64| **b > first && **b < last && x.iter().all(|x| (x - **b).abs() > slack);
+        let at: Vec<f64> = breaks.iter().filter(missing).copied().collect();
+        if !at.is_empty() {
+            out.push(Hazard::Breaks { at });
+        }
+        out
+    }
+
+    /// Its word in results.
+    #[must_use]
+    pub const fn word(&self) -> &'static str {
+        match self {
+            Hazard::Few { .. } => "few-stations",
+            Hazard::Uneven { .. } => "uneven-stations",
+            Hazard::Inside { .. } => "supports-inside",
+            Hazard::Rectangle { .. } => "rectangle",
+            Hazard::Short { .. } => "rail-goes-on",
+            Hazard::Breaks { .. } => "breaks-without-station",
+            Hazard::NotLinear => "not-linear",
+            Hazard::Negative { .. } => "negative",
+            Hazard::Zero => "zero",
+        }
+    }
+}
+
+impl fmt::Display for Hazard {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Hazard::Few { found } => write!(
+                f,
+                "{found} x values: four are the least, but readers of the language ask for up to {PORTABLE}"
+            ),
+            Hazard::Uneven { spacing: [low, high] } => write!(
+                f,
+                "stations at unequal distances, {} to {}: ADAMS vouches for derivatives of AKISPL at equal ones only",
+                short(*low),
+                short(*high)
+            ),
+            Hazard::Inside { at } => write!(
+                f,
+                "rigid supports inside the table, at {}: one curve runs over spans and overhangs alike",
+                list(at)
+            ),
+            Hazard::Rectangle { shape: [rows, columns] } => write!(
+                f,
+                "{rows} curves of {columns} values: deflections and loads have different stations, symmetry cannot hold between them"
+            ),
+            Hazard::Short { rail: [from, to] } => {
+                let [from, to] = [from, to].map(|x| short(*x));
+                write!(f, "the rail runs from {from} to {to}: a wheel beyond the table is extrapolated")
+            }
+            Hazard::Breaks { at } => {
+                let more = if at.len() > LISTED { ", ..." } else { "" };
+                write!(
+                    f,
+                    "supports, hinges or changes of section that are no stations: {}, at {}{more}",
+                    at.len(),
+                    list(&at[..at.len().min(LISTED)])
+                )
+            }
+            Hazard::NotLinear => f.write_str(
+                "no LINEAR_EXTRAPOLATE: beyond its ends the table goes on as a parabola or a cubic",
+            ),
+            Hazard::Negative { at, value } => write!(
+                f,
+                "{value:e} on the diagonal, at {at}: the deflection under a load points against it (signs of z and load?)"
+            ),
+            Hazard::Zero => f.write_str("nothing but zeros"),
+        }
+    }
+}
+
+fn list(places: &[f64]) -> String {
+    places.iter().map(|x| short(*x)).collect::<Vec<_>>().join(", ")
+}

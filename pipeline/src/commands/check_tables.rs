@@ -1,0 +1,93 @@
+//! `girderway splines --check`: what readings of tables cost.
+
+use std::path::Path;
+
+use crate::appraisal::{Findings, Manner, Settings, Subject, json, picture, text};
+use crate::chart::stack;
+use crate::cli::{Global, Splines};
+use crate::diagnostic::Diagnostic;
+use crate::exit::{Exit, Failure};
+use crate::output;
+use crate::progress::Progress;
+
+/// Reads the grid or the tables, tells the findings on standard output, draws them where a file is named.
+///
+/// [`Exit::Differs`] where a table is not symmetric or not positive semi-definite beyond its digits, or a reading
+/// errs more than the tolerance.
+///
+/// # Errors
+/// What is wrong with the input; an ending without a format; a file that cannot be written.
+pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
+    let form = args.output.as_deref().map(form).transpose()?;
+    let subject = Subject::open(&args.grid)?;
+    let progress = Progress::new(global);
+    let settings = Settings {
+        load: args.load,
+        spacing: args.spacing,
+        beyond: args.beyond,
+        judged: args.tolerance.map(|tolerance| (args.reading.unwrap_or(Manner::Akispl), tolerance)),
+    };
+    let mut all = Vec::with_capacity(subject.items.len());
+    let bar = progress.bar("checking", subject.items.len() as u64);
+    for index in 0..subject.items.len() {
+        all.push(Findings::of(&subject, index, &settings).map_err(|error| refuse(&subject, index, &error))?);
+        bar.set(index as u64 + 1);
+    }
+    drop(bar);
+    if let (Some(path), Some(form)) = (args.output.as_deref(), form) {
+        let body = match form {
+            Form::Json => json::json(&subject, &all),
+            Form::Page => picture::page(&subject, &all).map_err(Failure::untrusted)?,
+            Form::Picture => drawing(&subject, &all)?,
+        };
+        output::write(path, body.as_bytes())?;
+        progress.say(&format!("wrote {}", path.display()));
+    }
+    output::print(&if global.json { json::json(&subject, &all) } else { text::text(&subject, &all) })?;
+    let failed = all.iter().any(|found| !found.verdicts.is_empty());
+    Ok(if failed { Exit::Differs } else { Exit::Done })
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    Picture,
+    Page,
+    Json,
+}
+
+fn form(path: &Path) -> Result<Form, Failure> {
+    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
+    match ending.as_str() {
+        "svg" => Ok(Form::Picture),
+        "html" => Ok(Form::Page),
+        "json" => Ok(Form::Json),
+        _ => {
+            let wrong =
+                Diagnostic::of_file(path.display().to_string(), "the ending says no format of a check");
+            Err(wrong.hint("use .svg, .html or .json").into())
+        }
+    }
+}
+
+fn drawing(subject: &Subject, all: &[Findings]) -> Result<String, Failure> {
+    let mut pictures = Vec::new();
+    for found in all {
+        for plate in picture::plates(subject, found).map_err(Failure::untrusted)? {
+            pictures.push(plate.svg().map_err(Failure::untrusted)?);
+        }
+    }
+    if pictures.is_empty() {
+        let wrong = "nothing to draw: no table's exact surface is known".to_owned();
+        return Err(Diagnostic::of_file(&subject.file, wrong)
+            .hint("check the grid file of these tables")
+            .into());
+    }
+    Ok(stack(&pictures))
+}
+
+/// A surface that has no answer within a table.
+fn refuse(subject: &Subject, index: usize, error: &splines::Error) -> Failure {
+    let item = &subject.items[index];
+    let wrong = format!("SPLINE/{} cannot be checked: {error}", item.id);
+    Diagnostic::of_file(&subject.file, wrong).hint("does the surface belong to these tables?").into()
+}

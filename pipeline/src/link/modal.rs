@@ -1,0 +1,195 @@
+//! A structure in natural modes, with the static give of what they leave.
+
+use std::sync::Arc;
+
+use fea::{Frame, Modes, Refined};
+use nalgebra::DMatrix;
+use sim::{Dynamics, Extent, Foundation, Shapes};
+use splines::{Axis, Compliance, Line, Probe};
+
+use super::Solved;
+use crate::exit::Failure;
+
+/// Error of a frequency that the cutting of members may leave.
+const ACCURACY: f64 = 1e-6;
+/// Motion of the rails where wheels push, by that of the whole mass moving alike, below which wheels cannot excite it.
+const STILL: f64 = 1e-6;
+/// Relative difference of two frequencies that are one.
+const EQUAL: f64 = 1e-6;
+
+/// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
+pub(super) fn lowest(
+    name: &str,
+    solved: &Solved,
+    count: usize,
+    ratio: f64,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
+    let mut asked = count;
+    loop {
+        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
+            .map_err(|error| refused(name, &error))?;
+        let felt = felt(&refined.modes, solved, lateral);
+        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
+        let all = refined.modes.modes.len() < asked || refined.modes.next.is_none();
+        // Some of the modes of one frequency are not enough to turn them.
+        let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
+        if all || (felt.len() >= count && !torn) {
+            let lowest = felt.into_iter().take(count).collect();
+            return foundation(name, &refined, lowest, ratio);
+        }
+        asked = (2 * asked).max(asked + 8);
+    }
+}
+
+/// Every mode that wheels can excite of a mesh of `parts` elements a member.
+pub(super) fn full(
+    name: &str,
+    solved: &Solved,
+    parts: usize,
+    ratio: f64,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
+    let refined =
+        fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
+    let felt = felt(&refined.modes, solved, lateral);
+    foundation(name, &refined, felt, ratio)
+}
+
+fn refused(name: &str, error: &fea::Error) -> Failure {
+    let hint = match error {
+        fea::Error::NoMass => "  hint: give its materials a density, or the girder `mass_per_length`",
+        fea::Error::TooManyModes { .. } => {
+            "  hint: \"modal\" takes the lowest modes alone; or fewer `elements`"
+        }
+        _ => "",
+    };
+    Failure::Untrusted(format!("{name}: {error}{hint}"))
+}
+
+/// Modes that move the rails where and as wheels can push.
+///
+/// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
+fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Vec<fea::Mode> {
+    let motions = motions(modes, solved, lateral);
+    // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
+    let limit = STILL / modes.total[0][0].sqrt();
+    let mut kept = Vec::new();
+    let mut first = 0;
+    while first < modes.modes.len() {
+        let omega = modes.modes[first].omega;
+        let more = modes.modes[first..].iter().take_while(|mode| mode.omega <= omega * (1.0 + EQUAL));
+        let cluster = first..first + more.count();
+        first = cluster.end;
+        let of = motions.columns(cluster.start, cluster.len());
+        let turn = (of.transpose() * of).symmetric_eigen().eigenvectors;
+        let mut turned: Vec<(f64, fea::Mode)> = (0..cluster.len())
+            .map(|c| {
+                let shares = turn.column(c);
+                ((of * shares).amax(), sum(&modes.modes[cluster.clone()], shares.as_slice()))
+            })
+            .filter(|(largest, _)| *largest > limit)
+            .collect();
+        turned.sort_by(|a, b| b.0.total_cmp(&a.0));
+        kept.extend(turned.into_iter().map(|(_, mode)| mode));
+    }
+    kept
+}
+
+/// Motion of the rails, places and directions x modes, where and as wheels can push.
+fn motions(modes: &Modes, solved: &Solved, lateral: bool) -> DMatrix<f64> {
+    let axes: &[Axis] = if lateral { &[Axis::Vertical, Axis::Lateral] } else { &[Axis::Vertical] };
+    let mut rows = Vec::new();
+    for (rail, given) in solved.rails.iter().enumerate() {
+        let places = match &solved.surface {
+            Some(surface) => places(surface.line(), rail),
+            None => given.stations.clone(),
+        };
+        for x in places {
+            for &axis in axes {
+                // a direction that nothing resists moves no mode
+                if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
+                    rows.extend(shapes.into_iter().map(|[value, _]| value));
+                }
+            }
+        }
+    }
+    let count = modes.modes.len();
+    DMatrix::from_row_slice(rows.len() / count.max(1), count, &rows)
+}
+
+/// A sum of modes of one frequency.
+fn sum(modes: &[fea::Mode], shares: &[f64]) -> fea::Mode {
+    let mut out = modes[0].clone();
+    let add = |of: fn(&fea::Mode) -> &Vec<[f64; 6]>, at: usize, i: usize| -> f64 {
+        modes.iter().zip(shares).map(|(mode, share)| share * of(mode)[at][i]).sum()
+    };
+    for (at, motion) in out.states.iter_mut().enumerate() {
+        *motion = std::array::from_fn(|i| add(|mode| &mode.states, at, i));
+    }
+    for (at, motion) in out.points.iter_mut().enumerate() {
+        *motion = std::array::from_fn(|i| add(|mode| &mode.points, at, i));
+    }
+    out.coupling = std::array::from_fn(|i| modes.iter().zip(shares).map(|(m, s)| s * m.coupling[i]).sum());
+    out
+}
+
+/// Places along a rail close enough to see every mode: seventeen a cell.
+fn places(line: &Line, rail: usize) -> Vec<f64> {
+    let cells = line.cells().iter().filter(|cell| cell.rail == rail);
+    cells
+        .flat_map(|cell| (0..=16).map(|k| cell.x[0] + (cell.x[1] - cell.x[0]) * f64::from(k) / 16.0))
+        .collect()
+}
+
+fn foundation(
+    name: &str,
+    refined: &Refined,
+    felt: Vec<fea::Mode>,
+    ratio: f64,
+) -> Result<Foundation, Failure> {
+    let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+    let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
+    let surface = frame.surface().map_err(untrusted)?.surface;
+    let mut kept = refined.modes.clone();
+    kept.modes = felt;
+    let rest = kept.residual(&surface).map_err(untrusted)?;
+    let line = Arc::clone(surface.line());
+    let states =
+        DMatrix::from_fn(6 * line.states(), kept.modes.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
+    let rails = (0..refined.rails.len())
+        .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
+        .collect();
+    let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
+    let dynamics = Dynamics::Modes { ratio: vec![ratio; omega.len()], omega };
+    let shapes = Box::new(ModeShapes { line, states });
+    Ok(Foundation {
+        compliance: Some(Box::new(rest)),
+        structure: Some(sim::Structure { dynamics, shapes }),
+        rails,
+        ..Foundation::default()
+    })
+}
+
+/// Modes along the rails: N(x) times the motion of the cells' ends.
+struct ModeShapes {
+    line: Arc<Line>,
+    /// Freedoms of the states x modes.
+    states: DMatrix<f64>,
+}
+
+impl Shapes for ModeShapes {
+    fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), splines::Error> {
+        let row = self.line.row(at)?;
+        for (r, (value, slope)) in value.iter_mut().zip(slope).enumerate() {
+            (*value, *slope) = (0.0, 0.0);
+            let column = self.states.column(r);
+            for (&k, (share, share_slope)) in row.indices().iter().zip(row.values().iter().zip(row.slopes()))
+            {
+                *value += share * column[k];
+                *slope += share_slope * column[k];
+            }
+        }
+        Ok(())
+    }
+}
