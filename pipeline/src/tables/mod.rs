@@ -1,6 +1,6 @@
 //! Influence tables as files, both ways.
 //!
-//! A [`TableSet`] is what every format holds; [`read`] and [`write`] go by the ending of the file's name.
+//! A [`TableSet`] is what every format holds; [`read()`] and [`write()`] go by the ending of the file's name.
 
 mod adm;
 mod build;
