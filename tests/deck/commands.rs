@@ -1,0 +1,80 @@
+//! The command line of decks.
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+use super::{example, scene};
+
+fn girderway(arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_girderway")).args(arguments).output().expect("the program starts")
+}
+
+fn path(path: &Path) -> &str {
+    path.to_str().expect("a path in UTF-8")
+}
+
+#[test]
+fn without_a_file_the_data_set_alone_goes_to_standard_output() {
+    let run = girderway(&["deck", path(&example("bogie"))]);
+    assert_eq!(run.status.code(), Some(0));
+    let text = String::from_utf8(run.stdout).expect("text");
+    assert!(text.starts_with("bogie: 2 wheels, form factored\n") && text.ends_with("END\n"), "{text}");
+}
+
+#[test]
+fn a_file_has_its_command_file_beside_it() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("crossing.adm");
+    let run = girderway(&["deck", path(&example("bogie")), "-o", path(&file), "--form", "akispl"]);
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(run.stdout.is_empty());
+    let commands = fs::read_to_string(folder.path().join("crossing.acf")).expect("a command file");
+    assert_eq!(commands, "file/model=crossing\nSIMULATE/DYNAMIC, END=12.0, DTOUT=0.02\nstop\n");
+    assert!(fs::read_to_string(&file).expect("a data set").contains("AKISPL("));
+}
+
+#[test]
+fn a_check_says_what_it_found_and_its_status_whether_that_is_enough() {
+    let bogie = example("bogie");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let file = folder.path().join("b.adm");
+    let run = girderway(&["deck", path(&bogie), "-o", path(&file), "--check", "--states", "50", "--json"]);
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    let report: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+    assert_eq!(report["holds"], true);
+    assert_eq!(report["forces"][0]["states"], 50);
+    let paper = ["deck", path(&bogie), "-o", path(&file), "--form", "paper", "--check", "--states", "50"];
+    let run = girderway(&paper);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&run.stderr).contains("forces at random states"));
+}
+
+#[test]
+fn foundations_that_a_deck_cannot_have_are_refused_by_name() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let spec = example("bogie").with_file_name("spec.json");
+    fs::copy(spec, folder.path().join("spec.json")).expect("a copy");
+    let text = fs::read_to_string(example("bogie")).expect("a scene");
+    for word in ["parts", "modal"] {
+        let text = text.replacen("\"foundation\": \"influence\"", &format!("\"foundation\": \"{word}\""), 1);
+        let mut object: Value = serde_json::from_str(&text).expect("JSON");
+        object.as_object_mut().expect("an object").remove("compare");
+        let file = folder.path().join("scene.json");
+        fs::write(&file, object.to_string()).expect("written");
+        let run = girderway(&["deck", path(&file)]);
+        let told = String::from_utf8_lossy(&run.stderr).into_owned();
+        assert_eq!(run.status.code(), Some(2), "{told}");
+        assert!(run.stdout.is_empty());
+        assert!(told.contains("structure \"girder\"") && told.contains("hint: use \"influence\""), "{told}");
+    }
+}
+
+#[test]
+fn a_scene_read_by_akispl_has_its_deck_so() {
+    let run = girderway(&["deck", path(&scene("printed"))]);
+    assert_eq!(run.status.code(), Some(0), "{}", String::from_utf8_lossy(&run.stderr));
+    assert!(String::from_utf8_lossy(&run.stdout).starts_with("printed: 2 wheels, form akispl\n"));
+}
