@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::appraisal::Manner;
+use crate::crosscheck::Quantity;
 use crate::deck::Form;
 use crate::import::rail::triple;
 use crate::import::{fix, rail};
@@ -48,7 +49,7 @@ pub enum Command {
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(Fea),
-    /// Write the tables of a grid, at its stations or the fewest that do, or tell what readings of tables cost
+    /// Write the tables of a grid or of another file, at their stations or the fewest that do, or tell what readings cost
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(Splines),
     /// Write a scene as a complete ADAMS data set, with its command file; --check executes it against the simulator
@@ -82,12 +83,30 @@ pub struct Crosscheck {
 /// Arguments of `splines`.
 #[derive(Clone, Debug, Args)]
 pub struct Splines {
-    /// Grid file; with --check also tables (.adm)
+    /// Grid file, or a file of tables: .adm, .cmd, .csv, .json or .npz
     pub grid: PathBuf,
-    /// File to write: .adm, .json or .csv [default: an ADAMS data set on standard output]; with --check a picture
-    /// (.svg), a page (.html) or all numbers (.json)
+    /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]; with --check a
+    /// picture (.svg), a page (.html) or all numbers (.json)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
+    /// Tables of these directions alone [default: all]
+    #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', conflicts_with = "check")]
+    pub only: Vec<Direction>,
+    /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
+    #[arg(long, conflicts_with = "check")]
+    pub form: Option<TableForm>,
+    /// Most products of the factored form [default: all that are more than rounding]
+    #[arg(long, value_name = "R", value_parser = clap::value_parser!(u16).range(1..))]
+    pub rank: Option<u16>,
+    /// Round to N significant digits (Adams View writes 10) [default: all digits]
+    #[arg(long, value_name = "N", conflicts_with = "check", value_parser = clap::value_parser!(u8).range(1..=17))]
+    pub digits: Option<u8>,
+    /// Unit of length of tables that do not say it
+    #[arg(long, requires = "force")]
+    pub length: Option<LengthUnit>,
+    /// Unit of force of tables that do not say it
+    #[arg(long, requires = "length")]
+    pub force: Option<ForceUnit>,
     /// Tell what each reading of the tables costs, on standard output
     #[arg(long)]
     pub check: bool,
@@ -95,7 +114,7 @@ pub struct Splines {
     /// larger error is a failure [default with --check: akispl]
     #[arg(long, requires = "tolerance")]
     pub reading: Option<Manner>,
-    /// Error allowed, of the largest coefficient
+    /// Error allowed, of the largest coefficient; of the factored form without a reading, that at the stations
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub tolerance: Option<f64>,
     /// Directions that must keep the tolerance [default: vertical,lateral]
@@ -118,6 +137,15 @@ pub struct Splines {
     pub beyond: Option<f64>,
 }
 
+/// Words of the forms of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TableForm {
+    /// G over load and deflection
+    Table,
+    /// One-curve splines, and G as the sum of their products
+    Factored,
+}
+
 /// Words of the directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Direction {
@@ -135,6 +163,16 @@ impl From<Direction> for splines::Axis {
             Direction::Vertical => splines::Axis::Vertical,
             Direction::Lateral => splines::Axis::Lateral,
             Direction::Longitudinal => splines::Axis::Longitudinal,
+        }
+    }
+}
+
+impl From<Direction> for Quantity {
+    fn from(direction: Direction) -> Quantity {
+        match direction {
+            Direction::Vertical => Quantity::Vertical,
+            Direction::Lateral => Quantity::Lateral,
+            Direction::Longitudinal => Quantity::Longitudinal,
         }
     }
 }

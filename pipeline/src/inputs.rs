@@ -12,18 +12,26 @@ use crate::source::Source;
 pub struct Input {
     /// As named by the user or by the file that refers to it.
     pub name: String,
+    /// As it appears in messages.
+    pub shown: String,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
-    /// Its text.
-    pub source: Source,
+    /// What it holds.
+    pub bytes: Vec<u8>,
 }
 
 impl Input {
-    fn read(name: String, path: &Path) -> Result<Input, Unread> {
-        let bytes = std::fs::read(path).map_err(|error| Unread::Io(cannot_read(&error)))?;
-        let sha256 = sha256(&bytes);
-        let source = Source::from_bytes(path.display().to_string(), bytes).map_err(Unread::Text)?;
-        Ok(Input { name, sha256, source })
+    fn read(name: String, path: &Path) -> Result<Input, String> {
+        let bytes = std::fs::read(path).map_err(|error| cannot_read(&error))?;
+        Ok(Input { name, shown: path.display().to_string(), sha256: sha256(&bytes), bytes })
+    }
+
+    /// Its text.
+    ///
+    /// # Errors
+    /// Bytes that are not UTF-8, placed in it.
+    pub fn source(&self) -> Result<Source, Box<Diagnostic>> {
+        Source::from_bytes(self.shown.clone(), self.bytes.clone())
     }
 }
 
@@ -40,28 +48,36 @@ impl Inputs {
     /// # Errors
     /// A file that cannot be read or is not text.
     pub fn open(path: &Path) -> Result<(Inputs, Source), Box<Diagnostic>> {
+        let inputs = Inputs::open_bytes(path)?;
+        let source = inputs.read[0].source()?;
+        Ok((inputs, source))
+    }
+
+    /// Starts with the file that the user named, of any bytes: the first of [`Inputs::all`].
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn open_bytes(path: &Path) -> Result<Inputs, Box<Diagnostic>> {
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
         let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-        let first = Input::read(name, path).map_err(|unread| match unread {
-            Unread::Io(why) => Box::new(Diagnostic::of_file(path.display().to_string(), why)),
-            Unread::Text(diagnostic) => diagnostic,
-        })?;
-        let source = first.source.clone();
-        Ok((Inputs { folder, read: vec![first] }, source))
+        let first = Input::read(name, path)
+            .map_err(|why| Box::new(Diagnostic::of_file(path.display().to_string(), why)))?;
+        Ok(Inputs { folder, read: vec![first] })
     }
 
     /// Reads a file that another one refers to, or takes it from memory where it was read before.
     ///
     /// # Errors
-    /// Why it cannot be read, in words; or that it is not text, placed in it.
-    pub fn refer(&mut self, name: &str) -> Result<Source, Unread> {
-        if let Some(known) = self.find(name) {
-            return Ok(known.source.clone());
-        }
-        let input = Input::read(name.to_owned(), &self.folder.join(name))?;
-        let source = input.source.clone();
-        self.read.push(input);
-        Ok(source)
+    /// Why it cannot be read, in words.
+    pub fn refer(&mut self, name: &str) -> Result<&Input, String> {
+        let index = match self.read.iter().position(|input| input.name == name) {
+            Some(index) => index,
+            None => {
+                self.read.push(Input::read(name.to_owned(), &self.folder.join(name))?);
+                self.read.len() - 1
+            }
+        };
+        Ok(&self.read[index])
     }
 
     /// The file that was read under this name.
@@ -75,15 +91,6 @@ impl Inputs {
     pub fn all(&self) -> &[Input] {
         &self.read
     }
-}
-
-/// Why a file that another one refers to gave no text.
-#[derive(Debug)]
-pub enum Unread {
-    /// The file system's reason.
-    Io(String),
-    /// Bytes that are not text, placed in the file itself.
-    Text(Box<Diagnostic>),
 }
 
 /// Why the file system gave nothing, in plain words.

@@ -49,7 +49,7 @@ impl Manifest {
     pub fn new(command: &str, inputs: &Inputs, settings: Value) -> Manifest {
         let entry = |input: &crate::inputs::Input| InputEntry {
             name: input.name.clone(),
-            bytes: input.source.text.len(),
+            bytes: input.bytes.len(),
             sha256: input.sha256.clone(),
         };
         Manifest {

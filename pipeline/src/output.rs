@@ -75,8 +75,12 @@ pub(crate) fn json(value: &Value) -> String {
 /// # Errors
 /// What the file system refuses.
 pub fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(text.as_bytes())
+}
+
+fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
-    match stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")).into())
         }
@@ -89,8 +93,16 @@ pub fn print(text: &str) -> Result<(), Failure> {
 /// # Errors
 /// What the file system refuses, naming the file.
 pub fn deliver(path: Option<&Path>, text: &str, progress: &Progress) -> Result<(), Failure> {
-    let Some(path) = path else { return print(text) };
-    write(path, text.as_bytes())?;
+    deliver_bytes(path, text.as_bytes(), progress)
+}
+
+/// The same for bytes of any kind.
+///
+/// # Errors
+/// What the file system refuses, naming the file.
+pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> Result<(), Failure> {
+    let Some(path) = path else { return print_bytes(bytes) };
+    write(path, bytes)?;
     progress.say(&format!("wrote {}", path.display()));
     Ok(())
 }

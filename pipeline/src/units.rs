@@ -49,6 +49,12 @@ impl Length {
         }
     }
 
+    /// The unit of a word of files.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Length> {
+        Length::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
+    }
+
     /// Its word in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
@@ -73,6 +79,12 @@ impl Force {
             Force::Newton => 10_000_000_000_000,
             Force::Kilonewton => 10_000_000_000_000_000,
         }
+    }
+
+    /// The unit of a word of files.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Force> {
+        Force::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
     }
 
     /// Its word in files.

@@ -123,6 +123,9 @@ pub enum Fault {
         /// The identifier.
         id: u32,
     },
+    /// A SPLINE that a later command changes.
+    #[error("a SPLINE is changed after it is made")]
+    Changed,
     /// No X.
     #[error("SPLINE/{id} has no X")]
     NoX {

@@ -25,6 +25,7 @@ pub mod statement;
 pub mod statics;
 pub mod tables;
 pub mod units;
+pub mod view;
 
 pub use curves::Curves;
 pub use dataset::DataSet;

@@ -14,9 +14,8 @@ use crate::grid::axes;
 use crate::grid_file;
 use crate::inputs::Inputs;
 use crate::place::Place;
-use crate::scene::unreadable;
 use crate::source::Source;
-use crate::tables;
+use crate::tables::{self, Contents, TableSet};
 use crate::units::Units;
 
 /// Larger numbers are refused: their squares must be finite.
@@ -67,10 +66,12 @@ impl Subject {
     /// # Errors
     /// A file that cannot be read, or has no table.
     pub fn open(path: &Path) -> Result<Subject, Failure> {
-        let (_, source) = Inputs::open(path)?;
-        match tables_of(path, &source)? {
-            Some(set) => Subject::of_tables(&source, &set),
-            None => Subject::of_grid(&source),
+        let inputs = Inputs::open_bytes(path)?;
+        let input = &inputs.all()[0];
+        if tables::is_tables(&input.shown, &input.bytes) {
+            Subject::of_tables(&input.shown, &tables::contents(&input.shown, &input.bytes)?)
+        } else {
+            Subject::of_grid(&input.source()?)
         }
     }
 
@@ -82,9 +83,9 @@ impl Subject {
         }
         let rails = grid.rails.len();
         let mut items = Vec::new();
-        for spline in &tables::data_set(&grid).splines {
-            let ways = ways(spline.id, rails);
-            items.extend(item(source, spline)?.map(|item| Item { ways, linear: None, ..item }));
+        for table in &TableSet::of_grid(&grid).tables {
+            let ways = ways(table.id, rails);
+            items.extend(item(&source.name, table)?.map(|item| Item { ways, ..item }));
         }
         if items.is_empty() {
             let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
@@ -94,13 +95,13 @@ impl Subject {
         Ok(Subject { file: source.name.clone(), units: Some(grid.units), items, surface, notes })
     }
 
-    fn of_tables(source: &Source, set: &adams::Tables) -> Result<Subject, Failure> {
+    fn of_tables(file: &str, contents: &Contents) -> Result<Subject, Failure> {
         let mut items = Vec::new();
         let mut notes = Vec::new();
-        for spline in &set.splines {
-            match item(source, spline)? {
-                Some(item) => items.push(item),
-                None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", spline.id)),
+        for (table, linear) in &contents.tables {
+            match item(file, table)? {
+                Some(item) => items.push(Item { linear: *linear, ..item }),
+                None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", table.id)),
             }
         }
         // Nothing says which tables belong together: each is a way of its own.
@@ -110,14 +111,13 @@ impl Subject {
             }
         }
         if items.is_empty() {
-            let wrong = Diagnostic::of_file(&source.name, "has no SPLINE with a curve for each z");
+            let wrong = Diagnostic::of_file(file, "has no SPLINE with a curve for each z");
             return Err(wrong.hint("an influence table has one Y list for each z").into());
         }
-        let units = set.units.map(Units::of_adams);
-        if units.is_none() {
-            notes.push("the file has no UNITS: numbers are in its own".to_owned());
+        if contents.units.is_none() {
+            notes.push("the file says no units: numbers are in its own".to_owned());
         }
-        Ok(Subject { file: source.name.clone(), units, items, surface: None, notes })
+        Ok(Subject { file: file.to_owned(), units: contents.units, items, surface: None, notes })
     }
 
     /// The tables whose ways are known and have tables of their own, as a reading takes them.
@@ -132,44 +132,29 @@ impl Subject {
     }
 }
 
-/// The tables of a file that is not a grid.
-fn tables_of(path: &Path, source: &Source) -> Result<Option<adams::Tables>, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    match ending.as_str() {
-        "adm" => {
-            adams::tables::read(&source.text).map(Some).map_err(|error| unreadable(source, &error).into())
-        }
-        "cmd" | "csv" | "npz" => {
-            let wrong =
-                Diagnostic::of_file(&source.name, format!("tables in .{ending} cannot be checked yet"));
-            Err(wrong.hint("check the grid file, or an .adm of it").into())
-        }
-        _ => Ok(None),
-    }
-}
-
 /// A family as a table; `None` for one curve alone.
-fn item(source: &Source, spline: &adams::Spline) -> Result<Option<Item>, Failure> {
-    let curves = &spline.curves;
+fn item(file: &str, given: &tables::Table) -> Result<Option<Item>, Failure> {
+    let curves = &given.curves;
     if curves.z().is_empty() {
         return Ok(None);
     }
     let numbers = curves.x().iter().chain(curves.z()).chain(curves.y().iter().flatten());
     if let Some(wrong) = numbers.into_iter().find(|number| number.abs() > LARGEST) {
-        let wrong = format!("SPLINE/{} holds {wrong:e}, which no structure has", spline.id);
-        return Err(Diagnostic::of_file(&source.name, wrong).hint("which units are these?").into());
+        let wrong = format!("SPLINE/{} holds {wrong:e}, which no structure has", given.id);
+        return Err(Diagnostic::of_file(file, wrong).hint("which units are these?").into());
     }
     for points in [curves.x(), curves.z()] {
         let least = NEAREST * (points[points.len() - 1] - points[0]);
         if let Some(pair) = points.windows(2).find(|pair| pair[1] - pair[0] < least) {
-            let wrong = format!("SPLINE/{} has stations at {} and {}", spline.id, pair[0], pair[1]);
-            return Err(Diagnostic::of_file(&source.name, wrong).hint("take one of them out").into());
+            let wrong = format!("SPLINE/{} has stations at {} and {}", given.id, pair[0], pair[1]);
+            return Err(Diagnostic::of_file(file, wrong).hint("take one of them out").into());
         }
     }
     let values = DMatrix::from_fn(curves.z().len(), curves.x().len(), |i, j| curves.y()[i][j]);
     let table = Table::new(curves.x().to_vec(), curves.z().to_vec(), values).map_err(Failure::untrusted)?;
-    let name = spline.name.clone().unwrap_or_default();
-    Ok(Some(Item { id: spline.id, name, ways: None, linear: Some(spline.linear), table }))
+    let unnamed = format!("SPLINE_{}", given.id);
+    let name = if given.name == unnamed { String::new() } else { given.name.clone() };
+    Ok(Some(Item { id: given.id, name, ways: None, linear: None, table }))
 }
 
 /// Ways of a grid's table by its number, of a grid of that many rails: six a pair of rails, from 6 on.

@@ -3,7 +3,9 @@
 pub mod check_tables;
 pub mod crosscheck;
 pub mod deck;
+mod factored;
 pub mod fea;
+mod fewest;
 pub mod import;
 pub mod run;
 pub mod sim;

@@ -9,6 +9,7 @@ use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
 use crate::clock::Clock;
 use crate::exit::{Exit, Failure};
+use crate::inputs::Input;
 use crate::link::{self, Solved};
 use crate::manifest::Manifest;
 use crate::output::{self, Folder};
@@ -127,10 +128,11 @@ pub(super) fn solve_all(
     let mut known: Vec<Known> = Vec::new();
     let stage = progress.stage("solving the structures");
     for &(_, file, spec) in specs {
-        let solved = link::solve(spec).map_err(|error| match document.inputs.find(file) {
-            Some(input) => spec.refuse(&input.source, &error),
-            None => Failure::untrusted(error),
-        })?;
+        let solved =
+            link::solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
+                Some(Ok(source)) => spec.refuse(&source, &error),
+                _ => Failure::untrusted(error),
+            })?;
         known.push(Known { spec: Arc::clone(spec), solved });
     }
     drop(stage);

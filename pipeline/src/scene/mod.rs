@@ -14,7 +14,6 @@ pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use gauge::Gauge;
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
-pub(crate) use tables::unreadable;
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
 

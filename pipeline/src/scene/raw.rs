@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use serde_json::Value;
 
 use crate::entries::Entries;
@@ -83,8 +83,43 @@ pub(crate) struct RawStructure {
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTables {
     pub file: Option<String>,
-    pub vertical: Option<u32>,
-    pub lateral: Option<u32>,
+    pub units: Option<RawUnits>,
+    pub vertical: Option<Pick>,
+    pub lateral: Option<Pick>,
+}
+
+/// Which table of a file is meant.
+#[derive(Debug)]
+pub(crate) enum Pick {
+    /// The number of a SPLINE.
+    Id(u32),
+    /// The name of a table, or a quantity.
+    Name(String),
+}
+
+impl<'de> Deserialize<'de> for Pick {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(PickVisitor)
+    }
+}
+
+struct PickVisitor;
+
+impl Visitor<'_> for PickVisitor {
+    type Value = Pick;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("the number or the name of a table")
+    }
+
+    fn visit_u64<E: Error>(self, id: u64) -> Result<Pick, E> {
+        let refused = || E::invalid_value(Unexpected::Unsigned(id), &self);
+        u32::try_from(id).map(Pick::Id).map_err(|_| refused())
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Pick, E> {
+        Ok(Pick::Name(name.to_owned()))
+    }
 }
 
 #[derive(Debug, Deserialize)]

@@ -7,7 +7,7 @@ use super::raw::{RawStructure, RawTables};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
-use crate::inputs::{Inputs, Unread};
+use crate::inputs::{Input, Inputs};
 use crate::place::Place;
 use crate::spec::{RailOutline, Spec};
 use crate::units::{Dimension, Units};
@@ -310,7 +310,13 @@ fn read_spec(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
-    let source = refer(file, at, inputs, elsewhere, check)?;
+    let source = match refer(file, at, inputs, check)?.source() {
+        Ok(source) => source,
+        Err(diagnostic) => {
+            elsewhere.push(*diagnostic);
+            return None;
+        }
+    };
     match Spec::read(&source, Some(units)) {
         Ok(spec) => Some(Origin::Spec { file: file.to_owned(), spec: Arc::new(spec) }),
         Err(diagnostics) => {
@@ -320,22 +326,12 @@ fn read_spec(
     }
 }
 
-fn refer(
-    file: &str,
-    at: &Place<'_>,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
-    check: &mut Check<'_>,
-) -> Option<crate::source::Source> {
+fn refer<'i>(file: &str, at: &Place<'_>, inputs: &'i mut Inputs, check: &mut Check<'_>) -> Option<&'i Input> {
     match inputs.refer(file) {
-        Ok(source) => Some(source),
-        Err(Unread::Io(why)) => {
+        Ok(input) => Some(input),
+        Err(why) => {
             let fault = Fault::new(at, format!("\"{file}\" {why}"));
             check.faults.add(fault.hint("paths are relative to the scene's folder"));
-            None
-        }
-        Err(Unread::Text(diagnostic)) => {
-            elsewhere.push(*diagnostic);
             None
         }
     }
@@ -356,12 +352,12 @@ fn read_tables(
         check.faults.add(fault);
     }
     if raw.vertical.is_none() && raw.lateral.is_none() {
-        let fault = Fault::new(at, "must name a SPLINE as `vertical`, `lateral` or both");
-        check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6"));
+        let fault = Fault::new(at, "must name a table as `vertical`, `lateral` or both");
+        check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6, or its name in quotes"));
     }
     let file = check.faults.need(&raw.file, at, "file")?;
-    let source = refer(file, &at.key("file"), inputs, elsewhere, check)?;
-    super::tables::read(raw, file, &source, at, units, elsewhere, check)
+    let input = refer(file, &at.key("file"), inputs, check)?;
+    super::tables::read(raw, input, at, units, elsewhere, check)
 }
 
 /// What the spline readings of a table need.

@@ -1,45 +1,42 @@
-//! SPLINE tables of an ADAMS data set as a structure.
+//! Tables that exist already as a structure.
 
 use std::sync::Arc;
 
-use adams::{Curves, Tables};
+use adams::Curves;
 
-use super::raw::RawTables;
+use super::raw::{Pick, RawTables};
 use super::structure::{Origin, TablePair};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
-use crate::fault::Fault;
+use crate::fault::{Fault, nearest};
+use crate::inputs::Input;
 use crate::place::Place;
-use crate::source::Source;
+use crate::tables::{self, Table, TableSet};
 use crate::units::{Dimension, Scale, Units};
 
-/// Reads the tables that `raw` names from `source`, in the units of the scene.
+/// Reads the tables that `raw` names from `input`, in the units of the scene.
 pub(super) fn read(
     raw: &RawTables,
-    file: &str,
-    source: &Source,
+    input: &Input,
     at: &Place<'_>,
     units: Units,
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
-    let set = match adams::tables::read(&source.text) {
-        Ok(set) => set,
-        Err(error) => {
-            elsewhere.push(unreadable(source, &error));
+    let told = match &raw.units {
+        None => None,
+        given => Some(Units::read(given, at, check.faults)?),
+    };
+    let set = match tables::read(&input.shown, &input.bytes, told) {
+        Ok(set) => tables::expand(&set),
+        Err(diagnostics) => {
+            elsewhere.extend(diagnostics);
             return None;
         }
     };
-    let Some(given) = set.units else {
-        let fault = Diagnostic::of_file(&source.name, "has no UNITS statement");
-        elsewhere.push(
-            fault.hint("such as UNITS/ FORCE = POUND_FORCE, MASS = SLUG, LENGTH = FOOT, TIME = SECOND"),
-        );
-        return None;
-    };
-    let scale = Scale { from: Units::of_adams(given), to: units };
-    let vertical = table(&set, raw.vertical, &at.key("vertical"), check);
-    let lateral = table(&set, raw.lateral, &at.key("lateral"), check);
+    let scale = Scale { from: set.units, to: units };
+    let vertical = table(&set, raw.vertical.as_ref(), &at.key("vertical"), check);
+    let lateral = table(&set, raw.lateral.as_ref(), &at.key("lateral"), check);
     let first = vertical.or(lateral)?;
     if let Some((own, other)) = vertical.zip(lateral)
         && own.x() != other.x()
@@ -59,38 +56,61 @@ pub(super) fn read(
         vertical: vertical.map(rows),
         lateral: lateral.map(rows),
     };
-    Some(Origin::Tables { file: file.to_owned(), tables: Arc::new(tables) })
+    Some(Origin::Tables { file: input.name.clone(), tables: Arc::new(tables) })
 }
 
 /// The table of one direction: a family with a curve for each station.
-fn table<'s>(set: &'s Tables, id: Option<u32>, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'s Curves> {
-    let id = id?;
-    let Some(spline) = set.splines.iter().find(|spline| spline.id == id) else {
-        let known: Vec<String> = set.splines.iter().map(|spline| spline.id.to_string()).collect();
-        let hint = if known.is_empty() {
-            "the file has none".to_owned()
-        } else {
-            format!("known: {}", known.join(", "))
-        };
-        check.faults.add(Fault::new(at, "must be the number of a SPLINE in the file").got(id).hint(hint));
-        return None;
-    };
-    if spline.curves.z() != spline.curves.x() {
-        let fault = Fault::new(at, format!("SPLINE/{id} must have a curve at each of its x"));
+fn table<'s>(
+    set: &'s TableSet,
+    pick: Option<&Pick>,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<&'s Curves> {
+    let found = match pick? {
+        Pick::Id(id) => by_id(set, *id, at, check),
+        Pick::Name(name) => by_name(set, name, at, check),
+    }?;
+    if found.curves.z() != found.curves.x() {
+        let fault = Fault::new(at, format!("SPLINE/{} must have a curve at each of its x", found.id));
         check.faults.add(fault.hint("an influence table has the same stations for loads and deflections"));
         return None;
     }
-    Some(&spline.curves)
+    Some(&found.curves)
 }
 
-/// A data set's error with its place in the file.
-pub(crate) fn unreadable(source: &Source, error: &adams::Error) -> Diagnostic {
-    match error {
-        adams::Error::At { line, column, fault } => Diagnostic {
-            line: Some(*line),
-            column: Some(*column),
-            ..Diagnostic::of_file(&source.name, fault.to_string())
-        },
-        other => Diagnostic::of_file(&source.name, other.to_string()),
+fn by_id<'s>(set: &'s TableSet, id: u32, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'s Table> {
+    let found = set.find(id);
+    if found.is_none() {
+        let known: Vec<String> = set.tables.iter().map(|table| table.id.to_string()).collect();
+        let fault = Fault::new(at, "must be the number of a SPLINE in the file").got(id);
+        check.faults.add(fault.hint(hint(&known)));
     }
+    found
+}
+
+/// By its name, or by its quantity where one table alone has it.
+fn by_name<'s>(set: &'s TableSet, name: &str, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'s Table> {
+    let called: Vec<&Table> = set.tables.iter().filter(|table| table.name == name).collect();
+    let quantity = |table: &&Table| table.quantity.is_some_and(|quantity| quantity.name() == name);
+    let own: Vec<&Table> = set.tables.iter().filter(quantity).collect();
+    match (called.as_slice(), own.as_slice()) {
+        ([one], _) | ([], [one]) => return Some(one),
+        _ => {}
+    }
+    let known: Vec<String> = set.tables.iter().map(|table| format!("\"{}\"", table.name)).collect();
+    let names: Vec<&str> = set.tables.iter().map(|table| table.name.as_str()).collect();
+    let several = !called.is_empty() || !own.is_empty();
+    let expected = if several {
+        "must be the name of one table alone"
+    } else {
+        "must be the name of a table in the file"
+    };
+    let near = nearest(name, &names).map(|near| format!("did you mean \"{near}\"? ")).unwrap_or_default();
+    let fault = Fault::new(at, expected).got(format!("\"{name}\""));
+    check.faults.add(fault.hint(format!("{near}{}", hint(&known))));
+    None
+}
+
+fn hint(known: &[String]) -> String {
+    if known.is_empty() { "the file has none".to_owned() } else { format!("known: {}", known.join(", ")) }
 }

@@ -1,0 +1,100 @@
+//! Lines to commands, commands to tokens.
+
+use crate::lexer::Piece;
+use crate::{Error, Fault};
+
+/// A command: its pieces of text, one a line, without the `&` that continues them.
+pub(super) struct Command<'a>(Vec<Piece<'a>>);
+
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Token<'a> {
+    pub line: usize,
+    pub column: usize,
+    pub kind: Kind<'a>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kind<'a> {
+    Word(&'a str),
+    /// Text between double quotes.
+    Quoted(&'a str),
+    Equals,
+    Comma,
+}
+
+impl Token<'_> {
+    pub fn fault(&self, fault: Fault) -> Error {
+        Error::At { line: self.line, column: self.column, fault }
+    }
+}
+
+/// Commands of a file. `!` at the start of a line begins a comment; a line that ends with `&` goes on.
+pub(super) fn commands(text: &str) -> Vec<Command<'_>> {
+    let mut all: Vec<Command<'_>> = Vec::new();
+    let mut open = false;
+    for (number, line) in text.lines().enumerate() {
+        let body = line.trim_end();
+        if body.trim_start().starts_with('!') {
+            continue;
+        }
+        let (code, goes_on) = match body.strip_suffix('&') {
+            Some(code) => (code, true),
+            None => (body, false),
+        };
+        let piece = Piece { line: number + 1, column: 1, text: code };
+        match all.last_mut().filter(|_| open) {
+            Some(last) => last.0.push(piece),
+            None => all.push(Command(vec![piece])),
+        }
+        open = goes_on;
+    }
+    all
+}
+
+impl<'a> Command<'a> {
+    /// The first words, in any case, where each begins one of `words` with at least as many letters as given.
+    pub fn starts(&self, words: &[(&str, usize)]) -> bool {
+        let mut given = self.0.iter().flat_map(|piece| piece.text.split_whitespace());
+        words.iter().all(|(full, least)| {
+            let begins = |word: &str| {
+                word.len() >= *least
+                    && full.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+            };
+            given.next().is_some_and(begins)
+        })
+    }
+
+    /// All tokens.
+    pub fn tokens(&self) -> Result<Vec<Token<'a>>, Error> {
+        let mut out = Vec::new();
+        for piece in &self.0 {
+            let mut rest = piece.text;
+            let mut column = piece.column;
+            loop {
+                let trimmed = rest.trim_start();
+                column += rest[..rest.len() - trimmed.len()].chars().count();
+                rest = trimmed;
+                let Some(first) = rest.chars().next() else { break };
+                let refused = || Error::At { line: piece.line, column, fault: Fault::Text };
+                let (length, kind) = match first {
+                    '=' => (1, Kind::Equals),
+                    ',' => (1, Kind::Comma),
+                    '"' => {
+                        let end = rest[1..].find('"').ok_or_else(refused)?;
+                        (end + 2, Kind::Quoted(&rest[1..=end]))
+                    }
+                    c if c.is_ascii_alphanumeric() || "._+-".contains(c) => {
+                        let ends = |c: char| !(c.is_ascii_alphanumeric() || "._+-".contains(c));
+                        let length = rest.find(ends).unwrap_or(rest.len());
+                        (length, Kind::Word(&rest[..length]))
+                    }
+                    _ => return Err(refused()),
+                };
+                out.push(Token { line: piece.line, column, kind });
+                column += rest[..length].chars().count();
+                rest = &rest[length..];
+            }
+        }
+        Ok(out)
+    }
+}

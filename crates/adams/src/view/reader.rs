@@ -1,0 +1,238 @@
+//! Commands to tables.
+
+use super::lexer::{Command, Kind, Token, commands};
+use super::units::{FORCES, LENGTHS, MASSES, TIMES, unit};
+use crate::tables::{Spline, Tables};
+use crate::units::{Mass, Units, lookup};
+use crate::{Curves, Error, Fault, number};
+
+/// Reads the commands `data_element create spline` and `defaults units`; every other one is passed over.
+///
+/// The values of a family stand curve after curve, x fastest. A spline without `adams_id` takes the next free
+/// number, as in Adams View; one that is called after its number has no name. The title is the model's name.
+///
+/// # Errors
+/// [`Error::At`] with line and column, as [`crate::tables::read`]; values that are expressions or stand in a
+/// file or result set; a spline that a later command modifies.
+///
+/// # Source
+/// Adams View command help, `data_element create spline` and `defaults units`.
+pub fn read(text: &str) -> Result<Tables, Error> {
+    let mut out = Tables { title: None, units: None, splines: Vec::new() };
+    let mut free = Vec::new();
+    let mut given = Given::default();
+    for command in &commands(text) {
+        if command.starts(&[("data_element", 4), ("create", 2), ("spline", 3)]) {
+            let (spline, model, numbered) = spline(command, &out.splines)?;
+            out.title = out.title.or(model);
+            if !numbered {
+                free.push(out.splines.len());
+            }
+            out.splines.push(spline);
+        } else if command.starts(&[("data_element", 4), ("modify", 2), ("spline", 3)]) {
+            let tokens = command.tokens()?;
+            let fault = |token: &Token<'_>| Err(token.fault(Fault::Changed));
+            tokens.first().map_or(Ok(()), fault)?;
+        } else if command.starts(&[("defaults", 3), ("units", 4)]) {
+            given.take(command)?;
+        }
+    }
+    for k in free {
+        let last = out.splines.iter().map(|spline| spline.id).max().unwrap_or(0);
+        out.splines[k].id = last.saturating_add(1);
+    }
+    for spline in &mut out.splines {
+        spline.name = spline.name.take().filter(|name| *name != super::writer::unnamed(spline.id));
+    }
+    out.units = given.units();
+    Ok(out)
+}
+
+/// `key = values` of a command.
+struct Entry<'a> {
+    key: Token<'a>,
+    word: &'a str,
+    values: Vec<Token<'a>>,
+}
+
+/// The entries after `skip` words.
+fn entries<'a>(command: &Command<'a>, skip: usize) -> Result<Vec<Entry<'a>>, Error> {
+    let tokens = command.tokens()?;
+    let mut all: Vec<Entry<'a>> = Vec::new();
+    let mut rest = tokens.get(skip..).unwrap_or(&[]);
+    let mut separated = true;
+    while let [token, after @ ..] = rest {
+        rest = after;
+        match (token.kind, after) {
+            (Kind::Word(word), [Token { kind: Kind::Equals, .. }, after @ ..]) => {
+                rest = after;
+                all.push(Entry { key: *token, word, values: Vec::new() });
+                separated = true;
+            }
+            (Kind::Word(_) | Kind::Quoted(_), _) if separated && !all.is_empty() => {
+                all.last_mut().into_iter().for_each(|last| last.values.push(*token));
+                separated = false;
+            }
+            (Kind::Comma, _) if !all.is_empty() => separated = true,
+            _ => return Err(token.fault(Fault::Text)),
+        }
+    }
+    Ok(all)
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Key {
+    Name,
+    Id,
+    X,
+    Y,
+    Z,
+    Linear,
+    Units,
+    File,
+    Other,
+}
+
+const KEYS: &[(Key, &str)] = &[
+    (Key::Name, "spline_name"),
+    (Key::Id, "adams_id"),
+    (Key::X, "x"),
+    (Key::Y, "y"),
+    (Key::Z, "z"),
+    (Key::Linear, "linear_extrapolate"),
+    (Key::Units, "units"),
+    (Key::File, "file_name"),
+    (Key::File, "x_result_set_component_name"),
+    (Key::File, "y_result_set_component_name"),
+    (Key::File, "z_result_set_component_name"),
+    (Key::File, "block_name"),
+    (Key::File, "channel"),
+    (Key::Other, "comments"),
+    (Key::Other, "x_units"),
+    (Key::Other, "y_units"),
+    (Key::Other, "z_units"),
+];
+
+const ANSWERS: &[(bool, &str)] = &[(true, "yes"), (false, "no"), (true, "true"), (false, "false")];
+
+/// The spline, its model and whether it has a number of its own.
+fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<String>, bool), Error> {
+    let entries = entries(command, 3)?;
+    let mut seen = Vec::new();
+    for entry in &entries {
+        let key = lookup(KEYS, entry.word).ok_or_else(|| entry.key.fault(Fault::Argument))?;
+        if key != Key::Other && seen.iter().any(|(one, _)| *one == key) {
+            return Err(entry.key.fault(Fault::Repeated));
+        }
+        seen.push((key, entry));
+    }
+    let find = |key: Key| seen.iter().find(|(one, _)| *one == key).map(|(_, entry)| *entry);
+    let at = match command.tokens()?.first() {
+        Some(token) => *token,
+        None => return Err(Error::At { line: 1, column: 1, fault: Fault::Text }),
+    };
+    let (id, numbered) = match find(Key::Id) {
+        None => (0, false),
+        Some(entry) => {
+            let id = one(entry)?.0.parse::<u32>().ok().filter(|&id| id > 0);
+            (id.ok_or_else(|| entry.key.fault(Fault::Id))?, true)
+        }
+    };
+    if let Some(entry) = find(Key::File) {
+        return Err(entry.key.fault(Fault::File { id }));
+    }
+    if numbered && before.iter().any(|spline| spline.id == id) {
+        return Err(at.fault(Fault::Twice { id }));
+    }
+    let (name, model) = match find(Key::Name) {
+        None => (None, None),
+        Some(entry) => {
+            let full = one(entry)?.0;
+            let parts: Vec<&str> = full.split('.').filter(|part| !part.is_empty()).collect();
+            let model = parts.first().filter(|_| parts.len() > 1).map(|part| (*part).to_owned());
+            (parts.last().map(|part| (*part).to_owned()), model)
+        }
+    };
+    let linear = match find(Key::Linear) {
+        None => false,
+        Some(entry) => {
+            let (word, token) = one(entry)?;
+            lookup(ANSWERS, word).ok_or_else(|| token.fault(Fault::Text))?
+        }
+    };
+    let units = find(Key::Units).map(one).transpose()?.map(|(word, _)| word.to_owned());
+    let x = find(Key::X).ok_or_else(|| at.fault(Fault::NoX { id }))?;
+    let y = find(Key::Y).ok_or_else(|| at.fault(Fault::NoY { id }))?;
+    let z = find(Key::Z).map(numbers).transpose()?.unwrap_or_default();
+    let curves = curves(id, at, numbers(x)?, z, (y.key, numbers(y)?))?;
+    Ok((Spline { id, name, units, linear, curves }, model, numbered))
+}
+
+/// The one value of an entry.
+fn one<'a>(entry: &Entry<'a>) -> Result<(&'a str, Token<'a>), Error> {
+    match entry.values.as_slice() {
+        [token] => match token.kind {
+            Kind::Word(word) | Kind::Quoted(word) => Ok((word, *token)),
+            _ => Err(token.fault(Fault::Text)),
+        },
+        [_, second, ..] => Err(second.fault(Fault::Text)),
+        [] => Err(entry.key.fault(Fault::Text)),
+    }
+}
+
+fn numbers(entry: &Entry<'_>) -> Result<Vec<f64>, Error> {
+    let read = |token: &Token<'_>| match token.kind {
+        Kind::Word(text) => number::read(text).ok_or_else(|| token.fault(Fault::Number)),
+        _ => Err(token.fault(Fault::Number)),
+    };
+    entry.values.iter().map(read).collect()
+}
+
+fn curves(
+    id: u32,
+    at: Token<'_>,
+    x: Vec<f64>,
+    z: Vec<f64>,
+    (key, y): (Token<'_>, Vec<f64>),
+) -> Result<Curves, Error> {
+    let expected = x.len().saturating_mul(z.len().max(1));
+    if y.len() != expected || x.is_empty() {
+        return Err(key.fault(Fault::Count { id, found: y.len(), expected }));
+    }
+    let rows = y.chunks(x.len()).map(<[f64]>::to_vec).collect();
+    Curves::new(x, z, rows).map_err(|source| at.fault(Fault::Spline { id, source: Box::new(source) }))
+}
+
+/// What `defaults units` has said so far; a later command changes what it names.
+#[derive(Default)]
+struct Given {
+    force: Option<crate::Force>,
+    mass: Option<Mass>,
+    length: Option<crate::Length>,
+}
+
+impl Given {
+    fn take(&mut self, command: &Command<'_>) -> Result<(), Error> {
+        for entry in entries(command, 2)? {
+            let key = entry.word.to_ascii_lowercase();
+            if !matches!(key.as_str(), "length" | "force" | "mass" | "time") {
+                continue;
+            }
+            let (word, token) = one(&entry)?;
+            let unknown = || token.fault(Fault::Unit);
+            match key.as_str() {
+                "length" => self.length = Some(unit(LENGTHS, word).ok_or_else(unknown)?),
+                "force" => self.force = Some(unit(FORCES, word).ok_or_else(unknown)?),
+                "mass" => self.mass = Some(unit(MASSES, word).ok_or_else(unknown)?),
+                _ => unit(TIMES, word).ok_or_else(unknown)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// Units of force and length; a mass that is not said is in kilograms, and no table has one.
+    fn units(&self) -> Option<Units> {
+        let (force, length) = self.force.zip(self.length)?;
+        Some(Units { force, mass: self.mass.unwrap_or(Mass::Kilogram), length })
+    }
+}

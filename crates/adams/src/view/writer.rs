@@ -1,0 +1,131 @@
+//! Tables to commands.
+
+use super::units::{FORCES, LENGTHS, MASSES, word};
+use crate::tables::{Spline, Tables};
+use crate::{Error, number};
+
+/// No line is longer.
+const WIDTH: usize = 79;
+
+/// The name of a spline that has none of its own, as Adams View gives it.
+pub(super) fn unnamed(id: u32) -> String {
+    format!("SPLINE_{id}")
+}
+
+/// Writes the commands that make a model with these tables: `defaults units`, `model create`, and
+/// `data_element create spline` for each. The title is the model's name.
+///
+/// `remarks` are comment lines at the head. Guarantees: lines of at most 79 ASCII characters, every number with
+/// the digits that make [`super::read`] return the same bits.
+///
+/// # Errors
+/// An identifier that is zero or used twice; a name that is not of letters, digits and underscores, beginning
+/// with no digit; a remark that cannot be broken into lines.
+pub fn write(tables: &Tables, remarks: &[String]) -> Result<String, Error> {
+    let mut out = Out(String::new());
+    for remark in remarks {
+        out.remark(remark)?;
+    }
+    out.line("!");
+    if let Some(units) = &tables.units {
+        out.command(
+            "defaults units",
+            &[
+                ("length", vec![word(LENGTHS, &units.length).to_owned()]),
+                ("angle", vec!["deg".to_owned()]),
+                ("force", vec![word(FORCES, &units.force).to_owned()]),
+                ("mass", vec![word(MASSES, &units.mass).to_owned()]),
+                ("time", vec!["sec".to_owned()]),
+            ],
+        );
+    }
+    let model = tables.title.as_deref().unwrap_or("MODEL_1");
+    if !plain(model) {
+        return Err(Error::Name { keyword: "MODEL".to_owned(), id: 0 });
+    }
+    out.command("model create", &[("model_name", vec![format!(".{model}")])]);
+    for (k, spline) in tables.splines.iter().enumerate() {
+        let keyword = || "SPLINE".to_owned();
+        if spline.id == 0 || tables.splines[..k].iter().any(|other| other.id == spline.id) {
+            return Err(Error::Id { keyword: keyword(), id: spline.id });
+        }
+        let name = spline.name.clone().unwrap_or_else(|| unnamed(spline.id));
+        let entries = entries(spline, &format!(".{model}.{name}"));
+        let short = 12 + model.len() + name.len() < WIDTH - 12;
+        if !plain(&name) || !short || !spline.units.as_deref().is_none_or(plain) {
+            return Err(Error::Name { keyword: keyword(), id: spline.id });
+        }
+        out.command("data_element create spline", &entries);
+    }
+    Ok(out.0)
+}
+
+fn entries<'s>(spline: &Spline, name: &str) -> Vec<(&'s str, Vec<String>)> {
+    let list = |values: &[f64]| values.iter().map(|&value| number::write(value)).collect::<Vec<_>>();
+    let mut all = vec![("spline_name", vec![name.to_owned()]), ("adams_id", vec![spline.id.to_string()])];
+    all.extend(spline.units.iter().map(|units| ("units", vec![units.clone()])));
+    all.push(("x", list(spline.curves.x())));
+    all.push(("y", list(&spline.curves.y().concat())));
+    if !spline.curves.z().is_empty() {
+        all.push(("z", list(spline.curves.z())));
+    }
+    let answer = if spline.linear { "yes" } else { "no" };
+    all.push(("linear_extrapolate", vec![answer.to_owned()]));
+    all
+}
+
+/// A name that Adams View takes.
+fn plain(name: &str) -> bool {
+    let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    !name.starts_with(|c: char| c.is_ascii_digit()) && !name.is_empty() && name.chars().all(letter)
+}
+
+struct Out(String);
+
+impl Out {
+    fn line(&mut self, text: &str) {
+        self.0.push_str(text);
+        self.0.push('\n');
+    }
+
+    /// A comment, broken at blanks.
+    fn remark(&mut self, text: &str) -> Result<(), Error> {
+        let mut line = String::from("!");
+        for word in text.split_whitespace() {
+            if line.len() > 1 && line.len() + 1 + word.len() > WIDTH {
+                self.line(&line);
+                line = String::from("!");
+            }
+            line.push(' ');
+            line.push_str(word);
+            if line.len() > WIDTH || !line.is_ascii() {
+                return Err(Error::Long { keyword: "!".to_owned(), id: 0 });
+            }
+        }
+        self.line(&line);
+        Ok(())
+    }
+
+    /// `head  &`, then `key = value, value  &` and so on, broken after a separating comma.
+    fn command(&mut self, head: &str, entries: &[(&str, Vec<String>)]) {
+        self.line(&format!("{head}  &"));
+        for (k, (key, values)) in entries.iter().enumerate() {
+            let end = if k + 1 < entries.len() { "  &" } else { "" };
+            let mut line = format!("   {key} = ");
+            for (i, value) in values.iter().enumerate() {
+                let comma = if i + 1 < values.len() { "," } else { "" };
+                if i > 0 && line.len() + value.len() + 4 > WIDTH {
+                    self.line(&format!("{}  &", line.trim_end()));
+                    line = String::from("      ");
+                }
+                line.push_str(value);
+                line.push_str(comma);
+                if i + 1 < values.len() {
+                    line.push(' ');
+                }
+            }
+            self.line(&format!("{line}{end}"));
+        }
+        self.line("!");
+    }
+}

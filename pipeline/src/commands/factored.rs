@@ -1,0 +1,55 @@
+//! `girderway splines --form factored`: curves whose products make G.
+
+use serde_json::{Map, Value, json};
+use splines::{Rank, Surface};
+
+use crate::cli::Splines;
+use crate::diagnostic::Diagnostic;
+use crate::exit::Failure;
+use crate::grid::GridRail;
+use crate::inputs::Input;
+use crate::progress::Progress;
+use crate::tables::{self, TableSet};
+
+/// The tables in the factored form; its error told on standard error and, for programs, in `told`.
+///
+/// # Errors
+/// Tables without a factored form.
+pub(super) fn factored(
+    args: &Splines,
+    set: &TableSet,
+    exact: Option<&(Surface, Vec<GridRail>)>,
+    input: &Input,
+    progress: &Progress,
+    told: &mut Map<String, Value>,
+) -> Result<TableSet, Failure> {
+    let rank = match (args.rank, args.tolerance.filter(|_| args.reading.is_none())) {
+        (Some(rank), _) => Rank::Count(usize::from(rank)),
+        (None, Some(tolerance)) => Rank::Tolerance(tolerance),
+        (None, None) => Rank::Full,
+    };
+    let refused = |why: tables::Unfactored| {
+        Failure::from(Diagnostic::of_file(&input.shown, format!("has no factored form: {why}")))
+    };
+    let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
+    for id in &factoring.skipped {
+        progress.say(&format!("note: SPLINE/{id} is left out: it is zero, or has fewer than four stations"));
+    }
+    let ranks: Vec<String> = factoring.ranks.iter().map(|[kept, of]| format!("{kept} of {of}")).collect();
+    progress.say(&format!("factored form: {} products", ranks.join(", ")));
+    progress.say(&format!("  error at the stations: {}", factoring.stations.message()));
+    let between = exact.and_then(|(surface, rails)| factoring.against(surface, rails));
+    match &between {
+        Some(found) => progress.say(&format!("  error against the exact surface: {}", found.message())),
+        None => {
+            progress.say("  error between the stations: not known without the exact surface of a grid file")
+        }
+    }
+    let ranks: Vec<Value> =
+        factoring.ranks.iter().map(|[kept, of]| json!({ "kept": kept, "of": of })).collect();
+    let between = between.map(|found| found.json());
+    let object =
+        json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });
+    told.insert("factored".into(), object);
+    Ok(factoring.set)
+}

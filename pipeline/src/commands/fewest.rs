@@ -1,0 +1,72 @@
+//! `girderway splines --reading --tolerance`: tables at the fewest stations that keep the tolerance.
+
+use serde_json::{Map, Value};
+use splines::{Axis, Surface};
+
+use crate::appraisal::Manner;
+use crate::cli::Splines;
+use crate::crosscheck::Quantity;
+use crate::exit::Failure;
+use crate::fault::{Fault, Faults};
+use crate::grid::{self, Grid};
+use crate::place::Place;
+use crate::progress::Progress;
+use crate::source::Source;
+use crate::stations::{self, Goal};
+
+/// The grid at the fewest stations that keep the tolerance; told on standard error and, for programs, in `told`.
+///
+/// # Errors
+/// A grid without its surface or the directions asked for; a tolerance that no stations keep.
+pub(super) fn chosen(
+    args: &Splines,
+    (manner, tolerance): (Manner, f64),
+    source: &Source,
+    (grid, surface): (&Grid, Option<&Surface>),
+    progress: &Progress,
+    told: &mut Map<String, Value>,
+) -> Result<Grid, Failure> {
+    let root = Place::root();
+    let refuse = |fault: Fault| Failure::Input(source.diagnose(&Faults(vec![fault])));
+    let Some(surface) = surface else {
+        let fault = Fault::new(&root, "has no `surface`: nothing says what is exact between its stations");
+        return Err(refuse(fault.hint("`girderway fea SPEC -o GRID.json` writes one")));
+    };
+    let mut axes: Vec<Axis> = args.directions.iter().map(|direction| Axis::from(*direction)).collect();
+    axes.sort_unstable();
+    axes.dedup();
+    if axes.is_empty() {
+        axes = if manner == Manner::Exact { vec![Axis::Vertical] } else { stations::usual(grid) };
+    }
+    for axis in &axes {
+        let direct = Quantity::ALL.into_iter().find(|quantity| grid::axes(*quantity) == (*axis, *axis));
+        if direct.is_none_or(|quantity| grid.block(quantity).is_none()) {
+            let wrong = format!("has no {} grid", stations::word(*axis));
+            return Err(refuse(Fault::new(&root.key("influence"), wrong)));
+        }
+    }
+    let goal = Goal { manner, tolerance, axes };
+    let stage = progress.stage("stations");
+    let found = stations::choose(grid, surface, &goal);
+    drop(stage);
+    let choice = found.map_err(|error| match error {
+        splines::Error::Stations { most, error } => Failure::Differs(format!(
+            "{} errs by {error:.2e} with {most} stations, the most: where shear, torsion or axial force give, every \
+             reading of values alone errs in proportion to the distance of stations; allow more, take another reading, or \
+             name the directions that matter with --directions",
+            manner.word()
+        )),
+        splines::Error::Unliftable => refuse(
+            Fault::new(&root.key("influence"), "is not that of a uniform beam in bending on rigid supports")
+                .hint("the values alone do not say what is exact between them; this file does, use it in place of tables"),
+        ),
+        other => refuse(Fault::new(&root.key("surface"), other.to_string())),
+    })?;
+    for line in choice.lines(&goal) {
+        progress.say(&line);
+    }
+    if let Value::Object(found) = choice.json(&goal) {
+        told.extend(found);
+    }
+    Ok(choice.grid)
+}
