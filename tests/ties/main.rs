@@ -203,7 +203,7 @@ fn moving_load_meets_the_steady_amplification() {
 #[test]
 fn dampers_of_ties_under_a_stiff_rail_are_a_share_of_critical() {
     let (k, c, mass) = (1000.0, 2.0, 0.5);
-    let share: f64 = c / (2.0_f64 * (k * mass).sqrt());
+    let share = c / (2.0 * f64::sqrt(k * mass));
     let scene = format!(
         r#"{{"format": "girderway-scene/1", "units": {{"length": "in", "force": "lbf", "time": "s"}}, "gravity": 386,
         "structures": {{"track": {{"foundation": "ties", "range": [0, 48], "elements": 1, "ties": {{
