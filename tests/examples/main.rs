@@ -112,6 +112,11 @@ fn yang_yau_gives_its_expected_numbers() {
 }
 
 #[test]
+fn ties_gives_its_expected_numbers() {
+    check("ties");
+}
+
+#[test]
 fn grids_of_the_mill_girderway_are_those_of_other_codes() {
     let example = root().join("examples/mill_girderway");
     let expected = json(&example.join("expected.json"));

@@ -235,7 +235,8 @@ fn gives(
             scene::Foundation::Rigid | scene::Foundation::Influence => out.push(Give::rigid(structure, form)),
             scene::Foundation::Parts { .. }
             | scene::Foundation::Modal { .. }
-            | scene::Foundation::Full { .. } => {
+            | scene::Foundation::Full { .. }
+            | scene::Foundation::Ties { .. } => {
                 let why = format!("a deck cannot have the foundation \"{}\"", structure.foundation.word());
                 return Err(refuse(why, "use \"influence\" or \"rigid\""));
             }

@@ -7,6 +7,7 @@ mod raw;
 mod read;
 mod structure;
 mod tables;
+mod ties;
 mod truck;
 mod wheel;
 
