@@ -4,9 +4,6 @@ use crate::scene::arm_rows;
 use crate::system::System;
 use crate::{Error, Freedom, Scene, Schedule};
 
-/// Speed at which a brake has 76 % of its friction, ft/s: friction is -mu N tanh(s / speed).
-pub const BRAKE_SPEED_FT: f64 = 0.02;
-
 /// A force or a moment on one free freedom of a body, over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
@@ -50,7 +47,7 @@ pub struct Brake {
     pub body: usize,
     /// Time from which the brakes are on.
     pub from: f64,
-    /// Speed at which the brake has 76 % of its friction, > 0; see [`BRAKE_SPEED_FT`].
+    /// Speed at which the brake has 76 % of its friction, > 0.
     pub speed: f64,
     /// Braked contacts of the body; their wheels have friction and no spin of their own.
     pub contacts: Vec<usize>,

@@ -30,7 +30,7 @@ mod system;
 mod tableau;
 mod wheel;
 
-pub use actuator::{Actuators, BRAKE_SPEED_FT, Brake, Drive, Load};
+pub use actuator::{Actuators, Brake, Drive, Load};
 pub use energy::{Audit, Exchanged, Stored};
 pub use error::Error;
 pub use foundation::{Dynamics, Extent, Foundation, Shapes, Structure};

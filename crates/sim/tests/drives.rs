@@ -9,11 +9,13 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, WEIGHT, bogie, girder};
 use sim::{
-    BRAKE_SPEED_FT, Brake, Channel, Damper, Drive, Error, Foundation, Freedom, Friction, Load, Run, Scene,
-    Schedule, Status,
+    Brake, Channel, Damper, Drive, Error, Foundation, Freedom, Friction, Load, Run, Scene, Schedule, Status,
 };
 
 const MASS: f64 = WEIGHT / GRAVITY;
+
+/// Speed at which a brake has 76 % of its friction, ft/s.
+const BRAKE_SPEED_FT: f64 = 0.02;
 
 fn run(scene: &Scene, foundation: Foundation) -> Run {
     sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
