@@ -24,6 +24,7 @@ crate::object::objects!(
     RawFriction,
     RawTruck,
     RawMotion,
+    RawLoad,
     RawEnd,
     RawOutput
 );
@@ -53,7 +54,7 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub stops: Vec<Value>,
     #[serde(default)]
-    pub loads: Vec<Value>,
+    pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
     pub accuracy: Option<f64>,
@@ -295,6 +296,15 @@ pub(crate) struct RawMotion {
     pub acceleration: Option<Vec<[f64; 2]>>,
     pub gain: Option<f64>,
     pub max_force: Option<f64>,
+    pub brake: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawLoad {
+    pub body: Option<String>,
+    pub dof: Option<String>,
+    pub value: Option<Vec<[f64; 2]>>,
 }
 
 #[derive(Debug, Deserialize)]
