@@ -1,5 +1,7 @@
 //! Rails on sprung ties against closed forms and published track numbers: 136RE rail, units in, lbf and s.
 
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
 use std::sync::Arc;
 
 use fea::{Girder, Section, Theory};
