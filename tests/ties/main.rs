@@ -41,7 +41,6 @@ fn give(spec: &Spec, places: &[f64]) -> Vec<f64> {
 }
 
 fn close(what: &str, found: f64, wanted: f64, tolerance: f64) {
-    println!("{what}: {found} for {wanted}, off by {:.1e}", (found / wanted - 1.0).abs());
     assert!((found / wanted - 1.0).abs() < tolerance, "{what}: {found}, wanted {wanted}");
 }
 
@@ -166,13 +165,13 @@ fn amplification(theta: f64, spacing: f64, length: f64) -> [f64; 2] {
     let end = ramp + 0.02;
     let text = format!(
         r#"{{"format": "girderway-scene/1", "units": {{"length": "in", "force": "lbf", "time": "s"}}, "gravity": 3e10,
-        "structures": {{"track": {{"foundation": "ties", "range": [0, {length}], "elements": 1, "ties": {{
+        "structures": {{"track": {{"foundation": "ties", "range": [0, {length}], "elements": 1, "modes": 100, "ties": {{
           "spacing": {spacing}, "k": {}, "rail": {{"E": {E}, "I_vertical": {I}, "mass_per_length": {mass}}}}}}}}},
         "bodies": {{"load": {{"mass": 1e-6, "dof": ["y"], "x0": 450}}}},
         "wheels": {{"stiff": {{"radius": 18, "vertical": {{"law": "linear", "k": 1e9}}}}}},
         "trucks": [{{"body": "load", "tree": [0], "wheel": "stiff"}}],
         "motions": [{{"body": "load", "dof": "x", "kind": "prescribed", "speed": [[0, 0], [{ramp}, {speed}]]}}],
-        "end": {{"time": {end}}}, "output": {{"dt": 0.0005}}, "accuracy": 1e-6}}"#,
+        "end": {{"time": {end}}}, "output": {{"dt": 0.0005}}, "accuracy": 1e-5}}"#,
         u * spacing
     );
     let outcomes = run(&text, "{}");
@@ -186,7 +185,7 @@ fn amplification(theta: f64, spacing: f64, length: f64) -> [f64; 2] {
 /// Analytic: 1/sqrt(1 - theta^2) of a load that moves steadily along a beam on a bed of springs (Timoshenko 1926;
 /// Fryba, Vibration of Solids and Structures under Moving Loads, 1972).
 #[test]
-#[ignore = "slow: all modes of 600 freedoms"]
+#[ignore = "slow: 100 modes over 20 periods of the bed"]
 fn moving_load_meets_the_steady_amplification() {
     for (theta, wanted) in [(0.1, 1.005_037_815_259_212), (0.5, 1.154_700_538_379_251_5)] {
         let [least, most] = amplification(theta, 9.0, 2700.0);
