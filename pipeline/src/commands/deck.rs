@@ -6,6 +6,7 @@ use super::run::solve_all;
 use crate::cases::specs;
 use crate::cli::{Deck as Arguments, Global};
 use crate::deck::{self, Form, check};
+use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -17,6 +18,12 @@ use crate::scene::Document;
 /// What is wrong with the scene or its files; a foundation that a deck cannot have; a scene that cannot start.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
+    if let Some(path) = &args.output
+        && !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("adm"))
+    {
+        let fault = Diagnostic::of_file(path.display().to_string(), "a data set must end in .adm");
+        return Err(fault.hint("its command file stands beside it, ending in .acf").into());
+    }
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
@@ -42,7 +49,8 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     for line in report.lines() {
         progress.say(&line);
     }
-    if global.json {
+    // where the data set goes to standard output, nothing else does
+    if global.json && args.output.is_some() {
         output::print(&output::json(&report.json()))?;
     }
     if report.holds() {

@@ -26,6 +26,9 @@ pub(super) fn search(
     let mut place = Place::new(model, guess)?;
     if let Some(before) = before.filter(|one| one.solution.values.len() == model.slots.len()) {
         place.values.clone_from(&before.solution.values);
+    } else if let Ok(closed) = model.solve(guess) {
+        // An IC of zero says nothing of a variable's size; loops that close at the guess do.
+        place.values.clone_from(&closed.values);
     }
     let search =
         Search { model, unknowns: unknowns(model), length: length(model, &place), force: force(model) };

@@ -98,7 +98,11 @@ pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Resul
             let of = |matrix: &DMatrix<f64>| -> f64 {
                 loads.iter().enumerate().map(|(j, (_, load, _))| matrix[(i, j)] * load).sum()
             };
-            variables.push((variable(w, slot), of(&influence.value)));
+            let moved = of(&influence.value);
+            variables.push((variable(w, slot), moved));
+            if slot == Slot::Shift {
+                variables.push((variable(w, Slot::Sideways), side(plan, case, w) - moved));
+            }
             if plan.form == Form::Factored {
                 out[w][0] += own * of(&influence.slope);
             }
@@ -111,6 +115,14 @@ pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Resul
 fn place(case: &Case, body: usize, hub: [f64; 3]) -> f64 {
     let [x, _, _, _, yaw, pitch] = case.instant.displacement[body];
     x + hub[0] + yaw * hub[2] - pitch * hub[1]
+}
+
+/// Lateral displacement of a wheel where it touches its rail.
+fn side(plan: &Plan<'_>, case: &Case, w: usize) -> f64 {
+    let wheel = &plan.wheels[w];
+    let [_, _, z, roll, yaw, _] = case.instant.displacement[wheel.body];
+    let arm = plan.kind(w).radius - case.forces.penetration[wheel.contact];
+    z + roll * (wheel.hub[1] - arm) - yaw * wheel.hub[0]
 }
 
 /// Solves the data set at `state` from its own initial values; where that fails, from those of the simulator.

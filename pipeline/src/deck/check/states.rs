@@ -11,6 +11,8 @@ use crate::scene::Along;
 const TRIES: usize = 50;
 /// Least share of the damping of a contact whose rate is found from its force.
 const RAMP: f64 = 0.6;
+/// Least share of the spring's force that its damper leaves.
+const CANCELLED: f64 = 1e-3;
 /// Largest rotation, radians.
 const TURN: f64 = 0.02;
 /// Share of a rail's length at its ends where no wheel is put, where the body's place can be chosen.
@@ -33,7 +35,7 @@ pub struct Case {
 /// some wheels are off their rails.
 ///
 /// Left out are states whose forces are not the deck's to find: contacts that pull, dampers that hold a wheel down
-/// while it is off the rail, and rates that a damper at the foot of its ramp would need.
+/// while it is off the rail, rates that a damper at the foot of its ramp would need, and springs and dampers that cancel.
 ///
 /// # Errors
 /// A scene the simulator refuses, or without such states.
@@ -98,10 +100,13 @@ fn settle(
         let law = &plan.kind(contact.wheels.start).normal;
         let (force, p) = (forces.vertical[contact.wheels.start], forces.penetration[c]);
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
-        let ramped = instant.penetration[c].is_some()
-            && contact.diff.is_some()
-            && law.at(p, 0.0).by_rate < RAMP * law.damping;
-        !ramped && (law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0)))
+        if contact.diff.is_some() && instant.penetration[c].is_some() {
+            let point = law.at(p, 0.0);
+            if point.by_rate < RAMP * law.damping || force.abs() < CANCELLED * point.force {
+                return false;
+            }
+        }
+        law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0))
     });
     let rate = (0..plan.contacts.len()).map(|c| rate(plan, &instant, &forces, c)).collect();
     Ok(fits.then_some(Case { instant, forces, rate }))
