@@ -97,12 +97,12 @@ fn decks_on_two_coupled_rails_give_the_simulators_forces() {
 
 #[test]
 fn decks_of_two_structures_give_the_simulators_forces_and_path() {
-    holds(&scene("wagons"), 1000);
+    holds(&scene("wagons"), 300);
 }
 
 #[test]
 fn decks_on_printed_tables_give_the_simulators_forces_and_path() {
-    holds(&scene("printed"), 1000);
+    holds(&scene("printed"), 300);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Random states of a scene, with the simulator's contact forces there.
 
+use nalgebra::{DMatrix, DVector};
 use sim::{ContactForces, Foundation, Instant, contact_forces};
 
 use super::random::Random;
@@ -7,12 +8,21 @@ use crate::deck::Plan;
 use crate::exit::Failure;
 use crate::scene::Along;
 
+/// Largest force that the simulator may find at a penetration, of the force that it was made from: where wheels are
+/// close, penetrations hardly fix forces.
+const LARGER: f64 = 3.0;
+/// Penetration of a contact that has come off, of its approach.
+const OFF: f64 = 1e-9;
+/// Newton iterations for the penetrations of a state.
+const ITERATIONS: usize = 40;
+/// Largest force of a damper at full ramp, of its spring's.
+const DAMPER: f64 = 0.6;
 /// Tries for each state asked for, before the scene counts as one that has none.
 const TRIES: usize = 50;
 /// Least share of the damping of a contact whose rate is found from its force.
 const RAMP: f64 = 0.6;
 /// Least share of the spring's force that its damper leaves.
-const CANCELLED: f64 = 1e-3;
+const CANCELLED: f64 = 1e-2;
 /// Largest rotation, radians.
 const TURN: f64 = 0.02;
 /// Share of a rail's length at its ends where no wheel is put, where the body's place can be chosen.
@@ -74,25 +84,10 @@ fn settle(
         contact_forces(scene, foundations, std::slice::from_ref(instant)).map(|mut all| all.swap_remove(0))
     };
     let open = one(&instant)?;
-    if plan.contacts.iter().any(|contact| contact.diff.is_some()) {
-        let pressing = |c: &usize| plan.contacts[*c].diff.is_some() && open.approach[*c] > 0.0;
-        let active: Vec<usize> = (0..plan.contacts.len()).filter(pressing).collect();
-        let least = active.iter().map(|&c| open.approach[c]).fold(f64::INFINITY, f64::min);
-        let stiffness = |c: usize| plan.kind(plan.contacts[c].wheels.start).normal.stiffness;
-        let row = |c: usize| -> f64 {
-            let give = active.iter().map(|&j| open.compliance[(c, j)].abs()).sum::<f64>();
-            give + 1.0 / stiffness(c)
-        };
-        let softest = active.iter().map(|&c| row(c)).fold(0.0, f64::max);
-        // no contact is pushed off by what the others press, so every penetration stays positive
-        let force: Vec<f64> = active
-            .iter()
-            .map(|_| random.between(0.05, 0.95) * least / softest.max(f64::MIN_POSITIVE))
-            .collect();
-        for &c in &active {
-            let give: f64 = active.iter().zip(&force).map(|(&j, f)| open.compliance[(c, j)] * f).sum();
-            instant.penetration[c] = Some(open.approach[c] - give);
-        }
+    let mut most = vec![f64::INFINITY; plan.contacts.len()];
+    for (c, penetration, force) in plant(plan, &open, random) {
+        instant.penetration[c] = Some(penetration);
+        most[c] = LARGER * force;
     }
     let forces = one(&instant)?;
     let fits = (0..plan.contacts.len()).all(|c| {
@@ -102,7 +97,7 @@ fn settle(
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
         if contact.diff.is_some() && instant.penetration[c].is_some() {
             let point = law.at(p, 0.0);
-            if point.by_rate < RAMP * law.damping || force.abs() < CANCELLED * point.force {
+            if point.by_rate < RAMP * law.damping || force < CANCELLED * point.force || force > most[c] {
                 return false;
             }
         }
@@ -110,6 +105,53 @@ fn settle(
     });
     let rate = (0..plan.contacts.len()).map(|c| rate(plan, &instant, &forces, c)).collect();
     Ok(fits.then_some(Case { instant, forces, rate }))
+}
+
+/// Penetrations and forces of the contacts that keep them and press: those of springs, with dampers of random rates beside them,
+/// in balance with the rail's give; Newton's method on p + G F(p, p') = e.
+fn plant(plan: &Plan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
+    let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
+    let reach = |c: usize| open.penetration[c];
+    let mut active: Vec<usize> =
+        (0..plan.contacts.len()).filter(|&c| plan.contacts[c].diff.is_some() && reach(c) > 0.0).collect();
+    let mut rate = vec![0.0; plan.contacts.len()];
+    let mut found = Vec::new();
+    for damped in [false, true] {
+        while !active.is_empty() {
+            let mut p = DVector::from_iterator(active.len(), active.iter().map(|&c| reach(c)));
+            for _ in 0..ITERATIONS {
+                let point = |i: usize| law(active[i]).at(p[i], rate[active[i]]);
+                let count = |i: usize| plan.contacts[active[i]].wheels.len() as f64;
+                let give = |r: usize, i: usize| open.compliance[(active[r], active[i])] * count(i);
+                let size = active.len();
+                let left = DVector::from_fn(size, |r, _| {
+                    p[r] - reach(active[r]) + (0..size).map(|i| give(r, i) * point(i).force).sum::<f64>()
+                });
+                let matrix = DMatrix::from_fn(size, size, |r, i| {
+                    f64::from(u8::from(r == i)) + give(r, i) * point(i).by_penetration
+                });
+                let Some(step) = matrix.lu().solve(&left) else { break };
+                // a curved law must not be left on the side where it ends
+                p = DVector::from_fn(size, |i, _| (p[i] - step[i]).max(0.1 * p[i]));
+            }
+            found = active.iter().copied().zip(p.iter().copied()).collect();
+            // one that shrank in every iteration has come off
+            let presses =
+                |(c, p): &(usize, f64)| *p > OFF * reach(*c) && law(*c).at(*p, rate[*c]).force > 0.0;
+            let before = active.len();
+            found.retain(presses);
+            active = found.iter().map(|(c, _)| *c).collect();
+            if active.len() == before {
+                break;
+            }
+        }
+        if !damped {
+            for (c, p) in &found {
+                rate[*c] = random.around(DAMPER) * law(*c).at(*p, 0.0).force / law(*c).damping;
+            }
+        }
+    }
+    found.into_iter().map(|(c, p)| (c, p, law(c).at(p, rate[c]).force)).collect()
 }
 
 /// The rate that goes with the force and penetration of contact `c`.
