@@ -42,4 +42,5 @@ pub mod story;
 pub mod summary;
 pub mod surface_file;
 pub mod tables;
+pub mod track;
 pub mod units;

@@ -5,6 +5,10 @@ use splines::Probe;
 
 use crate::exit::Failure;
 use crate::scene::{Along, Analysis, Damper, Gauge, Law, Scene};
+use crate::units::{Dimension, Length, Scale, Units};
+
+/// Speed at which a brake has 76 % of its friction, ft/s: it rubs with mu N tanh(s / speed).
+const BRAKE_SPEED_FT: f64 = 0.02;
 
 /// The simulator's scene, and its wheels by name.
 pub struct Cast {
@@ -69,6 +73,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         }
     }
     let scene = sim::Scene {
+        actuators: actuators(scene, &contacts),
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
@@ -83,6 +88,39 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         accuracy: scene.accuracy,
     };
     Ok(Cast { scene, wheels: cast })
+}
+
+/// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
+fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
+    let own = |b: usize, is_meant: &dyn Fn(&crate::scene::Wheel) -> bool| {
+        let all = contacts.iter().enumerate();
+        all.filter(|(_, contact)| contact.body == b && is_meant(&scene.wheels[contact.wheel]))
+            .map(|(index, _)| index)
+            .collect()
+    };
+    let to_scene = Scale { from: Units { length: Length::Foot, ..scene.units }, to: scene.units };
+    let mut out = sim::Actuators::default();
+    for load in &scene.loads {
+        let freedom = sim::Freedom::ALL[load.freedom];
+        out.loads.push(sim::Load { body: load.body, freedom, value: load.value.clone() });
+    }
+    for (b, body) in scene.bodies.iter().enumerate() {
+        if let Along::Driven(drive) = &body.motion {
+            out.drives.push(sim::Drive {
+                body: b,
+                speed: drive.speed.clone(),
+                gain: drive.gain,
+                max_force: drive.max_force.unwrap_or(f64::INFINITY),
+                contacts: own(b, &|wheel| wheel.driven),
+                until: body.brake.unwrap_or(f64::INFINITY),
+            });
+        }
+        if let Some(from) = body.brake {
+            let speed = BRAKE_SPEED_FT * to_scene.factor(Dimension::LENGTH);
+            out.brakes.push(sim::Brake { body: b, from, speed, contacts: own(b, &|wheel| wheel.braked) });
+        }
+    }
+    out
 }
 
 /// Gauges of all structures, in their order.
@@ -100,10 +138,10 @@ fn body(body: &crate::scene::Body) -> sim::Body {
     let [y, z, roll, yaw, pitch] = body.start.unwrap_or_default();
     let motion = match &body.motion {
         Along::Prescribed(travel) => Some(travel.clone()),
-        Along::Held | Along::Free => None,
+        Along::Held | Along::Free | Along::Driven(_) => None,
     };
     let mut free = body.free;
-    free[0] = matches!(body.motion, Along::Free);
+    free[0] = body.motion.is_free();
     sim::Body {
         mass: body.mass,
         inertia: body.inertia,

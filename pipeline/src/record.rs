@@ -54,8 +54,11 @@ impl Record {
                 Dimension::SPEED,
                 history.column(Channel::Speed(b, Freedom::X)),
             );
-            if matches!(body.motion, Along::Prescribed(_)) {
+            if matches!(body.motion, Along::Prescribed(_) | Along::Driven(_)) {
                 record.push(format!("{name}.drive"), Dimension::FORCE, history.column(Channel::Drive(b)));
+            }
+            if body.brake.is_some() {
+                record.push(format!("{name}.brake"), Dimension::FORCE, history.column(Channel::Brake(b)));
             }
         }
         for (w, wheel) in cast.wheels.iter().enumerate() {

@@ -177,8 +177,8 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
             table.rows.push(vec![
                 Cell::from(outcome.label.clone()),
                 Cell::from(run.audit.peak_stored),
-                Cell::from(exchanged.net_loss() + exchanged.drives),
-                Cell::from(exchanged.drives),
+                Cell::from(exchanged.net_loss() + exchanged.put_in()),
+                Cell::from(exchanged.put_in()),
                 Cell::from(run.audit.residual()),
                 Cell::from(run.counts.steps as f64),
             ]);

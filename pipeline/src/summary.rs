@@ -94,7 +94,7 @@ pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
                 "structure": lost.structure,
                 "switches": lost.switches,
             },
-            "put_in": lost.drives,
+            "put_in": lost.put_in(),
         });
     }
     result

@@ -1,5 +1,6 @@
 //! The command line: help, exit status, what goes where.
 
+mod drives;
 mod grids;
 mod modes;
 mod tables;

@@ -112,6 +112,11 @@ fn yang_yau_gives_its_expected_numbers() {
 }
 
 #[test]
+fn ties_gives_its_expected_numbers() {
+    check("ties");
+}
+
+#[test]
 fn grids_of_the_mill_girderway_are_those_of_other_codes() {
     let example = root().join("examples/mill_girderway");
     let expected = json(&example.join("expected.json"));
@@ -153,7 +158,7 @@ fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
         let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
         assert!(
-            ["bogie", "mill_girderway", "wheel", "yang_yau"].contains(&name.as_str()),
+            ["bogie", "mill_girderway", "ties", "wheel", "yang_yau"].contains(&name.as_str()),
             "examples/{name} has no test"
         );
         for file in ["scene.json", "README.md", "expected.json"] {

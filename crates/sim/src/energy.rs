@@ -1,5 +1,6 @@
 //! The energy audit: what is stored, what was lost, what was put in.
 
+use crate::actuator::PullLaw;
 use crate::dense::{along, dot};
 use crate::geometry::Geometry;
 use crate::scene::arm_rows;
@@ -33,7 +34,7 @@ impl Stored {
 pub struct Exchanged {
     /// Lost in the dampers of contacts.
     pub dampers: f64,
-    /// Lost in sliding.
+    /// Lost in sliding, brakes included.
     pub friction: f64,
     /// Lost as flanges let go, and gained as they take hold.
     pub flanges: f64,
@@ -43,8 +44,10 @@ pub struct Exchanged {
     pub structure: f64,
     /// Lost where a contact opens or closes with a jump of its force.
     pub switches: f64,
-    /// Put in by prescribed motions.
+    /// Put in by prescribed motions and drives.
     pub drives: f64,
+    /// Put in by loads.
+    pub loads: f64,
 }
 
 impl Exchanged {
@@ -52,7 +55,13 @@ impl Exchanged {
     #[must_use]
     pub fn net_loss(&self) -> f64 {
         self.dampers + self.friction + self.flanges + self.handover + self.structure + self.switches
-            - self.drives
+            - self.put_in()
+    }
+
+    /// Work put in by prescribed motions, drives and loads.
+    #[must_use]
+    pub fn put_in(&self) -> f64 {
+        self.drives + self.loads
     }
 
     pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
@@ -63,6 +72,7 @@ impl Exchanged {
         self.structure += weight * power.structure;
         self.switches += weight * power.switches;
         self.drives += weight * power.drives;
+        self.loads += weight * power.loads;
     }
 }
 
@@ -171,6 +181,18 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
             power.drives += drive_force(system, geometry, state, b) * geometry.travel[b].v;
         }
     }
+    for (index, pull) in system.pulls.iter().enumerate() {
+        let i = system.pull(index);
+        match pull.law {
+            PullLaw::Drive { .. } => power.drives -= state.force[i] * (rate(i) - geometry.rate_held[i]),
+            PullLaw::Brake { .. } => power.friction += state.force[i] * rate(i),
+        }
+    }
+    for load in &system.scene.actuators.loads {
+        if let Some(number) = system.loaded(load) {
+            power.loads += load.value.at(state.t) * state.v[number];
+        }
+    }
     power
 }
 
@@ -191,12 +213,12 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
     sum
 }
 
-/// Force along the rail that the prescribed motion of body `b` needs: its inertia, less what its wheels
+/// Force along +x of the drive of body `b`, or that of its prescribed motion: its inertia, less what its wheels
 /// get from the rail's slope and from friction.
 pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
     let body = &system.scene.bodies[b];
     if body.motion.is_none() {
-        return 0.0;
+        return pull_force(system, state, b, |law| matches!(law, PullLaw::Drive { .. }));
     }
     let line = system.body_mass[b][0];
     let mut force = line[0] * geometry.travel[b].a;
@@ -219,6 +241,16 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
         }
     }
     force
+}
+
+/// Force along +x of the brakes of body `b`.
+pub(crate) fn brake_force(system: &System, state: &State, b: usize) -> f64 {
+    pull_force(system, state, b, |law| matches!(law, PullLaw::Brake { .. }))
+}
+
+fn pull_force(system: &System, state: &State, b: usize, is_of: impl Fn(&PullLaw) -> bool) -> f64 {
+    let pulls = system.pulls.iter().enumerate().filter(|(_, pull)| pull.body == b && is_of(&pull.law));
+    pulls.map(|(index, _)| 0.0 - state.force[system.pull(index)]).sum()
 }
 
 /// Speed along the rail of the wheels of vertical contact `i`.

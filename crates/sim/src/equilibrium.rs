@@ -1,4 +1,4 @@
-//! Static equilibrium: weights, wheels and the rail's give in balance.
+//! Static equilibrium: weights, loads, wheels and the rail's give in balance.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -18,7 +18,7 @@ impl Solver<'_> {
     /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the freedoms of
     /// the structures to static equilibrium at `at.t`, with the other freedoms where they are.
     ///
-    /// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight over the active set, in
+    /// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight and loads over the active set, in
     /// sweeps that drop contacts that pull and add contacts that are pressed.
     ///
     /// # Errors
@@ -126,7 +126,12 @@ impl<'a> Balance<'a> {
         let reach = |i: usize| if moving.is_empty() { Some(held[i]) } else { None };
         let active: Vec<usize> =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
-        let weight = DVector::from_fn(moving.len(), |j, _| system.gravity[moving[j]]);
+        let mut weight = DVector::from_fn(moving.len(), |j, _| system.gravity[moving[j]]);
+        for load in &system.scene.actuators.loads {
+            if let Some(j) = moving.iter().position(|&k| system.loaded(load) == Some(k)) {
+                weight[j] += load.value.at(at.t);
+            }
+        }
         let each = weight.amax() / active.len().max(1) as f64;
         Ok(Balance {
             compliance: solver.static_compliance()?,

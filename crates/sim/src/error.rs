@@ -49,6 +49,20 @@ pub enum Error {
         /// Which body.
         body: usize,
     },
+    /// A load, drive or brake on a freedom that is held or prescribed.
+    #[error("body {body}: freedom {freedom:?} is not free, nothing can push it")]
+    NotFree {
+        /// Which body.
+        body: usize,
+        /// Which freedom.
+        freedom: crate::Freedom,
+    },
+    /// A driven or braked wheel that spins by itself.
+    #[error("contact {contact}: a driven or braked wheel cannot have a spin of its own")]
+    Spins {
+        /// Which contact.
+        contact: usize,
+    },
     /// Contact forces that do not exist at a given state.
     #[error("no contact forces at t = {time}: the penetrations given do not belong to the state")]
     NoForces {

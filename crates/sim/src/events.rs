@@ -1,6 +1,8 @@
-//! Instants at which a step must end: breaks of the rails, and contacts that open or close.
+//! Instants at which a step must end: breaks of the rails, contacts that open or close, corners of drives.
 
 use crate::Error;
+use crate::actuator::Pull;
+use crate::dense::dot;
 use crate::state::State;
 use crate::stepper::Stepper;
 
@@ -84,6 +86,25 @@ impl Stepper<'_, '_> {
             if self.event(i, &self.probe) > aim { high = middle } else { low = middle }
         }
         Ok(high)
+    }
+
+    /// Share of the step at which a drive reaches or leaves a limit, if one does by more than [`OVERSHOOT`]: the
+    /// secant of its margins at both ends.
+    pub(crate) fn first_corner(&self) -> Option<f64> {
+        let system = self.solver.system;
+        let slack = OVERSHOOT * self.largest_force();
+        let margins = |pull: &Pull, at: &State| {
+            let (_, speed) = system.body(pull.body, at.t, &at.q, &at.v);
+            pull.margins(system.scene, at.t, dot(&pull.row, &speed), pull.traction(&at.force))
+        };
+        let shares = system.pulls.iter().flat_map(|pull| {
+            let (from, to) = (margins(pull, &self.from), margins(pull, &self.to));
+            std::iter::zip(from, to).filter_map(|(from, to)| {
+                let passes = from * to < 0.0 && from.abs() > slack && to.abs() > slack;
+                passes.then(|| (from.abs() + 0.5 * slack) / (from.abs() + to.abs()))
+            })
+        });
+        shares.min_by(f64::total_cmp)
     }
 
     /// Largest contact force so far.

@@ -207,6 +207,21 @@ impl Problem {
                 self.matrix[i * m + n] -= friction.coefficient * share / system.normals[n].count();
             }
         }
+        for (index, pull) in system.pulls.iter().enumerate() {
+            let i = system.pull(index);
+            if !geometry.pulls[index] {
+                self.residual[i] = force[i];
+                continue;
+            }
+            let (law, by_rate, by_traction) = pull.at(self.rate(i, force), pull.traction(force));
+            self.residual[i] = force[i] - law;
+            for j in 0..m {
+                self.matrix[i * m + j] += by_rate * self.y[i * m + j];
+            }
+            for grip in pull.grips.iter().filter(|grip| force[grip.normal] > 0.0) {
+                self.matrix[i * m + grip.normal] -= by_traction * grip.mu;
+            }
+        }
         largest(&self.residual)
     }
 }

@@ -31,6 +31,8 @@ pub(crate) struct Geometry {
     /// Rates that dampers and friction feel: `rate_held` + `rate_rows` v.
     pub rate_rows: Vec<f64>,
     pub rate_held: Vec<f64>,
+    /// Whether each drive or brake acts.
+    pub pulls: Vec<bool>,
     /// Slope of the deflected rail under each component, d u/d x.
     pub rail_slope: Vec<f64>,
     influence: Vec<Influence>,
@@ -57,6 +59,7 @@ impl Geometry {
             force_rows: vec![0.0; m * n],
             rate_rows: vec![0.0; m * n],
             rate_held: vec![0.0; m],
+            pulls: vec![false; system.pulls.len()],
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
@@ -99,6 +102,11 @@ impl Geometry {
         self.built = true;
         for (i, &w) in system.tractions.iter().enumerate() {
             self.rate_held[system.traction(i)] = self.travel[system.wheels[w].body].v;
+        }
+        for (i, pull) in system.pulls.iter().enumerate() {
+            let reference = pull.reference(system.scene, t);
+            self.pulls[i] = reference.is_some();
+            self.rate_held[system.pull(i)] = -reference.unwrap_or(0.0);
         }
         self.update_force_rows(system, q, force)
     }
@@ -197,6 +205,9 @@ impl Geometry {
             if let Some(spin) = wheel.spin {
                 self.rate_rows[component * n + spin] += self.height[w];
             }
+        }
+        for (i, pull) in system.pulls.iter().enumerate() {
+            put(&mut self.rate_rows, &mut unused, system.pull(i), pull.body, pull.row, 1.0);
         }
         for (s, entries) in system.entries.iter().enumerate() {
             let Some(structure) = &system.foundations[s].structure else { continue };

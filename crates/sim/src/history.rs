@@ -11,8 +11,10 @@ pub enum Channel {
     Displacement(usize, Freedom),
     /// Speed of a body in one freedom.
     Speed(usize, Freedom),
-    /// Force along the rail that a body's prescribed motion needs.
+    /// Force along +x of a body's drive, or that its prescribed motion needs.
     Drive(usize),
+    /// Force along +x of a body's brakes.
+    Brake(usize),
     /// Rail coordinate of a wheel.
     Place(usize),
     /// Vertical force of a wheel on the rail.

@@ -3,6 +3,7 @@
 //! Knows no section, material, unit or file: a structure is a [`splines::Compliance`] and, where its mass
 //! counts, freedoms of its own ([`Foundation`]).
 
+mod actuator;
 mod complementarity;
 mod dense;
 mod energy;
@@ -19,6 +20,7 @@ mod parts;
 mod profile;
 mod run;
 mod scene;
+mod schedule;
 mod settle;
 mod solver;
 mod state;
@@ -28,6 +30,7 @@ mod system;
 mod tableau;
 mod wheel;
 
+pub use actuator::{Actuators, Brake, Drive, Load};
 pub use energy::{Audit, Exchanged, Stored};
 pub use error::Error;
 pub use foundation::{Dynamics, Extent, Foundation, Shapes, Structure};
@@ -37,6 +40,7 @@ pub use parts::{BlendedParts, PartChain, PartShapes};
 pub use profile::{Given, Moving, Profile};
 pub use run::{Run, Status, run};
 pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Scene};
+pub use schedule::Schedule;
 pub use step::step;
 pub use stepper::Counts;
 pub use wheel::{Damper, Flange, Friction, NormalLaw, Wheel};

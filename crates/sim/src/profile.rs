@@ -51,18 +51,9 @@ impl Profile {
     /// # Errors
     /// An empty table, times that do not increase, numbers that are not finite.
     pub fn new(given: Given, table: &[[f64; 2]], x0: f64, v0: f64) -> Result<Profile, Error> {
-        if table.is_empty() {
-            return Err(Error::Number { what: "rows of a motion table", wanted: "at least one", found: 0.0 });
-        }
-        if let Some(found) = table.iter().flatten().chain([&x0, &v0]).find(|number| !number.is_finite()) {
-            return Err(Error::Number { what: "motion table", wanted: "finite", found: *found });
-        }
-        if let Some(pair) = table.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
-            return Err(Error::Number {
-                what: "time of a motion table",
-                wanted: "increasing",
-                found: pair[1][0],
-            });
+        check_rows(table)?;
+        if let Some(found) = [x0, v0].into_iter().find(|number| !number.is_finite()) {
+            return Err(Error::Number { what: "start of a motion", wanted: "finite", found });
         }
         let mut pieces: Vec<Piece> = Vec::new();
         for start in starts(table) {
@@ -160,8 +151,24 @@ fn starts(table: &[[f64; 2]]) -> Vec<f64> {
     starts
 }
 
+/// Rows of finite numbers at increasing times, at least one.
+pub(crate) fn check_rows(table: &[[f64; 2]]) -> Result<(), Error> {
+    if table.is_empty() {
+        return Err(Error::Number { what: "rows of a table over time", wanted: "at least one", found: 0.0 });
+    }
+    if let Some(&found) = table.iter().flatten().find(|number| !number.is_finite()) {
+        return Err(Error::Number { what: "table over time", wanted: "finite", found });
+    }
+    match table.windows(2).find(|pair| pair[1][0] <= pair[0][0]) {
+        Some(pair) => {
+            Err(Error::Number { what: "time of a table over time", wanted: "increasing", found: pair[1][0] })
+        }
+        None => Ok(()),
+    }
+}
+
 /// Value and rate of change of the table just after `t`.
-fn linear(table: &[[f64; 2]], t: f64) -> (f64, f64) {
+pub(crate) fn linear(table: &[[f64; 2]], t: f64) -> (f64, f64) {
     let next = table.partition_point(|row| row[0] <= t);
     match (next.checked_sub(1).and_then(|before| table.get(before)), table.get(next)) {
         (Some(&[t0, v0]), Some(&[t1, v1])) => {

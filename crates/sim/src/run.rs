@@ -6,7 +6,7 @@ use nalgebra::DVector;
 use splines::{Influence, Probe};
 
 use crate::dense::dot;
-use crate::energy::{Audit, drive_force};
+use crate::energy::{Audit, brake_force, drive_force};
 use crate::history::{Channel, History};
 use crate::scene::{Analysis, arm_rows};
 use crate::solver::Solver;
@@ -104,6 +104,7 @@ fn integrate(
         .iter()
         .filter_map(|body| body.motion.as_ref())
         .flat_map(|profile| profile.breaks().iter().copied())
+        .chain(scene.actuators.breaks())
         .filter(|&t| t > 0.0 && t < scene.end)
         .collect();
     breaks.push(scene.end);
@@ -133,7 +134,7 @@ fn integrate(
                 if t >= to * (1.0 - 1e-14) {
                     sample.copy_from(&stepper.to);
                 } else {
-                    sample.interpolate(&stepper.from, &stepper.to, (t - from) / (to - from));
+                    sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
                 }
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
@@ -201,7 +202,7 @@ impl Recorder {
         for b in 0..system.scene.bodies.len() {
             channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
             channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
-            channels.push(Channel::Drive(b));
+            channels.extend([Channel::Drive(b), Channel::Brake(b)]);
         }
         for w in 0..system.wheels.len() {
             channels.extend([
@@ -228,7 +229,7 @@ impl Recorder {
             let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
             values.extend(displacement);
             values.extend(speed);
-            values.push(drive_force(system, &solver.geometry, at, b));
+            values.extend([drive_force(system, &solver.geometry, at, b), brake_force(system, at, b)]);
         }
         for (w, wheel) in system.wheels.iter().enumerate() {
             let mut vertical = 0.0;

@@ -2,7 +2,7 @@
 
 use splines::Probe;
 
-use crate::{Error, Profile, Wheel};
+use crate::{Actuators, Error, Profile, Wheel};
 
 /// Freedom of a body on its track; rotations are small and right-handed about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -125,6 +125,8 @@ pub struct Scene {
     pub contacts: Vec<Contact>,
     /// Places whose displacement is recorded.
     pub gauges: Vec<Gauge>,
+    /// Loads, drives and brakes.
+    pub actuators: Actuators,
     /// How it is solved.
     pub analysis: Analysis,
     /// Time at the end, from 0.
@@ -191,6 +193,6 @@ impl Scene {
                 });
             }
         }
-        Ok(())
+        self.actuators.check(self)
     }
 }

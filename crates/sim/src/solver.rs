@@ -67,9 +67,14 @@ impl<'a> Solver<'a> {
         self.active[i] && self.system.law(i).has_memory()
     }
 
-    /// Forces that do not depend on the contacts: weight, and what a prescribed x does to the other freedoms.
+    /// Forces that do not depend on the contacts: weight, loads, and what a prescribed x does to the other freedoms.
     fn fill_load(&mut self, t: f64) {
         self.load.copy_from(&self.system.gravity);
+        for load in &self.system.scene.actuators.loads {
+            if let Some(number) = self.system.loaded(load) {
+                self.load[number] += load.value.at(t);
+            }
+        }
         for (b, body) in self.system.scene.bodies.iter().enumerate() {
             let Some(profile) = &body.motion else { continue };
             let (acceleration, line) = (profile.at(t).a, self.system.body_mass[b][0]);

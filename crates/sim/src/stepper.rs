@@ -29,6 +29,9 @@ pub struct Counts {
 /// How often a step is taken again to end at an event.
 const REFINEMENTS: usize = 40;
 
+/// How often a step is taken again to end at a corner of a drive.
+const CORNERS: usize = 12;
+
 /// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
 const CHATTER: usize = 1000;
 
@@ -49,6 +52,8 @@ pub(crate) struct Stepper<'a, 'b> {
     pub solver: &'b mut Solver<'a>,
     pub from: State,
     pub to: State,
+    /// The end of the step as the step reached it, before a break or an event changed its forces.
+    pub arrived: State,
     pub counts: Counts,
     pub audit: Audit,
     tableau: &'static Tableau,
@@ -86,6 +91,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let (scale, rate_scale) = floors(solver, &start);
         Stepper {
             to: start.clone(),
+            arrived: start.clone(),
             stage: start.clone(),
             probe: start.clone(),
             boundary: boundary(system, &solver.geometry, &start),
@@ -124,7 +130,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             h = limit - start;
         }
         let mut ends_at_event = false;
-        let mut refined = 0;
+        let (mut refined, mut corners) = (0, 0);
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -146,6 +152,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
                     h = if refined < REFINEMENTS { (h * share).max(2.0 * smallest) } else { 2.0 * smallest };
                     continue;
                 }
+            }
+            if let Some(share) = self.first_corner().filter(|_| corners < CORNERS) {
+                corners += 1;
+                ends_at_event = true;
+                h = (h * share).max(2.0 * smallest);
+                continue;
             }
             let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
             self.last_error = error.max(1e-4);
@@ -222,6 +234,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     fn accept(&mut self, h: f64) -> Result<(), Error> {
         let system = self.solver.system;
         self.counts.steps += 1;
+        self.arrived.copy_from(&self.to);
         self.force_scale = self.largest_force();
         let mut booked = Exchanged::default();
         for (i, power) in self.powers.iter().enumerate() {

@@ -1,16 +1,17 @@
 //! The scene as numbered unknowns: freedoms q, contact components F, and the matrices between them.
 //!
 //! M q'' + C q' + K q = f(t) - R^T F. A component is a vertical contact (of one wheel, or of the wheels of
-//! equalisers), a flange or a wheel's friction, in this order.
+//! equalisers), a flange, a wheel's friction, a drive or a brake, in this order.
 
 use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
+use crate::actuator::Pull;
 use crate::matter::Block;
 use crate::scene::arm_rows;
-use crate::{Body, Error, Foundation, Freedom, NormalLaw, Scene};
+use crate::{Body, Error, Foundation, Freedom, Load, NormalLaw, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint {
@@ -57,6 +58,8 @@ pub(crate) struct System<'a> {
     pub laterals: Vec<usize>,
     /// Wheels with friction; component `normals.len() + laterals.len() + i`.
     pub tractions: Vec<usize>,
+    /// Drives and braked contacts; component `normals.len() + laterals.len() + tractions.len() + i`.
+    pub pulls: Vec<Pull>,
     /// Freedom numbers of each body.
     pub freedom: Vec<[Option<usize>; 6]>,
     /// Freedom numbers of each structure.
@@ -157,6 +160,7 @@ impl<'a> System<'a> {
             normals,
             laterals,
             tractions,
+            pulls: Vec::new(),
             freedom,
             structure,
             freedoms,
@@ -171,6 +175,7 @@ impl<'a> System<'a> {
             symmetric: false,
         };
         system.fill_matrices()?;
+        system.pulls = Pull::all(&system);
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
         system.is_direct = system
             .entries
@@ -189,6 +194,7 @@ impl<'a> System<'a> {
         system.constant_rows = !system.moves_freely
             && system.laterals.is_empty()
             && system.tractions.is_empty()
+            && system.pulls.is_empty()
             && foundations.iter().all(|foundation| foundation.structure.is_none());
         let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
         system.linear_normals = laws().all(NormalLaw::is_linear);
@@ -206,7 +212,7 @@ impl<'a> System<'a> {
 
     /// Number of contact components.
     pub fn components(&self) -> usize {
-        self.normals.len() + self.laterals.len() + self.tractions.len()
+        self.normals.len() + self.laterals.len() + self.tractions.len() + self.pulls.len()
     }
 
     /// Whether some structure has freedoms of its own.
@@ -227,6 +233,16 @@ impl<'a> System<'a> {
     /// Component of friction `i`.
     pub fn traction(&self, i: usize) -> usize {
         self.normals.len() + self.laterals.len() + i
+    }
+
+    /// Component of drive or brake `i`.
+    pub fn pull(&self, i: usize) -> usize {
+        self.normals.len() + self.laterals.len() + self.tractions.len() + i
+    }
+
+    /// Number of the freedom of load `load`.
+    pub fn loaded(&self, load: &Load) -> Option<usize> {
+        self.freedom[load.body][load.freedom as usize]
     }
 
     /// The vertical contact that `wheel` belongs to; of its parts' contacts, the first.

@@ -55,6 +55,7 @@ fn wheel() -> Scene {
             wheel: 0,
         }],
         gauges: Vec::new(),
+        actuators: sim::Actuators::default(),
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1e-3,

@@ -30,6 +30,12 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<Known>, Failure> {
     let mut known: Vec<Known> = Vec::new();
     for (name, file, spec) in specs(document) {
+        // ties belong to the scene, which may have changed
+        if !spec.pads().is_empty() {
+            let solved = crate::link::solve(spec).map_err(Failure::untrusted)?;
+            known.push(Known { spec: Arc::clone(spec), solved });
+            continue;
+        }
         unchanged(document, folder, file)?;
         let path = folder.join(format!("grid-{name}.json"));
         known.push(Known { spec: Arc::clone(spec), solved: solved(spec, &path)? });

@@ -14,7 +14,7 @@ use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
 use crate::link;
 use crate::motion::{Cast, cast};
-use crate::scene::{self, Scene};
+use crate::scene::{self, Along, Scene};
 
 /// Identifier of the ground part.
 pub const GROUND: u32 = 1;
@@ -146,6 +146,7 @@ impl Plan<'_> {
 /// # Errors
 /// A foundation that a deck cannot have, tables that do not fit, a scene that cannot start.
 pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Result<Plan<'a>, Failure> {
+    refuse_actuators(scene, file)?;
     let cast = cast(scene)?;
     let mut splines = Next::from(6);
     let gives = gives(scene, &cast, known, form, file, &mut splines)?;
@@ -197,6 +198,27 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
     Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
 }
 
+/// Refuses drives, brakes and loads, which a deck does not have yet.
+fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
+    let refuse = |why: String, hint: &str| Err(Failure::from(Diagnostic::of_file(file, why).hint(hint)));
+    for body in &scene.bodies {
+        let what = match (&body.motion, body.brake) {
+            (Along::Driven(_), _) => "drive",
+            (_, Some(_)) => "brake",
+            _ => continue,
+        };
+        let why = format!("body \"{}\": a deck cannot have its {what}", body.name);
+        return refuse(why, "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand");
+    }
+    match scene.loads.first() {
+        Some(load) => {
+            let why = format!("body \"{}\": a deck cannot have its load", scene.bodies[load.body].name);
+            refuse(why, "leave `loads` out, and add an SFORCE to the deck by hand")
+        }
+        None => Ok(()),
+    }
+}
+
 /// What the structures give; refuses those that a deck cannot have.
 fn gives(
     scene: &Scene,
@@ -235,7 +257,8 @@ fn gives(
             scene::Foundation::Rigid | scene::Foundation::Influence => out.push(Give::rigid(structure, form)),
             scene::Foundation::Parts { .. }
             | scene::Foundation::Modal { .. }
-            | scene::Foundation::Full { .. } => {
+            | scene::Foundation::Full { .. }
+            | scene::Foundation::Ties { .. } => {
                 let why = format!("a deck cannot have the foundation \"{}\"", structure.foundation.word());
                 return Err(refuse(why, "use \"influence\" or \"rigid\""));
             }

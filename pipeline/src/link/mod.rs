@@ -102,6 +102,15 @@ pub fn foundation(
         scene::Foundation::Full { elements, damping } => {
             modal::full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
         }
+        scene::Foundation::Ties { moves: false, .. } => influence(structure, solved),
+        scene::Foundation::Ties { moves: true, modes, damping, c } => {
+            let pads = match &structure.origin {
+                Origin::Spec { spec, .. } => spec.pads(),
+                Origin::Tables { .. } => &[],
+            };
+            let dampers = modal::Dampers { pads, c };
+            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, lateral)
+        }
     }
 }
 

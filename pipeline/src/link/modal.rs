@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use fea::{Frame, Modes, Refined};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
 use splines::{Axis, Compliance, Line, Probe};
 
 use super::Solved;
 use crate::exit::Failure;
+use crate::track::Pad;
 
 /// Error of a frequency that the cutting of members may leave.
 const ACCURACY: f64 = 1e-6;
@@ -25,6 +26,41 @@ pub(super) fn lowest(
     ratio: f64,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    lowest_with(name, solved, count, ratio, Dampers::default(), lateral)
+}
+
+/// Dampers of one size under the ties of a rail.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Dampers<'p> {
+    /// Where they are.
+    pub pads: &'p [Pad],
+    /// Force time/length.
+    pub c: f64,
+}
+
+/// Modes of a rail on ties: the lowest `count`, or all of the mesh as it is.
+pub(super) fn on_ties(
+    name: &str,
+    solved: &Solved,
+    count: Option<usize>,
+    ratio: f64,
+    dampers: Dampers<'_>,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
+    match count {
+        Some(count) => lowest_with(name, solved, count, ratio, dampers, lateral),
+        None => full_with(name, solved, 1, ratio, dampers, lateral),
+    }
+}
+
+fn lowest_with(
+    name: &str,
+    solved: &Solved,
+    count: usize,
+    ratio: f64,
+    dampers: Dampers<'_>,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
@@ -36,7 +72,7 @@ pub(super) fn lowest(
         let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
         if all || (felt.len() >= count && !torn) {
             let lowest = felt.into_iter().take(count).collect();
-            return foundation(name, &refined, lowest, ratio);
+            return foundation(name, &refined, lowest, ratio, dampers);
         }
         asked = (2 * asked).max(asked + 8);
     }
@@ -50,17 +86,28 @@ pub(super) fn full(
     ratio: f64,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    full_with(name, solved, parts, ratio, Dampers::default(), lateral)
+}
+
+fn full_with(
+    name: &str,
+    solved: &Solved,
+    parts: usize,
+    ratio: f64,
+    dampers: Dampers<'_>,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
     let refined =
         fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
     let felt = felt(&refined.modes, solved, lateral);
-    foundation(name, &refined, felt, ratio)
+    foundation(name, &refined, felt, ratio, dampers)
 }
 
 fn refused(name: &str, error: &fea::Error) -> Failure {
     let hint = match error {
         fea::Error::NoMass => "  hint: give its materials a density, or the girder `mass_per_length`",
         fea::Error::TooManyModes { .. } => {
-            "  hint: \"modal\" takes the lowest modes alone; or fewer `elements`"
+            "  hint: \"modal\" takes the lowest modes alone, as `modes` of \"ties\" does; or fewer `elements`"
         }
         _ => "",
     };
@@ -147,6 +194,7 @@ fn foundation(
     refined: &Refined,
     felt: Vec<fea::Mode>,
     ratio: f64,
+    dampers: Dampers<'_>,
 ) -> Result<Foundation, Failure> {
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
@@ -161,7 +209,11 @@ fn foundation(
         .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
         .collect();
     let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
-    let dynamics = Dynamics::Modes { ratio: vec![ratio; omega.len()], omega };
+    let dynamics = if dampers.c > 0.0 {
+        damped(&kept.modes, &omega, ratio, dampers)
+    } else {
+        Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
+    };
     let shapes = Box::new(ModeShapes { line, states });
     Ok(Foundation {
         compliance: Some(Box::new(rest)),
@@ -169,6 +221,25 @@ fn foundation(
         rails,
         ..Foundation::default()
     })
+}
+
+/// M = 1, K = omega^2, C = 2 zeta omega + c D^T D; D: by how much each mode stretches each damper.
+fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) -> Dynamics {
+    let up = |pad: &Pad, point: usize, arm: [f64; 3], mode: &fea::Mode| {
+        let [x, y, z, rx, ry, rz] = mode.points[point];
+        let turn = Vector3::new(rx, ry, rz).cross(&Vector3::from(arm));
+        (Vector3::new(x, y, z) + turn).dot(&Vector3::from(pad.up))
+    };
+    let stretch = DMatrix::from_fn(dampers.pads.len(), modes.len(), |i, r| {
+        let pad = &dampers.pads[i];
+        let base = pad.base.map_or(0.0, |(point, arm)| up(pad, point, arm, &modes[r]));
+        up(pad, pad.rail, [0.0; 3], &modes[r]) - base
+    });
+    let n = modes.len();
+    let own = DMatrix::from_fn(n, n, |i, j| if i == j { 2.0 * ratio * omega[i] } else { 0.0 });
+    let square = DMatrix::from_fn(n, n, |i, j| if i == j { omega[i] * omega[i] } else { 0.0 });
+    let damping = own + stretch.transpose() * &stretch * dampers.c;
+    Dynamics::Matrices { mass: DMatrix::identity(n, n), damping, stiffness: square }
 }
 
 /// Modes along the rails: N(x) times the motion of the cells' ends.

@@ -1,5 +1,6 @@
 //! Bodies of a scene, and how they move along their rails.
 
+use super::actuator::{Drive, read_drive, read_rows};
 use super::raw::{RawBody, RawMotion, RawStart};
 use sim::{Given, Profile};
 
@@ -33,6 +34,8 @@ pub struct Body {
     pub start: Option<[f64; 5]>,
     /// How x moves.
     pub motion: Along,
+    /// Time from which its brakes are on and its drive is off; none = never.
+    pub brake: Option<f64>,
 }
 
 /// How a body moves along its rails.
@@ -42,8 +45,18 @@ pub enum Along {
     Held,
     /// By its forces.
     Free,
+    /// By its forces and those of a drive.
+    Driven(Drive),
     /// As prescribed; the force needed is found.
     Prescribed(Profile),
+}
+
+impl Along {
+    /// Whether x follows from the forces.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        matches!(self, Along::Free | Along::Driven(_))
+    }
 }
 
 impl Body {
@@ -52,7 +65,7 @@ impl Body {
     pub fn known_x(&self, t: f64) -> Option<f64> {
         match &self.motion {
             Along::Held => Some(self.x0),
-            Along::Free => (t == 0.0).then_some(self.x0),
+            Along::Free | Along::Driven(_) => (t == 0.0).then_some(self.x0),
             Along::Prescribed(travel) => Some(travel.at(t).x),
         }
     }
@@ -84,7 +97,19 @@ pub(super) fn read(
     let v0 = check.number(raw.v0.unwrap_or_default(), &at.key("v0"), Dimension::SPEED);
     let start = raw.start.as_ref().map(|start| read_start(start, &free, &at.key("start"), check));
     let motion = if free[0] { Along::Free } else { Along::Held };
-    Body { name: name.to_owned(), mass, inertia, cg, free, track: Vec::new(), x0, v0, start, motion }
+    Body {
+        name: name.to_owned(),
+        mass,
+        inertia,
+        cg,
+        free,
+        track: Vec::new(),
+        x0,
+        v0,
+        start,
+        motion,
+        brake: None,
+    }
 }
 
 fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Check<'_>) -> f64 {
@@ -198,25 +223,30 @@ pub(super) fn read_motions(
     }
 }
 
-/// The word of `kind`: whether the motion is prescribed.
-fn read_kind(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<bool> {
+/// The words of `kind`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Prescribed,
+    Drive,
+    Free,
+}
+
+fn read_kind(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Kind> {
     let kind = check.faults.need(&motion.kind, at, "kind")?;
-    let place = at.key("kind");
-    if kind == "drive" {
-        let fault = Fault::new(&place, "the motion \"drive\" is not available in this version");
-        check.faults.add(fault.hint("\"prescribed\" and \"free\" are"));
-        return None;
-    }
-    check.faults.word(kind, &place, &[("prescribed", true), ("free", false)])
+    let words = [("prescribed", Kind::Prescribed), ("drive", Kind::Drive), ("free", Kind::Free)];
+    check.faults.word(kind, &at.key("kind"), &words)
 }
 
 fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_>, check: &mut Check<'_>) {
-    let Some(prescribed) = read_kind(motion, at, check) else { return };
-    for (key, given) in [("gain", motion.gain.is_some()), ("max_force", motion.max_force.is_some())] {
-        if given {
-            check
-                .faults
-                .add(Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"drive\"")).at_key());
+    let Some(kind) = read_kind(motion, at, check) else { return };
+    for (key, given, holds, owner) in [
+        ("gain", motion.gain.is_some(), kind == Kind::Drive, "\"drive\""),
+        ("max_force", motion.max_force.is_some(), kind == Kind::Drive, "\"drive\""),
+        ("brake", motion.brake.is_some(), kind != Kind::Prescribed, "\"drive\" or \"free\""),
+    ] {
+        if given && !holds {
+            let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion {owner}"));
+            check.faults.add(fault.at_key());
         }
     }
     let tables = [
@@ -228,17 +258,22 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         .into_iter()
         .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
         .collect();
-    if !prescribed {
-        for (key, ..) in &given {
-            check.faults.add(
-                Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\"")).at_key(),
-            );
+    if kind != Kind::Prescribed {
+        for (key, what, ..) in &given {
+            if kind == Kind::Free || *what != Given::Speed {
+                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\""));
+                check.faults.add(fault.at_key());
+            }
         }
         if !body.free[0] {
             let expected = format!("body {} cannot move freely: \"x\" is not in its `dof`", body.name);
             check.faults.add(Fault::new(at, expected));
         }
-        body.motion = Along::Free;
+        body.brake = motion.brake.map(|time| {
+            check.not_negative(time, &at.key("brake"), Dimension::TIME, "time from which the brakes are on")
+        });
+        let drive = if kind == Kind::Drive { read_drive(motion, at, check) } else { None };
+        body.motion = drive.map_or(Along::Free, Along::Driven);
         return;
     }
     let [(key, what, table, unit)] = given[..] else {
@@ -247,19 +282,7 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         return;
     };
     let place = at.key(key);
-    if table.is_empty() {
-        check.faults.add(Fault::new(&place, "must have at least one row [time, value]").got("an empty list"));
-        return;
-    }
-    let times: Vec<f64> = table.iter().map(|row| row[0]).collect();
-    let ordered = check.faults.increasing(&times, &place);
-    let mut rows = Vec::new();
-    for (index, [t, value]) in table.iter().enumerate() {
-        rows.push([*t, check.number(*value, &place.index(index), unit)]);
-    }
-    if !ordered {
-        return;
-    }
+    let Some(rows) = read_rows(table, &place, unit, check) else { return };
     let travel = match Profile::new(what, &rows, body.x0, body.v0) {
         Ok(travel) => travel,
         Err(error) => {

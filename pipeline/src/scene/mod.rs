@@ -1,5 +1,6 @@
 //! Scenes: read, checked, names resolved, in the scene's units.
 
+mod actuator;
 mod body;
 mod compare;
 mod gauge;
@@ -7,9 +8,11 @@ mod raw;
 mod read;
 mod structure;
 mod tables;
+mod ties;
 mod truck;
 mod wheel;
 
+pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use gauge::Gauge;
@@ -45,6 +48,8 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Wheels under bodies.
     pub trucks: Vec<Truck>,
+    /// Forces and moments on bodies.
+    pub loads: Vec<Load>,
     /// Time at which the scene ends.
     pub end: f64,
     /// Time between two rows of the history.

@@ -12,6 +12,8 @@ use crate::units::RawUnits;
 crate::object::objects!(
     RawScene,
     RawStructure,
+    RawTies,
+    RawTieRail,
     RawTables,
     RawGauge,
     RawBody,
@@ -22,6 +24,7 @@ crate::object::objects!(
     RawFriction,
     RawTruck,
     RawMotion,
+    RawLoad,
     RawEnd,
     RawOutput
 );
@@ -51,7 +54,7 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub stops: Vec<Value>,
     #[serde(default)]
-    pub loads: Vec<Value>,
+    pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
     pub accuracy: Option<f64>,
@@ -73,10 +76,42 @@ pub(crate) struct RawStructure {
     pub modes: Option<usize>,
     pub elements: Option<usize>,
     pub damping: Option<f64>,
+    pub ties: Option<RawTies>,
+    pub range: Option<[f64; 2]>,
     #[serde(default)]
     pub gauges: Entries<RawGauge>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawTies {
+    pub spacing: Option<f64>,
+    pub first: Option<f64>,
+    pub k: Option<f64>,
+    pub lateral_k: Option<f64>,
+    pub c: Option<f64>,
+    pub mass: Option<f64>,
+    pub rail: Option<RawTieRail>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawTieRail {
+    #[serde(rename = "E")]
+    pub e: Option<f64>,
+    #[serde(rename = "G")]
+    pub g: Option<f64>,
+    #[serde(rename = "A")]
+    pub area: Option<f64>,
+    #[serde(rename = "I_vertical")]
+    pub i_vertical: Option<f64>,
+    #[serde(rename = "I_lateral")]
+    pub i_lateral: Option<f64>,
+    #[serde(rename = "J")]
+    pub j: Option<f64>,
+    pub mass_per_length: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -261,6 +296,15 @@ pub(crate) struct RawMotion {
     pub acceleration: Option<Vec<[f64; 2]>>,
     pub gain: Option<f64>,
     pub max_force: Option<f64>,
+    pub brake: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawLoad {
+    pub body: Option<String>,
+    pub dof: Option<String>,
+    pub value: Option<Vec<[f64; 2]>>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -2,7 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, body, structure, truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, structure, truck,
+    wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -61,6 +62,7 @@ pub(super) fn scene(
         bodies.push(body);
     }
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
+    let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
     let place = root.key("wheels");
     for (name, raw) in &raw.wheels.0 {
@@ -82,6 +84,7 @@ pub(super) fn scene(
         bodies,
         wheels,
         trucks: Vec::new(),
+        loads,
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -92,6 +95,7 @@ pub(super) fn scene(
         ),
     };
     read_trucks(raw, &mut scene, &root, check);
+    actuator::check_wheels(&raw.motions, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
         stay_on_rails(raw, &scene, &root, check.faults);
@@ -104,7 +108,6 @@ fn refuse_later(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) {
         ("ropes", raw.ropes.is_empty(), "a rope"),
         ("events", raw.events.is_empty(), "an event"),
         ("stops", raw.stops.is_empty(), "a stop"),
-        ("loads", raw.loads.is_empty(), "a load"),
     ];
     for (key, empty, what) in later {
         if !empty {
@@ -225,7 +228,7 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
                 }
             }
         }
-        if scene.analysis == Analysis::QuasiStatic && body.motion == Along::Free {
+        if scene.analysis == Analysis::QuasiStatic && body.motion.is_free() {
             let fault =
                 Fault::new(&place.key(&body.name), "a quasi-static scene needs every x prescribed or held");
             check.faults.add(fault.hint("prescribe a motion of x, or take \"x\" out of `dof`"));
@@ -276,6 +279,8 @@ fn stay_on_rails(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut F
 fn leaves(body: &Body, range: [f64; 2], end: f64) -> Option<(f64, f64)> {
     match &body.motion {
         Along::Prescribed(travel) => travel.leaves(range, end),
-        Along::Held | Along::Free => (body.x0 < range[0] || body.x0 > range[1]).then_some((0.0, body.x0)),
+        Along::Held | Along::Free | Along::Driven(_) => {
+            (body.x0 < range[0] || body.x0 > range[1]).then_some((0.0, body.x0))
+        }
     }
 }

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
+use super::ties;
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -91,6 +92,17 @@ pub enum Foundation {
         /// Share of critical damping of each mode.
         damping: f64,
     },
+    /// As a rail on sprung ties.
+    Ties {
+        /// Whether it moves in natural modes; otherwise it has no mass.
+        moves: bool,
+        /// Number of modes; `None`: all of the mesh.
+        modes: Option<usize>,
+        /// Share of critical damping of each mode.
+        damping: f64,
+        /// Damper of each tie, force time/length.
+        c: f64,
+    },
 }
 
 /// How a wheel passes from one rigid part to the next.
@@ -147,6 +159,7 @@ impl Foundation {
             Foundation::Influence => "influence",
             Foundation::Modal { .. } => "modal",
             Foundation::Full { .. } => "full",
+            Foundation::Ties { .. } => "ties",
         }
     }
 }
@@ -170,6 +183,7 @@ enum Word {
     Influence,
     Modal,
     Full,
+    Ties,
     Auto,
 }
 
@@ -203,7 +217,15 @@ pub(super) fn read(
     let tolerance = raw.tolerance.unwrap_or(TOLERANCE);
     let tolerance =
         check.positive(tolerance, &at.key("tolerance"), Dimension::NUMBER, "a relative error, such as 1e-3");
+    let ties = ties::read(raw, matches!(word, Word::Ties), at, check);
     let origin = match (&raw.spec, &raw.tables) {
+        (None, None) if ties.is_some() || matches!(word, Word::Ties) => {
+            ties::on_ground(name, raw, ties.as_ref(), at, units, check)
+        }
+        (Some(file), None) if matches!(word, Word::Ties) => {
+            let origin = read_spec(file, &at.key("spec"), units, inputs, elsewhere, check);
+            origin.and_then(|origin| ties::on_structure(origin, raw, ties.as_ref(), at, check))
+        }
         (Some(file), None) => read_spec(file, &at.key("spec"), units, inputs, elsewhere, check),
         (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, units, inputs, elsewhere, check),
         (Some(_), Some(_)) => {
@@ -226,6 +248,7 @@ pub(super) fn read(
         Word::Parts => Foundation::Parts { count, handover },
         Word::Influence | Word::Auto => Foundation::Influence,
         Word::Modal => Foundation::Modal { modes: raw.modes.unwrap_or(MODES), damping },
+        Word::Ties => ties::foundation(raw, ties.as_ref(), damping, at, check),
         Word::Full => Foundation::Full { elements: raw.elements.unwrap_or(ELEMENTS), damping },
     };
     let origin = origin?;
@@ -256,20 +279,17 @@ pub(super) fn read(
 }
 
 fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Word {
-    let Some(word) = &raw.foundation else { return Word::Auto };
+    let Some(word) = &raw.foundation else {
+        return if raw.ties.is_some() { Word::Ties } else { Word::Auto };
+    };
     let place = at.key("foundation");
-    if word == "ties" {
-        let fault = Fault::new(&place, "the foundation \"ties\" is not available in this version");
-        let known = "\"rigid\", \"parts\", \"influence\", \"modal\", \"full\" and \"auto\" are";
-        check.faults.add(fault.hint(known));
-        return Word::Auto;
-    }
     let words = [
         ("rigid", Word::Rigid),
         ("parts", Word::Parts),
         ("influence", Word::Influence),
         ("modal", Word::Modal),
         ("full", Word::Full),
+        ("ties", Word::Ties),
         ("auto", Word::Auto),
     ];
     check.faults.word(word, &place, &words).unwrap_or(Word::Auto)
@@ -346,7 +366,7 @@ fn read_tables(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
-    if matches!(word, Word::Parts | Word::Modal | Word::Full) {
+    if matches!(word, Word::Parts | Word::Modal | Word::Full | Word::Ties) {
         let fault = Fault::new(at, "this foundation needs a `spec`")
             .hint("tables know neither masses nor what lies between");
         check.faults.add(fault);

@@ -21,9 +21,9 @@ pub struct Wheel {
     pub friction: Option<Friction>,
     /// Moment of inertia about the axle; none = the wheel's spin follows its rolling.
     pub spin_inertia: Option<f64>,
-    /// Whether a drive acts on it.
+    /// Whether the drive of its body acts on it; its friction limits the drive.
     pub driven: bool,
-    /// Whether a brake acts on it.
+    /// Whether the brake of its body acts on it.
     pub braked: bool,
 }
 

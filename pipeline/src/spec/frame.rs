@@ -8,6 +8,7 @@ use super::{members, rails, sections};
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
+use crate::track::Pad;
 use crate::units::Dimension;
 
 /// A checked general form, in the units asked for: the model with the names that users know.
@@ -27,6 +28,8 @@ pub struct Frame {
     pub cells: Vec<[usize; 2]>,
     /// Named sets of points.
     pub point_sets: Vec<(String, Vec<usize>)>,
+    /// Between rail and structure, where ties carry the rail.
+    pub pads: Vec<Pad>,
 }
 
 /// Words of the freedoms of points and members' ends.
@@ -73,7 +76,8 @@ pub(super) fn read(
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
     let cuts = cuts::read_frame(raw, &cells, root, check);
     let points = model.points.len();
-    let frame = Frame { model, rails, ranges, sections, points, cells: cells.places, point_sets };
+    let frame =
+        Frame { model, rails, ranges, sections, points, cells: cells.places, point_sets, pads: Vec::new() };
     if cells.whole { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
 }
 

@@ -22,6 +22,7 @@ use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, Faults};
 use crate::place::Place;
 use crate::source::Source;
+use crate::track::Pad;
 use crate::units::{Scale, Units};
 use raw::RawSpec;
 
@@ -100,6 +101,15 @@ impl Spec {
         match &self.form {
             Form::Girder(girder) => Some(girder),
             Form::Frame(_) => None,
+        }
+    }
+
+    /// What stands between rails and structure at ties; empty where there are none.
+    #[must_use]
+    pub fn pads(&self) -> &[Pad] {
+        match &self.form {
+            Form::Girder(_) => &[],
+            Form::Frame(frame) => &frame.pads,
         }
     }
 

@@ -35,6 +35,7 @@ fn scene() -> Scene {
             wheel: 0,
         }],
         gauges: Vec::new(),
+        actuators: crate::Actuators::default(),
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1.0,

@@ -102,6 +102,7 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
             })
             .to_vec(),
         gauges: Vec::new(),
+        actuators: sim::Actuators::default(),
         analysis: Analysis::Dynamic,
         end,
         output_dt: 0.01 * end,

@@ -118,6 +118,7 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
             wheel: 0,
         }],
         gauges: vec![Gauge { structure: 0, probe: Probe { rail: 0, x: SPAN / 2.0, axis: Axis::Vertical } }],
+        actuators: sim::Actuators::default(),
         analysis: Analysis::Dynamic,
         end: SPAN / speed,
         output_dt: SPAN / speed / 2000.0,

@@ -8,7 +8,6 @@ use sim::{Analysis, Channel, Foundation, Freedom, Status};
 use crate::deck::Plan;
 use crate::deck::ids::number;
 use crate::exit::Failure;
-use crate::scene::Along;
 
 /// Places compared along the path, the first left out.
 const PLACES: u32 = 40;
@@ -64,7 +63,7 @@ pub(super) fn path(
     model: &Model,
     foundations: &[Foundation],
 ) -> Result<Option<Path>, Failure> {
-    if plan.scene.bodies.iter().any(|body| body.motion == Along::Free) {
+    if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
         return Ok(None);
     }
     let mut scene = plan.cast.scene.clone();

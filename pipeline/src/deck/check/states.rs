@@ -8,6 +8,9 @@ use crate::deck::Plan;
 use crate::exit::Failure;
 use crate::scene::Along;
 
+/// Largest force that the simulator may find at a penetration, of the force that it was made from: where wheels are
+/// close, penetrations hardly fix forces.
+const LARGER: f64 = 3.0;
 /// Penetration of a contact that has come off, of its approach.
 const OFF: f64 = 1e-9;
 /// Newton iterations for the penetrations of a state.
@@ -81,8 +84,10 @@ fn settle(
         contact_forces(scene, foundations, std::slice::from_ref(instant)).map(|mut all| all.swap_remove(0))
     };
     let open = one(&instant)?;
-    for (c, penetration) in plant(plan, &open, random) {
+    let mut most = vec![f64::INFINITY; plan.contacts.len()];
+    for (c, penetration, force) in plant(plan, &open, random) {
         instant.penetration[c] = Some(penetration);
+        most[c] = LARGER * force;
     }
     let forces = one(&instant)?;
     let fits = (0..plan.contacts.len()).all(|c| {
@@ -92,7 +97,7 @@ fn settle(
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
         if contact.diff.is_some() && instant.penetration[c].is_some() {
             let point = law.at(p, 0.0);
-            if point.by_rate < RAMP * law.damping || force.abs() < CANCELLED * point.force {
+            if point.by_rate < RAMP * law.damping || force < CANCELLED * point.force || force > most[c] {
                 return false;
             }
         }
@@ -102,9 +107,9 @@ fn settle(
     Ok(fits.then_some(Case { instant, forces, rate }))
 }
 
-/// Penetrations of the contacts that keep them and press: those of springs, with dampers of random rates beside them,
+/// Penetrations and forces of the contacts that keep them and press: those of springs, with dampers of random rates beside them,
 /// in balance with the rail's give; Newton's method on p + G F(p, p') = e.
-fn plant(plan: &Plan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64)> {
+fn plant(plan: &Plan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
     let reach = |c: usize| open.penetration[c];
     let mut active: Vec<usize> =
@@ -146,7 +151,7 @@ fn plant(plan: &Plan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usi
             }
         }
     }
-    found
+    found.into_iter().map(|(c, p)| (c, p, law(c).at(p, rate[c]).force)).collect()
 }
 
 /// The rate that goes with the force and penetration of contact `c`.

@@ -1,0 +1,149 @@
+//! Loads, drives and brakes of a scene.
+
+use sim::Schedule;
+
+use super::body::FREEDOMS;
+use super::raw::{RawLoad, RawMotion};
+use super::{Along, Body, Scene};
+use crate::check::Check;
+use crate::fault::{Fault, Faults, alternatives};
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// A force or a moment on one freedom of a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Load {
+    /// Index of its body.
+    pub body: usize,
+    /// Index of its freedom in [`FREEDOMS`].
+    pub freedom: usize,
+    /// Its size over time.
+    pub value: Schedule,
+}
+
+/// A drive along the rail.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drive {
+    /// The speed it follows.
+    pub speed: Schedule,
+    /// Force per speed that is missing.
+    pub gain: f64,
+    /// Its largest force; none = infinite.
+    pub max_force: Option<f64>,
+}
+
+/// Reads the loads.
+pub(super) fn read_loads(raw: &[RawLoad], bodies: &[Body], check: &mut Check<'_>) -> Vec<Load> {
+    let root = Place::root();
+    let list = root.key("loads");
+    raw.iter()
+        .enumerate()
+        .filter_map(|(index, load)| read_load(load, bodies, &list.index(index), check))
+        .collect()
+}
+
+fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'_>) -> Option<Load> {
+    let body = check.faults.need(&raw.body, at, "body").and_then(|name| {
+        let known = super::names(bodies, |body| &body.name);
+        super::resolve(name, &known, "body", &at.key("body"), check.faults)
+    });
+    let words: Vec<(&str, usize)> = FREEDOMS.iter().enumerate().map(|(index, word)| (*word, index)).collect();
+    let place = at.key("dof");
+    let freedom = check.faults.need(&raw.dof, at, "dof");
+    let freedom = freedom.and_then(|word| check.faults.word(word, &place, &words));
+    let unit = if freedom.is_some_and(|freedom| freedom > 2) { Dimension::MOMENT } else { Dimension::FORCE };
+    let value = check.faults.need(&raw.value, at, "value");
+    let value = value.and_then(|table| read_schedule(table, &at.key("value"), unit, check));
+    let (body, freedom) = (body?, freedom?);
+    let owner = &bodies[body];
+    let prescribed = matches!(owner.motion, Along::Prescribed(_));
+    let is_free = |i: usize| owner.free[i] && !(i == 0 && prescribed);
+    if !is_free(freedom) {
+        let state = if owner.free[freedom] { "prescribed" } else { "held" };
+        let fault = Fault::new(&place, format!("{} of body {} is {state}", FREEDOMS[freedom], owner.name));
+        let free: Vec<&str> = (0..6).filter(|&i| is_free(i)).map(|i| FREEDOMS[i]).collect();
+        let hint = if free.is_empty() {
+            "nothing of it is free".to_owned()
+        } else {
+            alternatives(&free) + " can be loaded"
+        };
+        check.faults.add(fault.hint(hint));
+    }
+    Some(Load { body, freedom, value: value? })
+}
+
+/// Reads the drive of a motion; none where its table is missing or wrong.
+pub(super) fn read_drive(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Drive> {
+    let gain = check.needed(motion.gain, at, "gain", Dimension::DAMPING, "force per speed that is missing");
+    let max_force = motion.max_force.map(|force| {
+        check.not_negative(force, &at.key("max_force"), Dimension::FORCE, "leave it out for no limit")
+    });
+    let speed = check.faults.need(&motion.speed, at, "speed")?;
+    let speed = read_schedule(speed, &at.key("speed"), Dimension::SPEED, check)?;
+    Some(Drive { speed, gain, max_force })
+}
+
+fn read_schedule(
+    table: &[[f64; 2]],
+    place: &Place<'_>,
+    unit: Dimension,
+    check: &mut Check<'_>,
+) -> Option<Schedule> {
+    let rows = read_rows(table, place, unit, check)?;
+    Schedule::new(&rows).map_err(|error| check.faults.add(Fault::new(place, error.to_string()))).ok()
+}
+
+/// Rows [time, value] in the scene's units; none where they are not in order.
+pub(super) fn read_rows(
+    table: &[[f64; 2]],
+    place: &Place<'_>,
+    unit: Dimension,
+    check: &mut Check<'_>,
+) -> Option<Vec<[f64; 2]>> {
+    if table.is_empty() {
+        check.faults.add(Fault::new(place, "must have at least one row [time, value]").got("an empty list"));
+        return None;
+    }
+    let times: Vec<f64> = table.iter().map(|row| row[0]).collect();
+    let ordered = check.faults.increasing(&times, place);
+    let mut rows = Vec::new();
+    for (index, [t, value]) in table.iter().enumerate() {
+        rows.push([*t, check.number(*value, &place.index(index), unit)]);
+    }
+    ordered.then_some(rows)
+}
+
+/// Wheels that drives and brakes of the bodies can act on.
+pub(super) fn check_wheels(motions: &[RawMotion], scene: &Scene, faults: &mut Faults) {
+    let root = Place::root();
+    let (list, kinds) = (root.key("motions"), root.key("wheels"));
+    for (b, body) in scene.bodies.iter().enumerate() {
+        let own = || {
+            let trucks = scene.trucks.iter().filter(move |truck| truck.body == b);
+            trucks.map(|truck| &scene.wheels[truck.wheel])
+        };
+        let drives = matches!(body.motion, Along::Driven(_));
+        for kind in own().filter(|kind| (drives && kind.driven) || (body.brake.is_some() && kind.braked)) {
+            if kind.spin_inertia.is_some() && kind.friction.is_some() {
+                let place = kinds.key(&kind.name);
+                let fault = Fault::new(
+                    &place.key("spin_inertia"),
+                    "a wheel with a spin of its own under a drive or a brake is not available in this version",
+                );
+                faults.add(fault.at_key().hint("leave `spin_inertia` out: the wheel rolls with its body"));
+            }
+        }
+        let motion = motions.iter().position(|motion| motion.body.as_ref() == Some(&body.name));
+        let (Some(index), Some(_)) = (motion, body.brake) else { continue };
+        let at = list.index(index);
+        let place = at.key("brake");
+        if !own().any(|kind| kind.braked) {
+            let fault = Fault::new(&place, format!("no wheel of body {} is braked", body.name)).at_key();
+            faults.add(fault.hint("give a kind of its wheels \"braked\": true"));
+        }
+        if let Some(kind) = own().find(|kind| kind.braked && kind.friction.is_none()) {
+            let fault = Fault::new(&kinds.key(&kind.name), "a braked wheel needs `friction`").at_key();
+            faults.add(fault.hint("its `mu` limits the brake"));
+        }
+    }
+}

@@ -1,0 +1,402 @@
+//! Rails on sprung ties, over the rails of a structure or over the ground, as frames.
+
+use fea::{Freedom, Mass, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
+use nalgebra::Vector3;
+use thiserror::Error;
+
+use crate::spec::{Cut, Form, Frame, GIRDER_RAIL, Spec};
+use crate::units::Units;
+
+/// Most bays of rail, all ties and elements of a structure counted.
+pub const MOST: f64 = 2000.0;
+/// Stations of a rail over the ground, about.
+const STATIONS: usize = 50;
+/// Shares of a member's length that are one place.
+const SAME: f64 = 1e-9;
+
+/// A rail and the ties under it, in one system of units.
+///
+/// Every tie is a vertical spring `k` under the rail's axis, beside it a damper `c` and, where the rail bends sideways,
+/// a spring `lateral_k`; its mass moves with the rail. Along and against roll the ground holds the rail at every tie.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ties {
+    /// Distance between ties, length.
+    pub spacing: f64,
+    /// Coordinate of the first tie; `None`: where the rail begins.
+    pub first: Option<f64>,
+    /// Vertical stiffness of one tie, force/length.
+    pub k: f64,
+    /// Lateral stiffness of one tie, force/length; `None`: the rail does not move sideways.
+    pub lateral_k: Option<f64>,
+    /// Damping of one tie, vertical, force time/length.
+    pub c: f64,
+    /// Mass of one tie, force time^2/length.
+    pub mass: f64,
+    /// Section of the rail: `iz` bends vertically, `iy` sideways.
+    pub rail: Section,
+    /// Elements between two ties.
+    pub elements: usize,
+}
+
+impl Ties {
+    /// Whether rail or ties have mass.
+    #[must_use]
+    pub fn has_mass(&self) -> bool {
+        self.mass > 0.0 || self.rail.mass > 0.0
+    }
+
+    /// Coordinates of the ties on a rail.
+    fn places(&self, [first, last]: [f64; 2]) -> Result<Vec<f64>, Refusal> {
+        let start = self.first.unwrap_or(first);
+        let slack = SAME * self.spacing;
+        if start < first - slack || start + self.spacing > last + slack {
+            return Err(Refusal::Few { range: [first, last] });
+        }
+        let count = ((last - start + slack) / self.spacing).floor();
+        if (count + 2.0) * self.elements as f64 > MOST {
+            return Err(Refusal::Many { bays: (count + 2.0) * self.elements as f64 });
+        }
+        let place = |k: usize| (start + k as f64 * self.spacing).max(first).min(last);
+        Ok((0..=count as usize).map(place).collect())
+    }
+}
+
+/// What stands between rail and structure at one tie, as far as dampers feel it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pad {
+    /// Point of the rail.
+    pub rail: usize,
+    /// Point of the structure, and the rigid arm from it to the pad; `None`: the ground.
+    pub base: Option<(usize, [f64; 3])>,
+    /// Direction, a unit vector.
+    pub up: [f64; 3],
+}
+
+/// Ties that cannot be laid.
+#[derive(Clone, Copy, Debug, Error, PartialEq)]
+pub enum Refusal {
+    /// Fewer than two ties on a rail.
+    #[error("must put at least two ties on the rail from {} to {}", range[0], range[1])]
+    Few {
+        /// Of the rail.
+        range: [f64; 2],
+    },
+    /// More than [`MOST`] elements.
+    #[error("must leave at most {MOST} elements of rail, got {bays}")]
+    Many {
+        /// How many there would be.
+        bays: f64,
+    },
+    /// A tie where a member is released.
+    #[error("the tie at {x} stands on a hinge of cell {cell}")]
+    Hinge {
+        /// Coordinate along the rail.
+        x: f64,
+        /// Index of the member.
+        cell: usize,
+    },
+    /// A rail that no global axis follows.
+    #[error("rail {rail} must run along a global axis, square to `up`")]
+    Oblique {
+        /// Index of the rail.
+        rail: usize,
+    },
+    /// A structure without a model.
+    #[error("the structure cannot carry ties: no model can be made of it")]
+    Model,
+}
+
+/// A rail on ties over the ground, from `range[0]` to `range[1]`.
+///
+/// # Errors
+/// Too few or too many ties.
+pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Result<Spec, Refusal> {
+    let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
+    let places = ties.places(range)?;
+    let mut pads = Vec::new();
+    let line = Line { origin: Vector3::zeros(), x: Vector3::x(), y: Vector3::y() };
+    let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
+    let points = lay(&mut model, &mut rail, ties, &line, range, &places);
+    for point in points {
+        hold(&mut model, ties, point);
+        model.springs.push(Spring { point, freedom: Freedom::Uy, stiffness: ties.k });
+        let lateral = ties.lateral_k.map(|stiffness| Spring { point, freedom: Freedom::Uz, stiffness });
+        model.springs.extend(lateral);
+        pads.push(Pad { rail: point, base: None, up: model.up });
+    }
+    rail.stations = places.iter().copied().step_by(places.len().div_ceil(STATIONS)).collect();
+    let frame = Frame {
+        sections: vec![GIRDER_RAIL.to_owned()],
+        rails: vec![(GIRDER_RAIL.to_owned(), rail)],
+        ranges: vec![range],
+        points: model.points.len(),
+        cells: Vec::new(),
+        point_sets: Vec::new(),
+        model,
+        pads,
+    };
+    let (name, form) = (name.to_owned(), Form::Frame(frame));
+    Ok(Spec { name, units, theory: Theory::EulerBernoulli, form, effects: Vec::new() })
+}
+
+/// The structure with a rail on ties over each of its rails: the same rails by name, coordinates and stations.
+///
+/// Members are cut where ties stand; pads are trusses of the stiffness k, rigid arms lead to them, so that rail and
+/// structure meet by the motion of the structure's own rail and nothing else.
+///
+/// # Errors
+/// Too few or too many ties; one on a hinge; rails that no global axis follows.
+pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
+    let (model, rails) = spec.model().map_err(|_| Refusal::Model)?;
+    let mut seats = Vec::new();
+    let mut lines = Vec::new();
+    for (index, (rail, outline)) in rails.iter().zip(spec.rails()).enumerate() {
+        let line = Line::of(&model, rail).ok_or(Refusal::Oblique { rail: index })?;
+        let places = ties.places(outline.range)?;
+        for &x in &places {
+            seats.push(Seat::of(&model, rail, &line, x).ok_or(Refusal::Model)?);
+        }
+        lines.push((line, places, outline));
+    }
+    let (mut model, points, parts) = cut(&model, &seats)?;
+    let base = model.points.len();
+    let stiff = |k: f64| Section { e: k * ties.spacing, area: 1.0, ..Section::default() };
+    let section = model.sections.len() + 1;
+    let mut new_rails = Vec::new();
+    let mut pads = Vec::new();
+    let mut trusses = Vec::new();
+    let mut seated = seats.iter().zip(points);
+    for (rail, (mut line, places, outline)) in rails.iter().zip(lines) {
+        let own: Vec<_> = seated.by_ref().take(places.len()).collect();
+        if let Some((seat, _)) = own.first() {
+            // the rail's axis is where the structure's rail is at the first tie
+            let off = seat.place - line.origin;
+            line.origin += off - line.x * off.dot(&line.x);
+        }
+        let mut new = Rail { segments: Vec::new(), ..rail.clone() };
+        let on_rail = lay(&mut model, &mut new, ties, &line, outline.range, &places);
+        for (&x, (&point, (_, seat))) in places.iter().zip(on_rail.iter().zip(own)) {
+            let foot = Vector3::from(model.points[seat]);
+            let at = line.origin + line.x * x;
+            let mut spring = |direction: Vector3<f64>, section: usize| {
+                let tip = at + direction * ties.spacing;
+                let offsets = [[0.0; 3], (tip - foot).into()];
+                let kind = fea::Kind::Truss;
+                trusses.push(Member { kind, offsets, ..Member::beam([point, seat], section, line.y.into()) });
+            };
+            spring(-line.y, section);
+            if ties.lateral_k.is_some() {
+                spring(line.x.cross(&line.y), section + 1);
+            }
+            pads.push(Pad { rail: point, base: Some((seat, (at - foot).into())), up: line.y.into() });
+            hold_along(&mut model, ties, point, &line);
+        }
+        new.stations.clone_from(&outline.stations);
+        new_rails.push((outline.name, new));
+    }
+    let mut sections = match &spec.form {
+        Form::Girder(_) => vec!["girder".to_owned()],
+        Form::Frame(frame) => frame.sections.clone(),
+    };
+    sections.resize(section - 1, "part".to_owned());
+    model.sections.push(stiff(ties.k));
+    sections.extend(["tie rail".to_owned(), "tie".to_owned()]);
+    if let Some(k) = ties.lateral_k {
+        model.sections.push(stiff(k));
+        sections.push("tie, lateral".to_owned());
+    }
+    model.members.extend(trusses);
+    let cells = match &spec.form {
+        Form::Girder(_) => Vec::new(),
+        Form::Frame(frame) => {
+            parts.iter().filter_map(|(member, _)| frame.cells.get(*member)).copied().collect()
+        }
+    };
+    let point_sets = match &spec.form {
+        Form::Girder(_) => Vec::new(),
+        Form::Frame(frame) => frame.point_sets.clone(),
+    };
+    let ranges = spec.rails().iter().map(|rail| rail.range).collect();
+    let effects = spec.effects.iter().map(|cut| moved(cut, &parts)).collect();
+    let frame = Frame { model, rails: new_rails, ranges, sections, points: base, cells, point_sets, pads };
+    Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
+}
+
+/// A straight line along a rail.
+struct Line {
+    origin: Vector3<f64>,
+    x: Vector3<f64>,
+    y: Vector3<f64>,
+}
+
+impl Line {
+    /// Of a rail along a global axis.
+    fn of(model: &Model, rail: &Rail) -> Option<Line> {
+        let unit = |vector: [f64; 3]| {
+            let unit = Vector3::from(vector).normalize();
+            let whole = unit.map(f64::round);
+            ((unit - whole).amax() < 1e-12).then_some(whole)
+        };
+        let (x, y) = unit(rail.axis).zip(unit(model.up))?;
+        (x.dot(&y) == 0.0).then(|| Line { origin: Vector3::from(rail.origin), x, y })
+    }
+}
+
+/// Puts the rail's points and members into a model, and its segments; points of the ties, in order.
+fn lay(
+    model: &mut Model,
+    rail: &mut Rail,
+    ties: &Ties,
+    line: &Line,
+    range: [f64; 2],
+    places: &[f64],
+) -> Vec<usize> {
+    let section = model.sections.len();
+    model.sections.push(ties.rail);
+    let mut ends = places.to_vec();
+    let slack = SAME * ties.spacing;
+    if places.first().is_some_and(|x| x - range[0] > slack) {
+        ends.insert(0, range[0]);
+    }
+    if places.last().is_some_and(|x| range[1] - x > slack) {
+        ends.push(range[1]);
+    }
+    let mut of_ties = Vec::new();
+    let add = |model: &mut Model, x: f64| {
+        model.points.push((line.origin + line.x * x).into());
+        model.points.len() - 1
+    };
+    for (k, &x) in ends.iter().enumerate() {
+        for part in 1..=ties.elements {
+            let share = part as f64 / ties.elements as f64;
+            let point = match k {
+                0 if part < ties.elements => continue,
+                0 => add(model, x),
+                _ if part == ties.elements => add(model, x),
+                _ => add(model, ends[k - 1] + (x - ends[k - 1]) * share),
+            };
+            if k > 0 {
+                model.members.push(Member::beam([point - 1, point], section, line.y.into()));
+                rail.segments.push(Segment { member: model.members.len() - 1, offset: [0.0; 3] });
+            }
+        }
+        if places.contains(&x) {
+            of_ties.push(model.points.len() - 1);
+        }
+    }
+    of_ties
+}
+
+/// Holds a point of the rail along x, against roll and, where it does not bend sideways, there; adds the tie's mass.
+fn hold(model: &mut Model, ties: &Ties, point: usize) {
+    hold_along(model, ties, point, &Line { origin: Vector3::zeros(), x: Vector3::x(), y: Vector3::y() });
+}
+
+fn hold_along(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
+    let z = line.x.cross(&line.y);
+    let plane = ties.lateral_k.is_none();
+    let along = |axis: &Vector3<f64>, k: usize| axis[k] != 0.0;
+    let fix = std::array::from_fn(|k| match k {
+        0..3 => along(&line.x, k) || (plane && along(&z, k)),
+        _ => along(&line.x, k - 3) || (plane && along(&line.y, k - 3)),
+    });
+    model.supports.push(Support { point, fix });
+    if ties.mass > 0.0 {
+        model.masses.push(Mass { point, mass: ties.mass, inertia: [0.0; 3], offset: [0.0; 3] });
+    }
+}
+
+/// Where a tie stands on a structure.
+struct Seat {
+    x: f64,
+    member: usize,
+    /// Share of the member's flexible part.
+    share: f64,
+    /// The structure's rail there.
+    place: Vector3<f64>,
+}
+
+impl Seat {
+    fn of(model: &Model, rail: &Rail, line: &Line, x: f64) -> Option<Seat> {
+        let seats = rail.segments.iter().filter_map(|segment| {
+            let member = model.members.get(segment.member)?;
+            let [a, b] = ends(model, member);
+            let [from, to] = [a, b].map(|end| (end - Vector3::from(rail.origin)).dot(&line.x));
+            let share = ((x - from) / (to - from)).clamp(0.0, 1.0);
+            let share = if share < SAME {
+                0.0
+            } else if share > 1.0 - SAME {
+                1.0
+            } else {
+                share
+            };
+            let place = a + (b - a) * share + Vector3::from(segment.offset);
+            let away = (x - from - (to - from) * share).abs();
+            Some((away, Seat { x, member: segment.member, share, place }))
+        });
+        // of equals the first
+        let nearest =
+            seats.reduce(|best, other| if other.0 < best.0 - SAME * x.abs().max(1.0) { other } else { best });
+        nearest.map(|(_, seat)| seat)
+    }
+}
+
+fn ends(model: &Model, member: &Member) -> [Vector3<f64>; 2] {
+    [0, 1].map(|k| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]))
+}
+
+/// The model with its members cut at the seats, the points of the seats, and for each part its member and shares.
+type Parts = Vec<(usize, [f64; 2])>;
+
+fn cut(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusal> {
+    let mut model = Model { members: Vec::new(), ..m.clone() };
+    let mut points = vec![0; seats.len()];
+    let mut parts = Vec::new();
+    for (index, member) in m.members.iter().enumerate() {
+        let mut own: Vec<(usize, &Seat)> =
+            seats.iter().enumerate().filter(|(_, seat)| seat.member == index).collect();
+        own.sort_by(|a, b| a.1.share.total_cmp(&b.1.share));
+        let [a, b] = ends(m, member);
+        let mut last = (member.points[0], 0.0);
+        let add = |model: &mut Model, last: (usize, f64), next: (usize, f64)| {
+            let mut part = Member { points: [last.0, next.0], ..*member };
+            for (end, outer) in [last.1 == 0.0, next.1 == 1.0].into_iter().enumerate() {
+                if !outer {
+                    part.offsets[end] = [0.0; 3];
+                    part.releases[end] = [false; 6];
+                }
+            }
+            model.members.push(part);
+        };
+        for (seat, Seat { x, share, .. }) in own {
+            let end = if *share == 0.0 { Some(0) } else { (*share == 1.0).then_some(1) };
+            if let Some(end) = end {
+                if member.releases[end] != [false; 6] {
+                    return Err(Refusal::Hinge { x: *x, cell: index });
+                }
+                points[seat] = member.points[end];
+            } else {
+                if share - last.1 > SAME {
+                    model.points.push((a + (b - a) * *share).into());
+                    let next = (model.points.len() - 1, *share);
+                    add(&mut model, last, next);
+                    parts.push((index, [last.1, next.1]));
+                    last = next;
+                }
+                points[seat] = last.0;
+            }
+        }
+        add(&mut model, last, (member.points[1], 1.0));
+        parts.push((index, [last.1, 1.0]));
+    }
+    Ok((model, points, parts))
+}
+
+/// A section where forces are asked for, on the parts of its member.
+fn moved(cut: &Cut, parts: &[(usize, [f64; 2])]) -> Cut {
+    let own = parts.iter().enumerate().filter(|(_, (member, _))| *member == cut.member);
+    let part = own.into_iter().rfind(|(_, (_, shares))| shares[0] <= cut.place);
+    let Some((member, (_, [from, to]))) = part else { return cut.clone() };
+    let place = ((cut.place - from) / (to - from)).clamp(0.0, 1.0);
+    Cut { member, place, ..cut.clone() }
+}
