@@ -150,6 +150,7 @@ fn body(body: &crate::scene::Body) -> sim::Body {
         start: [body.x0, y, z, roll, yaw, pitch],
         start_speed: [body.v0, 0.0, 0.0, 0.0, 0.0, 0.0],
         motion,
+        pinned: body.pinned.map(|(to, at)| sim::Pin { to, at }),
     }
 }
 

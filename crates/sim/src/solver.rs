@@ -77,14 +77,12 @@ impl<'a> Solver<'a> {
         }
         for (b, body) in self.system.scene.bodies.iter().enumerate() {
             let Some(profile) = &body.motion else { continue };
-            let (acceleration, line) = (profile.at(t).a, self.system.body_mass[b][0]);
+            let acceleration = profile.at(t).a;
             if acceleration == 0.0 {
                 continue;
             }
-            for (number, inertia) in self.system.freedom[b].iter().zip(line).skip(1) {
-                if let Some(number) = *number {
-                    self.load[number] -= inertia * acceleration;
-                }
+            for &(number, inertia) in self.system.kinematics.drag(b) {
+                self.load[number] -= inertia * acceleration;
             }
         }
     }

@@ -38,6 +38,7 @@ fn wheel() -> Scene {
             start: [0.0; 6],
             start_speed: [10.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             motion: None,
+            pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.25,

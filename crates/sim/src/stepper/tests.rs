@@ -18,6 +18,7 @@ fn scene() -> Scene {
             start: [0.0; 6],
             start_speed: [0.0; 6],
             motion: None,
+            pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.0,
