@@ -29,7 +29,8 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
                 check.faults.add(fault.at_key().hint("a pinned body goes where its pin goes"));
             }
         }
-        for (i, word) in FREEDOMS.iter().enumerate().take(3).filter(|(i, _)| bodies[b].free[*i]) {
+        let free = bodies[b].free;
+        for (i, word) in FREEDOMS.iter().enumerate().take(3).filter(|(i, _)| free[*i]) {
             let fault = Fault::new(&own.key("dof"), format!("{word} of a pinned body is that of its pin"));
             check.faults.add(fault.hint("\"roll\", \"yaw\" and \"pitch\" can be free"));
             bodies[b].free[i] = false;
