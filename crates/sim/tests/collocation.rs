@@ -29,10 +29,7 @@ fn solved(method: Method, scene: &Scene, foundation: Foundation) -> Run {
 
 /// Largest difference of a column, by its largest entry.
 fn apart(a: &Run, b: &Run, channel: Channel) -> f64 {
-    let (a, b): (Vec<f64>, Vec<f64>) = (
-        a.history.column(channel).iter().copied().collect(),
-        b.history.column(channel).iter().copied().collect(),
-    );
+    let (a, b) = (a.history.column(channel), b.history.column(channel));
     let size = b.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
     a.iter().zip(&b).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / size
 }
