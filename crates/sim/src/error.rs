@@ -75,4 +75,12 @@ pub enum Error {
         /// Time of the state.
         time: f64,
     },
+    /// A method of integration that the scene does not allow.
+    #[error("method {method:?} needs {wanted}")]
+    Method {
+        /// Which method.
+        method: crate::Method,
+        /// What the scene lacks.
+        wanted: &'static str,
+    },
 }

@@ -4,6 +4,7 @@
 //! counts, freedoms of its own ([`Foundation`]).
 
 mod actuator;
+mod collocation;
 mod complementarity;
 mod dense;
 mod energy;
@@ -17,8 +18,11 @@ mod history;
 mod instant;
 mod kinematics;
 mod matter;
+mod method;
+mod nodes;
 mod parts;
 mod profile;
+mod propagator;
 mod run;
 mod scene;
 mod schedule;
@@ -37,10 +41,13 @@ pub use error::Error;
 pub use foundation::{Dynamics, Extent, Foundation, Shapes, Structure};
 pub use history::{Channel, History};
 pub use instant::{ContactForces, Instant, contact_forces};
+pub use method::Method;
 pub use parts::{BlendedParts, PartChain, PartShapes};
 pub use profile::{Given, Moving, Profile};
 pub use run::{Run, Status, run};
 pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Pin, Scene};
+pub use run::{Run, Status, run, run_by};
+pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Scene};
 pub use schedule::Schedule;
 pub use step::step;
 pub use stepper::Counts;

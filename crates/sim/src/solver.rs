@@ -87,6 +87,18 @@ impl<'a> Solver<'a> {
         }
     }
 
+    /// M^-1 times the forces at `t` that do not depend on the contacts.
+    pub(crate) fn accelerate(&mut self, t: f64) -> &DVector<f64> {
+        self.fill_load(t);
+        self.inverse.apply(self.load.as_slice(), self.free_a.as_mut_slice());
+        &self.free_a
+    }
+
+    /// M^-1 times a row of forces.
+    pub(crate) fn spread_row(&self, row: &[f64], spread: &mut [f64]) {
+        self.inverse.apply(row, spread);
+    }
+
     fn fill_spread(&mut self) {
         if self.spread_is_fixed {
             return;
