@@ -43,4 +43,4 @@ pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Scene};
 pub use schedule::Schedule;
 pub use step::step;
 pub use stepper::Counts;
-pub use wheel::{Damper, Flange, Friction, NormalLaw, Wheel};
+pub use wheel::{Damper, Flange, Friction, FrictionLaw, NormalLaw, Wheel};
