@@ -51,4 +51,4 @@ pub use schedule::Schedule;
 pub use selector::{Choice, Ladder, Reason, Rung, Tried, choose, distance};
 pub use step::step;
 pub use stepper::Counts;
-pub use wheel::{Damper, Flange, Friction, NormalLaw, Wheel};
+pub use wheel::{Damper, Flange, Friction, FrictionLaw, NormalLaw, Wheel};
