@@ -127,6 +127,7 @@ fn integrate(
     breaks.dedup();
     let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
     let mut sample = stepper.to.clone();
+    let mut active = stepper.solver.active.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     'run: for limit in breaks {
@@ -143,7 +144,7 @@ fn integrate(
                 }
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
-            let active = stepper.solver.active.clone();
+            active.clone_from(&stepper.solver.active);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
                 if t >= to * (1.0 - 1e-14) {
