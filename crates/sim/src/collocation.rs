@@ -123,6 +123,11 @@ impl Collocation {
         }
     }
 
+    /// Whether some freedom is a mode.
+    pub fn is_modal(&self) -> bool {
+        self.modes.iter().any(|mode| mode[0] > 0.0)
+    }
+
     /// Number of nodes.
     pub fn count(&self) -> usize {
         self.nodes.count()
@@ -184,8 +189,7 @@ impl Collocation {
             self.answers[..=known].rotate_right(1);
             return;
         }
-        let is_modal = self.modes.iter().any(|mode| mode[0] > 0.0);
-        if is_modal && self.answers.len() < KEPT {
+        if self.is_modal() && self.answers.len() < KEPT {
             self.answers.push(Answers::new(&self.nodes, self.modes.len()));
         }
         self.answers.rotate_right(1);

@@ -6,6 +6,8 @@ use crate::{Dynamics, Error};
 /// A method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
+    /// Radau where it suits the scene, else SDIRK.
+    Auto,
     /// SDIRK of order 4, L-stable: every scene.
     #[default]
     Sdirk4,
@@ -18,11 +20,20 @@ pub enum Method {
 }
 
 impl Method {
+    /// The method itself, or the one chosen for the scene.
+    pub(crate) fn chosen(self, system: &System) -> Method {
+        match self {
+            Method::Auto if Method::Radau.check(system).is_ok() => Method::Radau,
+            Method::Auto => Method::Sdirk4,
+            method => method,
+        }
+    }
+
     /// Whether the method can integrate the scene: collocation needs prescribed places, linear vertical contacts
     /// with one force a wheel and structures in natural modes of damping ratio below 1; Gauss, no damper between
     /// wheel and rail.
     pub(crate) fn check(self, system: &System) -> Result<(), Error> {
-        if self == Method::Sdirk4 {
+        if matches!(self, Method::Auto | Method::Sdirk4) {
             return Ok(());
         }
         let modal =

@@ -43,13 +43,15 @@ pub struct Run {
     pub audit: Audit,
     /// Work done.
     pub counts: Counts,
+    /// The method of integration; `None` for a quasi-static sweep.
+    pub method: Option<Method>,
 }
 
 /// Runs `scene` on `foundations`, one a structure. `watch` sees the time reached, and may stop the run.
 ///
 /// A dynamic run starts in static equilibrium (y, roll and pitch of bodies whose wheels can carry them, unless
-/// they start with a displacement of their own there), and is integrated by an adaptive SDIRK method of order 4
-/// in force form, with contacts located in time. The relative error of displacements per unit of motion is near
+/// they start with a displacement of their own there), and is integrated in force form by adaptive steps of
+/// [`Method::Sdirk4`], with contacts located in time. The relative error of displacements per unit of motion is near
 /// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
 ///
 /// # Errors
@@ -74,6 +76,7 @@ pub fn run_by(
 ) -> Result<Run, Error> {
     let system = System::new(scene, foundations)?;
     method.check(&system)?;
+    let method = method.chosen(&system);
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
@@ -163,7 +166,13 @@ fn integrate(
             }
         }
     }
-    Ok(Run { status, history: recorder.history, audit: stepper.audit, counts: stepper.counts })
+    Ok(Run {
+        status,
+        history: recorder.history,
+        audit: stepper.audit,
+        counts: stepper.counts,
+        method: Some(method),
+    })
 }
 
 fn sweep(
@@ -201,7 +210,7 @@ fn sweep(
             break;
         }
     }
-    Ok(Run { status, history: recorder.history, audit: Audit::default(), counts })
+    Ok(Run { status, history: recorder.history, audit: Audit::default(), counts, method: None })
 }
 
 /// Writes samples.

@@ -154,6 +154,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if error > 1.0 {
                 self.counts.rejected += 1;
                 h *= if error.is_finite() { (0.9 * error.powf(-0.25)).clamp(0.1, 0.9) } else { 0.25 };
+                h = self.rounded(h);
                 ends_at_event = false;
                 continue;
             }
@@ -176,7 +177,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if !ends_at_event {
                 let proposed = h * growth.clamp(0.2, 5.0);
                 // A step cut short by a limit says nothing against the longer one that was planned.
-                self.h = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
+                let wanted = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
+                self.h = self.rounded(wanted);
             }
             break;
         }
@@ -187,6 +189,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         self.accept(h)?;
         Ok(())
+    }
+
+    /// `h`, brought down to a power of 2^(1/4) where answers of modes are kept by the length of step.
+    fn rounded(&self, h: f64) -> f64 {
+        match &self.collocation {
+            Some(collocation) if collocation.is_modal() => ((4.0 * h.log2() + 1e-9).floor() / 4.0).exp2(),
+            _ => h,
+        }
     }
 
     /// One step of the method with the active contacts; false where a stage does not converge.
