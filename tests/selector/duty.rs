@@ -67,7 +67,12 @@ pub struct Duty {
 /// Scene number `index`.
 pub fn duty(index: u64) -> Duty {
     let mut dice = Dice(index << 20);
-    let kind = [Kind::Soft, Kind::Slow, Kind::Quick, Kind::Struck][(4.0 * dice.share()) as usize];
+    let kind = match dice.share() {
+        share if share < 0.2 => Kind::Soft,
+        share if share < 0.45 => Kind::Slow,
+        share if share < 0.7 => Kind::Quick,
+        _ => Kind::Struck,
+    };
     let span = dice.decades(20.0, 100.0);
     let (inertia, line) = (dice.decades(1.0, 20.0), dice.decades(5.0, 50.0));
     let omega = (PI / span).powi(2) * (4.32e9 * inertia / line).sqrt();
@@ -79,7 +84,7 @@ pub fn duty(index: u64) -> Duty {
         Kind::Soft => tolerance * dice.decades(0.01, 0.5),
         Kind::Slow => dice.decades(0.02, 1.0),
         Kind::Quick => dice.decades(0.1, 30.0),
-        Kind::Struck => dice.decades(300.0, 30_000.0),
+        Kind::Struck => 2.0 * mass * dice.decades(50.0, 150.0).powi(2),
     };
     let frequency = (give / (2.0 * mass)).sqrt();
     let alpha = match kind {
@@ -95,10 +100,10 @@ pub fn duty(index: u64) -> Duty {
 
     let speed = alpha * span * omega / PI;
     let (first, last) = match kind {
-        // From about midspan, for a few periods of the girder.
+        // About midspan, for a part of the girder's period.
         Kind::Struck => {
             let start = span * dice.even(0.4, 0.6);
-            (start, start + speed * dice.even(0.5, 1.0) * 2.0 * PI / omega)
+            (start, start + speed * dice.even(0.05, 0.15) * 2.0 * PI / omega)
         }
         _ => (span * base / 2.0, span * (1.0 - base / 2.0)),
     };
@@ -108,8 +113,8 @@ pub fn duty(index: u64) -> Duty {
     let mut actuators = Actuators::default();
     if struck {
         let at = end * dice.even(0.1, 0.4);
-        // A quarter come on over up to a period of the girder.
-        let ramp = if dice.share() < 0.25 { dice.decades(0.01, 1.0) * 2.0 * PI / omega } else { 1e-6 * end };
+        // A quarter come on over up to half of the run.
+        let ramp = if dice.share() < 0.25 { dice.decades(0.01, 0.5) * end } else { 1e-6 * end };
         let value = Schedule::new(&[[at, 0.0], [at + ramp, -weight * dice.even(0.3, 1.0)]]);
         actuators.loads.push(Load { body: 0, freedom: Freedom::Y, value: value.expect("times increase") });
     }

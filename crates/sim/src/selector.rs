@@ -9,8 +9,11 @@ use crate::{Analysis, Channel, Error, Foundation, Freedom, Run, Scene, Status, r
 const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
 /// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
 const ABOVE_CONTACT: f64 = 3.0;
-/// Share of the tolerance that the integration of the compared runs may use.
-const STEPPING: f64 = 0.1;
+/// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
+/// thirty times what they are asked.
+const STEPPING: f64 = 0.03;
+/// Share of the tolerance that an estimate may reach: the higher rung errs too.
+const SAFE: f64 = 0.8;
 
 /// How much of a structure is modelled, from the cheapest to the dearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -50,7 +53,7 @@ pub enum Reason {
     NoMass,
     /// A sequence of equilibria has no inertia.
     QuasiStatic,
-    /// The estimate is within the tolerance.
+    /// The estimate is within 0.8 of the tolerance.
     Sufficient,
     /// Nothing lower was sufficient; the error of this rung itself is not estimated.
     Top,
@@ -173,7 +176,8 @@ fn climb<L: Ladder>(
     }
     lower.push((Rung::Influence, influence));
     let mut tried = Vec::new();
-    for against in MODES.map(Rung::Modal).into_iter().chain([Rung::Full]) {
+    let none = lower.iter().all(|(_, run)| run.status != Status::Done);
+    for against in MODES.map(Rung::Modal).into_iter().chain([Rung::Full]).filter(|_| !none) {
         let higher = match attempt(against, ladder) {
             Ok((higher, highest)) if higher.status == Status::Done => {
                 if highest <= needed && against != Rung::Full {
@@ -181,12 +185,13 @@ fn climb<L: Ladder>(
                 }
                 higher
             }
-            _ => break,
+            // A higher one may still follow the motion.
+            _ => continue,
         };
         for (rung, found) in lower.drain(..) {
             let estimate = distance(&found, &higher, scene);
             tried.push(Tried { rung, estimate, against, stages: found.counts.stages as u64 });
-            if estimate <= tolerance {
+            if estimate <= SAFE * tolerance {
                 let (reason, estimate) = (Reason::Sufficient, Some(estimate));
                 return Ok(Choice { structure, rung, reason, estimate, tried });
             }

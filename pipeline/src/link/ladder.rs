@@ -9,8 +9,8 @@ use crate::exit::Failure;
 use crate::scene::{Foundation, Scene, Structure};
 
 /// Elements of the mesh at the top where they suffice, and fewest and most a member.
-const ELEMENTS: usize = 96;
-const A_MEMBER: [usize; 2] = [8, 32];
+const ELEMENTS: usize = 192;
+const A_MEMBER: [usize; 2] = [8, 64];
 
 impl From<sim::Error> for Failure {
     fn from(error: sim::Error) -> Failure {
