@@ -63,6 +63,7 @@ pub fn run(
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
+    solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(&system, &mut solver, state, watch),
@@ -87,8 +88,10 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    let placed =
-        scene.bodies.iter().any(|body| [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0));
+    let placed = scene.bodies.iter().enumerate().any(|(b, body)| {
+        system.wheels.iter().any(|wheel| wheel.body == b)
+            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
+    });
     if !placed {
         solver.equilibrate(&mut state)?;
     }
@@ -129,6 +132,7 @@ fn integrate(
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
             let active = stepper.solver.active.clone();
+            let links = stepper.solver.geometry.links.clone();
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
                 if t >= to * (1.0 - 1e-14) {
@@ -139,6 +143,7 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
             }
             if watch(to).is_break() {
@@ -216,6 +221,9 @@ impl Recorder {
                 Channel::SpinSpeed(w),
             ]);
         }
+        let actuators = &system.scene.actuators;
+        channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
+        channels.extend((0..actuators.stops.len()).map(Channel::Stop));
         channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
         let history = History { channels, values: Vec::new() };
         Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
@@ -257,6 +265,13 @@ impl Recorder {
                 angle,
                 speed,
             ]);
+        }
+        let ropes = system.scene.actuators.ropes.len();
+        for (index, hold) in solver.geometry.links.iter().enumerate() {
+            self.history.values.push(at.force[system.link(index)]);
+            if index < ropes {
+                self.history.values.push(hold.length);
+            }
         }
         for gauge in &system.scene.gauges {
             let displacement = self.displacement(system, solver, at, gauge)?;

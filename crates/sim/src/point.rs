@@ -1,0 +1,63 @@
+//! A point of a body, or of space: where it is, how it moves, and its row over the freedoms.
+//!
+//! The space frame has X along the rails (the rail coordinate), Y up from the unloaded rail, Z to the right. A body
+//! on a track has its origin at Z = z and Y = y + radius - hub height, so that its wheels just touch at y = 0; a body
+//! that rides on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small: the rows are constant.
+
+use nalgebra::DVector;
+
+use crate::dense::dot;
+use crate::scene::arm_rows;
+use crate::system::System;
+use crate::{Moving, RopeEnd};
+
+/// A point fixed to a body, or to space where there is no body.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Point {
+    pub body: Option<usize>,
+    /// From the body's origin; in space, the place itself.
+    pub at: [f64; 3],
+    /// Height of the body's origin above the rail that its wheels just touch.
+    lift: f64,
+}
+
+impl Point {
+    pub fn new(system: &System, end: &RopeEnd) -> Point {
+        let wheel = end.body.and_then(|b| system.wheels.iter().find(|wheel| wheel.body == b));
+        let lift = wheel.map_or(0.0, |wheel| system.scene.wheels[wheel.kind].radius - wheel.hub[1]);
+        Point { body: end.body, at: end.at, lift }
+    }
+
+    /// Place in space at (t, q).
+    pub fn position(&self, system: &System, t: f64, q: &DVector<f64>) -> [f64; 3] {
+        let Some(b) = self.body else { return self.at };
+        let (displacement, _) = system.body(b, t, q, q);
+        let moved = arm_rows(self.at).map(|row| dot(&row, &displacement));
+        [moved[0] + self.at[0], moved[1] + self.at[1] + self.lift, moved[2] + self.at[2]]
+    }
+
+    /// Velocity by prescribed motions alone.
+    pub fn drift(&self, system: &System, travel: &[Moving]) -> [f64; 3] {
+        match self.body.filter(|&b| system.scene.bodies[b].motion.is_some()) {
+            Some(b) => [travel[b].v, 0.0, 0.0],
+            None => [0.0; 3],
+        }
+    }
+
+    /// Adds `direction` times the rows of its displacement by the freedoms to `row`.
+    pub fn add_row(&self, system: &System, direction: [f64; 3], row: &mut [f64]) {
+        let Some(b) = self.body else { return };
+        for (component, along) in arm_rows(self.at).iter().zip(direction) {
+            for (number, entry) in system.freedom[b].iter().zip(component) {
+                if let Some(number) = *number {
+                    row[number] += along * entry;
+                }
+            }
+        }
+    }
+
+    /// What it moves along `direction` per unit of the x of body `b`.
+    pub fn by_travel(&self, b: usize, direction: [f64; 3]) -> f64 {
+        if self.body == Some(b) { direction[0] } else { 0.0 }
+    }
+}
