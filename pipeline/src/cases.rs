@@ -24,6 +24,8 @@ pub struct Outcome {
     pub run: Run,
     /// Its named columns.
     pub record: Record,
+    /// Why foundations that were "auto" are what they are.
+    pub choices: Vec<sim::Choice>,
 }
 
 /// A spec that was solved, and what came of it.
@@ -116,19 +118,20 @@ fn one(
     known: &[Known],
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Outcome, Failure> {
-    let scene = &case.scene;
+    let mut scene = case.scene.clone();
     let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
+    let cast = cast(&scene)?;
+    let choices = link::choose(&mut scene, &cast.scene, known, lateral)?;
     let foundations = scene
         .structures
         .iter()
         .map(|structure| link::foundation(structure, solved_of(known, &structure.origin), lateral))
         .collect::<Result<Vec<Foundation>, Failure>>()?;
-    let label = case.label.clone().unwrap_or_else(|| own_label(scene));
-    let cast = cast(scene)?;
+    let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
     let run = sim::run(&cast.scene, &foundations, watch)
         .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
-    let record = Record::new(scene, &cast, &run.history);
-    Ok(Outcome { label, cast, run, record })
+    let record = Record::new(&scene, &cast, &run.history);
+    Ok(Outcome { label, cast, run, record, choices })
 }
 
 /// The scene's own run is labelled by what carries it.

@@ -4,7 +4,7 @@ use sim::{Contact, NormalLaw};
 use splines::Probe;
 
 use crate::exit::Failure;
-use crate::scene::{Along, Analysis, Damper, Gauge, Law, Scene};
+use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene};
 use crate::units::{Dimension, Length, Scale, Units};
 
 /// Speed at which a brake has 76 % of its friction, ft/s: it rubs with mu N tanh(s / speed).
@@ -150,6 +150,7 @@ fn body(body: &crate::scene::Body) -> sim::Body {
         start: [body.x0, y, z, roll, yaw, pitch],
         start_speed: [body.v0, 0.0, 0.0, 0.0, 0.0, 0.0],
         motion,
+        pinned: body.pinned.map(|(to, at)| sim::Pin { to, at }),
     }
 }
 
@@ -177,10 +178,14 @@ fn wheel(wheel: &crate::scene::Wheel) -> sim::Wheel {
             clearance: lateral.clearance,
             release: lateral.release,
         }),
-        friction: wheel
-            .friction
-            .as_ref()
-            .map(|friction| sim::Friction { coefficient: friction.mu, slip: friction.slip }),
+        friction: wheel.friction.as_ref().map(|friction| sim::Friction {
+            law: match friction.law {
+                FrictionLaw::Step => sim::FrictionLaw::Step,
+                FrictionLaw::Coulomb => sim::FrictionLaw::Coulomb,
+            },
+            coefficient: friction.mu,
+            slip: friction.slip,
+        }),
         spin_inertia: wheel.spin_inertia,
     }
 }

@@ -21,7 +21,7 @@ pub fn report(
     plates: Vec<Plate>,
 ) -> Report {
     let scene = document.scene();
-    let mut sections = vec![results(document, outcomes), structures(scene, solved)];
+    let mut sections = vec![results(document, outcomes), structures(scene, solved, &outcomes[0].choices)];
     let (mut motion, mut influence) =
         (Section::new("Pictures of the motion"), Section::new("Pictures of the structures"));
     for plate in plates {
@@ -92,13 +92,21 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
 }
 
 /// What every structure is and how it was made.
-fn structures(scene: &Scene, solved: &[Option<&Solved>]) -> Section {
+fn structures(scene: &Scene, solved: &[Option<&Solved>], choices: &[sim::Choice]) -> Section {
     let mut section = Section::new("Structures");
-    for (structure, solved) in scene.structures.iter().zip(solved) {
+    for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
+        let choice = choices.iter().find(|choice| choice.structure == s);
+        let word =
+            choice.map_or_else(|| structure.foundation.word().to_owned(), |c| crate::link::word(c.rung));
         let name = &structure.name;
-        section = section
-            .fact(format!("{name}: foundation"), structure.foundation.word().to_owned(), "")
-            .fact(format!("{name}: reading"), structure.reading.word().to_owned(), "");
+        section = section.fact(format!("{name}: foundation"), word, "").fact(
+            format!("{name}: reading"),
+            structure.reading.word().to_owned(),
+            "",
+        );
+        if let Some(choice) = choice {
+            section = section.say(format!("{name}: {}.", crate::link::reason(choice)));
+        }
         let Some(solved) = solved else { continue };
         if let Some(certificate) = &solved.grid.certificate {
             section = section

@@ -1,8 +1,9 @@
 //! `summary.json`: what a run found, in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Run, Status};
+use sim::{Choice, Run, Rung, Status, Tried};
 
+use crate::link;
 use crate::record::Record;
 use crate::scene::{Analysis, Scene};
 use crate::units::Dimension;
@@ -43,22 +44,25 @@ pub fn warnings(run: &Run) -> Vec<String> {
 
 /// One run as JSON.
 #[must_use]
-pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
+pub fn run(scene: &Scene, record: &Record, run: &Run, choices: &[Choice]) -> Value {
     let (word, why) = status(&run.status);
     let structures: Map<String, Value> = scene
         .structures
         .iter()
-        .map(|structure| {
-            let reason = if structure.auto {
-                "auto: the lowest rung that gives way; mass of the structure left out"
-            } else {
-                "asked for"
-            };
-            let entry = json!({
+        .enumerate()
+        .map(|(s, structure)| {
+            let mut entry = json!({
                 "foundation": structure.foundation.word(),
                 "reading": structure.reading.word(),
-                "reason": reason,
+                "reason": "asked for",
             });
+            if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
+                entry["foundation"] = json!(rung(choice.rung));
+                entry["reason"] = json!(link::reason(choice));
+                entry["tolerance"] = json!(structure.tolerance);
+                entry["estimate"] = json!(choice.estimate);
+                entry["tried"] = choice.tried.iter().map(tried).collect();
+            }
             (structure.name.clone(), entry)
         })
         .collect();
@@ -98,6 +102,26 @@ pub fn run(scene: &Scene, record: &Record, run: &Run) -> Value {
         });
     }
     result
+}
+
+/// The word of a rung in scenes.
+const fn rung(rung: Rung) -> &'static str {
+    match rung {
+        Rung::Rigid => "rigid",
+        Rung::Influence => "influence",
+        Rung::Modal(_) => "modal",
+        Rung::Full => "full",
+    }
+}
+
+fn tried(tried: &Tried) -> Value {
+    json!({
+        "rung": link::word(tried.rung),
+        // infinite where the runs could not be compared
+        "estimate": tried.estimate.is_finite().then_some(tried.estimate),
+        "against": link::word(tried.against),
+        "stages": tried.stages,
+    })
 }
 
 /// Largest and smallest value of every column, and when.

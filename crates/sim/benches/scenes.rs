@@ -7,41 +7,45 @@ use std::ops::ControlFlow;
 
 use common::{bogie, reference, surface};
 use divan::{Bencher, black_box};
-use sim::{Channel, Damper, Foundation, Freedom, Run, Scene};
+use sim::{Channel, Damper, Foundation, Freedom, Method, Run, Scene};
 
 const SLOW: &str = include_str!("../../../fea/reference/bogie_s1.json");
 const FAST: &str = include_str!("../../../fea/reference/bogie_s2.json");
+
+/// Method and relative error of the deflection.
+const CASES: [(Method, f64); 4] =
+    [(Method::Sdirk4, 1e-3), (Method::Sdirk4, 1e-4), (Method::Radau, 1e-3), (Method::Radau, 1e-4)];
 
 fn main() {
     divan::main();
 }
 
 /// 5 ft/s over 60 ft, to a relative error of the deflection.
-#[divan::bench(args = [1e-3, 1e-4])]
-fn slow(bencher: Bencher<'_, '_>, error: f64) {
-    crossing(bencher, bogie(5.0, 12.0, Damper::Ground), SLOW, error);
+#[divan::bench(args = CASES)]
+fn slow(bencher: Bencher<'_, '_>, case: (Method, f64)) {
+    crossing(bencher, bogie(5.0, 12.0, Damper::Ground), SLOW, case);
 }
 
 /// 100 ft/s over 55 ft.
-#[divan::bench(args = [1e-3, 1e-4])]
-fn fast(bencher: Bencher<'_, '_>, error: f64) {
-    crossing(bencher, bogie(100.0, 0.55, Damper::Ground), FAST, error);
+#[divan::bench(args = CASES)]
+fn fast(bencher: Bencher<'_, '_>, case: (Method, f64)) {
+    crossing(bencher, bogie(100.0, 0.55, Damper::Ground), FAST, case);
 }
 
-fn crossing(bencher: Bencher<'_, '_>, mut scene: Scene, text: &str, error: f64) {
+fn crossing(bencher: Bencher<'_, '_>, mut scene: Scene, text: &str, (method, error): (Method, f64)) {
     let foundations = [Foundation::influence(Box::new(surface()), 1)];
     let wanted = reference(text);
     let peak = wanted.iter().fold(0.0_f64, |max, row| max.max(row[1]));
     scene.accuracy = 1e-1;
-    while error_of(&solve(&scene, &foundations), &wanted) > error * peak {
+    while error_of(&solve(method, &scene, &foundations), &wanted) > error * peak {
         scene.accuracy *= 0.9;
     }
     scene.output_dt = scene.end;
-    bencher.bench_local(|| solve(black_box(&scene), &foundations));
+    bencher.bench_local(|| solve(method, black_box(&scene), &foundations));
 }
 
-fn solve(scene: &Scene, foundations: &[Foundation]) -> Run {
-    sim::run(scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene")
+fn solve(method: Method, scene: &Scene, foundations: &[Foundation]) -> Run {
+    sim::run_by(method, scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene")
 }
 
 /// Largest error of the deflection.

@@ -117,10 +117,10 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
         energy.gravity += body.mass * system.scene.gravity * lift;
         if body.motion.is_some() {
-            let line = system.body_mass[b][0];
-            energy.kinetic += 0.5 * line[0] * speed[0] * speed[0];
+            let (mass, drag) = (system.kinematics.mass(b), system.kinematics.drag(b));
+            energy.kinetic += 0.5 * mass * speed[0] * speed[0];
             energy.kinetic +=
-                (1..6).filter(|&i| body.free[i]).map(|i| line[i] * speed[0] * speed[i]).sum::<f64>();
+                drag.iter().map(|&(number, inertia)| inertia * speed[0] * state.v[number]).sum::<f64>();
         }
     }
     for (i, normal) in system.normals.iter().enumerate() {
@@ -239,35 +239,36 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
     sum
 }
 
-/// Force along +x of the drive of body `b`, or that of its prescribed motion: its inertia, less what its wheels
+/// Force along +x of the drive of body `b`, or that of its prescribed motion: its inertia and that of all that is
+/// pinned to it, less what their wheels
 /// get from the rail's slope and from friction.
 pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
     let body = &system.scene.bodies[b];
     if body.motion.is_none() {
         return pull_force(system, state, b, |law| matches!(law, PullLaw::Drive { .. }));
     }
-    let line = system.body_mass[b][0];
-    let mut force = line[0] * geometry.travel[b].a;
-    for (number, inertia) in system.freedom[b].iter().zip(line).skip(1) {
-        force += number.map_or(0.0, |number| inertia * state.a[number]);
+    let kinematics = &system.kinematics;
+    let mut force = kinematics.mass(b) * geometry.travel[b].a;
+    for &(number, inertia) in kinematics.drag(b) {
+        force += inertia * state.a[number];
     }
     for (i, normal) in system.normals.iter().enumerate() {
-        if system.scene.contacts[normal.contact].body == b {
+        if kinematics.root(system.scene.contacts[normal.contact].body) == b {
             force -= geometry.rail_slope[i] * state.force[i];
         }
     }
     for (index, &w) in system.laterals.iter().enumerate() {
-        if system.wheels[w].body == b {
+        if kinematics.root(system.wheels[w].body) == b {
             force -= geometry.rail_slope[system.lateral(index)] * state.force[system.lateral(index)];
         }
     }
     for (index, &w) in system.tractions.iter().enumerate() {
-        if system.wheels[w].body == b {
+        if kinematics.root(system.wheels[w].body) == b {
             force += state.force[system.traction(index)];
         }
     }
     for (index, (link, hold)) in system.links.iter().zip(&geometry.links).enumerate() {
-        force += link.by_travel(b, hold.direction) * state.force[system.link(index)];
+        force += link.by_travel(system, b, hold.direction) * state.force[system.link(index)];
     }
     force
 }

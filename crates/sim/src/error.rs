@@ -49,6 +49,12 @@ pub enum Error {
         /// Which body.
         body: usize,
     },
+    /// A body that is pinned to itself by way of others, or moves by translations of its own beside its pin.
+    #[error("body {body}: a pinned body has no translation of its own, and pins do not run in a circle")]
+    Pinned {
+        /// Which body.
+        body: usize,
+    },
     /// A load, drive or brake on a freedom that is held or prescribed.
     #[error("body {body}: freedom {freedom:?} is not free, nothing can push it")]
     NotFree {
@@ -68,5 +74,13 @@ pub enum Error {
     NoForces {
         /// Time of the state.
         time: f64,
+    },
+    /// A method of integration that the scene does not allow.
+    #[error("method {method:?} needs {wanted}")]
+    Method {
+        /// Which method.
+        method: crate::Method,
+        /// What the scene lacks.
+        wanted: &'static str,
     },
 }

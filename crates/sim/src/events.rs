@@ -18,10 +18,11 @@ impl Stepper<'_, '_> {
         for (b, body) in system.scene.bodies.iter().enumerate() {
             let Some(profile) = &body.motion else { continue };
             let (x0, x1) = (profile.at(start).x, profile.at(start + h).x);
-            for wheel in system.wheels.iter().filter(|wheel| wheel.body == b) {
+            for wheel in system.wheels.iter().filter(|w| system.kinematics.root(w.body) == b) {
                 let contact = &system.scene.contacts[wheel.contact];
+                let offset = system.kinematics.held(wheel.body)[0];
                 for &place in system.foundations[contact.structure].breaks(contact.rail) {
-                    let target = place - wheel.hub[0];
+                    let target = place - (wheel.hub[0] + offset);
                     let slack = 1e-9 * (1.0 + target.abs());
                     if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
                         continue;

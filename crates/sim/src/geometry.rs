@@ -6,7 +6,7 @@ use splines::{Influence, Probe};
 use crate::dense::along;
 use crate::link::Hold;
 use crate::scene::arm_rows;
-use crate::system::System;
+use crate::system::{System, WheelPoint};
 use crate::{Error, Moving};
 
 /// Everything about the contacts that depends on where the wheels are.
@@ -93,6 +93,10 @@ impl Geometry {
         }
         for (w, wheel) in system.wheels.iter().enumerate() {
             let body = &system.scene.bodies[wheel.body];
+            if body.pinned.is_some() {
+                self.x[w] = self.pinned_x(system, wheel, q);
+                continue;
+            }
             let numbers = &system.freedom[wheel.body];
             let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
             let x = if body.motion.is_some() { self.travel[wheel.body].x } else { value(0) };
@@ -105,7 +109,7 @@ impl Geometry {
         self.update_rows(system)?;
         self.built = true;
         for (i, &w) in system.tractions.iter().enumerate() {
-            self.rate_held[system.traction(i)] = self.travel[system.wheels[w].body].v;
+            self.rate_held[system.traction(i)] = self.travel[system.kinematics.root(system.wheels[w].body)].v;
         }
         for (i, pull) in system.pulls.iter().enumerate() {
             let reference = pull.reference(system.scene, t);
@@ -114,6 +118,16 @@ impl Geometry {
         }
         self.update_links(system, t, q);
         self.update_force_rows(system, q, force)
+    }
+
+    /// Rail coordinate of a wheel whose body is pinned to another.
+    fn pinned_x(&self, system: &System, wheel: &WheelPoint, q: &DVector<f64>) -> f64 {
+        let kinematics = &system.kinematics;
+        let (moved, held) = (kinematics.apply(wheel.body, q), kinematics.held(wheel.body));
+        let root = kinematics.root(wheel.body);
+        let travel = if system.scene.bodies[root].motion.is_some() { self.travel[root].x } else { 0.0 };
+        let value = |i: usize| moved[i] + held[i];
+        travel + value(0) + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1]
     }
 
     fn update_compliance(&mut self, system: &System) -> Result<(), Error> {
@@ -173,11 +187,13 @@ impl Geometry {
         self.held.fill(0.0);
         let put =
             |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
+                let (terms, start) = (system.kinematics.terms(body), system.kinematics.held(body));
                 for (i, entry) in row.into_iter().enumerate() {
-                    match system.freedom[body][i] {
-                        Some(number) => rows[component * n + number] += scale * entry,
-                        None if i > 0 => *held += scale * entry * system.scene.bodies[body].start[i],
-                        None => {}
+                    for &(number, coefficient) in &terms[i] {
+                        rows[component * n + number] += scale * entry * coefficient;
+                    }
+                    if i > 0 {
+                        *held += scale * entry * start[i];
                     }
                 }
             };
@@ -262,8 +278,9 @@ impl Geometry {
             let wheel = &system.wheels[w];
             let row = arm_rows(wheel.hub)[0];
             for (i, coefficient) in row.iter().enumerate() {
-                if let Some(number) = system.freedom[wheel.body][i] {
-                    self.force_rows[component * n + number] -= self.rail_slope[component] * coefficient;
+                for &(number, share) in &system.kinematics.terms(wheel.body)[i] {
+                    self.force_rows[component * n + number] -=
+                        self.rail_slope[component] * coefficient * share;
                 }
             }
         };

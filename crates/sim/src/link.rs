@@ -74,10 +74,12 @@ impl<'a> Link<'a> {
     }
 
     /// Rate of its approach by the x of body `b`.
-    pub fn by_travel(&self, b: usize, direction: [f64; 3]) -> f64 {
+    pub fn by_travel(&self, system: &System, b: usize, direction: [f64; 3]) -> f64 {
         match self {
-            Link::Rope { from, to, .. } => to.by_travel(b, direction) - from.by_travel(b, direction),
-            Link::Stop { point, .. } => point.by_travel(b, direction),
+            Link::Rope { from, to, .. } => {
+                to.by_travel(system, b, direction) - from.by_travel(system, b, direction)
+            }
+            Link::Stop { point, .. } => point.by_travel(system, b, direction),
         }
     }
 

@@ -1,7 +1,7 @@
 //! A point of a body, or of space: where it is, how it moves, and its row over the freedoms.
 //!
 //! The space frame has X along the rails (the rail coordinate), Y up from the unloaded rail, Z to the right. A body
-//! on a track has its origin at Z = z and Y = y + radius - hub height, so that its wheels just touch at y = 0; a body
+//! on a track has its origin at Z = z and Y = y + radius - hub height, a pinned one at its pin, so that its wheels just touch at y = 0; a body
 //! that rides on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small: the rows are constant.
 
 use nalgebra::DVector;
@@ -17,15 +17,28 @@ pub(crate) struct Point {
     pub body: Option<usize>,
     /// From the body's origin; in space, the place itself.
     pub at: [f64; 3],
-    /// Height of the body's origin above the rail that its wheels just touch.
-    lift: f64,
+    /// Y and Z of the body's origin where all displacements are zero.
+    origin: [f64; 2],
 }
 
 impl Point {
     pub fn new(system: &System, end: &RopeEnd) -> Point {
-        let wheel = end.body.and_then(|b| system.wheels.iter().find(|wheel| wheel.body == b));
-        let lift = wheel.map_or(0.0, |wheel| system.scene.wheels[wheel.kind].radius - wheel.hub[1]);
-        Point { body: end.body, at: end.at, lift }
+        let (mut origin, mut next) = ([0.0; 2], end.body);
+        while let Some(b) = next {
+            let pin = system.scene.bodies[b].pinned.as_ref();
+            match pin {
+                Some(pin) => origin = [origin[0] + pin.at[1], origin[1] + pin.at[2]],
+                None => {
+                    let wheel = system.wheels.iter().find(|wheel| system.kinematics.root(wheel.body) == b);
+                    origin[0] += wheel.map_or(0.0, |wheel| {
+                        let below = height_over(system, wheel.body, b) + wheel.hub[1];
+                        system.scene.wheels[wheel.kind].radius - below
+                    });
+                }
+            }
+            next = pin.map(|pin| pin.to);
+        }
+        Point { body: end.body, at: end.at, origin }
     }
 
     /// Place in space at (t, q).
@@ -33,12 +46,20 @@ impl Point {
         let Some(b) = self.body else { return self.at };
         let (displacement, _) = system.body(b, t, q, q);
         let moved = arm_rows(self.at).map(|row| dot(&row, &displacement));
-        [moved[0] + self.at[0], moved[1] + self.at[1] + self.lift, moved[2] + self.at[2]]
+        [
+            moved[0] + self.at[0],
+            moved[1] + self.at[1] + self.origin[0],
+            moved[2] + self.at[2] + self.origin[1],
+        ]
     }
 
     /// Velocity by prescribed motions alone.
     pub fn drift(&self, system: &System, travel: &[Moving]) -> [f64; 3] {
-        match self.body.filter(|&b| system.scene.bodies[b].motion.is_some()) {
+        match self
+            .body
+            .map(|b| system.kinematics.root(b))
+            .filter(|&b| system.scene.bodies[b].motion.is_some())
+        {
             Some(b) => [travel[b].v, 0.0, 0.0],
             None => [0.0; 3],
         }
@@ -48,16 +69,24 @@ impl Point {
     pub fn add_row(&self, system: &System, direction: [f64; 3], row: &mut [f64]) {
         let Some(b) = self.body else { return };
         for (component, along) in arm_rows(self.at).iter().zip(direction) {
-            for (number, entry) in system.freedom[b].iter().zip(component) {
-                if let Some(number) = *number {
-                    row[number] += along * entry;
-                }
+            for (number, coefficient) in system.kinematics.combine(b, component) {
+                row[number] += along * coefficient;
             }
         }
     }
 
     /// What it moves along `direction` per unit of the x of body `b`.
-    pub fn by_travel(&self, b: usize, direction: [f64; 3]) -> f64 {
-        if self.body == Some(b) { direction[0] } else { 0.0 }
+    pub fn by_travel(&self, system: &System, b: usize, direction: [f64; 3]) -> f64 {
+        if self.body.map(|own| system.kinematics.root(own)) == Some(b) { direction[0] } else { 0.0 }
     }
+}
+
+/// Height of the origin of body `b` over that of the body `root` that it is pinned to.
+fn height_over(system: &System, b: usize, root: usize) -> f64 {
+    let (mut height, mut at) = (0.0, b);
+    while let Some(pin) = system.scene.bodies[at].pinned.as_ref().filter(|_| at != root) {
+        height += pin.at[1];
+        at = pin.to;
+    }
+    height
 }

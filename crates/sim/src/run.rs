@@ -13,7 +13,7 @@ use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Freedom, Gauge, Scene};
+use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -59,14 +59,28 @@ pub fn run(
     foundations: &[Foundation],
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
+    run_by(Method::default(), scene, foundations, watch)
+}
+
+/// [`run`] by `method`. A quasi-static run knows no method.
+///
+/// # Errors
+/// Those of [`run`], and [`Error::Method`] where the method does not suit the scene.
+pub fn run_by(
+    method: Method,
+    scene: &Scene,
+    foundations: &[Foundation],
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Run, Error> {
     let system = System::new(scene, foundations)?;
+    method.check(&system)?;
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
-        Analysis::Dynamic => integrate(&system, &mut solver, state, watch),
+        Analysis::Dynamic => integrate(method, &system, &mut solver, state, watch),
     }
 }
 
@@ -82,6 +96,7 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
 }
 
 fn integrate(
+    method: Method,
     system: &System,
     solver: &mut Solver,
     mut state: State,
@@ -113,7 +128,7 @@ fn integrate(
     breaks.push(scene.end);
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
-    let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first);
+    let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
     let mut sample = stepper.to.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;

@@ -2,7 +2,7 @@
 
 use splines::Probe;
 
-use crate::{Actuators, Error, Profile, Wheel};
+use crate::{Actuators, Error, Profile, Wheel, kinematics};
 
 /// Freedom of a body on its track; rotations are small and right-handed about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,6 +35,15 @@ pub(crate) fn arm_rows(r: [f64; 3]) -> [[f64; 6]; 3] {
     [[1.0, 0.0, 0.0, 0.0, rz, -ry], [0.0, 1.0, 0.0, -rz, 0.0, rx], [0.0, 0.0, 1.0, ry, -rx, 0.0]]
 }
 
+/// Where a body is pinned to another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pin {
+    /// Which body.
+    pub to: usize,
+    /// The pin from that body's origin.
+    pub at: [f64; 3],
+}
+
 /// A rigid body on a track.
 ///
 /// Its y and z are measured from where its wheels just touch the unloaded, straight rail, centred; its x
@@ -55,6 +64,9 @@ pub struct Body {
     pub start_speed: [f64; 6],
     /// The prescribed x(t); `None`: x is free or held, as `free` says.
     pub motion: Option<Profile>,
+    /// The body that carries this one: the origin moves with the pin, rotations that are not free are those of that body,
+    /// free ones are about the track's axes. The starting x, y and z are not used; `None`: the track carries it.
+    pub pinned: Option<Pin>,
 }
 
 impl Body {
@@ -156,6 +168,7 @@ impl Scene {
         for body in &self.bodies {
             positive("mass", body.mass)?;
         }
+        kinematics::check(&self.bodies)?;
         for wheel in &self.wheels {
             positive("wheel radius", wheel.radius)?;
             positive("wheel stiffness", wheel.normal.stiffness)?;

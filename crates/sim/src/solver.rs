@@ -77,14 +77,12 @@ impl<'a> Solver<'a> {
         }
         for (b, body) in self.system.scene.bodies.iter().enumerate() {
             let Some(profile) = &body.motion else { continue };
-            let (acceleration, line) = (profile.at(t).a, self.system.body_mass[b][0]);
+            let acceleration = profile.at(t).a;
             if acceleration == 0.0 {
                 continue;
             }
-            for (number, inertia) in self.system.freedom[b].iter().zip(line).skip(1) {
-                if let Some(number) = *number {
-                    self.load[number] -= inertia * acceleration;
-                }
+            for &(number, inertia) in self.system.kinematics.drag(b) {
+                self.load[number] -= inertia * acceleration;
             }
         }
     }
@@ -92,6 +90,18 @@ impl<'a> Solver<'a> {
     /// Which ropes and stops act.
     pub fn taut(&self) -> Vec<bool> {
         self.geometry.links.iter().map(|hold| hold.taut).collect()
+    }
+
+    /// M^-1 times the forces at `t` that do not depend on the contacts.
+    pub(crate) fn accelerate(&mut self, t: f64) -> &DVector<f64> {
+        self.fill_load(t);
+        self.inverse.apply(self.load.as_slice(), self.free_a.as_mut_slice());
+        &self.free_a
+    }
+
+    /// M^-1 times a row of forces.
+    pub(crate) fn spread_row(&self, row: &[f64], spread: &mut [f64]) {
+        self.inverse.apply(row, spread);
     }
 
     fn fill_spread(&mut self) {

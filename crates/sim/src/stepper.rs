@@ -6,12 +6,14 @@
 
 use nalgebra::DVector;
 
+use crate::collocation::Collocation;
 use crate::energy::{Exchanged, boundary, power, stored};
 use crate::events::OVERSHOOT;
+use crate::nodes::Nodes;
 use crate::solver::{Known, Solver};
 use crate::state::State;
 use crate::tableau::{SDIRK4, Tableau};
-use crate::{Audit, Error};
+use crate::{Audit, Error, Method};
 
 /// Work done by a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -57,6 +59,8 @@ pub(crate) struct Stepper<'a, 'b> {
     pub counts: Counts,
     pub audit: Audit,
     tableau: &'static Tableau,
+    /// In place of the tableau.
+    collocation: Option<Collocation>,
     tolerance: f64,
     scale: DVector<f64>,
     rate_scale: DVector<f64>,
@@ -99,6 +103,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             counts: Counts::default(),
             audit: Audit { start: energy, end: energy, ..Audit::default() },
             tableau,
+            collocation: None,
             tolerance,
             scale,
             rate_scale,
@@ -116,6 +121,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
             begun: energy.total(),
             solver,
         }
+    }
+
+    /// Takes the steps by `method`, which suits the scene.
+    pub fn by(mut self, method: Method) -> Self {
+        self.collocation =
+            Nodes::new(method).map(|nodes| Collocation::new(self.solver.system, nodes, &self.to));
+        self
     }
 
     /// Takes one accepted step, at most to `limit`; `from` and `to` are its ends.
@@ -179,6 +191,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// One step of the method with the active contacts; false where a stage does not converge.
     fn attempt(&mut self, h: f64) -> Result<bool, Error> {
+        if let Some(collocation) = &mut self.collocation {
+            self.counts.stages += collocation.count();
+            let done = collocation.attempt(self.solver, &self.from, h, self.limit, &mut self.to)?;
+            self.stage.t = self.to.t;
+            self.end_at_limit(h);
+            return Ok(done);
+        }
         let tableau = self.tableau;
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(&self.from);
@@ -206,11 +225,15 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
         }
         self.to.copy_from(&self.stage);
+        self.end_at_limit(h);
+        Ok(self.to.q.iter().chain(self.to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    fn end_at_limit(&mut self, h: f64) {
         self.to.t = (self.from.t + h).min(self.limit);
         if self.limit - self.to.t < 1e-14 * self.limit {
             self.to.t = self.limit;
         }
-        Ok(self.to.q.iter().chain(self.to.v.iter()).all(|x| x.is_finite()))
     }
 
     /// Embedded error relative to the tolerance.
@@ -219,9 +242,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let mut largest = 0.0_f64;
         for i in 0..self.to.q.len() {
             let (mut dq, mut dv) = (0.0, 0.0);
-            for (j, weight) in self.tableau.error.iter().enumerate() {
-                dq += weight * self.rates[j][i];
-                dv += weight * self.accelerations[j][i];
+            if let Some(collocation) = &self.collocation {
+                [dq, dv] = collocation.error(i).map(|error| error / h);
+            } else {
+                for (j, weight) in self.tableau.error.iter().enumerate() {
+                    dq += weight * self.rates[j][i];
+                    dv += weight * self.accelerations[j][i];
+                }
             }
             let scale = self.scale[i].max(self.to.q[i].abs());
             let rate_scale = self.rate_scale[i].max(self.to.v[i].abs());
@@ -237,8 +264,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.arrived.copy_from(&self.to);
         self.force_scale = self.largest_force();
         let mut booked = Exchanged::default();
-        for (i, power) in self.powers.iter().enumerate() {
-            booked.add(power, h * self.tableau.weight(i));
+        if let Some(collocation) = &self.collocation {
+            booked = collocation.booked();
+        } else {
+            for (i, power) in self.powers.iter().enumerate() {
+                booked.add(power, h * self.tableau.weight(i));
+            }
         }
         self.audit.exchanged.add(&booked, 1.0);
         // Before a turn or an event changes the forces: that is the next step's start.

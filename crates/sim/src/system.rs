@@ -10,10 +10,11 @@ use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
 use crate::actuator::Pull;
+use crate::kinematics::Kinematics;
 use crate::link::Link;
 use crate::matter::Block;
 use crate::scene::arm_rows;
-use crate::{Body, Error, Foundation, Freedom, Load, NormalLaw, Scene};
+use crate::{Error, Foundation, Freedom, Load, NormalLaw, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint {
@@ -64,13 +65,13 @@ pub(crate) struct System<'a> {
     pub pulls: Vec<Pull>,
     /// Ropes and stops, the last components.
     pub links: Vec<Link<'a>>,
-    /// Freedom numbers of each body.
+    /// Numbers of the freedoms of each body itself.
     pub freedom: Vec<[Option<usize>; 6]>,
+    /// Displacements of the bodies over the freedoms.
+    pub kinematics: Kinematics,
     /// Freedom numbers of each structure.
     pub structure: Vec<Range<usize>>,
     pub freedoms: usize,
-    /// Mass matrix of each body over its six freedoms.
-    pub body_mass: Vec<[[f64; 6]; 6]>,
     /// M, C and K: the bodies and spins, then each structure.
     pub blocks: Vec<Block>,
     pub gravity: DVector<f64>,
@@ -166,10 +167,10 @@ impl<'a> System<'a> {
             tractions,
             pulls: Vec::new(),
             links: Vec::new(),
+            kinematics: Kinematics::new(scene, &freedom)?,
             freedom,
             structure,
             freedoms,
-            body_mass: scene.bodies.iter().map(Body::mass_matrix).collect(),
             blocks: Vec::new(),
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
@@ -191,12 +192,10 @@ impl<'a> System<'a> {
                     && entries.iter().enumerate().all(|(i, e)| e.component == i && e.weight == -1.0)
             })
             .collect();
-        system.moves_freely = system.wheels.iter().any(|wheel| {
-            let numbers = &system.freedom[wheel.body];
-            numbers[0].is_some()
-                || (numbers[4].is_some() && wheel.hub[2] != 0.0)
-                || (numbers[5].is_some() && wheel.hub[1] != 0.0)
-        });
+        system.moves_freely = system
+            .wheels
+            .iter()
+            .any(|wheel| !system.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
         system.constant_rows = !system.moves_freely
             && system.laterals.is_empty()
             && system.tractions.is_empty()
@@ -265,6 +264,9 @@ impl<'a> System<'a> {
     /// Displacements and speeds of body `b` in all six freedoms at time `t`.
     pub fn body(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
         let body = &self.scene.bodies[b];
+        if body.pinned.is_some() {
+            return self.pinned(b, t, q, v);
+        }
         let (mut displacement, mut speed) = (body.start, [0.0; 6]);
         for i in 0..6 {
             if let Some(number) = self.freedom[b][i] {
@@ -280,23 +282,34 @@ impl<'a> System<'a> {
         (displacement, speed)
     }
 
+    fn pinned(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
+        let (mut displacement, mut speed) = (self.kinematics.apply(b, q), self.kinematics.apply(b, v));
+        displacement.iter_mut().zip(self.kinematics.held(b)).for_each(|(sum, held)| *sum += held);
+        if let Some(profile) = &self.scene.bodies[self.kinematics.root(b)].motion {
+            let at = profile.at(t);
+            displacement[0] += at.x;
+            speed[0] += at.v;
+        }
+        (displacement, speed)
+    }
+
     fn fill_matrices(&mut self) -> Result<(), Error> {
         let bodies = self.structure.first().map_or(self.freedoms, |range| range.start);
         let mut mass = DMatrix::zeros(bodies, bodies);
         for (b, body) in self.scene.bodies.iter().enumerate() {
-            let matrix = self.body_mass[b];
-            let numbers = self.freedom[b];
-            for i in 0..6 {
-                let Some(row) = numbers[i] else { continue };
-                if !(matrix[i][i] > 0.0 && matrix[i][i].is_finite()) {
-                    return Err(Error::NoInertia { body: b, freedom: Freedom::ALL[i] });
+            self.kinematics.add_mass(b, &body.mass_matrix(), &mut mass);
+            for (arm, terms) in arm_rows(body.cg)[1].iter().zip(self.kinematics.terms(b)) {
+                for &(number, coefficient) in terms {
+                    self.gravity[number] -= body.mass * self.scene.gravity * arm * coefficient;
                 }
-                for j in 0..6 {
-                    if let Some(column) = numbers[j] {
-                        mass[(row, column)] = matrix[i][j];
-                    }
+            }
+        }
+        for (b, numbers) in self.freedom.iter().enumerate() {
+            for (number, freedom) in numbers.iter().zip(Freedom::ALL) {
+                let inertia = number.map_or(1.0, |number| mass[(number, number)]);
+                if !(inertia > 0.0 && inertia.is_finite()) {
+                    return Err(Error::NoInertia { body: b, freedom });
                 }
-                self.gravity[row] = -body.mass * self.scene.gravity * arm_rows(body.cg)[1][i];
             }
         }
         for wheel in &self.wheels {

@@ -8,7 +8,9 @@ use std::ops::ControlFlow;
 
 use common::parts::{inertia, massive};
 use common::{EI, GRAVITY, WEIGHT, bogie, girder};
-use sim::{Analysis, Channel, Damper, Foundation, Freedom, Friction, Given, Profile, Run, Scene, Status};
+use sim::{
+    Analysis, Channel, Damper, Foundation, Freedom, Friction, FrictionLaw, Given, Profile, Run, Scene, Status,
+};
 
 fn run(scene: &Scene, foundations: &[Foundation]) -> Run {
     let run = sim::run(scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
@@ -99,7 +101,7 @@ fn sliding(accuracy: f64) -> Scene {
     let inertia = 0.5 * body.mass * 1.25 * 1.25;
     let wheel = &mut scene.wheels[0];
     wheel.normal.damping = 0.0;
-    wheel.friction = Some(Friction { coefficient: 0.2, slip: 0.1 });
+    wheel.friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
     wheel.spin_inertia = Some(inertia);
     scene
 }

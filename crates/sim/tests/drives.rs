@@ -9,7 +9,8 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, WEIGHT, bogie, girder};
 use sim::{
-    Brake, Channel, Damper, Drive, Error, Foundation, Freedom, Friction, Load, Run, Scene, Schedule, Status,
+    Brake, Channel, Damper, Drive, Error, Foundation, Freedom, Friction, FrictionLaw, Load, Run, Scene,
+    Schedule, Status,
 };
 
 const MASS: f64 = WEIGHT / GRAVITY;
@@ -158,7 +159,7 @@ fn drive_at_its_largest_force_ramps_up_and_then_approaches() {
 fn drive_stays_within_the_traction_of_its_wheels() {
     let mu = 0.2;
     let mut scene = free(0.0, 4.0);
-    scene.wheels[0].friction = Some(Friction { coefficient: mu, slip: 0.1 });
+    scene.wheels[0].friction = Some(Friction { law: FrictionLaw::Step, coefficient: mu, slip: 0.1 });
     scene.actuators.drives = vec![drive(&[[0.0, 100.0]], 1e6, f64::INFINITY, &[0, 1])];
     let all = run(&scene, rigid());
     // Analytic: both wheels carry the weight together, whatever the pitch does.
@@ -224,7 +225,7 @@ fn driven_bogie_crosses_the_girder_as_the_prescribed_one_within_its_slip() {
 fn brake_stops_in_the_distance_of_its_friction() {
     let (mu, v0, from) = (0.2, 5.0, 0.4);
     let mut scene = free(v0, 3.0);
-    scene.wheels[0].friction = Some(Friction { coefficient: mu, slip: 0.1 });
+    scene.wheels[0].friction = Some(Friction { law: FrictionLaw::Step, coefficient: mu, slip: 0.1 });
     scene.bodies[0].free[5] = false;
     let speed = BRAKE_SPEED_FT;
     scene.actuators.brakes = vec![Brake { body: 0, from, speed, contacts: vec![0, 1] }];
@@ -257,7 +258,7 @@ fn brake_stops_in_the_distance_of_its_friction() {
 #[test]
 fn drive_that_gives_way_to_its_brake_keeps_its_energy_on_the_girder() {
     let mut scene = bogie(0.0, 10.0, Damper::Rail);
-    scene.wheels[0].friction = Some(Friction { coefficient: 0.2, slip: 0.1 });
+    scene.wheels[0].friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
     scene.bodies[0].motion = None;
     scene.bodies[0].free[0] = true;
     let mut up = drive(&[[0.0, 0.0], [2.0, 5.0]], 1e6, 3e5, &[0, 1]);
@@ -298,7 +299,7 @@ fn actuators_that_cannot_act_are_refused() {
     });
     assert_eq!(smooth, Some(Error::NoSuch { what: "friction of braked contact", index: 1 }));
     let spinning = refused(&|scene| {
-        scene.wheels[0].friction = Some(Friction { coefficient: 0.2, slip: 0.1 });
+        scene.wheels[0].friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
         scene.wheels[0].spin_inertia = Some(1.0);
         scene.actuators.drives = vec![drive(&[[0.0, 1.0]], 1.0, 1.0, &[0])];
     });

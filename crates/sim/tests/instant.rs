@@ -3,7 +3,7 @@
 mod common;
 
 use common::{GRAVITY, SPAN, WEIGHT, bogie, girder, give};
-use sim::{Damper, Flange, Foundation, Friction, Instant, NormalLaw, contact_forces};
+use sim::{Damper, Flange, Foundation, Friction, FrictionLaw, Instant, NormalLaw, contact_forces};
 
 /// Instant of the bogie at `time`, `heave` and `pitch`.
 fn instant(time: f64, heave: f64, pitch: f64) -> Instant {
@@ -84,7 +84,7 @@ fn flange_and_friction_follow_their_laws_on_a_rigid_rail() {
     scene.wheels[0].normal =
         NormalLaw { exponent: 1.1, depth: 1e-2, ..NormalLaw::linear(1e8, 1e5, Damper::Rail) };
     scene.wheels[0].flange = Some(Flange { stiffness: 1e8, clearance: 0.04, release: None });
-    scene.wheels[0].friction = Some(Friction { coefficient: 0.2, slip: 0.1 });
+    scene.wheels[0].friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
     scene.wheels[0].spin_inertia = Some(WEIGHT / GRAVITY);
     let at = Instant {
         time: 0.0,

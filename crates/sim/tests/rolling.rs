@@ -8,7 +8,9 @@ use std::ops::ControlFlow;
 
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
-use sim::{Analysis, Channel, Damper, Error, Flange, Foundation, Freedom, Friction, Run, Scene, Status};
+use sim::{
+    Analysis, Channel, Damper, Error, Flange, Foundation, Freedom, Friction, FrictionLaw, Run, Scene, Status,
+};
 use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet, Table};
 
 fn run(scene: &Scene, foundation: Foundation) -> Result<Run, Error> {
@@ -206,7 +208,7 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
             wheel.flange = Some(Flange { stiffness: 1e7, clearance: 0.04, release: Some([1.25, 1.385]) });
         }
         if random() < 0.3 {
-            wheel.friction = Some(Friction { coefficient: 0.2, slip: 0.1 });
+            wheel.friction = Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 });
             wheel.spin_inertia = Some(1e4);
         }
         let body = &mut scene.bodies[0];

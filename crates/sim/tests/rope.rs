@@ -2,7 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use sim::*;
+use sim::{
+    Actuators, Analysis, Body, Channel, Freedom, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run,
+};
 
 const G: f64 = 9.80665;
 
@@ -15,6 +17,7 @@ fn body(mass: f64, start: [f64; 3], speed: [f64; 3]) -> Body {
         start: [start[0], start[1], start[2], 0.0, 0.0, 0.0],
         start_speed: [speed[0], speed[1], speed[2], 0.0, 0.0, 0.0],
         motion: None,
+        pinned: None,
     }
 }
 

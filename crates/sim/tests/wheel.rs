@@ -8,8 +8,8 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, bogie, girder};
 use sim::{
-    Analysis, Body, Channel, Contact, Damper, Flange, Foundation, Freedom, Friction, NormalLaw, Run, Scene,
-    Status, Wheel,
+    Analysis, Body, Channel, Contact, Damper, Flange, Foundation, Freedom, Friction, FrictionLaw, NormalLaw,
+    Run, Scene, Status, Wheel,
 };
 
 const LOAD: f64 = 5e6;
@@ -38,12 +38,13 @@ fn wheel() -> Scene {
             start: [0.0; 6],
             start_speed: [10.0, 0.0, 0.0, 0.0, 0.0, 0.0],
             motion: None,
+            pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.25,
             normal: impact(),
             flange: None,
-            friction: Some(Friction { coefficient: 0.2, slip: 0.1 }),
+            friction: Some(Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 }),
             spin_inertia: Some(mass * 1.25 * 1.25 / 2.0),
         }],
         contacts: vec![Contact {
@@ -97,6 +98,36 @@ fn sliding_wheel_needs_the_closed_form_time_until_it_almost_rolls() {
     assert!(run.audit.residual() < 1e-6);
     let (last, speed) = (slip.len() - 1, run.history.column(Channel::Speed(0, Freedom::X)));
     assert!(slip[last].abs() < 1e-3 && speed[last] > 5.0, "the wheel rolls on");
+}
+
+/// Analytic: with A = 1/m + R^2/I, s' = -mu N A tanh(s / slip), so sinh(s / slip) decays at the rate mu N A / slip.
+#[test]
+fn wheel_under_coulomb_friction_slides_by_its_closed_form() {
+    let mut scene = wheel();
+    let (mu, slip) = (0.2, 0.5);
+    scene.wheels[0].friction = Some(Friction { law: FrictionLaw::Coulomb, coefficient: mu, slip });
+    scene.end = 0.8;
+    let mass = LOAD / GRAVITY;
+    let inertia = mass * 1.25 * 1.25 / 2.0;
+    let radius = 1.25 - (LOAD / 1e8_f64).powf(1.0 / 1.1);
+    let compliance = 1.0 / mass + radius * radius / inertia;
+    let run = run(&scene, Foundation::rigid());
+    let mut worst = 0.0_f64;
+    for (t, s) in run.history.column(Channel::Time).iter().zip(slips(&run)) {
+        let closed = slip * ((10.0 / slip).sinh() * (-mu * LOAD * compliance * t / slip).exp()).asinh();
+        worst = worst.max((s - closed).abs());
+    }
+    let speed = run.history.column(Channel::Speed(0, Freedom::X));
+    let last = slips(&run)[speed.len() - 1];
+    // Momentum about the contact: the speed lost is the share 1/(m A) of the sliding lost.
+    let closed = 10.0 - (10.0 - last) / (mass * compliance);
+    let (found, residual) = (speed[speed.len() - 1], run.audit.residual());
+    println!("worst {worst:.1e} of 10, speed {found:.8} for {closed:.8}, residual {residual:.1e}");
+    assert!(last > 0.0 && last < 0.1 * slip, "{last}");
+    assert!(worst < 1e-5);
+    assert!((found - closed).abs() < 1e-9 * closed);
+    // The audit's scale is elastic energy, a hundredth of the kinetic energy here.
+    assert!(residual < 1e-6);
 }
 
 #[test]

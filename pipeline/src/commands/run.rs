@@ -98,6 +98,10 @@ fn finish(
         }
     }
     for outcome in outcomes {
+        for choice in &outcome.choices {
+            let name = &scene.structures[choice.structure].name;
+            progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
+        }
         for warning in summary::warnings(&outcome.run) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
@@ -141,7 +145,7 @@ pub(super) fn solve_all(
 
 fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
     let scene = document.scene();
-    let mut result = summary::run(scene, &outcomes[0].record, &outcomes[0].run);
+    let mut result = summary::run(scene, &outcomes[0].record, &outcomes[0].run, &outcomes[0].choices);
     result["format"] = json!("girderway-summary/1");
     result["name"] = json!(scene.name);
     result["units"] = summary::units(scene, &outcomes[0].record);
@@ -151,7 +155,10 @@ fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
         .zip(outcomes)
         .skip(1)
         .map(|(case, outcome)| {
-            (outcome.label.clone(), summary::run(&case.scene, &outcome.record, &outcome.run))
+            (
+                outcome.label.clone(),
+                summary::run(&case.scene, &outcome.record, &outcome.run, &outcome.choices),
+            )
         })
         .collect();
     if !compare.is_empty() {

@@ -1,7 +1,7 @@
 //! What acts between wheels and rails: VARIABLE, DIFF and GFORCE statements.
 
 use adams::Statement;
-use sim::NormalLaw;
+use sim::{FrictionLaw, NormalLaw};
 use splines::Axis;
 
 use super::expression::{Sum, mean, number, value};
@@ -267,7 +267,11 @@ fn friction(plan: &Plan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>
     let fourth = if plan.form == Form::Paper { String::new() } else { format!(",{rail}") };
     let slide = format!("VX({hub},{rail},{rail}{fourth})+WZ({centre},{rail},{rail})*{}", arm(plan, w));
     let slip = number(friction.slip);
-    let text = format!("{}*{press}*STEP({slide},-{slip},-1,{slip},1)", number(friction.coefficient));
+    let share = match friction.law {
+        FrictionLaw::Step => format!("STEP({slide},-{slip},-1,{slip},1)"),
+        FrictionLaw::Coulomb => format!("TANH(({slide})/{slip})"),
+    };
+    let text = format!("{}*{press}*{share}", number(friction.coefficient));
     let mut statement = starting(plan, named(plan, w, Slot::Traction, "traction"), plan.start.traction[w]);
     if plan.form != Form::Paper {
         statement = once(&mut said.velocity, statement, remark::VELOCITY);

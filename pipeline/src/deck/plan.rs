@@ -198,10 +198,17 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
     Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
 }
 
-/// Refuses drives, brakes and loads, which a deck does not have yet.
+/// Refuses drives, brakes, loads and pinned bodies, which a deck does not have yet.
 fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
     let refuse = |why: String, hint: &str| Err(Failure::from(Diagnostic::of_file(file, why).hint(hint)));
     for body in &scene.bodies {
+        if body.pinned.is_some() {
+            let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);
+            return refuse(
+                why,
+                "model its mass with the body that carries it, and give the truck a nested `tree`",
+            );
+        }
         let what = match (&body.motion, body.brake) {
             (Along::Driven(_), _) => "drive",
             (_, Some(_)) => "brake",

@@ -1,5 +1,6 @@
 //! From FE results to foundations: the transfer of data that used to be done by hand.
 
+mod ladder;
 mod modal;
 mod parts;
 
@@ -12,6 +13,8 @@ use crate::exit::Failure;
 use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
+
+pub use ladder::{choose, reason, word};
 
 /// A structure's FE model, solved.
 pub struct Solved {

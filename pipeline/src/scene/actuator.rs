@@ -117,6 +117,17 @@ pub(super) fn read_rows(
 pub(super) fn check_wheels(motions: &[RawMotion], scene: &Scene, faults: &mut Faults) {
     let root = Place::root();
     let (list, kinds) = (root.key("motions"), root.key("wheels"));
+    for truck in &scene.trucks {
+        let Some((root, _)) = super::pin::root_of(&scene.bodies, truck.body) else { continue };
+        let (body, kind) = (&scene.bodies[root], &scene.wheels[truck.wheel]);
+        let drives = matches!(body.motion, Along::Driven(_)) && kind.driven;
+        let brakes = body.brake.is_some() && kind.braked;
+        if root != truck.body && (drives || brakes) {
+            let what = if drives { "driven" } else { "braked" };
+            let expected = format!("{what} wheels of a pinned body are not available in this version");
+            faults.add(Fault::new(&kinds.key(&kind.name).key(what), expected).at_key());
+        }
+    }
     for (b, body) in scene.bodies.iter().enumerate() {
         let own = || {
             let trucks = scene.trucks.iter().filter(move |truck| truck.body == b);

@@ -34,6 +34,8 @@ pub struct Body {
     pub start: Option<[f64; 5]>,
     /// How x moves.
     pub motion: Along,
+    /// The body that carries it, as an index, and the pin from that body's origin; none = its track carries it.
+    pub pinned: Option<(usize, [f64; 3])>,
     /// Time from which its brakes are on and its drive is off; none = never.
     pub brake: Option<f64>,
 }
@@ -108,6 +110,7 @@ pub(super) fn read(
         v0,
         start,
         motion,
+        pinned: None,
         brake: None,
     }
 }
@@ -211,12 +214,17 @@ pub(super) fn read_motions(
             check.faults.add(Fault::new(&at, expected).hint("every body has one motion along the rail"));
             continue;
         }
+        if raw_bodies.0[body].1.pinned.is_some() {
+            let fault = Fault::new(&at.key("body"), format!("body {} is pinned", bodies[body].name));
+            check.faults.add(fault.hint("move the body that carries it"));
+            continue;
+        }
         read_motion(motion, &raw_bodies.0[body].1, &mut bodies[body], &at, check);
     }
     for (body, (name, raw)) in bodies.iter().zip(&raw_bodies.0) {
         let at = root.key("bodies");
         let at = at.key(name);
-        if raw.v0.is_some() && body.motion == Along::Held {
+        if raw.v0.is_some() && raw.pinned.is_none() && body.motion == Along::Held {
             let fault = Fault::new(&at.key("v0"), "the body cannot move along its rail");
             check.faults.add(fault.hint("list \"x\" in `dof` to free it"));
         }

@@ -4,6 +4,7 @@ mod actuator;
 mod body;
 mod compare;
 mod gauge;
+mod pin;
 mod raw;
 mod read;
 mod structure;
@@ -18,7 +19,7 @@ pub use compare::{Case, Document};
 pub use gauge::Gauge;
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
-pub use wheel::{Damper, Friction, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
+pub use wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
 
 use crate::fault::{Fault, Faults, nearest};
 use crate::place::Place;

@@ -17,6 +17,7 @@ crate::object::objects!(
     RawTables,
     RawGauge,
     RawBody,
+    RawPin,
     RawStart,
     RawWheel,
     RawVertical,
@@ -177,6 +178,14 @@ pub(crate) struct RawBody {
     pub x0: Option<f64>,
     pub v0: Option<f64>,
     pub start: Option<RawStart>,
+    pub pinned: Option<RawPin>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawPin {
+    pub to: Option<String>,
+    pub at: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Default, Deserialize)]

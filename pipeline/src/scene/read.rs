@@ -2,7 +2,7 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, structure, truck,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, structure, truck,
     wheel,
 };
 use crate::check::Check;
@@ -61,6 +61,7 @@ pub(super) fn scene(
         }
         bodies.push(body);
     }
+    pin::read(&raw.bodies, &mut bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
@@ -214,10 +215,12 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
     }
     let place = root.key("bodies");
     let owned: usize = counts.iter().sum();
+    let carried: Vec<bool> =
+        (0..scene.bodies.len()).map(|b| pin::is_carried(&scene.bodies, b, &counts)).collect();
     for (index, body) in scene.bodies.iter_mut().enumerate() {
         let dof = raw.bodies.0[index].1.dof.iter().flatten();
         let in_space = dof.into_iter().any(|word| body::SPACE.contains(&word.as_str()));
-        if counts[index] == 0 && owned == raw.trucks.len() && owned > 0 && !in_space {
+        if !carried[index] && owned == raw.trucks.len() && owned > 0 && !in_space {
             let fault = Fault::new(&place.key(&body.name), "no truck carries this body").at_key();
             check.faults.add(fault.hint(format!("add a truck with \"body\": \"{}\"", body.name)));
         }
@@ -243,10 +246,12 @@ fn stay_on_rails(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut F
     let motions = root.key("motions");
     let bodies = root.key("bodies");
     for (index, truck) in scene.trucks.iter().enumerate() {
-        let body = &scene.bodies[truck.body];
+        let Some((owner, ahead)) = pin::root_of(&scene.bodies, truck.body) else { continue };
+        let body = &scene.bodies[owner];
         let rail = &scene.rails[truck.rail];
         let at = trucks.index(index);
         let left = truck.wheel_offsets().into_iter().enumerate().filter_map(|(index, offset)| {
+            let offset = ahead + offset;
             let (time, x) = leaves(body, [rail.range[0] - offset, rail.range[1] - offset], scene.end)?;
             Some((index + 1, time, x + offset))
         });
@@ -254,7 +259,7 @@ fn stay_on_rails(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut F
         let own = bodies.key(&body.name);
         let (x0, tree) = (own.key("x0"), at.key("tree"));
         let motion = raw.motions.iter().position(|motion| motion.body.as_ref() == Some(&body.name));
-        let given = raw.bodies.0.get(truck.body).is_some_and(|(_, raw)| raw.x0.is_some());
+        let given = raw.bodies.0.get(owner).is_some_and(|(_, raw)| raw.x0.is_some());
         let place = match motion.map(|motion| motions.index(motion)) {
             Some(place) if time > 0.0 => place,
             _ if given => x0,

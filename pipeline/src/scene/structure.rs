@@ -24,8 +24,10 @@ pub struct Structure {
     pub rails: Vec<RailOutline>,
     /// How it gives way.
     pub foundation: Foundation,
-    /// What the scene asked for, where that was "auto".
+    /// Whether the scene leaves the foundation to the run ("auto"); then `foundation` is the default.
     pub auto: bool,
+    /// Share of critical damping of modes.
+    pub damping: f64,
     /// How its table is read.
     pub reading: Reading,
     /// Relative error allowed to the choice of the foundation.
@@ -275,7 +277,17 @@ pub(super) fn read(
     }
     let auto = matches!(word, Word::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
-    Some(Structure { name: name.to_owned(), origin, rails, foundation, auto, reading, tolerance, gauges })
+    Some(Structure {
+        name: name.to_owned(),
+        origin,
+        rails,
+        foundation,
+        auto,
+        damping,
+        reading,
+        tolerance,
+        gauges,
+    })
 }
 
 fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Word {

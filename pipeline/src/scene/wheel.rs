@@ -76,12 +76,23 @@ pub struct Lateral {
     pub release: Option<[f64; 2]>,
 }
 
-/// Friction regularised by STEP from -slip to +slip.
+/// How friction grows with the sliding speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionLaw {
+    /// STEP from -slip to +slip.
+    Step,
+    /// tanh(s / slip).
+    Coulomb,
+}
+
+/// Friction along the rail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
+    /// Law of the sliding speed.
+    pub law: FrictionLaw,
     /// Coefficient.
     pub mu: f64,
-    /// Slip speed at which it is full.
+    /// Slip speed at which it is full (STEP) or 76 % (Coulomb).
     pub slip: f64,
 }
 
@@ -184,17 +195,21 @@ fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Late
 }
 
 fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Friction {
-    if let Some(word) = &raw.law {
-        check.faults.word(word, &at.key("law"), &[("step", ())]);
-    }
+    let laws = [("step", FrictionLaw::Step), ("coulomb", FrictionLaw::Coulomb)];
+    let given = raw.law.as_ref().and_then(|word| check.faults.word(word, &at.key("law"), &laws));
+    let law = given.unwrap_or(FrictionLaw::Step);
     Friction {
+        law,
         mu: check.needed(raw.mu, at, "mu", Dimension::NUMBER, "leave `friction` out for none"),
         slip: check.needed(
             raw.slip,
             at,
             "slip",
             Dimension::SPEED,
-            "slip speed at which the friction is full",
+            match law {
+                FrictionLaw::Step => "slip speed at which the friction is full",
+                FrictionLaw::Coulomb => "slip speed at which the friction is 76 % of mu N",
+            },
         ),
     }
 }

@@ -83,6 +83,7 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
             start: [0.0; 6],
             start_speed: [0.0; 6],
             motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.25,

@@ -101,6 +101,7 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
             start: [0.0; 6],
             start_speed: [0.0; 6],
             motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            pinned: None,
         }],
         wheels: vec![Wheel {
             radius: 1.0,

@@ -1,0 +1,49 @@
+//! The method by which the equations of motion are integrated.
+
+use crate::system::System;
+use crate::{Dynamics, Error};
+
+/// A method of integration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Method {
+    /// SDIRK of order 4, L-stable: every scene.
+    #[default]
+    Sdirk4,
+    /// Radau IIA collocation of order 5 with exact modes.
+    Radau,
+    /// Gauss collocation of order 4 with exact modes: conserves the energy of undamped linear contacts.
+    Gauss2,
+    /// Gauss collocation of order 6 with exact modes: conserves the energy of undamped linear contacts.
+    Gauss3,
+}
+
+impl Method {
+    /// Whether the method can integrate the scene: collocation needs prescribed places, linear vertical contacts
+    /// with one force a wheel and structures in natural modes of damping ratio below 1; Gauss, no damper between
+    /// wheel and rail.
+    pub(crate) fn check(self, system: &System) -> Result<(), Error> {
+        if self == Method::Sdirk4 {
+            return Ok(());
+        }
+        let modal =
+            system.foundations.iter().filter_map(|f| f.structure.as_ref()).all(|structure| match &structure
+                .dynamics
+            {
+                Dynamics::Matrices { .. } => false,
+                Dynamics::Modes { ratio, .. } => ratio.iter().all(|ratio| *ratio < 1.0),
+            });
+        let remembers = (0..system.normals.len()).any(|i| system.law(i).has_memory());
+        let trouble = [
+            (system.moves_freely, "places along the rail that are prescribed"),
+            (system.components() > system.normals.len(), "vertical contacts alone"),
+            (!system.linear_normals, "linear contacts"),
+            (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
+            (!modal, "structures in natural modes, damped below critical"),
+            (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
+        ];
+        match trouble.into_iter().find(|(found, _)| *found) {
+            Some((_, wanted)) => Err(Error::Method { method: self, wanted }),
+            None => Ok(()),
+        }
+    }
+}

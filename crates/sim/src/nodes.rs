@@ -1,0 +1,86 @@
+//! Nodes of collocation on [0, 1]: abscissae, and the integrals of the Lagrange polynomials through them.
+
+use crate::Method;
+
+/// A collocation method of s nodes.
+pub(crate) struct Nodes {
+    /// Abscissae of the nodes, then 1 for the end of the step.
+    pub c: Vec<f64>,
+    /// Coefficients of the Lagrange polynomials by powers, s x s, row-major.
+    pub lagrange: Vec<f64>,
+    /// A, and below it the weights b: integrals to every node and to the end, (s + 1) x s, row-major.
+    pub a: Vec<f64>,
+    /// A times A, below it b times A.
+    pub a2: Vec<f64>,
+    /// A^-1, s x s.
+    pub rate: Vec<f64>,
+    /// Extrapolation from 0 and all nodes but the last to the last.
+    pub ahead: Vec<f64>,
+}
+
+impl Nodes {
+    /// The nodes of `method`; `None` where it is no collocation.
+    ///
+    /// # Source
+    /// Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.5.
+    pub fn new(method: Method) -> Option<Nodes> {
+        let (six, fifteen) = (6.0_f64.sqrt(), 15.0_f64.sqrt());
+        let c = match method {
+            Method::Sdirk4 => return None,
+            Method::Radau => vec![(4.0 - six) / 10.0, (4.0 + six) / 10.0, 1.0],
+            Method::Gauss2 => vec![0.5 - 3.0_f64.sqrt() / 6.0, 0.5 + 3.0_f64.sqrt() / 6.0],
+            Method::Gauss3 => vec![0.5 - fifteen / 10.0, 0.5, 0.5 + fifteen / 10.0],
+        };
+        let s = c.len();
+        let lagrange: Vec<f64> = (0..s).flat_map(|j| polynomial(&c, j)).collect();
+        let ends: Vec<f64> = c.iter().copied().chain([1.0]).collect();
+        let mut a = vec![0.0; (s + 1) * s];
+        for (i, &end) in ends.iter().enumerate() {
+            for j in 0..s {
+                let terms = (0..s).map(|k| lagrange[j * s + k] * end.powi(k as i32 + 1) / (k + 1) as f64);
+                a[i * s + j] = terms.sum();
+            }
+        }
+        let mut a2 = vec![0.0; (s + 1) * s];
+        for i in 0..=s {
+            for j in 0..s {
+                a2[i * s + j] = (0..s).map(|k| a[i * s + k] * a[k * s + j]).sum();
+            }
+        }
+        // Rates at the nodes of the polynomial of degree s through the values at 0 and at the nodes.
+        let with_start: Vec<f64> = [0.0].into_iter().chain(c.iter().copied()).collect();
+        let mut rate = vec![0.0; s * s];
+        for j in 0..s {
+            let poly = polynomial(&with_start, j + 1);
+            for i in 0..s {
+                rate[i * s + j] = (1..=s).map(|k| k as f64 * poly[k] * c[i].powi(k as i32 - 1)).sum();
+            }
+        }
+        let ahead = (0..s)
+            .map(|j| {
+                let poly = polynomial(&with_start[..s], j);
+                (0..s).map(|k| poly[k] * c[s - 1].powi(k as i32)).sum()
+            })
+            .collect();
+        Some(Nodes { c: ends, lagrange, a, a2, rate, ahead })
+    }
+
+    /// Number of nodes.
+    pub fn count(&self) -> usize {
+        self.c.len() - 1
+    }
+}
+
+/// Coefficients by powers of the polynomial that is 1 at node `j` and 0 at the others.
+fn polynomial(nodes: &[f64], j: usize) -> Vec<f64> {
+    let mut poly = vec![0.0; nodes.len()];
+    poly[0] = 1.0;
+    for (degree, (_, node)) in nodes.iter().enumerate().filter(|(i, _)| *i != j).enumerate() {
+        let scale = 1.0 / (nodes[j] - node);
+        for k in (0..=degree + 1).rev() {
+            let lower = if k > 0 { poly[k - 1] } else { 0.0 };
+            poly[k] = scale * (lower - node * poly[k]);
+        }
+    }
+    poly
+}

@@ -1,0 +1,288 @@
+#!/usr/bin/env python3
+"""Crossings of the paper's girder: girderway beside scipy, compiled code by hand and Exudyn, in one run.
+
+    python3 -m venv VENV && VENV/bin/pip install -r fea/requirements-scenes.txt
+    VENV/bin/python fea/bench_scenes.py [-o DIR] [--quick] [--skip NAME ...]
+
+Scenes S1 (5 ft/s over 60 ft) and S2 (100 ft/s to 55 ft), girder without mass, exact influence function, dampers on
+the wheels' own velocity: those of bogie_reference.py, which also makes the reference (DOP853 and Radau at 1e-12).
+Every code runs over a range of steps or tolerances; its error is the largest of the deflection over 101 samples, of
+its peak. Times are in milliseconds, the least of interleaved repetitions, on one thread, without compilation:
+
+    girderway   the public `run` with history, audit and events (example `crossings` of the crate sim)
+    numba       RK4 with fixed steps in force form, two wheels solved by Cramer's rule
+    scipy       solve_ivp with RK45, DOP853, LSODA, Radau
+    Exudyn      GenericODE2, stiffness and damping set before each step, implicit trapezoidal rule
+
+Prints all pairs, and the cheapest setting of each code that reaches 1e-3 and 1e-4; -o writes them as scenes.csv, with
+a chart scenes.svg.
+"""
+
+import os
+
+for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ[_name] = "1"
+
+import argparse
+import csv
+import json
+import pathlib
+import subprocess
+import time
+
+import numba
+import numpy as np
+from scipy.integrate import solve_ivp
+
+import bogie_reference as bogie
+
+HERE = pathlib.Path(__file__).resolve().parent
+SAMPLES = bogie.SAMPLES
+# Ratio of the time of code by hand, and of Exudyn, to ours that is aimed at.
+GOALS = {"numba": 15.0, "Exudyn": 1000.0}
+
+
+class Crossing:
+    """A scene and its reference."""
+
+    def __init__(self, name):
+        setting = bogie.SCENES[name.lower()]
+        self.name, self.speed, self.travel = name, setting["speed"], setting["travel"]
+        self.end = self.travel / self.speed
+        self.start = bogie.at_rest(0.0)
+        self.times = np.linspace(0.0, self.end, SAMPLES)
+        data = json.loads((HERE / "reference" / f"bogie_{name.lower()}.json").read_text())
+        self.z = np.array(data["z"])
+
+    def error(self, z):
+        z = np.asarray(z)
+        difference = np.abs(z - self.z[:: (SAMPLES - 1) // (len(z) - 1)]).max() / self.z.max()
+        return float(difference) if np.isfinite(difference) else float("inf")
+
+
+@numba.njit(cache=False)
+def give(x, z):
+    """Deflection of a simply supported beam with overhangs, by Macaulay's brackets."""
+    span, ei = 60.0, 9.528 * 4.32e9
+
+    def cube(a):
+        return a * a * a if a > 0.0 else 0.0
+
+    r0, rl = (span - z) / span, z / span
+    w = cube(x - z) - r0 * cube(x) - rl * cube(x - span)
+    w0 = cube(-z)
+    wl = cube(span - z) - r0 * cube(span)
+    return (w - w0 - (wl - w0) * x / span) / (6.0 * ei)
+
+
+@numba.njit(cache=False)
+def rates(x, s0, s1, s2, s3):
+    k, c, arm = 1e8, 1e5, 4.0 / 3.0
+    mass = 4.8e6 / 32.174
+    a, b = x - arm, x + arm
+    g11, g22, g12 = give(a, a) + 1.0 / k, give(b, b) + 1.0 / k, give(a, b)
+    e1 = s0 - arm * s1 + c / k * (s2 - arm * s3)
+    e2 = s0 + arm * s1 + c / k * (s2 + arm * s3)
+    det = g11 * g22 - g12 * g12
+    f1, f2 = (g22 * e1 - g12 * e2) / det, (g11 * e2 - g12 * e1) / det
+    return s2, s3, 32.174 - (f1 + f2) / mass, -arm * (f2 - f1) / (mass * 2.25)
+
+
+@numba.njit(cache=False)
+def rk4(speed, end, steps, start):
+    out = np.empty(min(steps, 100) + 1)
+    h = end / steps
+    every = max(steps // 100, 1)
+    a, b, c, d = start[0], start[1], start[2], start[3]
+    out[0] = a
+    for n in range(steps):
+        x = speed * n * h
+        xm, xe = x + 0.5 * speed * h, x + speed * h
+        p1, p2, p3, p4 = rates(x, a, b, c, d)
+        q1, q2, q3, q4 = rates(xm, a + 0.5 * h * p1, b + 0.5 * h * p2, c + 0.5 * h * p3, d + 0.5 * h * p4)
+        r1, r2, r3, r4 = rates(xm, a + 0.5 * h * q1, b + 0.5 * h * q2, c + 0.5 * h * q3, d + 0.5 * h * q4)
+        s1, s2, s3, s4 = rates(xe, a + h * r1, b + h * r2, c + h * r3, d + h * r4)
+        a += h / 6.0 * (p1 + 2.0 * (q1 + r1) + s1)
+        b += h / 6.0 * (p2 + 2.0 * (q2 + r2) + s2)
+        c += h / 6.0 * (p3 + 2.0 * (q3 + r3) + s3)
+        d += h / 6.0 * (p4 + 2.0 * (q4 + r4) + s4)
+        if (n + 1) % every == 0:
+            out[(n + 1) // every] = a
+    return out
+
+
+def by_hand(case, steps):
+    return rk4(case.speed, case.end, steps, case.start)
+
+
+def by_scipy(case, setting):
+    method, rtol = setting
+
+    def rate(t, s):
+        return plain(case.speed * t, s)
+
+    run = solve_ivp(rate, (0.0, case.end), case.start, method=method, rtol=rtol, atol=1e-3 * rtol, t_eval=case.times)
+    return run.y[0] if run.success else np.full(SAMPLES, np.nan)
+
+
+def plain(x, s):
+    force = bogie.forces(x, s)
+    return [s[2], s[3], bogie.GRAVITY - force.sum() / bogie.MASS, -(bogie.ARMS @ force) / bogie.INERTIA]
+
+
+def by_exudyn(case, steps):
+    import exudyn as exu
+    import exudyn.itemInterface as item
+
+    arms = np.array([[1.0, a] for a in bogie.ARMS])
+    container = exu.SystemContainer()
+    mbs = container.AddSystem()
+    start = case.start
+    node = mbs.AddNode(
+        item.NodeGenericODE2(
+            referenceCoordinates=[0.0, 0.0],
+            initialCoordinates=list(start[:2]),
+            initialCoordinates_t=[0.0, 0.0],
+            numberOfODE2Coordinates=2,
+        )
+    )
+    mass = np.diag([bogie.MASS, bogie.INERTIA])
+    # Matrices at the start fix the first acceleration; before a step, t is the step's end.
+    first = arms.T @ np.linalg.solve(bogie.compliance(0.0), arms)
+    body = mbs.AddObject(
+        item.ObjectGenericODE2(
+            nodeNumbers=[node],
+            massMatrix=mass,
+            stiffnessMatrix=first,
+            dampingMatrix=bogie.DAMPING / bogie.STIFFNESS * first,
+            forceVector=[bogie.MASS * bogie.GRAVITY, 0.0],
+        )
+    )
+    out = np.full(SAMPLES, np.nan)
+    out[0] = start[0]
+    every, h = steps // 100, case.end / steps
+
+    def before(system, t):
+        stiffness = arms.T @ np.linalg.solve(bogie.compliance(case.speed * t), arms)
+        system.SetObjectParameter(body, "stiffnessMatrix", stiffness)
+        system.SetObjectParameter(body, "dampingMatrix", bogie.DAMPING / bogie.STIFFNESS * stiffness)
+        return True
+
+    def after(system, t):
+        n = round(t / h)
+        if n % every == 0 and n // every < SAMPLES:
+            out[n // every] = system.GetNodeOutput(node, exu.OutputVariableType.Coordinates)[0]
+        return True
+
+    mbs.SetPreStepUserFunction(before)
+    mbs.SetPostStepUserFunction(after)
+    mbs.Assemble()
+    settings = exu.SimulationSettings()
+    settings.timeIntegration.numberOfSteps = steps
+    settings.timeIntegration.endTime = case.end
+    settings.timeIntegration.verboseMode = 0
+    settings.timeIntegration.newton.useModifiedNewton = False
+    settings.solutionSettings.writeSolutionToFile = False
+    mbs.SolveDynamic(settings, solverType=exu.DynamicSolverType.TrapezoidalIndex2)
+    return out
+
+
+def settings(quick):
+    """Code, function, its settings by scene."""
+    many = [20, 25, 50, 100, 200, 300, 400, 500, 700, 1000, 1500, 2000, 3000, 5000]
+    methods = ["RK45", "LSODA"] if quick else ["RK45", "DOP853", "LSODA", "Radau"]
+    tolerances = [1e-3, 1e-4, 1e-5, 1e-6, 1e-7]
+    return [
+        ("numba", by_hand, many),
+        ("scipy", by_scipy, [(m, r) for m in methods for r in tolerances]),
+        ("Exudyn", by_exudyn, [100, 200, 500, 1000, 2000] if quick else [100, 200, 500, 1000, 2000, 5000, 10000]),
+    ]
+
+
+def ours(cargo):
+    """Rows of the example of the crate sim."""
+    command = ["cargo", "run", "--release", "-q", "-p", "sim", "--example", "crossings", *cargo]
+    text = subprocess.run(command, cwd=HERE.parent, check=True, capture_output=True, text=True).stdout
+    for row in csv.DictReader(text.splitlines()):
+        yield row["scene"], "girderway", row["accuracy"], float(row["error"]), float(row["least ms"])
+
+
+def measure(skip, quick):
+    cases = [Crossing("S1"), Crossing("S2")]
+    found = {}
+    for repetition in range(2 if quick else 5):
+        for code, function, values in settings(quick):
+            if code in skip:
+                continue
+            for case in cases:
+                for value in values:
+                    key = (case.name, code, str(value))
+                    if repetition == 0:
+                        if code == "numba":
+                            function(case, value)
+                    began = time.perf_counter()
+                    z = function(case, value)
+                    passed = 1e3 * (time.perf_counter() - began)
+                    known = found.get(key, (0.0, float("inf")))
+                    found[key] = (case.error(z), min(passed, known[1]))
+    return [(*key, *value) for key, value in found.items()]
+
+
+def cheapest(rows):
+    """Scene, code, error asked -> setting and time."""
+    best = {}
+    for scene, code, setting, error, passed in rows:
+        for asked in (1e-3, 1e-4):
+            key = (scene, asked, code)
+            if error <= asked and (key not in best or passed < best[key][1]):
+                best[key] = (setting, passed)
+    return best
+
+
+def chart(rows, path):
+    import matplotlib
+
+    matplotlib.use("svg")
+    import matplotlib.pyplot as plt
+
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True)
+    for axis, scene in zip(axes, ("S1", "S2")):
+        for code in dict.fromkeys(row[1] for row in rows):
+            pairs = [(row[4], row[3]) for row in rows if row[:2] == (scene, code) and 0 < row[3] < 1]
+            axis.loglog(*zip(*pairs), "o", label=code, markersize=4) if pairs else None
+        axis.set(title=scene, xlabel="time, ms")
+        axis.grid(True, which="major", alpha=0.3)
+    axes[0].set_ylabel("error of the deflection, of its peak")
+    axes[0].legend()
+    figure.tight_layout()
+    figure.savefig(path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", type=pathlib.Path, help="folder for scenes.csv and scenes.svg")
+    parser.add_argument("--quick", action="store_true", help="fewer settings and repetitions")
+    parser.add_argument("--skip", nargs="*", default=[], help="codes to leave out")
+    parser.add_argument("--cargo", nargs="*", default=[], help="arguments for cargo run")
+    options = parser.parse_args()
+    rows = list(ours(options.cargo)) + measure(options.skip, options.quick)
+    print("scene  code       setting               error      ms")
+    for scene, code, setting, error, passed in sorted(rows, key=lambda row: (row[0], row[1], row[4])):
+        print(f"{scene:5s}  {code:9s}  {setting:20s}  {error:8.1e}  {passed:9.4f}")
+    best = cheapest(rows)
+    print("\ncheapest: scene, error, code, setting, ms, times ours (goal)")
+    for (scene, asked, code), (setting, passed) in sorted(best.items()):
+        own = best.get((scene, asked, "girderway"))
+        ratio = f"{passed / own[1]:.1f}" if own else "-"
+        print(f"{scene}  {asked:.0e}  {code:9s}  {setting:20s}  {passed:9.4f}  {ratio} ({GOALS.get(code, '-')})")
+    if options.o:
+        options.o.mkdir(parents=True, exist_ok=True)
+        with open(options.o / "scenes.csv", "w", newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(["scene", "code", "setting", "error", "ms"])
+            writer.writerows(rows)
+        chart(rows, options.o / "scenes.svg")
+
+
+if __name__ == "__main__":
+    main()
