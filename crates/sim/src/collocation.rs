@@ -7,6 +7,7 @@ use nalgebra::DVector;
 
 use crate::dense::{dot, solve_general};
 use crate::energy::power;
+use crate::geometry::Geometry;
 use crate::nodes::Nodes;
 use crate::propagator::Propagator;
 use crate::solver::Solver;
@@ -19,18 +20,20 @@ pub(crate) struct Collocation {
     nodes: Nodes,
     /// omega and zeta of each freedom; omega 0: a body's.
     modes: Vec<[f64; 2]>,
-    h: f64,
-    /// Answers to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
-    free: Vec<[f64; 4]>,
-    /// Answers q and v to the load at every node; (s + 1) x s x n.
-    forced: Vec<[f64; 2]>,
-    /// Rows at the nodes, s x m x n, and what a force there does: M^-1 R^T.
-    rows: Vec<f64>,
+    /// Answers for the lengths of step met last; the first is that of the step.
+    answers: Vec<Answers>,
+    /// The contacts at the nodes.
+    places: Vec<Geometry>,
+    /// What a force at a node does: M^-1 R^T, s x m x n; R M^-1 R^T where rows are the same everywhere, m x m.
     spread: Vec<f64>,
-    /// Loads by M^-1 at the nodes, s x n: first without contacts, then with them; and at the start.
+    mobile: Vec<f64>,
+    is_spread: bool,
+    /// Loads by M^-1 at the nodes, s x n: without contacts, and with them; and at the start.
+    weight: Vec<DVector<f64>>,
     load: Vec<DVector<f64>>,
     load_start: DVector<f64>,
-    scratch: DVector<f64>,
+    /// Whether loads without contacts never change.
+    steady: bool,
     /// Free approach and its rate as the damper feels it at (node, component), and what a force at another takes.
     approach: Vec<f64>,
     rate: Vec<f64>,
@@ -41,6 +44,44 @@ pub(crate) struct Collocation {
     index: Vec<usize>,
     states: Vec<State>,
     powers: Vec<Exchanged>,
+}
+
+/// Answers of every freedom over a step of length `h`.
+struct Answers {
+    h: f64,
+    /// Answers to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
+    free: Vec<[f64; 4]>,
+    /// Answers q and v to the load at every node; (s + 1) x s x n.
+    forced: Vec<[f64; 2]>,
+}
+
+/// Lengths of step whose answers are kept where there are modes.
+const KEPT: usize = 12;
+
+impl Answers {
+    fn new(nodes: &Nodes, n: usize) -> Self {
+        let s = nodes.count();
+        Answers { h: 0.0, free: vec![[0.0; 4]; (s + 1) * n], forced: vec![[0.0; 2]; (s + 1) * s * n] }
+    }
+
+    fn fill(&mut self, nodes: &Nodes, modes: &[[f64; 2]], h: f64) {
+        self.h = h;
+        let (s, n) = (nodes.count(), modes.len());
+        for (r, &[omega, zeta]) in modes.iter().enumerate() {
+            let mode = (omega > 0.0).then(|| Propagator::new(omega, zeta, h));
+            for i in 0..=s {
+                let c = nodes.c[i];
+                self.free[i * n + r] = mode.as_ref().map_or([1.0, c * h, 0.0, 1.0], |mode| mode.free(c));
+                let powers = mode.as_ref().map(|mode| mode.forced(c));
+                for b in 0..s {
+                    self.forced[(i * s + b) * n + r] = match powers {
+                        None => [h * h * nodes.a2[i * s + b], h * nodes.a[i * s + b]],
+                        Some(powers) => [0, 1].map(|part| nodes.load(b, &powers, part)),
+                    };
+                }
+            }
+        }
+    }
 }
 
 impl Collocation {
@@ -56,16 +97,19 @@ impl Collocation {
             }
         }
         let size = s * m;
+        let moves = system.scene.bodies.iter().enumerate().filter(|(_, body)| body.motion.is_some());
+        let drags = moves.into_iter().any(|(b, _)| !system.kinematics.drag(b).is_empty());
         Collocation {
             modes,
-            h: 0.0,
-            free: vec![[0.0; 4]; (s + 1) * n],
-            forced: vec![[0.0; 2]; (s + 1) * s * n],
-            rows: vec![0.0; size * n],
+            answers: vec![Answers::new(&nodes, n)],
+            places: vec![Geometry::new(system); s],
             spread: vec![0.0; size * n],
+            mobile: vec![0.0; m * m],
+            is_spread: false,
+            weight: vec![DVector::zeros(n); s],
             load: vec![DVector::zeros(n); s],
             load_start: DVector::zeros(n),
-            scratch: DVector::zeros(n),
+            steady: system.scene.actuators.loads.is_empty() && !drags,
             approach: vec![0.0; size],
             rate: vec![0.0; size],
             take: vec![0.0; size * size],
@@ -89,7 +133,7 @@ impl Collocation {
         let s = self.count();
         let mut booked = Exchanged::default();
         for (power, weight) in self.powers.iter().zip(&self.nodes.a[s * s..]) {
-            booked.add(power, self.h * weight);
+            booked.add(power, self.answers[0].h * weight);
         }
         booked
     }
@@ -104,106 +148,81 @@ impl Collocation {
         to: &mut State,
     ) -> Result<bool, Error> {
         self.set_step(h);
-        let (s, n) = (self.count(), to.q.len());
-        solver.geometry.update(solver.system, from.t, &from.q, &from.force)?;
-        self.load_start.copy_from(solver.accelerate(from.t));
-        self.add_forces(&solver.geometry.force_rows, &from.force, solver);
+        let (s, n, m) = (self.count(), to.q.len(), solver.system.components());
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
+            self.load_start[r] = from.a[r] + omega * (2.0 * zeta * from.v[r] + omega * from.q[r]);
+        }
         for a in 0..s {
             let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
             self.states[a].t = t;
-            solver.geometry.update(solver.system, t, &from.q, &from.force)?;
-            self.load[a].copy_from(solver.accelerate(t));
-            let (rows, span) =
-                (&solver.geometry.rows, a * self.rows.len() / s..(a + 1) * self.rows.len() / s);
-            self.rows[span.clone()].copy_from_slice(rows);
-            for (row, spread) in rows.chunks_exact(n.max(1)).zip(self.spread[span].chunks_exact_mut(n.max(1)))
-            {
-                solver.spread_row(row, spread);
+            self.places[a].update(solver.system, t, &from.q, &from.force)?;
+            if !(self.is_spread && self.steady) {
+                self.weight[a].copy_from(solver.accelerate(t));
             }
-            self.fill_give(solver, a);
+            if !(self.is_spread && solver.system.constant_rows) {
+                let rows = self.places[a].rows.chunks_exact(n.max(1));
+                for (row, spread) in rows.zip(self.spread[a * m * n..].chunks_exact_mut(n.max(1))) {
+                    solver.spread_row(row, spread);
+                }
+            }
         }
-        self.fill_answers(solver, from);
+        if solver.system.constant_rows {
+            self.fill_body_answers(solver, from);
+        } else {
+            self.fill_answers(solver, from);
+        }
+        self.is_spread = true;
         if !self.solve(solver, from) {
             return Ok(false);
         }
         self.book(solver, from, to, limit)
     }
 
-    /// Answers of every freedom over a step of length `h`.
+    /// Brings the answers over a step of length `h` to the front.
     fn set_step(&mut self, h: f64) {
-        if h == self.h {
+        if let Some(known) = self.answers.iter().position(|answers| answers.h == h) {
+            self.answers[..=known].rotate_right(1);
             return;
         }
-        self.h = h;
-        let (s, n) = (self.count(), self.modes.len());
-        for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
-            let mode = (omega > 0.0).then(|| Propagator::new(omega, zeta, h));
-            for i in 0..=s {
-                let c = self.nodes.c[i];
-                self.free[i * n + r] = mode.as_ref().map_or([1.0, c * h, 0.0, 1.0], |mode| mode.free(c));
-                let powers = mode.as_ref().map(|mode| mode.forced(c));
-                for b in 0..s {
-                    self.forced[(i * s + b) * n + r] = match powers {
-                        None => [h * h * self.nodes.a2[i * s + b], h * self.nodes.a[i * s + b]],
-                        Some(powers) => [0, 1].map(|part| {
-                            (0..s).map(|k| self.nodes.lagrange[b * s + k] * powers[k][part]).sum()
-                        }),
-                    };
-                }
-            }
+        let is_modal = self.modes.iter().any(|mode| mode[0] > 0.0);
+        if is_modal && self.answers.len() < KEPT {
+            self.answers.push(Answers::new(&self.nodes, self.modes.len()));
         }
-    }
-
-    /// Adds what `force` does at the start.
-    fn add_forces(&mut self, rows: &[f64], force: &[f64], solver: &Solver) {
-        let n = self.modes.len();
-        for (row, force) in rows.chunks_exact(n.max(1)).zip(force) {
-            solver.spread_row(row, self.scratch.as_mut_slice());
-            self.load_start.axpy(-force, &self.scratch, 1.0);
-        }
-    }
-
-    /// The give of the compliance at node `a`, where the geometry is.
-    fn fill_give(&mut self, solver: &Solver, a: usize) {
-        let m = solver.system.components();
-        let size = self.force.len();
-        for i in 0..m {
-            self.approach[a * m + i] = solver.geometry.held[i];
-            self.rate[a * m + i] = solver.geometry.rate_held[i];
-            let line = &mut self.take[(a * m + i) * size..(a * m + i + 1) * size];
-            line.fill(0.0);
-            line[a * m..(a + 1) * m].copy_from_slice(&solver.geometry.compliance[i * m..(i + 1) * m]);
-        }
+        self.answers.rotate_right(1);
+        self.answers[0].fill(&self.nodes, &self.modes, h);
     }
 
     /// State of freedom `r` at target `i` under the loads at the nodes.
-    fn answer(&self, from: &State, i: usize, r: usize) -> [f64; 2] {
+    fn answer(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
-        let [qq, qv, vq, vv] = self.free[i * n + r];
+        let answers = &self.answers[0];
+        let [qq, qv, vq, vv] = answers.free[i * n + r];
         let mut out = [qq * from.q[r] + qv * from.v[r], vq * from.q[r] + vv * from.v[r]];
-        for b in 0..s {
-            let [q, v] = self.forced[(i * s + b) * n + r];
-            out[0] += q * self.load[b][r];
-            out[1] += v * self.load[b][r];
+        for (b, load) in load.iter().enumerate() {
+            let [q, v] = answers.forced[(i * s + b) * n + r];
+            out[0] += q * load[r];
+            out[1] += v * load[r];
         }
         out
     }
 
+    /// Free approach and what forces take, by the answers of every freedom.
     fn fill_answers(&mut self, solver: &Solver, from: &State) {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
         let size = s * m;
         for a in 0..s {
             for r in 0..n {
-                let [q, v] = self.answer(from, a, r);
+                let [q, v] = self.answer(&self.weight, from, a, r);
                 (self.states[a].q[r], self.states[a].v[r]) = (q, v);
             }
+            let place = &self.places[a];
             for i in 0..m {
-                let row = &self.rows[(a * m + i) * n..(a * m + i + 1) * n];
-                let rate_row = &solver.geometry.rate_rows[i * n..(i + 1) * n];
-                self.approach[a * m + i] += dot(row, self.states[a].q.as_slice());
-                self.rate[a * m + i] += dot(rate_row, self.states[a].v.as_slice());
+                let row = &place.rows[i * n..(i + 1) * n];
+                let rate_row = &place.rate_rows[i * n..(i + 1) * n];
+                self.approach[a * m + i] = place.held[i] + dot(row, self.states[a].q.as_slice());
+                self.rate[a * m + i] = place.rate_held[i] + dot(rate_row, self.states[a].v.as_slice());
                 for b in 0..s {
-                    let answers = &self.forced[(a * s + b) * n..(a * s + b + 1) * n];
+                    let answers = &self.answers[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
                     for j in 0..m {
                         let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
                         let (mut q, mut v) = (0.0, 0.0);
@@ -211,8 +230,54 @@ impl Collocation {
                             q += row[r] * by_q * spread;
                             v += rate_row[r] * by_v * spread;
                         }
-                        self.take[(a * m + i) * size + b * m + j] += q;
+                        let give = if a == b { place.compliance[i * m + j] } else { 0.0 };
+                        self.take[(a * m + i) * size + b * m + j] = give + q;
                         self.take_rate[(a * m + i) * size + b * m + j] = v;
+                    }
+                }
+            }
+        }
+    }
+
+    /// [`Self::fill_answers`] where rows are the same everywhere and all freedoms are bodies'.
+    fn fill_body_answers(&mut self, solver: &Solver, from: &State) {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let (size, h) = (s * m, self.answers[0].h);
+        let rows = &self.places[0].rows;
+        if !self.is_spread {
+            for i in 0..m {
+                for j in 0..m {
+                    self.mobile[i * m + j] = dot(&rows[i * n..(i + 1) * n], &self.spread[j * n..(j + 1) * n]);
+                }
+            }
+        }
+        for i in 0..m {
+            let row = &rows[i * n..(i + 1) * n];
+            let start = self.places[0].held[i] + dot(row, from.q.as_slice());
+            let rate = dot(row, from.v.as_slice());
+            for a in 0..s {
+                self.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
+                self.rate[a * m + i] = rate;
+            }
+            for b in 0..s {
+                let weight = dot(row, self.weight[b].as_slice());
+                for a in 0..s {
+                    self.approach[a * m + i] += h * h * self.nodes.a2[a * s + b] * weight;
+                    self.rate[a * m + i] += h * self.nodes.a[a * s + b] * weight;
+                }
+            }
+        }
+        for a in 0..s {
+            let compliance = &self.places[a].compliance;
+            for b in 0..s {
+                let by_q = h * h * self.nodes.a2[a * s + b];
+                let by_v = h * self.nodes.a[a * s + b];
+                for i in 0..m {
+                    let line = (a * m + i) * size + b * m;
+                    for j in 0..m {
+                        let give = if a == b { compliance[i * m + j] } else { 0.0 };
+                        self.take[line + j] = give + by_q * self.mobile[i * m + j];
+                        self.take_rate[line + j] = by_v * self.mobile[i * m + j];
                     }
                 }
             }
@@ -232,7 +297,7 @@ impl Collocation {
             let law = system.law(i);
             let ratio = law.damping / law.stiffness;
             let memory = solver.remembers(i);
-            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.h;
+            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.answers[0].h;
             let mut right = self.approach[at];
             if memory {
                 right += (0..s).map(|l| by(l) * (self.approach[l * m + i] - from.p[i])).sum::<f64>();
@@ -266,7 +331,8 @@ impl Collocation {
     fn book(&mut self, solver: &mut Solver, from: &State, to: &mut State, limit: f64) -> Result<bool, Error> {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
         let size = s * m;
-        for (b, load) in self.load.iter_mut().enumerate() {
+        for (b, (load, weight)) in self.load.iter_mut().zip(&self.weight).enumerate() {
+            load.copy_from(weight);
             for j in 0..m {
                 let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
                 let force = self.force[b * m + j];
@@ -278,32 +344,36 @@ impl Collocation {
             self.states[at / m].p[at % m] = self.approach[at];
             self.states[at / m].force[at % m] = self.force[at];
         }
+        let h = self.answers[0].h;
         for a in 0..s {
             for r in 0..n {
-                let [q, v] = self.answer(from, a, r);
-                (self.states[a].q[r], self.states[a].v[r]) = (q, v);
+                let [q, v] = self.answer(&self.load, from, a, r);
+                let [omega, zeta] = self.modes[r];
+                let state = &mut self.states[a];
+                (state.q[r], state.v[r]) = (q, v);
+                state.a[r] = self.load[a][r] - omega * (2.0 * zeta * v + omega * q);
             }
+            let state = &mut self.states[a];
             for i in 0..m {
                 let rates =
                     (0..s).map(|l| self.nodes.rate[a * s + l] * (self.approach[l * m + i] - from.p[i]));
-                self.states[a].p_rate[i] = rates.sum::<f64>() / self.h;
+                state.p_rate[i] = rates.sum::<f64>() / h;
             }
-            if !solver.instant(&mut self.states[a])? {
-                return Ok(false);
-            }
-            self.powers[a] = power(solver.system, &solver.geometry, &self.states[a]);
+            self.places[a].update_rail_slope(solver.system, &state.q, &state.force);
+            self.powers[a] = power(solver.system, &self.places[a], state);
         }
         to.copy_from(&self.states[s - 1]);
-        to.t = from.t + self.h;
-        for r in 0..n {
-            let [q, v] = self.answer(from, s, r);
-            (to.q[r], to.v[r]) = (q, v);
-        }
         if self.nodes.c[s - 1] < 1.0 {
-            to.t = to.t.min(limit.next_down());
+            to.t = (from.t + h).min(limit.next_down());
+            for r in 0..n {
+                let [q, v] = self.answer(&self.load, from, s, r);
+                (to.q[r], to.v[r]) = (q, v);
+            }
             if !solver.instant(to)? {
                 return Ok(false);
             }
+        } else {
+            std::mem::swap(&mut solver.geometry, &mut self.places[s - 1]);
         }
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
@@ -315,6 +385,6 @@ impl Collocation {
         for b in 1..s {
             jump -= self.nodes.ahead[b] * self.load[b - 1][r];
         }
-        self.forced[(s * s + s - 1) * n + r].map(|answer| answer * jump)
+        self.answers[0].forced[(s * s + s - 1) * n + r].map(|answer| answer * jump)
     }
 }

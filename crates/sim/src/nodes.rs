@@ -65,6 +65,12 @@ impl Nodes {
         Some(Nodes { c: ends, lagrange, a, a2, rate, ahead })
     }
 
+    /// Answer to the Lagrange polynomial of node `b` from the answers `powers` to the powers of time.
+    pub fn load(&self, b: usize, powers: &[[f64; 2]; 3], part: usize) -> f64 {
+        let s = self.count();
+        (0..s).map(|k| self.lagrange[b * s + k] * powers[k][part]).sum()
+    }
+
     /// Number of nodes.
     pub fn count(&self) -> usize {
         self.c.len() - 1

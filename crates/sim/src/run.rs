@@ -130,6 +130,8 @@ fn integrate(
     breaks.dedup();
     let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
     let mut sample = stepper.to.clone();
+    let mut active = stepper.solver.active.clone();
+    let mut links = stepper.solver.geometry.links.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     'run: for limit in breaks {
@@ -146,8 +148,8 @@ fn integrate(
                 }
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
-            let active = stepper.solver.active.clone();
-            let links = stepper.solver.geometry.links.clone();
+            active.clone_from(&stepper.solver.active);
+            links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
                 if t >= to * (1.0 - 1e-14) {

@@ -1,14 +1,16 @@
 //! Foundations on demand, for structures whose foundation is "auto".
 
 use sim::{Choice, Ladder, Reason, Rung};
+use splines::Compliance;
 
-use super::{Solved, foundation};
+use super::{Solved, foundation, modal};
 use crate::cases::{Known, solved_of};
 use crate::exit::Failure;
 use crate::scene::{Foundation, Scene, Structure};
 
-/// Elements a member of the mesh at the top.
-const ELEMENTS: usize = 8;
+/// Elements of the mesh at the top where they suffice, and fewest and most a member.
+const ELEMENTS: usize = 96;
+const A_MEMBER: [usize; 2] = [8, 32];
 
 impl From<sim::Error> for Failure {
     fn from(error: sim::Error) -> Failure {
@@ -34,19 +36,49 @@ pub fn choose(
     let choices = sim::choose(cast, &tolerances, &mut Rungs { scene, known, lateral })?;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
-        structure.foundation = at(structure, choice.rung);
+        let solved = solved_of(known, &structure.origin);
+        structure.foundation = at(structure, choice.rung, elements(solved));
     }
     Ok(choices)
 }
 
+/// Elements a member of the mesh at the top.
+fn elements(solved: Option<&Solved>) -> usize {
+    let members = solved.map_or(1, |solved| solved.model.members.len());
+    (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
+}
+
+/// A solved structure at `rung` for vertical wheel forces; `damping` of its modes by critical, `finer` times as many
+/// elements a member at the top as `"auto"` takes.
+///
+/// # Errors
+/// A structure without mass where modes are asked for; too many unknowns.
+pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Result<sim::Foundation, Failure> {
+    let name = "structure";
+    let rails = solved.rails.iter().enumerate();
+    match (rung, &solved.surface) {
+        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, false),
+        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, false),
+        (Rung::Influence, Some(surface)) => {
+            Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
+        }
+        (Rung::Influence, None) => Err(Failure::Untrusted(format!("{name}: its surface is not known"))),
+        (Rung::Rigid, surface) => {
+            let range = |rail| surface.as_ref().and_then(|surface| surface.range(rail));
+            let extent = |(rail, _)| sim::Extent { range: range(rail), breaks: Vec::new() };
+            Ok(sim::Foundation { rails: rails.map(extent).collect(), ..sim::Foundation::rigid() })
+        }
+    }
+}
+
 /// What a rung is in a scene.
-fn at(structure: &Structure, rung: Rung) -> Foundation {
+fn at(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
     let damping = structure.damping;
     match rung {
         Rung::Rigid => Foundation::Rigid,
         Rung::Influence => Foundation::Influence,
         Rung::Modal(modes) => Foundation::Modal { modes, damping },
-        Rung::Full => Foundation::Full { elements: ELEMENTS, damping },
+        Rung::Full => Foundation::Full { elements, damping },
     }
 }
 
@@ -74,7 +106,7 @@ impl Ladder for Rungs<'_> {
     fn foundation(&mut self, structure: usize, rung: Rung) -> Result<sim::Foundation, Failure> {
         let mut own = self.scene.structures[structure].clone();
         if own.auto {
-            own.foundation = at(&own, rung);
+            own.foundation = at(&own, rung, elements(self.solved(structure)));
         }
         foundation(&own, self.solved(structure), self.lateral)
     }

@@ -14,7 +14,7 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{choose, reason, word};
+pub use ladder::{choose, reason, rung_of, word};
 
 /// A structure's FE model, solved.
 pub struct Solved {
