@@ -100,6 +100,19 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     };
     let to_scene = Scale { from: Units { length: Length::Foot, ..scene.units }, to: scene.units };
     let mut out = sim::Actuators::default();
+    for rope in &scene.ropes {
+        let [from, to] = [0, 1].map(|end| sim::RopeEnd { body: rope.bodies[end], at: rope.at[end] });
+        out.ropes.push(sim::Rope {
+            from,
+            to,
+            stiffness: rope.stiffness,
+            damping: rope.damping,
+            length: rope.length,
+            speed: rope.speed.clone(),
+        });
+    }
+    let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
+    out.hung = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {
         let freedom = sim::Freedom::ALL[load.freedom];
         out.loads.push(sim::Load { body: load.body, freedom, value: load.value.clone() });

@@ -61,7 +61,7 @@ pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
     let scene = runs[0].scene;
     let unit = scene.units.label(Dimension::LENGTH);
     let mut plates = Vec::new();
-    for body in &scene.bodies {
+    for body in scene.bodies.iter().filter(|body| !body.in_space) {
         let mut chart = Chart::new(
             format!("Path of {}", body.name),
             Axis::new("place along the rail", &unit),

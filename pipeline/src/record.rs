@@ -33,6 +33,15 @@ impl Record {
         record.push("time", Dimension::TIME, history.column(Channel::Time));
         for (b, body) in scene.bodies.iter().enumerate() {
             let name = &body.name;
+            if body.in_space {
+                for (axis, freedom) in ["X", "Y", "Z"].into_iter().zip(Freedom::ALL) {
+                    let place = history.column(Channel::Displacement(b, freedom));
+                    record.push(format!("{name}.{axis}"), Dimension::LENGTH, place);
+                    let speed = history.column(Channel::Speed(b, freedom));
+                    record.push(format!("{name}.{axis}_speed"), Dimension::SPEED, speed);
+                }
+                continue;
+            }
             record.push(
                 format!("{name}.x"),
                 Dimension::LENGTH,
@@ -83,6 +92,12 @@ impl Record {
                 let rate = Dimension::of(0, 0, -1);
                 record.push(format!("{name}.spin_speed"), rate, history.column(Channel::SpinSpeed(w)));
             }
+        }
+        for (r, rope) in scene.ropes.iter().enumerate() {
+            let name = &rope.name;
+            let tension = history.column(Channel::Tension(r));
+            record.push(format!("{name}.tension"), Dimension::FORCE, tension);
+            record.push(format!("{name}.length"), Dimension::LENGTH, history.column(Channel::Length(r)));
         }
         let gauges = scene.structures.iter().flat_map(|structure| {
             structure.gauges.iter().map(move |gauge| (format!("{}.{}", structure.name, gauge.name), gauge))

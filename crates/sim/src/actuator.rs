@@ -2,7 +2,7 @@
 
 use crate::scene::arm_rows;
 use crate::system::System;
-use crate::{Error, Freedom, Scene, Schedule};
+use crate::{Error, Freedom, Rope, Scene, Schedule, Stop};
 
 /// A force or a moment on one free freedom of a body, over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -53,7 +53,7 @@ pub struct Brake {
     pub contacts: Vec<usize>,
 }
 
-/// All loads, drives and brakes of a scene.
+/// All loads, drives and brakes, ropes and stops of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Actuators {
     /// Loads.
@@ -62,6 +62,12 @@ pub struct Actuators {
     pub drives: Vec<Drive>,
     /// Brakes.
     pub brakes: Vec<Brake>,
+    /// Ropes.
+    pub ropes: Vec<Rope>,
+    /// End stops and floors.
+    pub stops: Vec<Stop>,
+    /// Bodies without wheels that start at rest below their ropes or on their floors.
+    pub hung: Vec<usize>,
 }
 
 impl Actuators {
@@ -69,10 +75,23 @@ impl Actuators {
     pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         let loads = self.loads.iter().flat_map(|load| load.value.breaks());
         let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));
-        loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from))
+        let ropes = self.ropes.iter().flat_map(Rope::breaks);
+        loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes)
     }
 
     pub(crate) fn check(&self, scene: &Scene) -> Result<(), Error> {
+        for rope in &self.ropes {
+            rope.check(scene)?;
+        }
+        for stop in &self.stops {
+            stop.check(scene)?;
+        }
+        for &index in &self.hung {
+            let rides = scene.contacts.iter().any(|contact| contact.body == index);
+            if index >= scene.bodies.len() || rides {
+                return Err(Error::NoSuch { what: "body without wheels", index });
+            }
+        }
         for load in &self.loads {
             free(scene, load.body, load.freedom)?;
         }

@@ -19,20 +19,22 @@ pub struct Stored {
     pub contact: f64,
     /// Elastic energy of the structures.
     pub structure: f64,
+    /// Elastic energy of ropes and stops.
+    pub ropes: f64,
 }
 
 impl Stored {
     /// Sum of all.
     #[must_use]
     pub fn total(&self) -> f64 {
-        self.kinetic + self.gravity + self.contact + self.structure
+        self.kinetic + self.gravity + self.contact + self.structure + self.ropes
     }
 }
 
 /// Energy lost and put in since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exchanged {
-    /// Lost in the dampers of contacts.
+    /// Lost in the dampers of contacts, ropes and stops.
     pub dampers: f64,
     /// Lost in sliding, brakes included.
     pub friction: f64,
@@ -48,6 +50,8 @@ pub struct Exchanged {
     pub drives: f64,
     /// Put in by loads.
     pub loads: f64,
+    /// Put in by hoisting.
+    pub hoists: f64,
 }
 
 impl Exchanged {
@@ -58,10 +62,10 @@ impl Exchanged {
             - self.put_in()
     }
 
-    /// Work put in by prescribed motions, drives and loads.
+    /// Work put in by prescribed motions, drives, loads and hoisting.
     #[must_use]
     pub fn put_in(&self) -> f64 {
-        self.drives + self.loads
+        self.drives + self.loads + self.hoists
     }
 
     pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
@@ -73,6 +77,7 @@ impl Exchanged {
         self.switches += weight * power.switches;
         self.drives += weight * power.drives;
         self.loads += weight * power.loads;
+        self.hoists += weight * power.hoists;
     }
 }
 
@@ -81,7 +86,8 @@ impl Exchanged {
 pub struct Audit {
     /// Largest |stored + lost - put in - stored at the start| over the run, an energy.
     pub imbalance: f64,
-    /// Peak elastic energy of contacts and structures over the run: the scale of `residual`.
+    /// Peak elastic energy over the run, or, where there are ropes or stops, the kinetic one if that is larger: the
+    /// scale of `residual`.
     pub peak_stored: f64,
     /// Everything exchanged until the end.
     pub exchanged: Exchanged,
@@ -130,6 +136,13 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         if let Some(flange) = &system.scene.wheels[system.wheels[w].kind].flange {
             let overlap = flange.overlap(geometry.approach(i, &state.q) - give);
             energy.contact += 0.5 * flange.stiffness * flange.share(geometry.height[w]).0 * overlap * overlap;
+        }
+    }
+    for (index, hold) in geometry.links.iter().enumerate() {
+        let i = system.link(index);
+        if state.force[i] != 0.0 {
+            let p = geometry.approach(i, &state.q);
+            energy.ropes += 0.5 * hold.stiffness * p * p;
         }
     }
     energy
@@ -188,6 +201,19 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
             PullLaw::Brake { .. } => power.friction += state.force[i] * rate(i),
         }
     }
+    for (index, hold) in geometry.links.iter().enumerate() {
+        let i = system.link(index);
+        if state.force[i] == 0.0 {
+            continue;
+        }
+        let p = geometry.approach(i, &state.q);
+        power.dampers += hold.damping * rate(i) * rate(i);
+        if hold.natural[1] != 0.0 {
+            // EA p^2/(2 l0) also falls and grows with l0 itself.
+            let share = 0.5 * hold.stiffness * p * p / hold.natural[0];
+            power.hoists -= (state.force[i] + share) * hold.natural[1];
+        }
+    }
     for load in &system.scene.actuators.loads {
         if let Some(number) = system.loaded(load) {
             power.loads += load.value.at(state.t) * state.v[number];
@@ -240,6 +266,9 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
         if kinematics.root(system.wheels[w].body) == b {
             force += state.force[system.traction(index)];
         }
+    }
+    for (index, (link, hold)) in system.links.iter().zip(&geometry.links).enumerate() {
+        force += link.by_travel(system, b, hold.direction) * state.force[system.link(index)];
     }
     force
 }

@@ -23,11 +23,11 @@ impl Solver<'_> {
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
-    pub fn equilibrate(&mut self, at: &mut State) -> Result<(), Error> {
+    pub fn carry(&mut self, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let none = Error::NoEquilibrium { time: at.t };
         at.v.fill(0.0);
-        at.force.fill(0.0);
+        at.force[..system.link(0)].fill(0.0);
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         let moving = self.balancing();
         let mut balance = Balance::new(self, moving, at)?;
@@ -126,7 +126,9 @@ impl<'a> Balance<'a> {
         let reach = |i: usize| if moving.is_empty() { Some(held[i]) } else { None };
         let active: Vec<usize> =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
-        let mut weight = DVector::from_fn(moving.len(), |j, _| system.gravity[moving[j]]);
+        let mut weight = DVector::from_fn(moving.len(), |j, _| {
+            system.gravity[moving[j]] + solver.pull_of_links(moving[j], at)
+        });
         for load in &system.scene.actuators.loads {
             if let Some(j) = moving.iter().position(|&k| system.loaded(load) == Some(k)) {
                 weight[j] += load.value.at(at.t);

@@ -46,24 +46,28 @@ impl Stepper<'_, '_> {
     /// share is the secant of the forces at both ends, for all others the root on the interpolant. Repeated, both
     /// end within [`OVERSHOOT`] beyond the event.
     pub(crate) fn first_event(&mut self) -> Result<Option<(f64, f64)>, Error> {
-        let count = self.solver.system.normals.len();
+        let system = self.solver.system;
+        let links = (0..system.links.len()).map(|index| system.link(index));
+        let own = (0..system.normals.len()).chain(links);
         let aim = 0.5 * OVERSHOOT * self.largest_force();
         let mut first: Option<(f64, f64)> = None;
         let mut interpolated = false;
-        for i in 0..count {
+        for i in own {
             let excess = self.event(i, &self.to);
             if excess <= 0.0 {
                 continue;
             }
-            let share = if self.solver.remembers(i) {
+            let noise =
+                i.checked_sub(system.link(0)).map_or(0.0, |index| self.solver.geometry.links[index].noise);
+            let share = if i < system.normals.len() && self.solver.remembers(i) {
                 let start = self.from.force[i].max(0.0);
                 ((start + aim) / (start + excess)).min(1.0)
             } else {
                 interpolated = true;
-                self.root_on_interpolant(i, aim)?
+                self.root_on_interpolant(i, aim + noise)?
             };
             if first.is_none_or(|(known, _)| share < known) {
-                first = Some((share, excess));
+                first = Some((share, excess - 2.0 * noise));
             }
         }
         if interpolated {
@@ -113,10 +117,17 @@ impl Stepper<'_, '_> {
         self.to.force.iter().fold(self.force_scale, |max, force| max.max(force.abs()))
     }
 
-    /// Positive where contact `i` must open (if it acts) or close (if it does not): the force by which it has gone
+    /// Positive where contact or link `i` must open (if it acts) or close (if it does not): the force by which it has gone
     /// too far. A contact closes where its spring is pressed and its law pushes: the lesser of the two, since the
     /// damper's force may jump where wheel and rail meet, the spring's where a pressed contact begins to push.
     pub(crate) fn event(&self, i: usize, at: &State) -> f64 {
+        let system = self.solver.system;
+        if i >= system.normals.len() {
+            let index = i - system.link(0);
+            let margin = self.solver.geometry.margin(system, index, at);
+            let hold = &self.solver.geometry.links[index];
+            return if hold.taut { -margin - hold.noise } else { margin - hold.noise };
+        }
         if self.solver.active[i] {
             return if self.solver.bilateral(i) { -1.0 } else { -at.force[i] };
         }

@@ -222,6 +222,18 @@ impl Problem {
                 self.matrix[i * m + grip.normal] -= by_traction * grip.mu;
             }
         }
+        for (index, hold) in geometry.links.iter().enumerate() {
+            let i = system.link(index);
+            if !hold.taut {
+                self.residual[i] = force[i];
+                continue;
+            }
+            self.residual[i] = force[i] - hold.law(self.penetration(i, force), self.rate(i, force));
+            for j in 0..m {
+                self.matrix[i * m + j] +=
+                    hold.stiffness * self.w[i * m + j] + hold.damping * self.y[i * m + j];
+            }
+        }
         largest(&self.residual)
     }
 }

@@ -4,6 +4,7 @@ use nalgebra::DVector;
 use splines::{Influence, Probe};
 
 use crate::dense::along;
+use crate::link::Hold;
 use crate::scene::arm_rows;
 use crate::system::{System, WheelPoint};
 use crate::{Error, Moving};
@@ -33,6 +34,8 @@ pub(crate) struct Geometry {
     pub rate_held: Vec<f64>,
     /// Whether each drive or brake acts.
     pub pulls: Vec<bool>,
+    /// Ropes and stops.
+    pub links: Vec<Hold>,
     /// Slope of the deflected rail under each component, d u/d x.
     pub rail_slope: Vec<f64>,
     influence: Vec<Influence>,
@@ -60,6 +63,7 @@ impl Geometry {
             rate_rows: vec![0.0; m * n],
             rate_held: vec![0.0; m],
             pulls: vec![false; system.pulls.len()],
+            links: vec![Hold::default(); system.links.len()],
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
@@ -112,6 +116,7 @@ impl Geometry {
             self.pulls[i] = reference.is_some();
             self.rate_held[system.pull(i)] = -reference.unwrap_or(0.0);
         }
+        self.update_links(system, t, q);
         self.update_force_rows(system, q, force)
     }
 

@@ -31,6 +31,12 @@ pub enum Channel {
     SpinAngle(usize),
     /// Angular speed of a wheel about z.
     SpinSpeed(usize),
+    /// Tension of a rope.
+    Tension(usize),
+    /// Distance of the ends of a rope.
+    Length(usize),
+    /// Force of a stop.
+    Stop(usize),
     /// Displacement of a gauge along its axis.
     Gauge(usize),
 }

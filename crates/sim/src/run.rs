@@ -80,6 +80,7 @@ pub fn run_by(
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
+    solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(method, &system, &mut solver, state, watch),
@@ -105,8 +106,10 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    let placed =
-        scene.bodies.iter().any(|body| [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0));
+    let placed = scene.bodies.iter().enumerate().any(|(b, body)| {
+        system.wheels.iter().any(|wheel| wheel.body == b)
+            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
+    });
     if !placed {
         solver.equilibrate(&mut state)?;
     }
@@ -131,6 +134,7 @@ fn integrate(
     let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
+    let mut links = stepper.solver.geometry.links.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     'run: for limit in breaks {
@@ -148,6 +152,7 @@ fn integrate(
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
             active.clone_from(&stepper.solver.active);
+            links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
                 if t >= to * (1.0 - 1e-14) {
@@ -158,6 +163,7 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
             }
             if watch(to).is_break() {
@@ -241,6 +247,9 @@ impl Recorder {
                 Channel::SpinSpeed(w),
             ]);
         }
+        let actuators = &system.scene.actuators;
+        channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
+        channels.extend((0..actuators.stops.len()).map(Channel::Stop));
         channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
         let history = History { channels, values: Vec::new() };
         Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
@@ -282,6 +291,13 @@ impl Recorder {
                 angle,
                 speed,
             ]);
+        }
+        let ropes = system.scene.actuators.ropes.len();
+        for (index, hold) in solver.geometry.links.iter().enumerate() {
+            self.history.values.push(at.force[system.link(index)]);
+            if index < ropes {
+                self.history.values.push(hold.length);
+            }
         }
         for gauge in &system.scene.gauges {
             let displacement = self.displacement(system, solver, at, gauge)?;

@@ -25,6 +25,38 @@ impl Schedule {
         linear(&self.rows, t).0
     }
 
+    /// Integral of the value from 0 to `t`.
+    #[must_use]
+    pub fn integral(&self, t: f64) -> f64 {
+        self.area(t) - self.area(0.0)
+    }
+
+    /// Times at which the value passes zero between its rows.
+    pub fn turns(&self) -> impl Iterator<Item = f64> + '_ {
+        self.rows.windows(2).filter(|pair| pair[0][1] * pair[1][1] < 0.0).map(|pair| {
+            let [[t0, v0], [t1, v1]] = [pair[0], pair[1]];
+            t0 + (t1 - t0) * v0 / (v0 - v1)
+        })
+    }
+
+    /// Integral from the first row to `t`.
+    fn area(&self, t: f64) -> f64 {
+        let Some(&[first, start]) = self.rows.first() else { return 0.0 };
+        if t <= first {
+            return start * (t - first);
+        }
+        let mut sum = 0.0;
+        let (mut t0, mut v0) = (first, start);
+        for &[t1, v1] in &self.rows[1..] {
+            if t <= t1 {
+                return sum + 0.5 * (v0 + self.at(t)) * (t - t0);
+            }
+            sum += 0.5 * (v0 + v1) * (t1 - t0);
+            (t0, v0) = (t1, v1);
+        }
+        sum + v0 * (t - t0)
+    }
+
     /// Times at which the slope may jump.
     pub fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         self.rows.iter().map(|row| row[0])

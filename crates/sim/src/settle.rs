@@ -14,6 +14,10 @@ impl Solver<'_> {
     /// of the active set. Returns whether it settled.
     pub fn settle(&mut self, at: &mut State) -> Result<bool, Error> {
         let count = self.system.normals.len();
+        if !self.system.links.is_empty() {
+            self.geometry.update(self.system, at.t, &at.q, &at.force)?;
+            self.geometry.settle_links(self.system, at);
+        }
         self.guess_active(at)?;
         for _ in 0..4 * count + 8 {
             if !self.instant(at)? {

@@ -87,6 +87,11 @@ impl<'a> Solver<'a> {
         }
     }
 
+    /// Which ropes and stops act.
+    pub fn taut(&self) -> Vec<bool> {
+        self.geometry.links.iter().map(|hold| hold.taut).collect()
+    }
+
     /// M^-1 times the forces at `t` that do not depend on the contacts.
     pub(crate) fn accelerate(&mut self, t: f64) -> &DVector<f64> {
         self.fill_load(t);
@@ -139,7 +144,7 @@ impl<'a> Solver<'a> {
             self.free_v[i] = known.v[i] + g * self.free_a[i];
             self.free_q[i] = known.q[i] + g * self.free_v[i];
         }
-        if system.moves_freely || !system.laterals.is_empty() {
+        if system.moves_freely || !system.laterals.is_empty() || !system.links.is_empty() {
             for i in 0..n {
                 at.q[i] = known.q[i] + g * (known.v[i] + g * at.a[i]);
             }
@@ -194,7 +199,10 @@ impl<'a> Solver<'a> {
             }
             moved = moved.max(self.update_heights(at));
             if moved < 1e-13
-                || !(system.moves_freely || !system.laterals.is_empty() || !system.tractions.is_empty())
+                || !(system.moves_freely
+                    || !system.laterals.is_empty()
+                    || !system.tractions.is_empty()
+                    || !system.links.is_empty())
             {
                 return Ok(true);
             }

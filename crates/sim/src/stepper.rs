@@ -296,19 +296,23 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let before = stored(system, &self.solver.geometry, &self.to);
         let due = (0..system.normals.len()).any(|i| {
             (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
-        });
+        }) || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
         let mut after = before;
         if due {
             let flags = self.solver.active.clone();
+            let taut = self.solver.taut();
             if self.solver.settle(&mut self.to)? {
-                self.counts.events += usize::from(flags != self.solver.active);
+                self.counts.events += usize::from(flags != self.solver.active || taut != self.solver.taut());
                 after = stored(system, &self.solver.geometry, &self.to);
                 self.audit.exchanged.switches += before.total() - after.total();
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);
         self.audit.end = after;
-        let elastic = after.contact + after.structure;
+        let mut elastic = after.contact + after.structure + after.ropes;
+        if !system.links.is_empty() {
+            elastic = elastic.max(after.kinetic);
+        }
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
         let imbalance = (after.total() + self.audit.exchanged.net_loss() - self.begun).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);

@@ -1,7 +1,8 @@
 //! The scene as numbered unknowns: freedoms q, contact components F, and the matrices between them.
 //!
 //! M q'' + C q' + K q = f(t) - R^T F. A component is a vertical contact (of one wheel, or of the wheels of
-//! equalisers), a flange, a wheel's friction, a drive or a brake, in this order.
+//! equalisers), a flange, a wheel's friction, a drive, a brake, a rope or a stop,
+//! in this order.
 
 use std::ops::Range;
 
@@ -10,6 +11,7 @@ use splines::{Axis, Probe};
 
 use crate::actuator::Pull;
 use crate::kinematics::Kinematics;
+use crate::link::Link;
 use crate::matter::Block;
 use crate::scene::arm_rows;
 use crate::{Error, Foundation, Freedom, Load, NormalLaw, Scene};
@@ -61,6 +63,8 @@ pub(crate) struct System<'a> {
     pub tractions: Vec<usize>,
     /// Drives and braked contacts; component `normals.len() + laterals.len() + tractions.len() + i`.
     pub pulls: Vec<Pull>,
+    /// Ropes and stops, the last components.
+    pub links: Vec<Link<'a>>,
     /// Numbers of the freedoms of each body itself.
     pub freedom: Vec<[Option<usize>; 6]>,
     /// Displacements of the bodies over the freedoms.
@@ -162,6 +166,7 @@ impl<'a> System<'a> {
             laterals,
             tractions,
             pulls: Vec::new(),
+            links: Vec::new(),
             kinematics: Kinematics::new(scene, &freedom)?,
             freedom,
             structure,
@@ -177,6 +182,7 @@ impl<'a> System<'a> {
         };
         system.fill_matrices()?;
         system.pulls = Pull::all(&system);
+        system.links = Link::all(&system);
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
         system.is_direct = system
             .entries
@@ -194,6 +200,7 @@ impl<'a> System<'a> {
             && system.laterals.is_empty()
             && system.tractions.is_empty()
             && system.pulls.is_empty()
+            && system.links.is_empty()
             && foundations.iter().all(|foundation| foundation.structure.is_none());
         let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
         system.linear_normals = laws().all(NormalLaw::is_linear);
@@ -211,7 +218,7 @@ impl<'a> System<'a> {
 
     /// Number of contact components.
     pub fn components(&self) -> usize {
-        self.normals.len() + self.laterals.len() + self.tractions.len() + self.pulls.len()
+        self.normals.len() + self.laterals.len() + self.tractions.len() + self.pulls.len() + self.links.len()
     }
 
     /// Whether some structure has freedoms of its own.
@@ -237,6 +244,11 @@ impl<'a> System<'a> {
     /// Component of drive or brake `i`.
     pub fn pull(&self, i: usize) -> usize {
         self.normals.len() + self.laterals.len() + self.tractions.len() + i
+    }
+
+    /// Component of rope or stop `i`.
+    pub fn link(&self, i: usize) -> usize {
+        self.pull(self.pulls.len()) + i
     }
 
     /// Number of the freedom of load `load`.

@@ -201,6 +201,17 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
 /// Refuses drives, brakes, loads and pinned bodies, which a deck does not have yet.
 fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
     let refuse = |why: String, hint: &str| Err(Failure::from(Diagnostic::of_file(file, why).hint(hint)));
+    if let Some(rope) = scene.ropes.first() {
+        let why = format!("a deck cannot have ropes: \"{}\"", rope.name);
+        return refuse(
+            why,
+            "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
+        );
+    }
+    if let Some(body) = scene.bodies.iter().find(|body| body.in_space) {
+        let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);
+        return refuse(why, "leave it out, and add a PART to the deck by hand");
+    }
     for body in &scene.bodies {
         if body.pinned.is_some() {
             let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);

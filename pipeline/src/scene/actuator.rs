@@ -83,7 +83,7 @@ pub(super) fn read_drive(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'
     Some(Drive { speed, gain, max_force })
 }
 
-fn read_schedule(
+pub(super) fn read_schedule(
     table: &[[f64; 2]],
     place: &Place<'_>,
     unit: Dimension,

@@ -23,6 +23,8 @@ pub struct Body {
     pub cg: [f64; 3],
     /// Which of x, y, z, roll, yaw, pitch are free.
     pub free: [bool; 6],
+    /// Whether it is a point in space: x, y, z are X, Y, Z.
+    pub in_space: bool,
     /// Rails that hold what is not free, as indices into the scene's rails.
     pub track: Vec<usize>,
     /// Position along the rail at time 0.
@@ -105,6 +107,7 @@ pub(super) fn read(
         inertia,
         cg,
         free,
+        in_space: raw.dof.iter().flatten().any(|word| SPACE.contains(&word.as_str())),
         track: Vec::new(),
         x0,
         v0,
@@ -138,6 +141,13 @@ fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool;
     let mut free = [false; 6];
     let Some(words) = check.faults.need(&raw.dof, at, "dof") else { return free };
     let place = at.key("dof");
+    if words.iter().any(|word| SPACE.contains(&word.as_str())) {
+        if *words != SPACE {
+            let fault = Fault::new(&place, "a body in space must have \"X\", \"Y\" and \"Z\", in this order");
+            check.faults.add(fault.hint("a body on a track has x, y, z, roll, yaw, pitch"));
+        }
+        return [true, true, true, false, false, false];
+    }
     for (index, word) in words.iter().enumerate() {
         let item = place.index(index);
         match FREEDOMS.iter().position(|known| known == word) {
@@ -145,11 +155,6 @@ fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool;
                 check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
             }
             Some(known) => free[known] = true,
-            None if SPACE.contains(&word.as_str()) => {
-                check
-                    .faults
-                    .add(Fault::new(&item, "a body in space (X, Y, Z) is not available in this version"));
-            }
             None => {
                 let mut fault = Fault::new(&item, format!("must be {}", alternatives(&FREEDOMS)));
                 fault = fault.got(format!("\"{word}\""));

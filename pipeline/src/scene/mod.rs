@@ -7,6 +7,7 @@ mod gauge;
 mod pin;
 mod raw;
 mod read;
+mod rope;
 mod structure;
 mod tables;
 mod ties;
@@ -17,6 +18,7 @@ pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use gauge::Gauge;
+pub use rope::Rope;
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
@@ -49,6 +51,8 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Wheels under bodies.
     pub trucks: Vec<Truck>,
+    /// Ropes.
+    pub ropes: Vec<Rope>,
     /// Forces and moments on bodies.
     pub loads: Vec<Load>,
     /// Time at which the scene ends.

@@ -26,6 +26,8 @@ crate::object::objects!(
     RawTruck,
     RawMotion,
     RawLoad,
+    RawRope,
+    RawEnds,
     RawEnd,
     RawOutput
 );
@@ -47,7 +49,7 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub trucks: Vec<RawTruck>,
     #[serde(default)]
-    pub ropes: Vec<Value>,
+    pub ropes: Vec<RawRope>,
     #[serde(default)]
     pub motions: Vec<RawMotion>,
     #[serde(default)]
@@ -314,6 +316,27 @@ pub(crate) struct RawLoad {
     pub body: Option<String>,
     pub dof: Option<String>,
     pub value: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawRope {
+    pub name: Option<String>,
+    pub from: Option<RawEnds>,
+    pub to: Option<RawEnds>,
+    #[serde(rename = "EA")]
+    pub stiffness: Option<f64>,
+    pub c: Option<f64>,
+    pub length: Option<f64>,
+    pub speed: Option<Vec<[f64; 2]>>,
+}
+
+/// One end of a rope.
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawEnds {
+    pub body: Option<String>,
+    pub at: Option<[f64; 3]>,
 }
 
 #[derive(Debug, Deserialize)]

@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, structure, truck,
-    wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, rope, structure,
+    truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -75,6 +75,7 @@ pub(super) fn scene(
         Some(end) => check.needed(end.time, &root.key("end"), "time", Dimension::TIME, ""),
         None => 1.0,
     };
+    let ropes = rope::read_all(&raw.ropes, &bodies, end, check);
     let mut scene = Scene {
         name,
         units: known,
@@ -86,6 +87,7 @@ pub(super) fn scene(
         wheels,
         trucks: Vec::new(),
         loads,
+        ropes,
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -105,11 +107,7 @@ pub(super) fn scene(
 }
 
 fn refuse_later(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) {
-    let later = [
-        ("ropes", raw.ropes.is_empty(), "a rope"),
-        ("events", raw.events.is_empty(), "an event"),
-        ("stops", raw.stops.is_empty(), "a stop"),
-    ];
+    let later = [("events", raw.events.is_empty(), "an event"), ("stops", raw.stops.is_empty(), "a stop")];
     for (key, empty, what) in later {
         if !empty {
             check.faults.unavailable(&root.key(key), what);

@@ -1,0 +1,176 @@
+//! Ropes and stops as components: approach, rate, and which of them pull or push.
+//!
+//! The approach of a rope is its stretch l - l0, that of a stop its depth; both grow with the force's own row, so
+//! that f = -row^T F. Rows are those of the last state: a stage repeats them until they are at rest.
+
+use nalgebra::DVector;
+
+use crate::dense::along;
+use crate::geometry::Geometry;
+use crate::point::Point;
+use crate::state::State;
+use crate::system::System;
+use crate::{Moving, Rope, RopeEnd, Stop};
+
+/// Rounding of a stretch or depth, relative to the places it comes from.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+/// A rope or a stop.
+pub(crate) enum Link<'a> {
+    Rope { rope: &'a Rope, from: Point, to: Point },
+    Stop { stop: &'a Stop, point: Point },
+}
+
+/// A link at one state.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Hold {
+    pub stiffness: f64,
+    pub damping: f64,
+    /// Unit vector along which the approach grows: from `from` to `to` of a rope, into a stop.
+    pub direction: [f64; 3],
+    /// Distance of the ends of a rope; depth of a stop.
+    pub length: f64,
+    /// Unstretched length of a rope, and its rate.
+    pub natural: [f64; 2],
+    /// Force below which rounding of places hides whether it acts.
+    pub noise: f64,
+    /// Whether it pulls or pushes.
+    pub taut: bool,
+}
+
+impl<'a> Link<'a> {
+    /// All links of a scene: its ropes, then its stops.
+    pub fn all(system: &System<'a>) -> Vec<Link<'a>> {
+        let actuators = &system.scene.actuators;
+        let ropes = actuators.ropes.iter().map(|rope| Link::Rope {
+            rope,
+            from: Point::new(system, &rope.from),
+            to: Point::new(system, &rope.to),
+        });
+        let stops = actuators.stops.iter().map(|stop| {
+            let end = RopeEnd { body: Some(stop.body), at: stop.at };
+            Link::Stop { stop, point: Point::new(system, &end) }
+        });
+        ropes.chain(stops).collect()
+    }
+
+    /// Whether it is fixed to body `b`.
+    pub fn is_on(&self, b: usize) -> bool {
+        match self {
+            Link::Rope { from, to, .. } => from.body == Some(b) || to.body == Some(b),
+            Link::Stop { point, .. } => point.body == Some(b),
+        }
+    }
+
+    /// Adds `direction` times the rows of the vector that its approach measures to `row`.
+    pub fn add_row(&self, system: &System, direction: [f64; 3], row: &mut [f64]) {
+        match self {
+            Link::Rope { from, to, .. } => {
+                to.add_row(system, direction, row);
+                from.add_row(system, direction.map(|d| -d), row);
+            }
+            Link::Stop { point, .. } => point.add_row(system, direction, row),
+        }
+    }
+
+    /// Rate of its approach by the x of body `b`.
+    pub fn by_travel(&self, system: &System, b: usize, direction: [f64; 3]) -> f64 {
+        match self {
+            Link::Rope { from, to, .. } => {
+                to.by_travel(system, b, direction) - from.by_travel(system, b, direction)
+            }
+            Link::Stop { point, .. } => point.by_travel(system, b, direction),
+        }
+    }
+
+    /// Approach at (t, q), and its rate by prescribed motions and hoisting; brings `hold` there.
+    fn read(
+        &self,
+        system: &System,
+        travel: &[Moving],
+        t: f64,
+        q: &DVector<f64>,
+        hold: &mut Hold,
+    ) -> [f64; 2] {
+        match self {
+            Link::Rope { rope, from, to } => {
+                let (a, b) = (from.position(system, t, q), to.position(system, t, q));
+                let reach = difference(b, a);
+                hold.length = norm(reach);
+                if hold.length > 0.0 {
+                    hold.direction = reach.map(|r| r / hold.length);
+                } else {
+                    hold.direction = [0.0, -1.0, 0.0];
+                }
+                hold.natural = [rope.length - rope.speed.integral(t), -rope.speed.at(t)];
+                hold.stiffness = rope.stiffness / hold.natural[0];
+                hold.damping = rope.damping;
+                let size = a.iter().chain(&b).fold(hold.length, |max, c| max.max(c.abs()));
+                hold.noise = ROUNDING * hold.stiffness * size;
+                let drift = difference(to.drift(system, travel), from.drift(system, travel));
+                [hold.length - hold.natural[0], scalar(hold.direction, drift) - hold.natural[1]]
+            }
+            Link::Stop { stop, point } => {
+                let place = point.position(system, t, q)[stop.axis];
+                hold.direction = [0.0; 3];
+                hold.direction[stop.axis] = stop.side;
+                hold.length = stop.side * (place - stop.place);
+                (hold.stiffness, hold.damping) = (stop.stiffness, stop.damping);
+                hold.noise = ROUNDING * hold.stiffness * place.abs().max(stop.place.abs());
+                [hold.length, scalar(hold.direction, point.drift(system, travel))]
+            }
+        }
+    }
+}
+
+impl Hold {
+    /// Force by stretch or depth `p` and its rate, as if it could do both pull and push.
+    pub fn law(&self, p: f64, rate: f64) -> f64 {
+        self.stiffness * p + self.damping * rate
+    }
+}
+
+impl Geometry {
+    /// Rows, approaches and rates of the links at (t, q); prescribed motions are where they are at t.
+    pub fn update_links(&mut self, system: &System, t: f64, q: &DVector<f64>) {
+        let n = system.freedoms;
+        for (index, link) in system.links.iter().enumerate() {
+            let component = system.link(index);
+            let [approach, rate] = link.read(system, &self.travel, t, q, &mut self.links[index]);
+            let span = component * n..(component + 1) * n;
+            let row = &mut self.rows[span.clone()];
+            row.fill(0.0);
+            link.add_row(system, self.links[index].direction, row);
+            self.rate_rows[span].copy_from_slice(&self.rows[component * n..(component + 1) * n]);
+            self.held[component] = approach - along(&self.rows, component, q.as_slice());
+            self.rate_held[component] = rate;
+        }
+    }
+
+    /// The force by which link `index` pulls or pushes at `at`; negative where it must not act: the lesser of its law
+    /// and its spring, since the damper's force may jump where it begins.
+    pub fn margin(&self, system: &System, index: usize, at: &State) -> f64 {
+        let (component, hold) = (system.link(index), &self.links[index]);
+        let p = self.approach(component, &at.q);
+        hold.law(p, self.rate(component, &at.v)).min(hold.stiffness * p)
+    }
+
+    /// Finds which links act at `at`.
+    pub fn settle_links(&mut self, system: &System, at: &State) {
+        for index in 0..system.links.len() {
+            self.links[index].taut = self.margin(system, index, at) > 0.0;
+        }
+    }
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+pub(crate) fn scalar(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn norm(a: [f64; 3]) -> f64 {
+    a[0].hypot(a[1]).hypot(a[2])
+}

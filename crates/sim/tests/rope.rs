@@ -1,0 +1,164 @@
+//! Bodies in space on ropes: pendulums, hoisting, slack.
+
+use std::ops::ControlFlow;
+
+use sim::{
+    Actuators, Analysis, Body, Channel, Freedom, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run,
+};
+
+const G: f64 = 9.80665;
+
+fn body(mass: f64, start: [f64; 3], speed: [f64; 3]) -> Body {
+    Body {
+        mass,
+        inertia: [0.0; 3],
+        cg: [0.0; 3],
+        free: [true, true, true, false, false, false],
+        start: [start[0], start[1], start[2], 0.0, 0.0, 0.0],
+        start_speed: [speed[0], speed[1], speed[2], 0.0, 0.0, 0.0],
+        motion: None,
+        pinned: None,
+    }
+}
+
+fn still() -> Schedule {
+    Schedule::new(&[[0.0, 0.0]]).expect("one row")
+}
+
+fn rope(stiffness: f64, length: f64, to: usize) -> Rope {
+    let from = RopeEnd { body: None, at: [0.0; 3] };
+    let to = RopeEnd { body: Some(to), at: [0.0; 3] };
+    Rope { from, to, stiffness, damping: 0.0, length, speed: still() }
+}
+
+fn scene(bodies: Vec<Body>, actuators: Actuators, end: f64, accuracy: f64) -> Scene {
+    Scene {
+        gravity: G,
+        bodies,
+        wheels: Vec::new(),
+        contacts: Vec::new(),
+        gauges: Vec::new(),
+        actuators,
+        analysis: Analysis::Dynamic,
+        end,
+        output_dt: end / 1000.0,
+        accuracy,
+    }
+}
+
+fn go(scene: &Scene) -> Run {
+    let run = run(scene, &[], &mut |_| ControlFlow::Continue(())).expect("a scene that runs");
+    assert_eq!(run.status, Status::Done);
+    run
+}
+
+/// Last sample of a displacement.
+fn last(run: &Run, freedom: Freedom) -> f64 {
+    *run.history.column(Channel::Displacement(0, freedom)).last().expect("samples")
+}
+
+/// Analytic: with the ring at angle a0, the period is 4 sqrt(l/g) K(sin(a0/2)), K by the arithmetic-geometric mean;
+/// half of it later the pendulum is at the other side.
+#[test]
+fn a_swing_of_sixty_degrees_takes_the_elliptic_period() {
+    let (l, angle, ea) = (10.0_f64, 60.0_f64.to_radians(), 1e11);
+    let (mut a, mut b) = (1.0_f64, (angle / 2.0).cos());
+    for _ in 0..8 {
+        (a, b) = (0.5 * (a + b), (a * b).sqrt());
+    }
+    let period = 2.0 * std::f64::consts::PI * (l / G).sqrt() / a;
+    // stretched by the part of the weight along it: no vibration
+    let stretched = l * (1.0 + 1000.0 * G * angle.cos() / ea);
+    let start = [stretched * angle.sin(), -stretched * angle.cos(), 0.0];
+    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], ..Actuators::default() };
+    let run = go(&scene(vec![body(1000.0, start, [0.0; 3])], actuators, 0.5 * period, 1e-6));
+    assert!((last(&run, Freedom::X) + start[0]).abs() < 1e-4, "{} {:?}", last(&run, Freedom::X), run.counts);
+    println!("period: {:?} {:e}", run.counts, run.audit.residual());
+}
+
+#[test]
+fn a_small_swing_of_an_elastic_rope_has_the_period_of_its_stretched_length() {
+    let (m, l0, ea) = (1000.0, 8.0, 1e6);
+    let l = l0 * (1.0 + m * G / ea);
+    let period = 2.0 * std::f64::consts::PI * (l / G).sqrt();
+    let x = 1e-3 * l;
+    let start = [x, -(l * l - x * x).sqrt(), 0.0];
+    let actuators = Actuators { ropes: vec![rope(ea, l0, 0)], ..Actuators::default() };
+    let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, period, 1e-6));
+    assert!((last(&run, Freedom::X) / x - 1.0).abs() < 1e-5, "{}", last(&run, Freedom::X) / x - 1.0);
+    println!("small: {:?} {:e}", run.counts, run.audit.residual());
+}
+
+/// Analytic: thrown up at v from rest length, free flight, and the rope is tight again after 2 v/g.
+#[test]
+fn a_load_thrown_upwards_flies_until_the_rope_catches_it() {
+    let (m, l, v) = (500.0, 5.0, 6.0);
+    let actuators = Actuators { ropes: vec![rope(1e7, l, 0)], ..Actuators::default() };
+    let run = go(&scene(vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])], actuators, 2.0, 1e-7));
+    let (t, y) =
+        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, Freedom::Y)));
+    let tension = run.history.column(Channel::Tension(0));
+    let catch = 2.0 * v / G;
+    for ((t, y), tension) in t.iter().zip(&y).zip(&tension) {
+        if *t < catch {
+            assert!((y - (-l + v * t - 0.5 * G * t * t)).abs() < 1e-9, "t = {t}");
+            assert_eq!(*tension, 0.0);
+        }
+    }
+    // x'' = g - k x / m from x = 0 at v: the peak is m g + sqrt((m g)^2 + k m v^2)
+    let k = 1e7 / l;
+    let peak = m * G + ((m * G).powi(2) + k * m * v * v).sqrt();
+    let most = tension.iter().copied().fold(0.0, f64::max);
+    assert!((most / peak - 1.0).abs() < 0.05, "{most} {peak}");
+    assert!(run.counts.events >= 1 && run.audit.residual() < 1e-7, "{:e}", run.audit.residual());
+    println!("throw: {:?} {:e}", run.counts, run.audit.residual());
+}
+
+/// Analytic: at rest below its rope a load stays, its tension is its weight.
+#[test]
+fn a_hung_load_starts_at_rest_stretched_by_its_weight() {
+    let (m, l, ea) = (2000.0, 6.0, 5e6);
+    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], hung: vec![0], ..Actuators::default() };
+    let run = go(&scene(vec![body(m, [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6));
+    for tension in run.history.column(Channel::Tension(0)) {
+        assert!((tension / (m * G) - 1.0).abs() < 1e-9, "{tension}");
+    }
+    assert!((last(&run, Freedom::Y) + l * (1.0 + m * G / ea)).abs() < 1e-10);
+}
+
+/// Analytic: hoisted at speed v from slack on a floor, the rope tightens until it lifts the load off at
+/// k v t = m g; then m x'' = k (v t - x) gives a peak of m g + v sqrt(k m) with k all but constant.
+#[test]
+fn hoisting_off_the_floor_at_speed_peaks_at_weight_and_v_root_k_m() {
+    let (m, l, ea, v) = (1000.0, 100.0, 1e8, 0.2);
+    let mut line = rope(ea, l, 0);
+    line.speed = Schedule::new(&[[0.0, v]]).expect("one row");
+    let k_floor = 1e9;
+    let floor =
+        Stop { body: 0, at: [0.0; 3], axis: 1, place: -l, side: -1.0, stiffness: k_floor, damping: 0.0 };
+    let start = [0.0, -l - m * G / k_floor, 0.0];
+    let actuators = Actuators { ropes: vec![line], stops: vec![floor], ..Actuators::default() };
+    let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, 0.3, 1e-7));
+    let peak = m * G + v * (ea / l * m).sqrt();
+    let most = run.history.column(Channel::Tension(0)).into_iter().fold(0.0, f64::max);
+    assert!((most / peak - 1.0).abs() < 5e-3, "{most} {peak}");
+    println!("hoist: {most} {peak} {:?} {:e} {:?}", run.counts, run.audit.residual(), run.audit);
+}
+
+/// Analytic: v sqrt(m k), and the body comes back with its speed.
+#[test]
+fn a_buffer_peaks_at_v_root_m_k_and_gives_the_speed_back() {
+    let (m, k, v) = (2000.0, 4e5, 1.5);
+    let stop =
+        Stop { body: 0, at: [1.0, 0.0, 0.0], axis: 0, place: 3.0, side: 1.0, stiffness: k, damping: 0.0 };
+    let mut free = body(m, [0.0; 3], [v, 0.0, 0.0]);
+    free.free[1] = false;
+    let actuators = Actuators { stops: vec![stop], ..Actuators::default() };
+    let run = go(&scene(vec![free], actuators, 2.5, 1e-8));
+    let most = run.history.column(Channel::Stop(0)).into_iter().fold(0.0, f64::max);
+    let back = *run.history.column(Channel::Speed(0, Freedom::X)).last().expect("samples");
+    assert!((most / (v * (m * k).sqrt()) - 1.0).abs() < 1e-3, "{most}");
+    assert!((back / v + 1.0).abs() < 1e-7, "{back}");
+    println!("buffer: {:?} {:e}", run.counts, run.audit.residual());
+    assert!(run.audit.residual() < 1e-8);
+}
