@@ -112,7 +112,10 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         ..Stored::default()
     };
     energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
-    for (b, body) in system.scene.bodies.iter().enumerate() {
+    let [kinetic, gravity] = system.rides.energy(system, state.t, &state.q, &state.v);
+    energy.kinetic += kinetic;
+    energy.gravity += gravity;
+    for (b, body) in system.scene.bodies.iter().enumerate().filter(|(b, _)| !system.rides.has(*b)) {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
         energy.gravity += body.mass * system.scene.gravity * lift;
@@ -249,6 +252,7 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
     }
     let kinematics = &system.kinematics;
     let mut force = kinematics.mass(b) * geometry.travel[b].a;
+    force += system.rides.drive(system, [&state.q, &state.v, &state.a], state.t, b);
     for &(number, inertia) in kinematics.drag(b) {
         force += inertia * state.a[number];
     }

@@ -126,9 +126,10 @@ impl<'a> Balance<'a> {
         let reach = |i: usize| if moving.is_empty() { Some(held[i]) } else { None };
         let active: Vec<usize> =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
-        let mut weight = DVector::from_fn(moving.len(), |j, _| {
-            system.gravity[moving[j]] + solver.pull_of_links(moving[j], at)
-        });
+        let mut gravity = system.gravity.clone();
+        system.rides.weigh(system, (at.t, &at.q), &mut gravity);
+        let mut weight =
+            DVector::from_fn(moving.len(), |j, _| gravity[moving[j]] + solver.pull_of_links(moving[j], at));
         for load in &system.scene.actuators.loads {
             if let Some(j) = moving.iter().position(|&k| system.loaded(load) == Some(k)) {
                 weight[j] += load.value.at(at.t);

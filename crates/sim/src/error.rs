@@ -55,6 +55,13 @@ pub enum Error {
         /// Which body.
         body: usize,
     },
+    /// A body on a structure that rides on a body, in a way that is not known: on several carriers or on rails of
+    /// different directions, itself a carrier of its carrier, loaded, held by a rope or stop, or on a structure with mass or parts of its own.
+    #[error("body {body}: not a way to ride on another body, or to carry a structure")]
+    Mounted {
+        /// Which body.
+        body: usize,
+    },
     /// A load, drive or brake on a freedom that is held or prescribed.
     #[error("body {body}: freedom {freedom:?} is not free, nothing can push it")]
     NotFree {

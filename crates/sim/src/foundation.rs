@@ -6,7 +6,7 @@
 use nalgebra::DMatrix;
 use splines::{Compliance, Probe};
 
-use crate::PartChain;
+use crate::{Mount, PartChain};
 
 /// Shapes Phi of a structure's freedoms along its rails.
 pub trait Shapes: Send + Sync {
@@ -79,6 +79,8 @@ pub struct Foundation {
     pub parts: Option<Vec<PartChain>>,
     /// Extents of the rails; empty: rails without end or break.
     pub rails: Vec<Extent>,
+    /// The body that carries the structure, all its supports in it; `None`: the ground.
+    pub on: Option<Mount>,
 }
 
 impl Foundation {

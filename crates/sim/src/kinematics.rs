@@ -5,6 +5,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::ride::Rides;
 use crate::scene::arm_rows;
 use crate::{Body, Error, Freedom, Scene};
 
@@ -42,16 +43,20 @@ impl Kinematics {
         for b in parents_first(&scene.bodies)? {
             kinematics.follow(&scene.bodies[b], b, &freedom[b]);
         }
-        for (b, body) in scene.bodies.iter().enumerate() {
-            let (root, matrix) = (kinematics.root[b], body.mass_matrix());
-            kinematics.mass[root] += matrix[0][0];
-            for (inertia, terms) in matrix[0].iter().zip(&kinematics.terms[b]) {
+        Ok(kinematics)
+    }
+
+    /// Adds up the masses of the trees, without bodies that ride on others.
+    pub fn weigh(&mut self, scene: &Scene, rides: &Rides) {
+        for (b, body) in scene.bodies.iter().enumerate().filter(|(b, _)| !rides.has(*b)) {
+            let (root, matrix) = (self.root[b], body.mass_matrix());
+            self.mass[root] += matrix[0][0];
+            for (inertia, terms) in matrix[0].iter().zip(&self.terms[b]) {
                 for &(number, coefficient) in terms {
-                    add(&mut kinematics.drag[root], number, inertia * coefficient);
+                    add(&mut self.drag[root], number, inertia * coefficient);
                 }
             }
         }
-        Ok(kinematics)
     }
 
     fn follow(&mut self, body: &Body, b: usize, own: &[Option<usize>; 6]) {

@@ -96,6 +96,14 @@ impl Block {
         }
     }
 
+    /// M of bodies.
+    pub fn body_mass(&self) -> Option<&DMatrix<f64>> {
+        match &self.matter {
+            Matter::Free(mass) => Some(mass),
+            _ => None,
+        }
+    }
+
     /// 1/2 v^T M v.
     pub fn kinetic(&self, v: &[f64]) -> f64 {
         let v = &v[self.range.clone()];
@@ -148,9 +156,26 @@ impl Block {
 }
 
 impl Mobility {
-    /// M^-1.
-    pub fn new(blocks: &[Block]) -> Result<Mobility, Error> {
-        let of = |block: &Block| Ok((block.range.clone(), block.inverse(0.0)?));
+    /// Changes the mass of the bodies.
+    ///
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn set_mass(&mut self, mass: DMatrix<f64>) -> Result<(), Error> {
+        if let Some((_, bodies)) = self.blocks.first_mut() {
+            *bodies = Inverse::Matrix(inverse(mass)?);
+        }
+        Ok(())
+    }
+
+    /// M^-1; of bodies whose mass changes, what [`Mobility::set_mass`] makes it later.
+    pub fn new(blocks: &[Block], mass_changes: bool) -> Result<Mobility, Error> {
+        let of = |block: &Block| {
+            let inverse = match &block.matter {
+                Matter::Free(mass) if mass_changes => Inverse::Matrix(mass.clone()),
+                _ => block.inverse(0.0)?,
+            };
+            Ok((block.range.clone(), inverse))
+        };
         Ok(Mobility { step: 0.0, blocks: blocks.iter().map(of).collect::<Result<_, Error>>()? })
     }
 

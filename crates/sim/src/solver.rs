@@ -49,8 +49,8 @@ impl<'a> Solver<'a> {
             geometry: Geometry::new(system),
             active: vec![false; system.normals.len()],
             problem: Problem::new(system),
-            mobility: Mobility::new(&system.blocks)?,
-            inverse: Mobility::new(&system.blocks)?,
+            mobility: Mobility::new(&system.blocks, !system.rides.is_empty())?,
+            inverse: Mobility::new(&system.blocks, !system.rides.is_empty())?,
             spread: vec![0.0; n * system.components()],
             mobile: vec![0.0; system.components() * system.components()],
             mobile_rate: vec![0.0; system.components() * system.components()],
@@ -92,6 +92,18 @@ impl<'a> Solver<'a> {
         self.geometry.links.iter().map(|hold| hold.taut).collect()
     }
 
+    /// Inertia of the bodies that ride on others at `at`, and the forces it adds to the load.
+    fn fill_mass(&mut self, at: &State) -> Result<(), Error> {
+        let system = self.system;
+        let Some(fixed) = system.blocks[0].body_mass().filter(|_| !system.rides.is_empty()) else {
+            return Ok(());
+        };
+        let mut mass = fixed.clone();
+        system.rides.add(system, (at.t, &at.q, &at.v), &mut mass, &mut self.load);
+        self.inverse.set_mass(mass.clone())?;
+        self.mobility.set_mass(mass)
+    }
+
     /// M^-1 times the forces at `t` that do not depend on the contacts.
     pub(crate) fn accelerate(&mut self, t: f64) -> &DVector<f64> {
         self.fill_load(t);
@@ -121,7 +133,7 @@ impl<'a> Solver<'a> {
                 self.mobile_rate[i * m + j] = dot(&rate_row[..n], column);
             }
         }
-        self.spread_is_fixed = self.system.constant_rows;
+        self.spread_is_fixed = self.system.constant_rows && self.system.rides.is_empty();
     }
 
     /// Solves the stage Q = q* + g V, V = v* + g A at `at.t` with the contacts that are active; `at` brings
@@ -130,26 +142,20 @@ impl<'a> Solver<'a> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
         self.mobility.set_step(&system.blocks, g)?;
-        self.fill_load(at.t);
-        // Motion without contacts.
-        if system.has_structures() {
-            self.free_q.copy_from(&known.q);
-            self.free_q.axpy(g, &known.v, 1.0);
-            for block in &system.blocks {
-                block.resist(known.v.as_slice(), self.free_q.as_slice(), self.load.as_mut_slice());
-            }
-        }
-        self.mobility.apply(self.load.as_slice(), self.free_a.as_mut_slice());
-        for i in 0..n {
-            self.free_v[i] = known.v[i] + g * self.free_a[i];
-            self.free_q[i] = known.q[i] + g * self.free_v[i];
-        }
-        if system.moves_freely || !system.laterals.is_empty() || !system.links.is_empty() {
+        let rides = !system.rides.is_empty();
+        let places_move =
+            system.moves_freely || rides || !system.laterals.is_empty() || !system.links.is_empty();
+        let iterates = places_move || !system.tractions.is_empty();
+        if places_move {
             for i in 0..n {
-                at.q[i] = known.q[i] + g * (known.v[i] + g * at.a[i]);
+                at.v[i] = known.v[i] + g * at.a[i];
+                at.q[i] = known.q[i] + g * at.v[i];
             }
         }
-        for _ in 0..PASSES {
+        for pass in 0..PASSES {
+            if pass == 0 || rides {
+                self.move_freely(g, known, at)?;
+            }
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             self.fill_spread();
             for i in 0..m {
@@ -198,16 +204,31 @@ impl<'a> Solver<'a> {
                 at.p_rate[i] = (at.p[i] - known.p[i]) / g;
             }
             moved = moved.max(self.update_heights(at));
-            if moved < 1e-13
-                || !(system.moves_freely
-                    || !system.laterals.is_empty()
-                    || !system.tractions.is_empty()
-                    || !system.links.is_empty())
-            {
+            if moved < 1e-13 || !iterates {
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Motion of a stage without contacts.
+    fn move_freely(&mut self, g: f64, known: &Known, at: &State) -> Result<(), Error> {
+        let system = self.system;
+        self.fill_load(at.t);
+        self.fill_mass(at)?;
+        if system.has_structures() {
+            self.free_q.copy_from(&known.q);
+            self.free_q.axpy(g, &known.v, 1.0);
+            for block in &system.blocks {
+                block.resist(known.v.as_slice(), self.free_q.as_slice(), self.load.as_mut_slice());
+            }
+        }
+        self.mobility.apply(self.load.as_slice(), self.free_a.as_mut_slice());
+        for i in 0..system.freedoms {
+            self.free_v[i] = known.v[i] + g * self.free_a[i];
+            self.free_q[i] = known.q[i] + g * self.free_v[i];
+        }
+        Ok(())
     }
 
     /// Forces, penetrations and accelerations at (t, q, v) for the contacts that are active; the
@@ -244,6 +265,7 @@ impl<'a> Solver<'a> {
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         self.geometry.update_rail_slope(system, &at.q, &at.force);
         self.fill_load(at.t);
+        self.fill_mass(at)?;
         for block in &system.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }

@@ -13,6 +13,7 @@ use crate::actuator::Pull;
 use crate::kinematics::Kinematics;
 use crate::link::Link;
 use crate::matter::Block;
+use crate::ride::Rides;
 use crate::scene::arm_rows;
 use crate::{Error, Foundation, Freedom, Load, NormalLaw, Scene};
 
@@ -69,11 +70,14 @@ pub(crate) struct System<'a> {
     pub freedom: Vec<[Option<usize>; 6]>,
     /// Displacements of the bodies over the freedoms.
     pub kinematics: Kinematics,
+    /// Bodies that ride on bodies.
+    pub rides: Rides,
     /// Freedom numbers of each structure.
     pub structure: Vec<Range<usize>>,
     pub freedoms: usize,
-    /// M, C and K: the bodies and spins, then each structure.
+    /// M, C and K: the bodies and spins, then each structure; without bodies that ride on others.
     pub blocks: Vec<Block>,
+    /// Weights, without those of bodies that ride on others.
     pub gravity: DVector<f64>,
     /// Probes of each structure.
     pub entries: Vec<Vec<Entry>>,
@@ -158,6 +162,15 @@ impl<'a> System<'a> {
             (0..wheels.len()).filter(|&w| scene.wheels[wheels[w].kind].flange.is_some()).collect();
         let tractions: Vec<usize> = (0..wheels.len()).filter(|&w| wheels[w].spin.is_some()).collect();
 
+        let mut kinematics = Kinematics::new(scene, &freedom)?;
+        let rides = Rides::new(scene, foundations, |b| kinematics.root(b))?;
+        kinematics.weigh(scene, &rides);
+        // Points of riders in space are not known.
+        let ends = scene.actuators.ropes.iter().flat_map(|rope| [rope.from.body, rope.to.body]);
+        let met = scene.actuators.stops.iter().map(|stop| Some(stop.body));
+        if let Some(body) = ends.chain(met).flatten().find(|&body| rides.has(body)) {
+            return Err(Error::Mounted { body });
+        }
         let mut system = System {
             scene,
             foundations,
@@ -167,7 +180,8 @@ impl<'a> System<'a> {
             tractions,
             pulls: Vec::new(),
             links: Vec::new(),
-            kinematics: Kinematics::new(scene, &freedom)?,
+            kinematics,
+            rides,
             freedom,
             structure,
             freedoms,
@@ -293,10 +307,15 @@ impl<'a> System<'a> {
         (displacement, speed)
     }
 
+    /// Number of the freedoms of bodies and spins, the first of all.
+    pub fn body_freedoms(&self) -> usize {
+        self.structure.first().map_or(self.freedoms, |range| range.start)
+    }
+
     fn fill_matrices(&mut self) -> Result<(), Error> {
-        let bodies = self.structure.first().map_or(self.freedoms, |range| range.start);
+        let bodies = self.body_freedoms();
         let mut mass = DMatrix::zeros(bodies, bodies);
-        for (b, body) in self.scene.bodies.iter().enumerate() {
+        for (b, body) in self.scene.bodies.iter().enumerate().filter(|(b, _)| !self.rides.has(*b)) {
             self.kinematics.add_mass(b, &body.mass_matrix(), &mut mass);
             for (arm, terms) in arm_rows(body.cg)[1].iter().zip(self.kinematics.terms(b)) {
                 for &(number, coefficient) in terms {
@@ -304,9 +323,14 @@ impl<'a> System<'a> {
                 }
             }
         }
+        let mut whole = mass.clone();
+        if !self.rides.is_empty() {
+            let rest = DVector::zeros(self.freedoms);
+            self.rides.add(self, (0.0, &rest, &rest), &mut whole, &mut rest.clone());
+        }
         for (b, numbers) in self.freedom.iter().enumerate() {
             for (number, freedom) in numbers.iter().zip(Freedom::ALL) {
-                let inertia = number.map_or(1.0, |number| mass[(number, number)]);
+                let inertia = number.map_or(1.0, |number| whole[(number, number)]);
                 if !(inertia > 0.0 && inertia.is_finite()) {
                     return Err(Error::NoInertia { body: b, freedom });
                 }
