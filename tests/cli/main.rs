@@ -3,6 +3,7 @@
 mod drives;
 mod grids;
 mod modes;
+mod ropes;
 mod tables;
 
 use std::fs;

@@ -28,6 +28,8 @@ impl Solver<'_> {
         let mut before = vec![f64::INFINITY; system.links.len()];
         at.v.fill(0.0);
         for _ in 0..SWEEPS {
+            // the carriers have moved: a rope that fell slack would say nothing
+            self.drop_below(at)?;
             self.hang(&hung, at)?;
             let tensions = &at.force[first..];
             let scale = tensions.iter().fold(self.weight(), |max, force| max.max(force.abs()));

@@ -1,0 +1,37 @@
+//! Scenes with bodies on ropes.
+
+use std::fs;
+
+use super::{example, folder, girderway, text};
+
+const SCENE: &str = r#"{"format": "girderway-scene/1", "name": "crane", "units": {"length": "ft", "force": "lbf", "time": "s"},
+ "gravity": 32.174, "structures": {"girder": {"spec": "spec.json", "foundation": "influence"}},
+ "bodies": {"bogie": {"weight": 4.8e6, "dof": ["y"], "x0": 30}, "ladle": {"weight": 1e6, "dof": ["X", "Y", "Z"]}},
+ "wheels": {"crane": {"radius": 1.25, "vertical": {"k": 1e8}}},
+ "trucks": [{"name": "truck", "body": "bogie", "tree": [-1, 1]}],
+ "ropes": [{"name": "hoist", "from": {"body": "bogie"}, "to": {"body": "ladle"}, "EA": 2.8e8, "length": 40}],
+ "end": {"time": 0.5}, "output": {"dt": 0.1}, "accuracy": 1e-7}"#;
+
+/// Analytic: at rest the rope carries the ladle, the rail both, and nothing moves.
+#[test]
+fn a_hung_ladle_presses_the_wheels_of_its_bogie() {
+    let folder = folder();
+    fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+    fs::write(folder.path().join("scene.json"), SCENE).expect("written");
+    let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let history = fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
+    let mut lines = history.lines();
+    let header: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    for line in lines {
+        let values: Vec<f64> = line.split(',').map(|value| value.parse().expect("a number")).collect();
+        for (name, wanted) in [
+            ("hoist.tension", 1e6),
+            ("hoist.length", 40.0 * (1.0 + 1e6 / 2.8e8)),
+            ("girder.rail.reaction", 5.8e6),
+        ] {
+            let at = header.iter().position(|column| *column == name).expect("a column");
+            assert!((values[at] / wanted - 1.0).abs() < 1e-8, "{name}: {} {wanted}", values[at]);
+        }
+    }
+}
