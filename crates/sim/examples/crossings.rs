@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run --release -p sim --example crossings            scene,accuracy,error,steps,least ms,median ms
-//! cargo run --release -p sim --example crossings -- wheels  n,steps,us a step,residual
+//! cargo run --release -p sim --example crossings -- wheels  n,steps,stages,events,us a step,residual
 //! ```
 //!
 //! Errors are the largest of the deflection over 101 samples, of its peak, against `fea/reference`. History, audit
@@ -66,7 +66,7 @@ fn crossings() -> Result<(), Error> {
 
 /// The bogie's load on n wheels 32 in to 0.02 ft apart, 5 ft/s from 25 to 26 ft: all stay within the span.
 fn wheels() -> Result<(), Error> {
-    println!("n,steps,us a step,residual");
+    println!("n,steps,stages,events,us a step,residual");
     for n in [1_u32, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000] {
         let foundations = [Foundation::influence(Box::new(surface()), 1)];
         let mut scene = bogie(5.0, 0.2, Damper::Rail);
@@ -85,10 +85,17 @@ fn wheels() -> Result<(), Error> {
             .collect();
         // One wheel cannot hold a pitch.
         scene.bodies[0].free[5] = n > 1;
-        let start = Instant::now();
-        let run = solve(&scene, &foundations)?;
-        let us = 1e6 * start.elapsed().as_secs_f64() / run.counts.steps.max(1) as f64;
-        println!("{n},{},{us:.2},{:.1e}", run.counts.steps, run.audit.residual());
+        // A run of some milliseconds: one stall of the machine would be most of it.
+        let mut us = f64::INFINITY;
+        let mut run = None;
+        for _ in 0..if n > 256 { 1 } else { 5 } {
+            let start = Instant::now();
+            let done = run.insert(solve(&scene, &foundations)?);
+            us = us.min(1e6 * start.elapsed().as_secs_f64() / done.counts.steps.max(1) as f64);
+        }
+        let Some(run) = run else { continue };
+        let sim::Counts { steps, stages, events, .. } = run.counts;
+        println!("{n},{steps},{stages},{events},{us:.2},{:.1e}", run.audit.residual());
     }
     Ok(())
 }

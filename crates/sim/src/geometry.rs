@@ -153,14 +153,8 @@ impl Geometry {
                 .fill(&self.probes[s], influence)
                 .map_err(|source| Error::Compliance { structure: s, source })?;
             if system.is_direct[s] {
-                for (j, (values, slopes)) in
-                    influence.value.column_iter().zip(influence.slope.column_iter()).enumerate()
-                {
-                    for (i, (value, slope)) in values.iter().zip(slopes.iter()).enumerate() {
-                        self.compliance[i * m + j] = *value;
-                        self.slope[i * m + j] = *slope;
-                    }
-                }
+                transpose(influence.value.as_slice(), &mut self.compliance, m);
+                transpose(influence.slope.as_slice(), &mut self.slope, m);
                 continue;
             }
             for row in entries {
@@ -291,5 +285,22 @@ impl Geometry {
             tilt(system.lateral(i), w);
         }
         Ok(())
+    }
+}
+
+/// Copies the first rows and columns of a column-major square matrix into a row-major one of `m` columns, in tiles
+/// that stay in the cache.
+fn transpose(from: &[f64], to: &mut [f64], m: usize) {
+    const TILE: usize = 16;
+    let size = from.len().isqrt();
+    for first in (0..size).step_by(TILE) {
+        let rows = first..(first + TILE).min(size);
+        for left in (0..size).step_by(TILE) {
+            for i in rows.clone() {
+                for j in left..(left + TILE).min(size) {
+                    to[i * m + j] = from[j * size + i];
+                }
+            }
+        }
     }
 }
