@@ -7,7 +7,8 @@ use girderway::link::{Solved, solve};
 use girderway::source::Source;
 use girderway::spec::Spec;
 use sim::{
-    Actuators, Analysis, Body, Contact, Damper, Freedom, Given, Load, NormalLaw, Profile, Scene, Schedule, Wheel,
+    Actuators, Analysis, Body, Contact, Damper, Freedom, Given, Load, NormalLaw, Profile, Scene, Schedule,
+    Wheel,
 };
 
 const GRAVITY: f64 = 32.174;
@@ -119,7 +120,8 @@ pub fn duty(index: u64) -> Duty {
         actuators.loads.push(Load { body: 0, freedom: Freedom::Y, value: value.expect("times increase") });
     }
     let count = if two { 2.0 } else { 1.0 };
-    let (body_mass, stiffness) = (mass * line * span, mass * line * span * (frequency * omega).powi(2) / count);
+    let (body_mass, stiffness) =
+        (mass * line * span, mass * line * span * (frequency * omega).powi(2) / count);
     let c = 2.0 * wheel_damping * (stiffness * body_mass / count).sqrt();
     let ends: &[f64] = if two { &[-0.5, 0.5] } else { &[0.0] };
     let scene = Scene {
