@@ -193,8 +193,8 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
         }
     }
     let mut section = Section::new("Energy");
-    for outcome in outcomes {
-        for warning in summary::warnings(&outcome.run) {
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        for warning in summary::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));
         }
     }

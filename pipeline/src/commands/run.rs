@@ -102,7 +102,7 @@ fn finish(
             let name = &scene.structures[choice.structure].name;
             progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
         }
-        for warning in summary::warnings(&outcome.run) {
+        for warning in summary::warnings(scene, &outcome.cast, &outcome.record, &outcome.run) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
     }
@@ -145,7 +145,7 @@ pub(super) fn solve_all(
 
 fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
     let scene = document.scene();
-    let mut result = summary::run(scene, &outcomes[0].record, &outcomes[0].run, &outcomes[0].choices);
+    let mut result = summary::run(scene, &outcomes[0]);
     result["format"] = json!("girderway-summary/1");
     result["name"] = json!(scene.name);
     result["units"] = summary::units(scene, &outcomes[0].record);
@@ -154,12 +154,7 @@ fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
         .iter()
         .zip(outcomes)
         .skip(1)
-        .map(|(case, outcome)| {
-            (
-                outcome.label.clone(),
-                summary::run(&case.scene, &outcome.record, &outcome.run, &outcome.choices),
-            )
-        })
+        .map(|(case, outcome)| (outcome.label.clone(), summary::run(&case.scene, outcome)))
         .collect();
     if !compare.is_empty() {
         result["compare"] = Value::Object(compare);
