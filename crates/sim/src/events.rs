@@ -9,6 +9,9 @@ use crate::stepper::Stepper;
 /// Force by which a step may end beyond an event, relative to the largest contact force.
 pub(crate) const OVERSHOOT: f64 = 1e-9;
 
+/// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it.
+const SLACK: f64 = 1e-11;
+
 impl Stepper<'_, '_> {
     /// Length of the step that ends where a wheel with prescribed motion meets a break of its rail, if the
     /// step of length `h` would pass it.
@@ -37,6 +40,42 @@ impl Stepper<'_, '_> {
             }
         }
         best
+    }
+
+    /// Share of the step just taken at which a freely rolling wheel meets a break of its rail, if the step passes one:
+    /// the root of the wheel's place on the interpolant, less half of [`SLACK`]. Repeated, the step ends before the
+    /// break, where the rail's slope is still that of the cell the wheel comes from.
+    pub(crate) fn rolling_break(&mut self) -> Option<f64> {
+        let system = self.solver.system;
+        if !system.moves_freely {
+            return None;
+        }
+        let mut first: Option<f64> = None;
+        for (w, wheel) in system.wheels.iter().enumerate() {
+            if system.scene.bodies[system.kinematics.root(wheel.body)].motion.is_some() {
+                continue;
+            }
+            let contact = &system.scene.contacts[wheel.contact];
+            let [x0, x1] = [&self.from, &self.to].map(|at| self.solver.geometry.place(system, w, &at.q));
+            for &place in system.foundations[contact.structure].breaks(contact.rail) {
+                let slack = SLACK * (1.0 + place.abs());
+                // Within the slack a step may start before the break and cross it, or end beyond it.
+                if (x0 - place) * (x1 - place) >= 0.0 || (x0 - place).abs().min((x1 - place).abs()) < slack {
+                    continue;
+                }
+                let aim = place - 0.5 * slack * (x1 - x0).signum();
+                let (from, to, geometry) = (&self.from, &self.to, &self.solver.geometry);
+                let probe = &mut self.probe;
+                let share = root(|share| {
+                    probe.interpolate(from, to, share);
+                    geometry.place(system, w, &probe.q) - aim
+                });
+                if first.is_none_or(|known| share < known) {
+                    first = Some(share);
+                }
+            }
+        }
+        first
     }
 
     /// The first contact that opens or closes within the step, if one does: the share of the step at which it does,
@@ -137,7 +176,7 @@ impl Stepper<'_, '_> {
 }
 
 /// Root in (0, 1) of a function with opposite signs at the ends, by bisection, from the side of 0.
-fn root(f: impl Fn(f64) -> f64) -> f64 {
+fn root(mut f: impl FnMut(f64) -> f64) -> f64 {
     let sign = f(0.0).signum();
     let (mut low, mut high) = (0.0_f64, 1.0_f64);
     while high - low > 1e-15 {

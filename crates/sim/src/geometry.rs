@@ -91,16 +91,8 @@ impl Geometry {
                 *travel = profile.at(t);
             }
         }
-        for (w, wheel) in system.wheels.iter().enumerate() {
-            let body = &system.scene.bodies[wheel.body];
-            if body.pinned.is_some() {
-                self.x[w] = self.pinned_x(system, wheel, q);
-                continue;
-            }
-            let numbers = &system.freedom[wheel.body];
-            let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
-            let x = if body.motion.is_some() { self.travel[wheel.body].x } else { value(0) };
-            self.x[w] = x + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1];
+        for w in 0..system.wheels.len() {
+            self.x[w] = self.place(system, w, q);
         }
         self.update_compliance(system)?;
         if self.built && system.constant_rows {
@@ -118,6 +110,19 @@ impl Geometry {
         }
         self.update_links(system, t, q);
         self.update_force_rows(system, q, force)
+    }
+
+    /// Rail coordinate of wheel `w` at the freedoms `q`, its prescribed travel being that of the last update.
+    pub fn place(&self, system: &System, w: usize, q: &DVector<f64>) -> f64 {
+        let wheel = &system.wheels[w];
+        let body = &system.scene.bodies[wheel.body];
+        if body.pinned.is_some() {
+            return self.pinned_x(system, wheel, q);
+        }
+        let numbers = &system.freedom[wheel.body];
+        let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
+        let x = if body.motion.is_some() { self.travel[wheel.body].x } else { value(0) };
+        x + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1]
     }
 
     /// Rail coordinate of a wheel whose body is pinned to another.

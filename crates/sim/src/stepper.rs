@@ -142,7 +142,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             h = limit - start;
         }
         let mut ends_at_event = false;
-        let (mut refined, mut corners) = (0, 0);
+        let (mut refined, mut corners, mut breaks) = (0, 0, 0);
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -151,6 +151,16 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 h = shorter;
             }
             let error = if self.attempt(h)? { self.error() } else { f64::INFINITY };
+            // Beyond a break the error says nothing of the step that ends before it.
+            if error.is_finite()
+                && breaks < REFINEMENTS
+                && let Some(share) = self.rolling_break()
+            {
+                breaks += 1;
+                ends_at_event = true;
+                h = (h * share).max(2.0 * smallest);
+                continue;
+            }
             if error > 1.0 {
                 self.counts.rejected += 1;
                 h *= if error.is_finite() { (0.9 * error.powf(-0.25)).clamp(0.1, 0.9) } else { 0.25 };

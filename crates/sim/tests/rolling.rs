@@ -50,6 +50,68 @@ fn freely_rolling_bogie_keeps_its_energy_on_the_exact_surface_and_not_on_akispl(
     assert!(akispl.audit.imbalance > 1e3 * exact.audit.imbalance);
 }
 
+/// Rigid lengths of 10 ft, hinged over springs: G = sum of h(x) h(z) / k, h the hats of the supports.
+struct Hinged;
+
+impl Compliance for Hinged {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), splines::Error> {
+        let hat = |x: f64, support: i32| {
+            let from = 0.1 * x - f64::from(support);
+            if from.abs() < 1.0 { (1.0 - from.abs(), -0.1 * from.signum()) } else { (0.0, 0.0) }
+        };
+        for (i, p) in at.iter().enumerate() {
+            for (j, q) in at.iter().enumerate() {
+                let terms = (-1..8).map(|n| (hat(p.x, n), hat(q.x, n).0));
+                let (value, slope) =
+                    terms.fold((0.0, 0.0), |(v, s), ((h, d), other)| (v + h * other, s + d * other));
+                (out.value[(i, j)], out.slope[(i, j)]) = (2e-8 * value, 2e-8 * slope);
+            }
+        }
+        Ok(())
+    }
+
+    fn breaks(&self, _: usize) -> Vec<f64> {
+        (-1..8).map(|n| 10.0 * f64::from(n)).collect()
+    }
+
+    fn range(&self, _: usize) -> Option<[f64; 2]> {
+        Some([-10.0, 70.0])
+    }
+
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+}
+
+#[test]
+fn freely_rolling_bogie_crosses_hinges_at_order_four_and_keeps_its_energy() {
+    let at = |accuracy: f64| {
+        let mut scene = rolling(6.0);
+        scene.bodies[0].start_speed[0] = 5.0;
+        scene.accuracy = accuracy;
+        let run = run(&scene, Foundation::influence(Box::new(Hinged), 1)).expect("valid");
+        assert_eq!(run.status, Status::Done);
+        let end = [Freedom::X, Freedom::Y, Freedom::Pitch].map(|freedom| {
+            let column = run.history.column(Channel::Displacement(0, freedom));
+            column[column.len() - 1]
+        });
+        (end, run.counts, run.audit.residual())
+    };
+    let (exact, _, residual) = at(1e-11);
+    assert!(exact[0] > 40.0, "both wheels have passed three hinges: {}", exact[0]);
+    assert!(residual < 1e-8, "{residual}");
+    // The error against the steps taken, from the coarsest to the finest.
+    let pairs = [1e-5, 1e-7, 1e-9].map(|accuracy| {
+        let (end, counts, residual) = at(accuracy);
+        let error = (0..3).map(|i| (end[i] - exact[i]).abs()).fold(0.0_f64, f64::max);
+        println!("accuracy {accuracy:.0e}: {error:.2e} ft, {counts:?}, audit {residual:.1e}");
+        (error, counts.steps as f64)
+    });
+    let order = (pairs[0].0 / pairs[2].0).ln() / (pairs[2].1 / pairs[0].1).ln();
+    println!("order {order:.2}, audit {residual:.1e} at 1e-11");
+    assert!(order > 3.5, "{order}");
+}
+
 /// A give that is the same everywhere and not symmetric, as tables read by AKISPL are.
 struct Skew;
 
