@@ -4,6 +4,7 @@ mod drives;
 mod grids;
 mod modes;
 mod ropes;
+mod stops;
 mod tables;
 
 use std::fs;

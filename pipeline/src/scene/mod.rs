@@ -8,6 +8,7 @@ mod pin;
 mod raw;
 mod read;
 mod rope;
+mod stop;
 mod structure;
 mod tables;
 mod ties;
@@ -19,6 +20,7 @@ pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use gauge::Gauge;
 pub use rope::Rope;
+pub use stop::{Meeting, Stop};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
@@ -53,6 +55,8 @@ pub struct Scene {
     pub trucks: Vec<Truck>,
     /// Ropes.
     pub ropes: Vec<Rope>,
+    /// End stops of rails, and floors.
+    pub stops: Vec<Stop>,
     /// Forces and moments on bodies.
     pub loads: Vec<Load>,
     /// Time at which the scene ends.

@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, rope, structure,
-    truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, rope, stop,
+    structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -88,6 +88,7 @@ pub(super) fn scene(
         trucks: Vec::new(),
         loads,
         ropes,
+        stops: Vec::new(),
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -98,6 +99,7 @@ pub(super) fn scene(
         ),
     };
     read_trucks(raw, &mut scene, &root, check);
+    scene.stops = stop::read_all(&raw.stops, &scene, check);
     actuator::check_wheels(&raw.motions, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
@@ -107,7 +109,7 @@ pub(super) fn scene(
 }
 
 fn refuse_later(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) {
-    let later = [("events", raw.events.is_empty(), "an event"), ("stops", raw.stops.is_empty(), "a stop")];
+    let later = [("events", raw.events.is_empty(), "an event")];
     for (key, empty, what) in later {
         if !empty {
             check.faults.unavailable(&root.key(key), what);
