@@ -139,7 +139,8 @@ impl Stepper<'_, '_> {
         let slack = OVERSHOOT * self.largest_force();
         let margins = |pull: &Pull, at: &State| {
             let (_, speed) = system.body(pull.body, at.t, &at.q, &at.v);
-            pull.margins(system.scene, at.t, dot(&pull.row, &speed), pull.traction(&at.force))
+            let reference = pull.reference(system.scene, &self.solver.geometry.switches, at.t);
+            pull.margins(reference, dot(&pull.row, &speed), pull.traction(&at.force))
         };
         let shares = system.pulls.iter().flat_map(|pull| {
             let (from, to) = (margins(pull, &self.from), margins(pull, &self.to));
@@ -163,6 +164,9 @@ impl Stepper<'_, '_> {
         let system = self.solver.system;
         if i >= system.normals.len() {
             let index = i - system.link(0);
+            if self.solver.geometry.switches.is_released(index) {
+                return -1.0;
+            }
             let margin = self.solver.geometry.margin(system, index, at);
             let hold = &self.solver.geometry.links[index];
             return if hold.taut { -margin - hold.noise } else { margin - hold.noise };
