@@ -3,6 +3,7 @@
 mod actuator;
 mod body;
 mod compare;
+mod event;
 mod gauge;
 mod pin;
 mod raw;
@@ -18,6 +19,7 @@ mod wheel;
 pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
+pub use event::Event;
 pub use gauge::Gauge;
 pub use rope::Rope;
 pub use stop::{Meeting, Stop};
@@ -57,6 +59,8 @@ pub struct Scene {
     pub ropes: Vec<Rope>,
     /// End stops of rails, and floors.
     pub stops: Vec<Stop>,
+    /// What is switched on the way.
+    pub events: Vec<Event>,
     /// Forces and moments on bodies.
     pub loads: Vec<Load>,
     /// Time at which the scene ends.
