@@ -14,8 +14,14 @@ pub mod drive;
 pub mod duty;
 pub mod error;
 pub mod factor;
+pub mod fatigue;
 pub mod osha;
+pub mod rainflow;
 pub mod skew;
+pub mod stress;
 
 pub use crane::{Crane, WheelLoads};
 pub use error::{Argument, Error};
+pub use fatigue::{Damage, Strength};
+pub use rainflow::{Cycle, History, rainflow};
+pub use stress::{Point, Section};
