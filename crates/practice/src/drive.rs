@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::error::{Argument, least_zero, positive, within};
 
-/// Friction of steel on steel, and of steel on rubber.
+/// Friction of steel on steel, and of steel on rubber; the latter is *not confirmed*.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.3.

@@ -70,7 +70,7 @@ pub enum Release {
 
 /// phi3 = 1 - (dm/m) (1 + beta3) on the lifted load when the part dm of its mass m is let go.
 ///
-/// Negative where the rope would throw the hook up.
+/// Negative where the rope would throw the hook up. The formula is *not confirmed*.
 ///
 /// # Errors
 /// A total mass that is not positive; a part that is negative or more than the whole.

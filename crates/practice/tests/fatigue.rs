@@ -74,6 +74,34 @@ fn the_published_history_repeated_is_counted_exactly() -> Result<(), Error> {
 }
 
 #[test]
+fn another_program_counts_the_same() -> Result<(), Error> {
+    // External: printed by the Python package rainflow 3.1 for this signal in its description.
+    let signal: Vec<f64> = (0..=200)
+        .map(|k| 4.0 * f64::from(k) / 200.0)
+        .map(|t| 0.2 + 0.5 * t.sin() + 0.2 * (10.0 * t).cos() + 0.2 * (4.0 * t).sin())
+        .collect();
+    let expected = [
+        [0.04258965150708488, 0.5],
+        [0.10973439445727551, 1.0],
+        [0.11294628078612906, 0.5],
+        [0.2057106991158965, 1.0],
+        [0.21467990941625242, 1.0],
+        [0.4388985979776988, 1.0],
+        [0.48305748051348263, 0.5],
+        [0.5286423866535466, 0.5],
+        [0.7809330293159786, 0.5],
+        [1.4343610172143002, 0.5],
+    ];
+    let found = ranges(&rainflow(&signal, History::Once)?);
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        close(found[0], expected[0], 1e-14);
+        assert_eq!(found[1], expected[1]);
+    }
+    Ok(())
+}
+
+#[test]
 fn four_points_count_what_three_points_count() -> Result<(), Error> {
     // Independent: the rule of the standard, word for word.
     for seed in 0..300 {
