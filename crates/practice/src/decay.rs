@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::Error;
-use crate::error::{Argument, positive, within};
+use crate::error::{Argument, positive, usable, within};
 use crate::spectrum::NOISE;
 
 /// A free oscillation that dies away.
@@ -35,9 +35,7 @@ pub struct Decay {
 pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Error> {
     let step = positive(Argument::Time, step)?;
     let floor = within(Argument::Share, floor, 0.0, 1.0)?;
-    if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
-        return Err(Error::Number { series: 0, sample });
-    }
+    usable(0, values)?;
     let noise = NOISE * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let tops = extremes(values);
     let ranges: Vec<f64> = tops.windows(2).map(|pair| (pair[0].1 - pair[1].1).abs()).collect();

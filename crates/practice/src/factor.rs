@@ -125,5 +125,5 @@ pub fn phi5(onset: Onset) -> [f64; 2] {
 /// # Source
 /// EN 1991-3:2006, 2.10.
 pub fn phi6(phi2: f64) -> Result<f64, Error> {
-    Ok(0.5 * (1.0 + within(Argument::Factor, phi2, 1.0, f64::MAX)?))
+    Ok(0.5 * (1.0 + within(Argument::Factor, phi2, 1.0, 1e3)?))
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2};
 
 use crate::Error;
-use crate::error::{Argument, positive, within};
+use crate::error::{Argument, positive, usable, within};
 
 /// Butterworth's filter of second order run forwards, then backwards: no delay, and a sine of frequency f keeps
 ///
@@ -24,9 +24,7 @@ pub fn low_pass(values: &[f64], step: f64, cut: f64) -> Result<Vec<f64>, Error> 
     let step = positive(Argument::Time, step)?;
     let half = 0.5 / step;
     let cut = within(Argument::Frequency, cut, half * 1e-9, half * (1.0 - 1e-9))?;
-    if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
-        return Err(Error::Number { series: 0, sample });
-    }
+    usable(0, values)?;
     let [first, .., last] = values[..] else {
         return Ok(values.to_vec());
     };

@@ -57,7 +57,7 @@ pub struct Response {
 /// # Errors
 /// As of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
 pub fn response(times: &[f64], values: &[f64], view: &View) -> Result<Response, Error> {
-    let settled = within(Argument::Time, view.settled, view.from, f64::MAX)?;
+    let settled = within(Argument::Time, view.settled, view.from, 1e30)?;
     let mean = mean(times, values, settled)?;
     let even = resample(times, values, view.from, view.step)?;
     let even = match view.cut {

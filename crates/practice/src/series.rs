@@ -1,7 +1,7 @@
 //! Values over times: means, even samples, excursions.
 
 use crate::Error;
-use crate::error::{Argument, positive, within};
+use crate::error::{Argument, least_zero, positive, signed, usable, within};
 
 /// Whether times and series belong together and hold numbers.
 pub(crate) fn check(times: &[f64], series: &[&[f64]]) -> Result<(), Error> {
@@ -9,16 +9,12 @@ pub(crate) fn check(times: &[f64], series: &[&[f64]]) -> Result<(), Error> {
         if values.len() != times.len() {
             return Err(Error::Samples { series: index, found: values.len(), expected: times.len() });
         }
-        if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
-            return Err(Error::Number { series: index, sample });
-        }
+        usable(index, values)?;
     }
-    match times.iter().position(|time| !time.is_finite()) {
-        Some(sample) => Err(Error::Number { series: series.len(), sample }),
-        None => match times.windows(2).position(|pair| pair[1] < pair[0]) {
-            Some(before) => Err(Error::Order { sample: before + 1 }),
-            None => Ok(()),
-        },
+    usable(series.len(), times)?;
+    match times.windows(2).position(|pair| pair[1] < pair[0]) {
+        Some(before) => Err(Error::Order { sample: before + 1 }),
+        None => Ok(()),
     }
 }
 
@@ -57,8 +53,7 @@ pub fn resample(times: &[f64], values: &[f64], from: f64, step: f64) -> Result<V
     };
     within(Argument::Time, from, first, last)?;
     let length = last - from;
-    let step =
-        within(Argument::Time, positive(Argument::Time, step)?, length / f64::from(1 << 24), f64::MAX)?;
+    let step = within(Argument::Time, positive(Argument::Time, step)?, length / f64::from(1 << 24), 1e30)?;
     // The last step may miss the end by rounding.
     let count = (length / step * (1.0 + 1e-12)).floor() as usize + 1;
     let mut k = 1;
@@ -103,14 +98,12 @@ impl Excursions {
 /// # Errors
 /// A mean that is not finite, a share that is negative; a sample that is not finite.
 pub fn excursions(values: &[f64], mean: f64, share: f64) -> Result<Excursions, Error> {
-    let mean = within(Argument::Force, mean, f64::MIN, f64::MAX)?;
-    let width = within(Argument::Share, share, 0.0, f64::MAX)? * mean.abs();
+    let mean = signed(Argument::Force, mean)?;
+    let width = least_zero(Argument::Share, share)? * mean.abs();
     let mut counts = Excursions { above: 0, below: 0 };
     let mut side = 0;
-    for (sample, &value) in values.iter().enumerate() {
-        if !value.is_finite() {
-            return Err(Error::Number { series: 0, sample });
-        }
+    usable(0, values)?;
+    for &value in values {
         let now = i32::from(value > mean + width) - i32::from(value < mean - width);
         counts.above += usize::from(now > 0 && side <= 0);
         counts.below += usize::from(now < 0 && side >= 0);

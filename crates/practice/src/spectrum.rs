@@ -6,7 +6,7 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
 use crate::Error;
-use crate::error::{Argument, least_zero, positive, within};
+use crate::error::{Argument, least_zero, positive, usable, within};
 
 /// Fewest samples of a spectrum.
 const LEAST: usize = 8;
@@ -40,10 +40,8 @@ pub struct Tone {
 pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Tone>, Error> {
     let step = positive(Argument::Time, step)?;
     let least = least_zero(Argument::Frequency, band[0])?;
-    let most = within(Argument::Frequency, band[1], least, f64::MAX)?;
-    if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
-        return Err(Error::Number { series: 0, sample });
-    }
+    let most = within(Argument::Frequency, band[1], least, 1e30)?;
+    usable(0, values)?;
     if values.len() < LEAST {
         return Err(Error::Few { found: values.len(), least: LEAST });
     }
