@@ -164,11 +164,13 @@ fn a_strength_curve_goes_through_its_corners() -> Result<(), Error> {
         close(1.0 / curve.damage(curve.cut_off() * (1.0 + 1e-12))?, END, 1.0);
         assert_eq!(curve.damage(curve.cut_off())?, 0.0);
         close(curve.damage(2.0 * category)? / curve.damage(category)?, 8.0, 1e-12);
+        close(curve.damage(0.8 * category)?, 0.8_f64.powi(3) / 2e6, 1e-18);
         close(curve.damage(0.7 * category)? / curve.damage(0.5 * category)?, 1.4_f64.powi(5), 1e-9);
     }
     let shear = Strength::new(Stress::Shear, 100.0, 1.0, 1.0)?;
     close(shear.cut_off(), 45.7, 0.05);
     close(1.0 / shear.damage(100.0)?, REFERENCE, 1e-3);
+    close(shear.equivalent(1e6 * shear.damage(80.0)?)?, 80.0 * 0.5_f64.powf(0.2), 1e-9);
     close(shear.damage(90.0)? / shear.damage(60.0)?, 1.5_f64.powi(5), 1e-9);
     Ok(())
 }
@@ -197,6 +199,7 @@ fn miners_sum_and_its_equivalent_range_belong_together() -> Result<(), Error> {
     close(curve.equivalent(1.0)?, 71.0, 1e-12);
     let small = curve.miner(&rainflow(&[0.0, 50.0, 0.0], History::Once)?)?;
     assert!(small.endures && small.sum > 0.0);
+    assert!(!curve.miner(&rainflow(&[0.0, 60.0, 0.0], History::Once)?)?.endures);
     let none = curve.miner(&rainflow(&[0.0, 20.0, 0.0], History::Once)?)?;
     assert_eq!((none.sum, none.repeats()), (0.0, None));
     assert!(Strength::new(Stress::Direct, 0.0, 1.0, 1.0).is_err());
