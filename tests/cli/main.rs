@@ -3,6 +3,7 @@
 mod drives;
 mod grids;
 mod modes;
+mod rides;
 mod ropes;
 mod stops;
 mod tables;

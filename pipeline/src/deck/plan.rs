@@ -216,6 +216,10 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
         let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);
         return refuse(why, "leave it out, and add a PART to the deck by hand");
     }
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.on.is_some()) {
+        let why = format!("structure \"{}\": a deck cannot have structures on bodies", structure.name);
+        return refuse(why, "leave out the trolley, and put its mass into the bridge");
+    }
     for body in &scene.bodies {
         if body.pinned.is_some() {
             let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);

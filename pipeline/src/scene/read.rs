@@ -2,7 +2,7 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, rope, stop,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, mount, pin, rope, stop,
     structure, truck, wheel,
 };
 use crate::check::Check;
@@ -41,7 +41,7 @@ pub(super) fn scene(
     }
     refuse_later(raw, &root, check);
     let gravity = read_gravity(raw, &root, check);
-    let structures = read_structures(raw, &root, known, inputs, elsewhere, check);
+    let mut structures = read_structures(raw, &root, known, inputs, elsewhere, check);
     let rails = rails_of(&structures);
     let all_structures = structures.len() == raw.structures.0.len();
     let mut bodies = Vec::new();
@@ -62,6 +62,7 @@ pub(super) fn scene(
         bodies.push(body);
     }
     pin::read(&raw.bodies, &mut bodies, check);
+    mount::read(&raw.structures, &mut structures, &bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
@@ -103,6 +104,7 @@ pub(super) fn scene(
     actuator::check_wheels(&raw.motions, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
+        mount::check(&scene, check.faults);
         stay_on_rails(raw, &scene, &root, check.faults);
     }
     units.map(|_| scene)
