@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, rope, structure,
-    truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, method, pin, rope,
+    structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -96,12 +96,14 @@ pub(super) fn scene(
             Dimension::NUMBER,
             "a relative error, such as 1e-4",
         ),
+        stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
     actuator::check_wheels(&raw.motions, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
         stay_on_rails(raw, &scene, &root, check.faults);
+        method::suits(&scene, &root, check.faults);
     }
     units.map(|_| scene)
 }
