@@ -4,6 +4,7 @@ mod actuator;
 mod body;
 mod compare;
 mod gauge;
+mod method;
 mod mount;
 mod pin;
 mod raw;
@@ -20,6 +21,7 @@ pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use gauge::Gauge;
+pub use method::STEPPERS;
 pub use rope::Rope;
 pub use stop::{Meeting, Stop};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
@@ -66,6 +68,8 @@ pub struct Scene {
     pub dt: f64,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
+    /// How the motion is integrated.
+    pub stepping: sim::Stepping,
 }
 
 /// What is computed.

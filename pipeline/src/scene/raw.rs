@@ -62,6 +62,8 @@ pub(crate) struct RawScene {
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
     pub accuracy: Option<f64>,
+    pub stepper: Option<String>,
+    pub step: Option<f64>,
     #[serde(default)]
     pub compare: Vec<Value>,
 }

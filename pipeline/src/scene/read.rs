@@ -2,7 +2,7 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, mount, pin, rope, stop,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, method, mount, pin, rope, stop,
     structure, truck, wheel,
 };
 use crate::check::Check;
@@ -98,6 +98,7 @@ pub(super) fn scene(
             Dimension::NUMBER,
             "a relative error, such as 1e-4",
         ),
+        stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
     scene.stops = stop::read_all(&raw.stops, &scene, check);
@@ -106,6 +107,7 @@ pub(super) fn scene(
     if held {
         mount::check(&scene, check.faults);
         stay_on_rails(raw, &scene, &root, check.faults);
+        method::suits(&scene, &root, check.faults);
     }
     units.map(|_| scene)
 }
