@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, method, mount, pin, rope, stop,
-    structure, truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, method, mount, pin,
+    rope, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
