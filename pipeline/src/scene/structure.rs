@@ -34,6 +34,8 @@ pub struct Structure {
     pub tolerance: f64,
     /// Places whose displacement is recorded.
     pub gauges: Vec<Gauge>,
+    /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
+    pub on: Option<(usize, [f64; 3])>,
 }
 
 /// Where influence coefficients come from.
@@ -198,11 +200,6 @@ pub(super) fn read(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Structure> {
-    for (key, given) in [("on", raw.on.is_some()), ("at", raw.at.is_some())] {
-        if given {
-            check.faults.unavailable(&at.key(key), "a structure that rides on a body");
-        }
-    }
     let word = foundation_word(raw, at, check);
     let count = raw.count.unwrap_or(PARTS);
     if count < 2 {
@@ -287,6 +284,7 @@ pub(super) fn read(
         reading,
         tolerance,
         gauges,
+        on: None,
     })
 }
 
