@@ -154,6 +154,9 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
+    let convective = |i: usize| {
+        if system.is_uneven { geometry.rise[i] * speed_along(system, state, i) } else { 0.0 }
+    };
     let structure = system.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
     let mut power = Exchanged { structure, ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
@@ -184,7 +187,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         let (share, slope) = flange.share(geometry.height[w]);
         if share > 0.0 && slope != 0.0 && state.force[i] != 0.0 {
             let overlap = state.force[i] / (flange.stiffness * share);
-            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal));
+            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal) - convective(normal));
             power.flanges -= 0.5 * flange.stiffness * overlap * overlap * slope * climb;
         }
     }
@@ -295,7 +298,7 @@ fn speed_along(system: &System, state: &State, i: usize) -> f64 {
 }
 
 /// Q(p) = integral of STEP(p, 0, 0, depth, 1) from 0 to p; p itself where there is no ramp.
-fn ramp_integral(depth: f64, p: f64) -> f64 {
+pub(crate) fn ramp_integral(depth: f64, p: f64) -> f64 {
     if depth == 0.0 {
         p
     } else if p <= 0.0 {

@@ -80,6 +80,9 @@ pub fn run_by(
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
+    set(&system, &mut state.v, |body| body.start_speed);
+    solver.locate(&state)?;
+    state.v.fill(0.0);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
@@ -114,6 +117,9 @@ fn integrate(
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
+    if system.is_uneven {
+        solver.follow(&mut state);
+    }
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
@@ -135,10 +141,13 @@ fn integrate(
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
+    let mut pieces = stepper.solver.geometry.piece.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
+            // A sample within the step belongs to where the step began.
+            pieces.clone_from(&stepper.solver.geometry.piece);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -155,7 +164,12 @@ fn integrate(
             links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
-                if t >= to * (1.0 - 1e-14) {
+                let is_end = t >= to * (1.0 - 1e-14);
+                let after = stepper.solver.geometry.piece.clone();
+                if !is_end {
+                    stepper.solver.geometry.piece.clone_from(&pieces);
+                }
+                if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
                     sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
@@ -163,6 +177,7 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
             }
@@ -201,6 +216,7 @@ fn sweep(
     }
     for t in times {
         state.t = t;
+        solver.locate(&state)?;
         match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),

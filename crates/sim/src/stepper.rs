@@ -193,7 +193,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             break;
         }
         self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
-        self.chatter = if ends_at_event { self.chatter + 1 } else { 0 };
+        self.chatter = if ends_at_event && breaks == 0 { self.chatter + 1 } else { 0 };
         if self.stalled > REFINEMENTS || self.chatter > CHATTER {
             return Err(Failure::TooSmall);
         }
@@ -304,9 +304,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.turn()?;
         }
         let before = stored(system, &self.solver.geometry, &self.to);
-        let due = (0..system.normals.len()).any(|i| {
-            (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
-        }) || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
+        let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
+        let due = crosses
+            || (0..system.normals.len()).any(|i| {
+                (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
+            })
+            || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
         let mut after = before;
         if due {
             let flags = self.solver.active.clone();
