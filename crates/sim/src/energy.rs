@@ -52,6 +52,8 @@ pub struct Exchanged {
     pub loads: f64,
     /// Put in by hoisting.
     pub hoists: f64,
+    /// Put in where wheels meet steps of uneven rails; what their slopes do is in `drives`, or the body's own.
+    pub steps: f64,
 }
 
 impl Exchanged {
@@ -62,10 +64,10 @@ impl Exchanged {
             - self.put_in()
     }
 
-    /// Work put in by prescribed motions, drives, loads and hoisting.
+    /// Work put in by prescribed motions, drives, loads, hoisting and steps of rails.
     #[must_use]
     pub fn put_in(&self) -> f64 {
-        self.drives + self.loads + self.hoists
+        self.drives + self.loads + self.hoists + self.steps
     }
 
     pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
@@ -78,6 +80,7 @@ impl Exchanged {
         self.drives += weight * power.drives;
         self.loads += weight * power.loads;
         self.hoists += weight * power.hoists;
+        self.steps += weight * power.steps;
     }
 }
 

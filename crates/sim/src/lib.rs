@@ -49,7 +49,7 @@ pub use error::Error;
 pub use foundation::{Dynamics, Extent, Foundation, Shapes, Structure};
 pub use history::{Channel, History};
 pub use instant::{ContactForces, Instant, contact_forces};
-pub use irregularity::Irregularity;
+pub use irregularity::{Irregularity, Wave};
 pub use method::Method;
 pub use parts::{BlendedParts, PartChain, PartShapes};
 pub use profile::{Given, Moving, Profile};

@@ -317,7 +317,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if self.solver.settle(&mut self.to)? {
                 self.counts.events += usize::from(flags != self.solver.active || taut != self.solver.taut());
                 after = stored(system, &self.solver.geometry, &self.to);
-                self.audit.exchanged.switches += before.total() - after.total();
+                let gained = after.total() - before.total();
+                let exchanged = &mut self.audit.exchanged;
+                *(if crosses { &mut exchanged.steps } else { &mut exchanged.switches }) +=
+                    if crosses { gained } else { -gained };
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);

@@ -239,7 +239,7 @@ impl<'a> System<'a> {
     pub fn irregularity(&self, w: usize) -> Option<&'a Irregularity> {
         let contact = &self.scene.contacts[self.wheels[w].contact];
         let shapes = &self.foundations[contact.structure].irregularities;
-        shapes.get(contact.rail).filter(|shape| !shape.breaks().is_empty())
+        shapes.get(contact.rail).filter(|shape| !shape.is_straight())
     }
 
     /// Number of contact components.
