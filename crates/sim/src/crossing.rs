@@ -66,8 +66,8 @@ impl Solver<'_> {
     fn push(&mut self, jump: &[f64], at: &mut State) {
         let system = self.system;
         let (n, mut spread) = (system.freedoms, vec![0.0; system.freedoms]);
-        for i in 0..jump.len() {
-            if !self.is_rigid(i) || jump[i] == 0.0 {
+        for (i, _) in jump.iter().enumerate().filter(|(_, jump)| **jump != 0.0) {
+            if !self.is_rigid(i) {
                 continue;
             }
             let law = system.law(i);

@@ -103,11 +103,14 @@ impl Foundation {
         }
     }
 
-    /// Coordinates along `rail` at which steps must end.
-    pub fn breaks(&self, rail: usize) -> impl Iterator<Item = f64> + '_ {
+    /// Coordinates along `rail` at which steps must end, between `a` and `b` in either order.
+    pub(crate) fn breaks_between(&self, rail: usize, a: f64, b: f64) -> impl Iterator<Item = f64> + '_ {
+        let (low, high) = (a.min(b), a.max(b));
         let own = self.rails.get(rail).map_or(&[][..], |extent| &extent.breaks);
         let corners = self.irregularities.get(rail).map_or(&[][..], Irregularity::breaks);
-        own.iter().chain(corners).copied()
+        let first = corners.partition_point(|x| *x < low);
+        let near = corners[first..].iter().take_while(move |x| **x <= high);
+        own.iter().filter(move |x| (low..=high).contains(*x)).chain(near).copied()
     }
 
     /// Number of freedoms with mass.

@@ -86,6 +86,12 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    let irregularities = structure.irregularities.clone();
+    Ok(Foundation { irregularities, ..straight(structure, solved, lateral)? })
+}
+
+/// The same with straight rails.
+fn straight(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Foundation, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
