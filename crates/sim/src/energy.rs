@@ -129,6 +129,10 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
                 drag.iter().map(|&(number, inertia)| inertia * speed[0] * state.v[number]).sum::<f64>();
         }
     }
+    for mount in system.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        let (displacement, _) = system.body(mount.body, state.t, &state.q, &state.v);
+        energy.gravity += system.scene.gravity * dot(&mount.mass[1], &displacement);
+    }
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] != 0.0 {
             energy.contact += normal.count() * geometry.share[i][0] * system.law(i).energy(state.p[i]);

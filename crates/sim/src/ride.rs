@@ -11,25 +11,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 
 use crate::scene::arm_rows;
 use crate::system::System;
-use crate::{Error, Foundation, Scene};
-
-/// The body that carries a structure.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Mount {
-    /// Which body; the mass of the structure is the body's.
-    pub body: usize,
-    /// Its rails, in their order.
-    pub rails: Vec<Axle>,
-}
-
-/// A straight, level rail on a body.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Axle {
-    /// Where the rail's coordinate is 0, from the body's origin.
-    pub origin: [f64; 3],
-    /// Direction of increasing coordinate, of length 1, without a part along y.
-    pub along: [f64; 3],
-}
+use crate::{Axle, Error, Foundation, Scene};
 
 /// Slack allowed between directions of rails of one track.
 const SLACK: f64 = 1e-9;
@@ -83,9 +65,6 @@ impl Rides {
                 grounded[tree] = true;
                 continue;
             };
-            if mount.body >= count {
-                return Err(Error::NoSuch { what: "body", index: mount.body });
-            }
             let rail =
                 mount.rails.get(contact.rail).ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
             let turn = frame(rail).ok_or(refused.clone())?;
@@ -100,6 +79,11 @@ impl Rides {
         }
         for foundation in foundations.iter().filter(|f| f.structure.is_some() || f.parts.is_some()) {
             if let Some(mount) = &foundation.on {
+                return Err(Error::Mounted { body: mount.body });
+            }
+        }
+        for mount in foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+            if tracks[root(mount.body)].is_some() {
                 return Err(Error::Mounted { body: mount.body });
             }
         }

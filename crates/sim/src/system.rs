@@ -10,12 +10,12 @@ use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
 use crate::actuator::Pull;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Terms};
 use crate::link::Link;
 use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
-use crate::{Error, Foundation, Freedom, Irregularity, Load, NormalLaw, Scene};
+use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint {
@@ -100,6 +100,7 @@ impl<'a> System<'a> {
     /// Numbers a scene.
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         scene.check(foundations.len())?;
+        Mount::check(scene, foundations)?;
         let mut freedoms = 0;
         let mut next = || {
             freedoms += 1;
@@ -166,7 +167,7 @@ impl<'a> System<'a> {
 
         let mut kinematics = Kinematics::new(scene, &freedom)?;
         let rides = Rides::new(scene, foundations, |b| kinematics.root(b))?;
-        kinematics.weigh(scene, &rides);
+        kinematics.weigh(scene, foundations, &rides);
         // Points of riders in space are not known.
         let ends = scene.actuators.ropes.iter().flat_map(|rope| [rope.from.body, rope.to.body]);
         let met = scene.actuators.stops.iter().map(|stop| Some(stop.body));
@@ -329,11 +330,13 @@ impl<'a> System<'a> {
         let mut mass = DMatrix::zeros(bodies, bodies);
         for (b, body) in self.scene.bodies.iter().enumerate().filter(|(b, _)| !self.rides.has(*b)) {
             self.kinematics.add_mass(b, &body.mass_matrix(), &mut mass);
-            for (arm, terms) in arm_rows(body.cg)[1].iter().zip(self.kinematics.terms(b)) {
-                for &(number, coefficient) in terms {
-                    self.gravity[number] -= body.mass * self.scene.gravity * arm * coefficient;
-                }
-            }
+            let line = arm_rows(body.cg)[1].map(|arm| body.mass * arm);
+            weigh(&mut self.gravity, self.scene, self.kinematics.terms(b), &line);
+        }
+        for mount in self.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+            self.kinematics.add_mass(mount.body, &mount.mass, &mut mass);
+            let terms = self.kinematics.terms(mount.body);
+            weigh(&mut self.gravity, self.scene, terms, &mount.mass[1]);
         }
         let mut whole = mass.clone();
         if !self.rides.is_empty() {
@@ -391,5 +394,14 @@ impl<'a> System<'a> {
             }
         }
         entries
+    }
+}
+
+/// Adds the weight of a mass that moves with a body, given by its line of y and the body's displacements.
+fn weigh(gravity: &mut DVector<f64>, scene: &Scene, terms: &[Terms; 6], line: &[f64; 6]) {
+    for (mass, terms) in line.iter().zip(terms) {
+        for &(number, coefficient) in terms {
+            gravity[number] -= scene.gravity * mass * coefficient;
+        }
     }
 }

@@ -41,7 +41,7 @@ fn mount(along: [f64; 3], at: [f64; 3]) -> Mount {
     // Analytic: z = x cross y for a level x.
     let across = [-along[2], 0.0, along[0]];
     let rail = |side: f64| Axle { origin: [0, 1, 2].map(|k| at[k] + side * across[k]), along };
-    Mount { body: 0, rails: vec![rail(-GAUGE), rail(GAUGE)] }
+    Mount { body: 0, rails: vec![rail(-GAUGE), rail(GAUGE)], mass: [[0.0; 6]; 6] }
 }
 
 fn carried(along: [f64; 3], at: [f64; 3]) -> Foundation {

@@ -36,6 +36,8 @@ pub struct Structure {
     pub gauges: Vec<Gauge>,
     /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
     pub irregularities: Vec<sim::Irregularity>,
+    /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
+    pub on: Option<(usize, [f64; 3])>,
 }
 
 /// Where influence coefficients come from.
@@ -200,11 +202,6 @@ pub(super) fn read(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Structure> {
-    for (key, given) in [("on", raw.on.is_some()), ("at", raw.at.is_some())] {
-        if given {
-            check.faults.unavailable(&at.key(key), "a structure that rides on a body");
-        }
-    }
     let word = foundation_word(raw, at, check);
     let count = raw.count.unwrap_or(PARTS);
     if count < 2 {
@@ -292,6 +289,7 @@ pub(super) fn read(
         tolerance,
         gauges,
         irregularities,
+        on: None,
     })
 }
 
