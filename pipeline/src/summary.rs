@@ -132,6 +132,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 "switches": lost.switches,
             },
             "put_in": lost.put_in(),
+            "steps": lost.steps,
         });
     }
     result

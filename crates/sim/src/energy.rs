@@ -52,6 +52,8 @@ pub struct Exchanged {
     pub loads: f64,
     /// Put in by hoisting.
     pub hoists: f64,
+    /// Put in where wheels meet steps of uneven rails; what their slopes do is in `drives`, or the body's own.
+    pub steps: f64,
 }
 
 impl Exchanged {
@@ -62,10 +64,10 @@ impl Exchanged {
             - self.put_in()
     }
 
-    /// Work put in by prescribed motions, drives, loads and hoisting.
+    /// Work put in by prescribed motions, drives, loads, hoisting and steps of rails.
     #[must_use]
     pub fn put_in(&self) -> f64 {
-        self.drives + self.loads + self.hoists
+        self.drives + self.loads + self.hoists + self.steps
     }
 
     pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
@@ -78,6 +80,7 @@ impl Exchanged {
         self.drives += weight * power.drives;
         self.loads += weight * power.loads;
         self.hoists += weight * power.hoists;
+        self.steps += weight * power.steps;
     }
 }
 
@@ -158,6 +161,9 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
+    let convective = |i: usize| {
+        if system.is_uneven { geometry.rise[i] * speed_along(system, state, i) } else { 0.0 }
+    };
     let structure = system.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
     let mut power = Exchanged { structure, ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
@@ -188,7 +194,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         let (share, slope) = flange.share(geometry.height[w]);
         if share > 0.0 && slope != 0.0 && state.force[i] != 0.0 {
             let overlap = state.force[i] / (flange.stiffness * share);
-            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal));
+            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal) - convective(normal));
             power.flanges -= 0.5 * flange.stiffness * overlap * overlap * slope * climb;
         }
     }
@@ -299,7 +305,7 @@ fn speed_along(system: &System, state: &State, i: usize) -> f64 {
 }
 
 /// Q(p) = integral of STEP(p, 0, 0, depth, 1) from 0 to p; p itself where there is no ramp.
-fn ramp_integral(depth: f64, p: f64) -> f64 {
+pub(crate) fn ramp_integral(depth: f64, p: f64) -> f64 {
     if depth == 0.0 {
         p
     } else if p <= 0.0 {

@@ -72,6 +72,7 @@ impl Method {
             (system.components() > system.normals.len(), "vertical contacts alone"),
             (!system.linear_normals, "linear contacts"),
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
+            (system.is_uneven, "even rails"),
             (!system.rides.is_empty(), "bodies that ride on the ground's rails"),
             (!modal, "structures in natural modes, damped below critical"),
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),

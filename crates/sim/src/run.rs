@@ -85,6 +85,9 @@ pub fn run_by(
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
+    set(&system, &mut state.v, |body| body.start_speed);
+    solver.locate(&state)?;
+    state.v.fill(0.0);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
@@ -119,6 +122,9 @@ fn integrate(
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
+    if system.is_uneven {
+        solver.follow(&mut state);
+    }
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
@@ -142,10 +148,13 @@ fn integrate(
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
+    let mut pieces = stepper.solver.geometry.piece.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
+            // A sample within the step belongs to where the step began.
+            pieces.clone_from(&stepper.solver.geometry.piece);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -162,7 +171,12 @@ fn integrate(
             links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
-                if t >= to * (1.0 - 1e-14) {
+                let is_end = t >= to * (1.0 - 1e-14);
+                let after = stepper.solver.geometry.piece.clone();
+                if !is_end {
+                    stepper.solver.geometry.piece.clone_from(&pieces);
+                }
+                if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
                     sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
@@ -170,6 +184,7 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
             }
@@ -208,6 +223,7 @@ fn sweep(
     }
     for t in times {
         state.t = t;
+        solver.locate(&state)?;
         match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
@@ -286,7 +302,10 @@ impl Recorder {
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
             let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-            let down = -dot(&arm_rows(wheel.hub)[1], &displacement);
+            let own = system
+                .irregularity(w)
+                .map_or(0.0, |shape| shape.vertical(solver.geometry.piece[w], solver.geometry.x[w])[0]);
+            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
             values.extend([
                 solver.geometry.x[w],

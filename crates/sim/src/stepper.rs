@@ -200,7 +200,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             break;
         }
         self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
-        self.chatter = if ends_at_event { self.chatter + 1 } else { 0 };
+        self.chatter = if ends_at_event && breaks == 0 { self.chatter + 1 } else { 0 };
         if self.stalled > REFINEMENTS || self.chatter > CHATTER {
             return Err(Failure::TooSmall);
         }
@@ -311,9 +311,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.turn()?;
         }
         let before = stored(system, &self.solver.geometry, &self.to);
-        let due = (0..system.normals.len()).any(|i| {
-            (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
-        }) || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
+        let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
+        let due = crosses
+            || (0..system.normals.len()).any(|i| {
+                (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
+            })
+            || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
         let mut after = before;
         if due {
             let flags = self.solver.active.clone();
@@ -321,7 +324,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if self.solver.settle(&mut self.to)? {
                 self.counts.events += usize::from(flags != self.solver.active || taut != self.solver.taut());
                 after = stored(system, &self.solver.geometry, &self.to);
-                self.audit.exchanged.switches += before.total() - after.total();
+                let gained = after.total() - before.total();
+                let exchanged = &mut self.audit.exchanged;
+                *(if crosses { &mut exchanged.steps } else { &mut exchanged.switches }) +=
+                    if crosses { gained } else { -gained };
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);

@@ -15,7 +15,7 @@ use crate::link::Link;
 use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
-use crate::{Error, Foundation, Freedom, Load, Mount, NormalLaw, Scene};
+use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint {
@@ -84,6 +84,8 @@ pub(crate) struct System<'a> {
     /// Whether the probes of a structure are the components in their order, with weight -1 each: the compliance
     /// of the components is then the structure's.
     pub is_direct: Vec<bool>,
+    /// Whether some wheel runs on an uneven rail.
+    pub is_uneven: bool,
     /// Whether some wheel's place along the rail depends on the freedoms.
     pub moves_freely: bool,
     /// Whether the rows of contact are the same at every time and place.
@@ -190,6 +192,7 @@ impl<'a> System<'a> {
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
             is_direct: Vec::new(),
+            is_uneven: false,
             moves_freely: false,
             constant_rows: false,
             linear_normals: false,
@@ -211,7 +214,9 @@ impl<'a> System<'a> {
             .wheels
             .iter()
             .any(|wheel| !system.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
+        system.is_uneven = (0..system.wheels.len()).any(|w| system.irregularity(w).is_some());
         system.constant_rows = !system.moves_freely
+            && !system.is_uneven
             && system.laterals.is_empty()
             && system.tractions.is_empty()
             && system.pulls.is_empty()
@@ -229,6 +234,13 @@ impl<'a> System<'a> {
                 )
             });
         Ok(system)
+    }
+
+    /// Shape of the unloaded rail of wheel `w`, where it is uneven.
+    pub fn irregularity(&self, w: usize) -> Option<&'a Irregularity> {
+        let contact = &self.scene.contacts[self.wheels[w].contact];
+        let shapes = &self.foundations[contact.structure].irregularities;
+        shapes.get(contact.rail).filter(|shape| !shape.is_straight())
     }
 
     /// Number of contact components.

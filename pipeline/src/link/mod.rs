@@ -87,8 +87,9 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    let irregularities = structure.irregularities.clone();
     let on = mount::mount(structure)?;
-    grounded(structure, solved, lateral).map(|foundation| Foundation { on, ..foundation })
+    grounded(structure, solved, lateral).map(|foundation| Foundation { on, irregularities, ..foundation })
 }
 
 /// The same, without what carries it.

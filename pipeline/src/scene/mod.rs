@@ -4,6 +4,7 @@ mod actuator;
 mod body;
 mod compare;
 mod gauge;
+mod irregularity;
 mod method;
 mod mount;
 mod pin;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
-use super::ties;
+use super::{irregularity, ties};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -34,6 +34,8 @@ pub struct Structure {
     pub tolerance: f64,
     /// Places whose displacement is recorded.
     pub gauges: Vec<Gauge>,
+    /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
+    pub irregularities: Vec<sim::Irregularity>,
     /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
     pub on: Option<(usize, [f64; 3])>,
 }
@@ -274,6 +276,8 @@ pub(super) fn read(
     }
     let auto = matches!(word, Word::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
+    let place = at.key("irregularities");
+    let irregularities = irregularity::read(&raw.irregularities, &rails, &place, inputs, elsewhere, check);
     Some(Structure {
         name: name.to_owned(),
         origin,
@@ -284,6 +288,7 @@ pub(super) fn read(
         reading,
         tolerance,
         gauges,
+        irregularities,
         on: None,
     })
 }
@@ -356,7 +361,12 @@ fn read_spec(
     }
 }
 
-fn refer<'i>(file: &str, at: &Place<'_>, inputs: &'i mut Inputs, check: &mut Check<'_>) -> Option<&'i Input> {
+pub(super) fn refer<'i>(
+    file: &str,
+    at: &Place<'_>,
+    inputs: &'i mut Inputs,
+    check: &mut Check<'_>,
+) -> Option<&'i Input> {
     match inputs.refer(file) {
         Ok(input) => Some(input),
         Err(why) => {
