@@ -50,6 +50,7 @@ impl Method {
             (!system.linear_normals, "linear contacts"),
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
             (!system.rides.is_empty(), "bodies that ride on the ground's rails"),
+            (!system.ties.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
         ];
