@@ -5,6 +5,7 @@ mod grids;
 mod modes;
 mod rides;
 mod ropes;
+mod stops;
 mod tables;
 
 use std::fs;

@@ -50,7 +50,7 @@ pub use error::Error;
 pub use foundation::{Dynamics, Extent, Foundation, Shapes, Structure};
 pub use history::{Channel, History};
 pub use instant::{ContactForces, Instant, contact_forces};
-pub use method::Method;
+pub use method::{Method, Stepping};
 pub use mount::{Axle, Mount};
 pub use parts::{BlendedParts, PartChain, PartShapes};
 pub use profile::{Given, Moving, Profile};

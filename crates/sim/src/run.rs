@@ -13,7 +13,7 @@ use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene};
+use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -64,26 +64,31 @@ pub fn run(
     run_by(Method::default(), scene, foundations, watch)
 }
 
-/// [`run`] by `method`. A quasi-static run knows no method.
+/// [`run`] by a [`Method`], or by one with steps of a fixed length. A quasi-static run knows no method.
 ///
 /// # Errors
-/// Those of [`run`], and [`Error::Method`] where the method does not suit the scene.
+/// Those of [`run`], [`Error::Method`] where the method does not suit the scene, and [`Error::Number`] for a
+/// step that is not positive.
 pub fn run_by(
-    method: Method,
+    stepping: impl Into<Stepping>,
     scene: &Scene,
     foundations: &[Foundation],
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
+    let Stepping { method, step } = stepping.into();
     let system = System::new(scene, foundations)?;
     method.check(&system)?;
     let method = method.chosen(&system);
+    if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
+        return Err(Error::Number { what: "step", wanted: "positive", found });
+    }
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
-        Analysis::Dynamic => integrate(method, &system, &mut solver, state, watch),
+        Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
     }
 }
 
@@ -99,7 +104,7 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
 }
 
 fn integrate(
-    method: Method,
+    stepping: Stepping,
     system: &System,
     solver: &mut Solver,
     mut state: State,
@@ -131,7 +136,9 @@ fn integrate(
     breaks.push(scene.end);
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
-    let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
+    let mut stepper =
+        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(stepping.method);
+    stepper.fixed = stepping.step;
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
@@ -177,7 +184,7 @@ fn integrate(
         history: recorder.history,
         audit: stepper.audit,
         counts: stepper.counts,
-        method: Some(method),
+        method: Some(stepping.method),
     })
 }
 

@@ -62,6 +62,8 @@ pub(crate) struct Stepper<'a, 'b> {
     /// In place of the tableau.
     collocation: Option<Collocation>,
     tolerance: f64,
+    /// Length of every step that no break or event ends; in place of the tolerance.
+    pub fixed: Option<f64>,
     scale: DVector<f64>,
     rate_scale: DVector<f64>,
     h: f64,
@@ -105,6 +107,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             tableau,
             collocation: None,
             tolerance,
+            fixed: None,
             scale,
             rate_scale,
             h: first,
@@ -136,9 +139,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let mut h = self.h.min(limit - start);
+        let mut h = self.fixed.unwrap_or(self.h).min(limit - start);
         // Do not leave a sliver before the limit.
-        if limit - start - h < 0.1 * h {
+        if limit - start - h < if self.fixed.is_some() { 1e-9 } else { 0.1 } * h {
             h = limit - start;
         }
         let mut ends_at_event = false;
@@ -150,7 +153,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if let Some(shorter) = self.prescribed_break(start, h) {
                 h = shorter;
             }
-            let error = if self.attempt(h)? { self.error() } else { f64::INFINITY };
+            let error = match (self.attempt(h)?, self.fixed) {
+                (false, _) => f64::INFINITY,
+                (true, None) => self.error(),
+                (true, Some(_)) => 0.0,
+            };
             // Beyond a break the error says nothing of the step that ends before it.
             if error.is_finite()
                 && breaks < REFINEMENTS

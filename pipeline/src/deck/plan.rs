@@ -198,7 +198,7 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
     Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
 }
 
-/// Refuses drives, brakes, loads and pinned bodies, which a deck does not have yet.
+/// Refuses ropes, stops, drives, brakes, loads and pinned bodies, which a deck does not have yet.
 fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
     let refuse = |why: String, hint: &str| Err(Failure::from(Diagnostic::of_file(file, why).hint(hint)));
     if let Some(rope) = scene.ropes.first() {
@@ -207,6 +207,10 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
             why,
             "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
         );
+    }
+    if let Some(stop) = scene.stops.first() {
+        let why = format!("a deck cannot have stops: \"{}\"", stop.name);
+        return refuse(why, "leave `stops` out, and add an SFORCE with IMPACT to the deck by hand");
     }
     if let Some(body) = scene.bodies.iter().find(|body| body.in_space) {
         let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);

@@ -28,6 +28,7 @@ crate::object::objects!(
     RawLoad,
     RawRope,
     RawEnds,
+    RawStop,
     RawEnd,
     RawOutput
 );
@@ -55,12 +56,14 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub events: Vec<Value>,
     #[serde(default)]
-    pub stops: Vec<Value>,
+    pub stops: Vec<RawStop>,
     #[serde(default)]
     pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
     pub accuracy: Option<f64>,
+    pub stepper: Option<String>,
+    pub step: Option<f64>,
     #[serde(default)]
     pub compare: Vec<Value>,
 }
@@ -329,6 +332,21 @@ pub(crate) struct RawRope {
     pub c: Option<f64>,
     pub length: Option<f64>,
     pub speed: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawStop {
+    pub name: Option<String>,
+    pub rail: Option<String>,
+    pub x: Option<f64>,
+    #[serde(rename = "Y")]
+    pub height: Option<f64>,
+    pub body: Option<String>,
+    pub at: Option<[f64; 3]>,
+    pub side: Option<String>,
+    pub k: Option<f64>,
+    pub c: Option<f64>,
 }
 
 /// One end of a rope.

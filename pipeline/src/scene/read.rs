@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, mount, pin, rope,
-    structure, truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, method, mount, pin,
+    rope, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -89,6 +89,7 @@ pub(super) fn scene(
         trucks: Vec::new(),
         loads,
         ropes,
+        stops: Vec::new(),
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -97,19 +98,22 @@ pub(super) fn scene(
             Dimension::NUMBER,
             "a relative error, such as 1e-4",
         ),
+        stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
+    scene.stops = stop::read_all(&raw.stops, &scene, check);
     actuator::check_wheels(&raw.motions, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
         mount::check(&scene, check.faults);
         stay_on_rails(raw, &scene, &root, check.faults);
+        method::suits(&scene, &root, check.faults);
     }
     units.map(|_| scene)
 }
 
 fn refuse_later(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) {
-    let later = [("events", raw.events.is_empty(), "an event"), ("stops", raw.stops.is_empty(), "a stop")];
+    let later = [("events", raw.events.is_empty(), "an event")];
     for (key, empty, what) in later {
         if !empty {
             check.faults.unavailable(&root.key(key), what);
