@@ -37,11 +37,13 @@ mod schedule;
 mod selector;
 mod settle;
 mod solver;
+mod spot;
 mod state;
 mod step;
 mod stepper;
 mod system;
 mod tableau;
+mod tie;
 mod wheel;
 
 pub use actuator::{Actuators, Brake, Drive, Load};
