@@ -4,6 +4,7 @@ mod drives;
 mod events;
 mod grids;
 mod modes;
+mod rides;
 mod ropes;
 mod stops;
 mod tables;

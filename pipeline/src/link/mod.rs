@@ -2,6 +2,7 @@
 
 mod ladder;
 mod modal;
+mod mount;
 mod parts;
 
 use fea::Frame;
@@ -86,6 +87,13 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    let irregularities = structure.irregularities.clone();
+    let on = mount::mount(structure)?;
+    grounded(structure, solved, lateral).map(|foundation| Foundation { on, irregularities, ..foundation })
+}
+
+/// The same, without what carries it.
+fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Foundation, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()

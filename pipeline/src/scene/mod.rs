@@ -5,6 +5,9 @@ mod body;
 mod compare;
 mod event;
 mod gauge;
+mod irregularity;
+mod method;
+mod mount;
 mod pin;
 mod raw;
 mod read;
@@ -21,6 +24,7 @@ pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use event::Event;
 pub use gauge::Gauge;
+pub use method::STEPPERS;
 pub use rope::Rope;
 pub use stop::{Meeting, Stop};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
@@ -69,6 +73,8 @@ pub struct Scene {
     pub dt: f64,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
+    /// How the motion is integrated.
+    pub stepping: sim::Stepping,
 }
 
 /// What is computed.

@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, pin, rope,
-    stop, structure, truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
+    pin, rope, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -40,7 +40,7 @@ pub(super) fn scene(
         super::name(&name, &root.key("name"), check.faults);
     }
     let gravity = read_gravity(raw, &root, check);
-    let structures = read_structures(raw, &root, known, inputs, elsewhere, check);
+    let mut structures = read_structures(raw, &root, known, inputs, elsewhere, check);
     let rails = rails_of(&structures);
     let all_structures = structures.len() == raw.structures.0.len();
     let mut bodies = Vec::new();
@@ -61,6 +61,7 @@ pub(super) fn scene(
         bodies.push(body);
     }
     pin::read(&raw.bodies, &mut bodies, check);
+    mount::read(&raw.structures, &mut structures, &bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
@@ -97,6 +98,7 @@ pub(super) fn scene(
             Dimension::NUMBER,
             "a relative error, such as 1e-4",
         ),
+        stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
     scene.stops = stop::read_all(&raw.stops, &scene, check);
@@ -105,7 +107,9 @@ pub(super) fn scene(
     actuator::check_wheels(raw, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
+        mount::check(&scene, check.faults);
         stay_on_rails(raw, &scene, &root, check.faults);
+        method::suits(&scene, &root, check.faults);
     }
     units.map(|_| scene)
 }
