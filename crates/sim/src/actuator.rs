@@ -179,6 +179,8 @@ pub(crate) struct Pull {
     /// Mean row of the places where it acts: their speed along x by the body's freedoms.
     pub row: [f64; 6],
     pub grips: Vec<Grip>,
+    /// Contacts under whose wheels it acts.
+    pub contacts: Vec<usize>,
     pub law: PullLaw,
 }
 
@@ -195,6 +197,7 @@ impl Pull {
                 body: drive.body,
                 row: treads(system, &drive.contacts),
                 grips: if gripped { grips(system, &drive.contacts) } else { Vec::new() },
+                contacts: drive.contacts.clone(),
                 law: PullLaw::Drive { drive: index, gain: drive.gain, max_force: drive.max_force, gripped },
             });
         }
@@ -205,6 +208,7 @@ impl Pull {
                     body: brake.body,
                     row: treads(system, contact),
                     grips: grips(system, contact),
+                    contacts: contact.to_vec(),
                     law: PullLaw::Brake { brake: index, speed: brake.speed },
                 });
             }

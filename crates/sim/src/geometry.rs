@@ -254,7 +254,9 @@ impl Geometry {
                     .row(at, value, slope)
                     .map_err(|source| Error::Compliance { structure: s, source })?;
                 let span = entry.component * n + range.start..entry.component * n + range.end;
-                for (target, shape) in self.rows[span.clone()].iter_mut().zip(value.iter()) {
+                let is_along = system.drags().contains(&entry.component);
+                let rows = if is_along { &mut self.rate_rows } else { &mut self.rows };
+                for (target, shape) in rows[span.clone()].iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
                 }
                 for (target, shape) in self.shape_slopes[span].iter_mut().zip(slope.iter()) {

@@ -8,6 +8,7 @@ mod collocation;
 mod complementarity;
 mod crossing;
 mod dense;
+mod drag;
 mod energy;
 mod equilibrium;
 mod error;

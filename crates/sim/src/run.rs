@@ -95,7 +95,7 @@ pub fn run_by(
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
     let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    let mut state = State::new(&system);
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
     solver.locate(&state)?;

@@ -96,7 +96,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// A rule of something that is not recorded.
     pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Result<Self, Error> {
         let system = solver.system;
-        let (n, count) = (system.freedoms, system.normals.len());
+        let (n, count) = (system.freedoms, start.p.len());
         let tableau = &SDIRK4;
         let energy = stored(system, &solver.geometry, &start);
         let (scale, rate_scale) = floors(solver, &start);
@@ -388,7 +388,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 fn floors(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system;
     let n = system.freedoms;
-    let depth = start.p.iter().fold(0.0_f64, |max, p| max.max(*p));
+    let depth = start.p[..system.normals.len()].iter().fold(0.0_f64, |max, p| max.max(*p));
     let radius = system.scene.wheels.iter().fold(1.0_f64, |max, wheel| max.max(wheel.radius));
     let depth = if depth > 0.0 { depth } else { 1e-3 * radius };
     let frequency = if system.scene.gravity > 0.0 { (system.scene.gravity / depth).sqrt() } else { 1.0 };

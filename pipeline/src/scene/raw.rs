@@ -93,6 +93,7 @@ pub(crate) struct RawStructure {
     pub gauges: Entries<RawGauge>,
     #[serde(default)]
     pub irregularities: Vec<RawIrregularity>,
+    pub longitudinal: Option<bool>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
 }
