@@ -5,6 +5,7 @@
 
 mod actuator;
 mod chart;
+mod charts;
 mod collocation;
 mod complementarity;
 mod crossing;

@@ -199,7 +199,7 @@ fn integrate(
                     sample.copy_from(&stepper.to);
                 } else {
                     let share = (t - from) / (to - from);
-                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample);
+                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
