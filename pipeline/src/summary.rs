@@ -133,8 +133,8 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 "switches": lost.switches,
             },
             "put_in": lost.put_in(),
-            "steps": lost.steps,
             "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
+            "steps": lost.steps,
         });
     }
     if !run.fired.is_empty() {

@@ -4,6 +4,7 @@
 //! counts, freedoms of its own ([`Foundation`]).
 
 mod actuator;
+mod chart;
 mod collocation;
 mod complementarity;
 mod crossing;
