@@ -6,6 +6,7 @@
 mod actuator;
 mod collocation;
 mod complementarity;
+mod crossing;
 mod dense;
 mod energy;
 mod equilibrium;
@@ -26,6 +27,7 @@ mod parts;
 mod point;
 mod profile;
 mod propagator;
+mod recorder;
 mod ride;
 mod rope;
 mod run;
