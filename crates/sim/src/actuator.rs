@@ -2,7 +2,7 @@
 
 use crate::scene::arm_rows;
 use crate::system::System;
-use crate::{Error, Freedom, Rope, Scene, Schedule, Stop};
+use crate::{Error, Freedom, Rope, Scene, Schedule, Stop, Turn};
 
 /// A force or a moment on one free freedom of a body, over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +66,8 @@ pub struct Actuators {
     pub ropes: Vec<Rope>,
     /// End stops and floors.
     pub stops: Vec<Stop>,
+    /// Wheels whose spin is prescribed.
+    pub turns: Vec<Turn>,
     /// Bodies without wheels that start at rest below their ropes or on their floors.
     pub hung: Vec<usize>,
 }
@@ -76,6 +78,8 @@ impl Actuators {
         let loads = self.loads.iter().flat_map(|load| load.value.breaks());
         let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));
         let ropes = self.ropes.iter().flat_map(Rope::breaks);
+        let turns = self.turns.iter().flat_map(|turn| turn.motion.breaks().iter().copied());
+        let loads = loads.chain(turns);
         loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes)
     }
 
@@ -86,6 +90,7 @@ impl Actuators {
         for stop in &self.stops {
             stop.check(scene)?;
         }
+        Turn::check_all(&self.turns, scene)?;
         for &index in &self.hung {
             let rides = scene.contacts.iter().any(|contact| contact.body == index);
             if index >= scene.bodies.len() || rides {
@@ -144,7 +149,8 @@ fn rides(scene: &Scene, body: usize, index: usize) -> Result<(), Error> {
     }
     let kind =
         scene.wheels.get(contact.wheel).ok_or(Error::NoSuch { what: "wheel", index: contact.wheel })?;
-    if kind.spin_inertia.is_some() && kind.friction.is_some() {
+    let turns = scene.actuators.turns.iter().any(|turn| turn.contact == index);
+    if turns || kind.spin_inertia.is_some() && kind.friction.is_some() {
         return Err(Error::Spins { contact: index });
     }
     Ok(())

@@ -115,6 +115,7 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         kinetic: system.blocks.iter().map(|block| block.kinetic(state.v.as_slice())).sum(),
         ..Stored::default()
     };
+    energy.kinetic += system.energy_of_turns(state.t);
     energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
     let [kinetic, gravity] = system.rides.energy(system, state.t, &state.q, &state.v);
     energy.kinetic += kinetic;
@@ -211,6 +212,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
             power.drives += drive_force(system, geometry, state, b) * geometry.travel[b].v;
         }
     }
+    power.drives += system.power_of_turns(geometry, state);
     for (index, pull) in system.pulls.iter().enumerate() {
         let i = system.pull(index);
         match pull.law {

@@ -43,6 +43,7 @@ mod step;
 mod stepper;
 mod system;
 mod tableau;
+mod turn;
 mod wheel;
 
 pub use actuator::{Actuators, Brake, Drive, Load};
@@ -63,4 +64,5 @@ pub use schedule::Schedule;
 pub use selector::{Choice, Ladder, Reason, Rung, Tried, choose, distance};
 pub use step::step;
 pub use stepper::Counts;
+pub use turn::Turn;
 pub use wheel::{Damper, Flange, Friction, FrictionLaw, NormalLaw, Wheel};

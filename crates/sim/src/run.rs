@@ -268,6 +268,7 @@ impl Recorder {
                 Channel::Give(w),
                 Channel::SpinAngle(w),
                 Channel::SpinSpeed(w),
+                Channel::SpinMoment(w),
             ]);
         }
         let actuators = &system.scene.actuators;
@@ -306,7 +307,11 @@ impl Recorder {
                 .irregularity(w)
                 .map_or(0.0, |shape| shape.vertical(solver.geometry.piece[w], solver.geometry.x[w])[0]);
             let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
-            let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
+            let (angle, speed) = match (wheel.spin, system.turn(w, at.t)) {
+                (Some(number), _) => (at.q[number], at.v[number]),
+                (None, Some(turn)) => (turn.x, turn.v),
+                (None, None) => (0.0, 0.0),
+            };
             values.extend([
                 solver.geometry.x[w],
                 vertical,
@@ -316,6 +321,7 @@ impl Recorder {
                 down - deepest,
                 angle,
                 speed,
+                system.moment(&solver.geometry, at, w),
             ]);
         }
         let ropes = system.scene.actuators.ropes.len();
