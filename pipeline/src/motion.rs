@@ -28,8 +28,10 @@ pub struct CastWheel {
     pub rail: usize,
     /// Its kind.
     pub kind: usize,
-    /// Whether its spin is a freedom.
+    /// Whether it turns: its spin is a freedom, or prescribed.
     pub spins: bool,
+    /// Whether its spin is prescribed.
+    pub turned: bool,
 }
 
 /// Resolves `scene` for the simulator.
@@ -40,7 +42,8 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     let bodies = scene.bodies.iter().map(body).collect();
     let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
     let (mut contacts, mut cast) = (Vec::new(), Vec::new());
-    for truck in &scene.trucks {
+    let mut turns = Vec::new();
+    for (index, truck) in scene.trucks.iter().enumerate() {
         let rail = &scene.rails[truck.rail];
         let mut number = 0;
         for node in &truck.tree {
@@ -51,7 +54,14 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
                     truck.name
                 )));
             }
-            for _ in &below {
+            for wheel in 0..below.len() {
+                let own = |spin: &&crate::scene::Spin| (spin.truck, spin.wheel) == (index, number);
+                let spin = scene.spins.iter().find(own);
+                turns.extend(spin.map(|spin| sim::Turn {
+                    contact: contacts.len(),
+                    wheel,
+                    motion: spin.motion.clone(),
+                }));
                 number += 1;
                 let kind = &wheels[truck.wheel];
                 cast.push(CastWheel {
@@ -59,7 +69,8 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
                     body: truck.body,
                     rail: truck.rail,
                     kind: truck.wheel,
-                    spins: kind.spin_inertia.is_some() && kind.friction.is_some(),
+                    spins: kind.friction.is_some() && (kind.spin_inertia.is_some() || spin.is_some()),
+                    turned: spin.is_some(),
                 });
             }
             contacts.push(Contact {
@@ -73,7 +84,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         }
     }
     let scene = sim::Scene {
-        actuators: actuators(scene, &contacts),
+        actuators: sim::Actuators { turns, ..actuators(scene, &contacts) },
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,

@@ -92,6 +92,10 @@ impl Record {
                 let rate = Dimension::of(0, 0, -1);
                 record.push(format!("{name}.spin_speed"), rate, history.column(Channel::SpinSpeed(w)));
             }
+            if wheel.turned {
+                let moment = history.column(Channel::SpinMoment(w));
+                record.push(format!("{name}.moment"), Dimension::MOMENT, moment);
+            }
         }
         for (r, rope) in scene.ropes.iter().enumerate() {
             let name = &rope.name;
