@@ -4,7 +4,7 @@ use sim::{Contact, NormalLaw};
 use splines::Probe;
 
 use crate::exit::Failure;
-use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene};
+use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene, Truck};
 use crate::units::{Dimension, Length, Scale, Units};
 
 /// Speed at which a brake has 76 % of its friction, ft/s: it rubs with mu N tanh(s / speed).
@@ -41,11 +41,9 @@ pub struct CastWheel {
 pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     let bodies = scene.bodies.iter().map(body).collect();
     let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
-    let (mut contacts, mut cast) = (Vec::new(), Vec::new());
-    let mut turns = Vec::new();
-    for (index, truck) in scene.trucks.iter().enumerate() {
+    let mut contacts = Vec::new();
+    for truck in &scene.trucks {
         let rail = &scene.rails[truck.rail];
-        let mut number = 0;
         for node in &truck.tree {
             let below = node.wheels();
             if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
@@ -53,25 +51,6 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
                     "{}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels",
                     truck.name
                 )));
-            }
-            for wheel in 0..below.len() {
-                let own = |spin: &&crate::scene::Spin| (spin.truck, spin.wheel) == (index, number);
-                let spin = scene.spins.iter().find(own);
-                turns.extend(spin.map(|spin| sim::Turn {
-                    contact: contacts.len(),
-                    wheel,
-                    motion: spin.motion.clone(),
-                }));
-                number += 1;
-                let kind = &wheels[truck.wheel];
-                cast.push(CastWheel {
-                    name: format!("{}.wheel{number}", truck.name),
-                    body: truck.body,
-                    rail: truck.rail,
-                    kind: truck.wheel,
-                    spins: kind.friction.is_some() && (kind.spin_inertia.is_some() || spin.is_some()),
-                    turned: spin.is_some(),
-                });
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -83,8 +62,9 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
             });
         }
     }
+    let names = self::wheels(scene);
     let scene = sim::Scene {
-        actuators: sim::Actuators { turns, ..actuators(scene, &contacts) },
+        actuators: sim::Actuators { turns: turns(scene), ..actuators(scene, &contacts) },
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
@@ -98,7 +78,57 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         output_dt: scene.dt,
         accuracy: scene.accuracy,
     };
-    Ok(Cast { scene, wheels: cast })
+    Ok(Cast { scene, wheels: names })
+}
+
+/// The wheels of `scene`, in the simulator's order.
+#[must_use]
+pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
+    let of_truck = |(index, truck): (usize, &Truck)| {
+        let kind = &scene.wheels[truck.wheel];
+        let (name, body, rail, kind, spins) = (
+            truck.name.clone(),
+            truck.body,
+            truck.rail,
+            truck.wheel,
+            kind.friction.is_some().then_some(kind.spin_inertia.is_some()),
+        );
+        let numbers = 1..=truck.wheel_offsets().len();
+        numbers.map(move |number| {
+            let turned = scene.spins.iter().any(|spin| (spin.truck, spin.wheel + 1) == (index, number));
+            CastWheel {
+                name: format!("{name}.wheel{number}"),
+                body,
+                rail,
+                kind,
+                spins: spins.is_some_and(|spins| spins || turned),
+                turned,
+            }
+        })
+    };
+    scene.trucks.iter().enumerate().flat_map(of_truck).collect()
+}
+
+/// Wheels whose spin is prescribed, by their contacts.
+fn turns(scene: &Scene) -> Vec<sim::Turn> {
+    let mut contact = 0;
+    let mut turns = Vec::new();
+    for (index, truck) in scene.trucks.iter().enumerate() {
+        let mut first = 0;
+        for node in &truck.tree {
+            let count = node.wheels().len();
+            let own = |spin: &&crate::scene::Spin| {
+                spin.truck == index && (first..first + count).contains(&spin.wheel)
+            };
+            turns.extend(scene.spins.iter().filter(own).map(|spin| sim::Turn {
+                contact,
+                wheel: spin.wheel - first,
+                motion: spin.motion.clone(),
+            }));
+            (contact, first) = (contact + 1, first + count);
+        }
+    }
+    turns
 }
 
 /// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
@@ -133,6 +163,7 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
             damping: stop.damping,
         }));
     }
+    out.rules = scene.events.iter().map(|event| event.rule.clone()).collect();
     let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
     out.hung = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {

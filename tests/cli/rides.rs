@@ -2,6 +2,8 @@
 
 use std::fs;
 
+use tempfile::TempDir;
+
 use super::{example, folder, girderway, json, text};
 
 const BEAM: &str = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
@@ -23,12 +25,15 @@ const CRANE: &str = r#"{"format": "girderway-scene/1", "units": {"length": "m", 
 
 /// Runs a scene beside the files; the columns of its history.
 fn run(scene: &str, files: &[(&str, &str)], columns: &[&str]) -> Vec<Vec<f64>> {
-    let folder = folder();
+    run_in(&folder(), scene, files, columns)
+}
+
+fn run_in(folder: &TempDir, scene: &str, files: &[(&str, &str)], columns: &[&str]) -> Vec<Vec<f64>> {
     fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
     for (name, text) in [("scene.json", scene)].iter().chain(files) {
         fs::write(folder.path().join(name), text).expect("written");
     }
-    let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+    let run = girderway(folder, &["run", "scene.json", "-o", "out"]);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
     let history = fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
@@ -148,6 +153,57 @@ fn end_trucks_carry_girders_hoist_and_trolley_at_every_place() {
         assert!(balance < 1e-9, "{foundation}: the forces miss the weights by {balance}");
         assert!(foundation != "rigid" || levers < 1e-9, "a wheel errs by {levers}");
     }
+}
+
+/// A ladle of 8 t on a rope below the trolley; everything moves, and at the start all hang at rest.
+#[test]
+fn a_ladle_below_the_trolley_loads_rope_trolley_and_end_trucks() {
+    let ladle = r#""ladle": {"mass": 8000, "dof": ["X", "Y", "Z"]}}"#;
+    let rope = r#""ropes": [{"name": "hoist", "from": {"body": "trolley", "at": [0.2, 0.5, -0.3]}, "to": {"body": "ladle"}, "EA": 5e7, "length": 6, "speed": [[0, 0], [0.5, 0.4]]}],
+ "motions""#;
+    let scene = OVERHEAD.replace("\"analysis\": \"quasi-static\",", "").replace("\"motions\"", rope);
+    let scene = scene
+        .replace("\"x0\": 2}}", &format!("\"x0\": 2}}, {ladle}"))
+        .replace("\"speed\": [[0, 2]]", "\"speed\": [[0, 0], [0.5, 2]]");
+    let scene = scene
+        .replace("\"time\": 8", "\"time\": 2")
+        .replace("\"dt\": 1}}", "\"dt\": 0.1}, \"accuracy\": 1e-7}");
+    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let columns = [
+        "hoist.tension",
+        "north.rail.reaction",
+        "south.rail.reaction",
+        "girders.west.reaction",
+        "girders.east.reaction",
+        "ladle.X",
+        "ladle.Z",
+    ];
+    let folder = folder();
+    let rows = run_in(&folder, &scene, &[("bridge.json", BRIDGE), ("long.json", &long)], &columns);
+    let g = 9.80665;
+    let (tension, ground, girders) = (
+        rows[0][0] / (8000.0 * g),
+        (rows[0][1] + rows[0][2]) / (31_100.0 * g),
+        (rows[0][3] + rows[0][4]) / (12_000.0 * g),
+    );
+    // Analytic: at rest; the bridge tilts a little, the rope hangs from (0.2, -0.3) of the trolley, whose x is z of the bridge and whose right is -x.
+    assert!(
+        [tension, ground, girders].iter().all(|share| (share - 1.0).abs() < 1e-8),
+        "{tension} {ground} {girders}"
+    );
+    let [x, z] = [rows[0][5] - 50.3, rows[0][6] + 7.8];
+    assert!(x.abs() < 0.1 && z.abs() < 0.1, "{x} {z}");
+    let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+    let residual = summary["energy"]["residual"].as_f64().expect("a number");
+    println!(
+        "tension {:.1e}, ground {:.1e}, girders {:.1e}, energy {residual:.1e}",
+        tension - 1.0,
+        ground - 1.0,
+        girders - 1.0
+    );
+    assert!(residual < 1e-7, "energy residual {residual}");
+    let swung = rows.last().expect("rows")[6] - rows[0][6];
+    assert!(swung > 0.1, "the ladle follows the trolley, by {swung}");
 }
 
 #[test]

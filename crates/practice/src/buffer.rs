@@ -59,7 +59,7 @@ pub fn trolley_force(lifted: f64, trolley: f64) -> Result<f64, Error> {
 /// over the end force: 0.5 for a spring, near 0.8 for a hydraulic bumper. Any consistent units.
 ///
 /// # Errors
-/// A mass or speed that is negative, a stroke that is not positive, an efficiency outside 0..=1 or zero.
+/// A mass or speed that is negative, a stroke that is not positive, an efficiency outside 0.001..=1.
 ///
 /// # Source
 /// Work and energy; so in AISC Design Guide 7 and, by it, AIST TR-13. Which share of the rated speed TR-13
@@ -68,6 +68,6 @@ pub fn stopping_force(mass: f64, speed: f64, stroke: f64, efficiency: f64) -> Re
     let mass = least_zero(Argument::Mass, mass)?;
     let speed = least_zero(Argument::Speed, speed)?;
     let stroke = positive(Argument::Length, stroke)?;
-    let efficiency = within(Argument::Share, efficiency, f64::MIN_POSITIVE, 1.0)?;
+    let efficiency = within(Argument::Share, efficiency, 1e-3, 1.0)?;
     Ok(mass * speed * speed / (2.0 * efficiency * stroke))
 }

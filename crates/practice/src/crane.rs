@@ -1,7 +1,7 @@
 //! Static wheel loads of a bridge crane.
 
 use crate::Error;
-use crate::error::{Argument, least_zero, positive, within};
+use crate::error::{Argument, count, least_zero, positive, within};
 
 /// A bridge crane on two rails, its trolley as near to one of them as the hook can come.
 ///
@@ -50,7 +50,7 @@ impl Crane {
         let hoist = least_zero(Argument::Factor, hoist)?;
         let span = positive(Argument::Length, self.span)?;
         let approach = within(Argument::Length, self.approach, 0.0, span)?;
-        let wheels = within(Argument::Count, f64::from(self.wheels), 1.0, f64::MAX)?;
+        let wheels = count(self.wheels)?;
         let half = dead * bridge / 2.0;
         let moving = dead * trolley + hoist * lifted;
         Ok(WheelLoads {

@@ -1,9 +1,9 @@
 //! Horizontal forces from acceleration of the crane, EN 1991-3.
 
 use crate::Error;
-use crate::error::{Argument, least_zero, positive, within};
+use crate::error::{Argument, count, least_zero, positive, within};
 
-/// Friction of steel on steel, and of steel on rubber.
+/// Friction of steel on steel, and of steel on rubber; the latter is *not confirmed*.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.3.
@@ -73,7 +73,7 @@ pub fn traction(travel: &Travel) -> Result<Traction, Error> {
     let light = within(Argument::Force, travel.light, 0.0, heavy)?;
     let drive = least_zero(Argument::Force, travel.drive)?;
     let factor = least_zero(Argument::Factor, travel.factor)?;
-    let rails = within(Argument::Count, f64::from(travel.rails), 1.0, f64::MAX)?;
+    let rails = count(travel.rails)?;
     let share = heavy / (heavy + light);
     let moment = drive * (share - 0.5) * span;
     let couple = factor * moment / guides;

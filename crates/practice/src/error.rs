@@ -40,7 +40,7 @@ pub enum Argument {
 /// Errors of this crate: numbers and places; the caller knows the names.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A number that is not finite or outside what the formula allows.
+    /// A number outside what the formula allows; nothing beyond 1e30 is.
     #[error("{argument:?} is {value}, must be between {least} and {most}")]
     Range {
         /// Which.
@@ -83,8 +83,8 @@ pub enum Error {
         /// Fewest that will do.
         least: usize,
     },
-    /// A sample that is not finite.
-    #[error("sample {sample} of series {series} is not finite")]
+    /// A sample that is not a number, or beyond 1e100.
+    #[error("sample {sample} of series {series} cannot be used")]
     Number {
         /// Which series, from 0.
         series: usize,
@@ -99,21 +99,45 @@ pub enum Error {
     },
 }
 
+/// The largest number that formulas take: powers and products of such stay finite.
+const LARGE: f64 = 1e30;
+
+/// The largest sample that series take.
+const LARGEST_SAMPLE: f64 = 1e100;
+
 /// The value, if it lies in `least..=most`.
 pub(crate) fn within(argument: Argument, value: f64, least: f64, most: f64) -> Result<f64, Error> {
-    if value.is_finite() && (least..=most).contains(&value) {
+    if (least..=most).contains(&value) {
         Ok(value)
     } else {
         Err(Error::Range { argument, value, least, most })
     }
 }
 
-/// The value, if it is finite and not negative.
-pub(crate) fn least_zero(argument: Argument, value: f64) -> Result<f64, Error> {
-    within(argument, value, 0.0, f64::MAX)
+/// The value, if it is a number of either sign.
+pub(crate) fn signed(argument: Argument, value: f64) -> Result<f64, Error> {
+    within(argument, value, -LARGE, LARGE)
 }
 
-/// The value, if it is finite and above zero.
+/// The value, if it is a number that is not negative.
+pub(crate) fn least_zero(argument: Argument, value: f64) -> Result<f64, Error> {
+    within(argument, value, 0.0, LARGE)
+}
+
+/// The value, if it is a number above zero.
 pub(crate) fn positive(argument: Argument, value: f64) -> Result<f64, Error> {
-    within(argument, value, f64::MIN_POSITIVE, f64::MAX)
+    within(argument, value, 1.0 / LARGE, LARGE)
+}
+
+/// How many, if there is at least one.
+pub(crate) fn count(value: u32) -> Result<f64, Error> {
+    within(Argument::Count, f64::from(value), 1.0, LARGE)
+}
+
+/// Whether every sample of a series can be used.
+pub(crate) fn usable(series: usize, values: &[f64]) -> Result<(), Error> {
+    match values.iter().position(|value| value.is_nan() || value.abs() > LARGEST_SAMPLE) {
+        Some(sample) => Err(Error::Number { series, sample }),
+        None => Ok(()),
+    }
 }

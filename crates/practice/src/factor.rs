@@ -70,7 +70,7 @@ pub enum Release {
 
 /// phi3 = 1 - (dm/m) (1 + beta3) on the lifted load when the part dm of its mass m is let go.
 ///
-/// Negative where the rope would throw the hook up.
+/// Negative where the rope would throw the hook up. The formula is *not confirmed*.
 ///
 /// # Errors
 /// A total mass that is not positive; a part that is negative or more than the whole.
@@ -125,5 +125,5 @@ pub fn phi5(onset: Onset) -> [f64; 2] {
 /// # Source
 /// EN 1991-3:2006, 2.10.
 pub fn phi6(phi2: f64) -> Result<f64, Error> {
-    Ok(0.5 * (1.0 + within(Argument::Factor, phi2, 1.0, f64::MAX)?))
+    Ok(0.5 * (1.0 + within(Argument::Factor, phi2, 1.0, 1e3)?))
 }

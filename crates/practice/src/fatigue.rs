@@ -118,6 +118,7 @@ impl Strength {
             damage.most = damage.most.max(range);
         }
         damage.endures = damage.most <= self.limit();
+        least_zero(Argument::Factor, damage.sum)?;
         Ok(damage)
     }
 

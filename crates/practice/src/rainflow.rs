@@ -1,6 +1,7 @@
 //! Rainflow counting.
 
 use crate::Error;
+use crate::error::usable;
 
 /// A cycle, or half of one, of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,9 +54,7 @@ type Turn = (f64, usize);
 /// ASTM E1049-85, 5.4.4 (once) and 5.4.5 (repeated); the four-point rule: Amzallag, Gerey, Robert and Bahuaud,
 /// Standardization of the rainflow counting method for fatigue analysis, Int. J. Fatigue 16, 287-293 (1994).
 pub fn rainflow(values: &[f64], history: History) -> Result<Vec<Cycle>, Error> {
-    if let Some(sample) = values.iter().position(|value| !value.is_finite()) {
-        return Err(Error::Number { series: 0, sample });
-    }
+    usable(0, values)?;
     let samples = values.iter().copied().zip(0..);
     let turns = match history {
         History::Once => turning_points(samples),

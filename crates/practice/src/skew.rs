@@ -116,7 +116,7 @@ pub fn skewing(kind: Pairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skew
     };
     let lever = if free { heavy } else { heavy * light };
     let reach = (coupled * lever * span * span + second) / first;
-    if first <= 0.0 || !reach.is_finite() {
+    if first <= 0.0 || reach <= 0.0 || !reach.is_finite() {
         return Err(Error::NoReach);
     }
     let side = |pair: f64| (1.0 - pair / reach) / count;

@@ -1,7 +1,7 @@
 //! Direct stress at points of a section.
 
 use crate::Error;
-use crate::error::{Argument, positive, within};
+use crate::error::{Argument, positive, signed};
 
 /// A section about its principal axes y and z through the centroid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,14 +38,13 @@ pub struct Point {
 /// # Source
 /// Timoshenko and Goodier, Theory of Elasticity (1970), article 102.
 pub fn weights(section: &Section, point: Point) -> Result<[f64; 6], Error> {
-    let coordinate = |value| within(Argument::Length, value, f64::MIN, f64::MAX);
     Ok([
         1.0 / positive(Argument::Section, section.area)?,
         0.0,
         0.0,
         0.0,
-        coordinate(point.z)? / positive(Argument::Section, section.iy)?,
-        -coordinate(point.y)? / positive(Argument::Section, section.iz)?,
+        signed(Argument::Length, point.z)? / positive(Argument::Section, section.iy)?,
+        -signed(Argument::Length, point.y)? / positive(Argument::Section, section.iz)?,
     ])
 }
 
@@ -58,7 +57,8 @@ pub fn weights(section: &Section, point: Point) -> Result<[f64; 6], Error> {
 /// As of [`weights`].
 pub fn direct(section: &Section, point: Point, forces: [f64; 6]) -> Result<f64, Error> {
     let weights = weights(section, point)?;
-    forces.iter().zip(weights).try_fold(0.0, |sum, (force, weight)| {
-        Ok(sum + weight * within(Argument::Force, *force, f64::MIN, f64::MAX)?)
-    })
+    forces
+        .iter()
+        .zip(weights)
+        .try_fold(0.0, |sum, (force, weight)| Ok(sum + weight * signed(Argument::Force, *force)?))
 }

@@ -110,6 +110,7 @@ fn forces_of_acceleration_turn_nothing() -> Result<(), Error> {
     close(travel.drive, 12.0, 1e-12);
     close(forces.along, 9.0, 1e-12);
     close(forces.share, 0.7, 1e-12);
+    close(forces.moment, 12.0 * 0.2 * 18.0, 1e-12);
     close((forces.heavy + forces.light) * travel.guides, travel.factor * forces.moment, 1e-12);
     close(forces.heavy / forces.light, 0.3 / 0.7, 1e-12);
     Ok(())

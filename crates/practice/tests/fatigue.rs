@@ -74,6 +74,34 @@ fn the_published_history_repeated_is_counted_exactly() -> Result<(), Error> {
 }
 
 #[test]
+fn another_program_counts_the_same() -> Result<(), Error> {
+    // External: printed by the Python package rainflow 3.1 for this signal in its description.
+    let signal: Vec<f64> = (0..=200)
+        .map(|k| 4.0 * f64::from(k) / 200.0)
+        .map(|t| 0.2 + 0.5 * t.sin() + 0.2 * (10.0 * t).cos() + 0.2 * (4.0 * t).sin())
+        .collect();
+    let expected = [
+        [0.04258965150708488, 0.5],
+        [0.10973439445727551, 1.0],
+        [0.11294628078612906, 0.5],
+        [0.2057106991158965, 1.0],
+        [0.21467990941625242, 1.0],
+        [0.4388985979776988, 1.0],
+        [0.48305748051348263, 0.5],
+        [0.5286423866535466, 0.5],
+        [0.7809330293159786, 0.5],
+        [1.4343610172143002, 0.5],
+    ];
+    let found = ranges(&rainflow(&signal, History::Once)?);
+    assert_eq!(found.len(), expected.len());
+    for (found, expected) in found.iter().zip(expected) {
+        close(found[0], expected[0], 1e-14);
+        assert_eq!(found[1], expected[1]);
+    }
+    Ok(())
+}
+
+#[test]
 fn four_points_count_what_three_points_count() -> Result<(), Error> {
     // Independent: the rule of the standard, word for word.
     for seed in 0..300 {
@@ -136,11 +164,13 @@ fn a_strength_curve_goes_through_its_corners() -> Result<(), Error> {
         close(1.0 / curve.damage(curve.cut_off() * (1.0 + 1e-12))?, END, 1.0);
         assert_eq!(curve.damage(curve.cut_off())?, 0.0);
         close(curve.damage(2.0 * category)? / curve.damage(category)?, 8.0, 1e-12);
+        close(curve.damage(0.8 * category)?, 0.8_f64.powi(3) / 2e6, 1e-18);
         close(curve.damage(0.7 * category)? / curve.damage(0.5 * category)?, 1.4_f64.powi(5), 1e-9);
     }
     let shear = Strength::new(Stress::Shear, 100.0, 1.0, 1.0)?;
     close(shear.cut_off(), 45.7, 0.05);
     close(1.0 / shear.damage(100.0)?, REFERENCE, 1e-3);
+    close(shear.equivalent(1e6 * shear.damage(80.0)?)?, 80.0 * 0.5_f64.powf(0.2), 1e-9);
     close(shear.damage(90.0)? / shear.damage(60.0)?, 1.5_f64.powi(5), 1e-9);
     Ok(())
 }
@@ -169,6 +199,7 @@ fn miners_sum_and_its_equivalent_range_belong_together() -> Result<(), Error> {
     close(curve.equivalent(1.0)?, 71.0, 1e-12);
     let small = curve.miner(&rainflow(&[0.0, 50.0, 0.0], History::Once)?)?;
     assert!(small.endures && small.sum > 0.0);
+    assert!(!curve.miner(&rainflow(&[0.0, 60.0, 0.0], History::Once)?)?.endures);
     let none = curve.miner(&rainflow(&[0.0, 20.0, 0.0], History::Once)?)?;
     assert_eq!((none.sum, none.repeats()), (0.0, None));
     assert!(Strength::new(Stress::Direct, 0.0, 1.0, 1.0).is_err());

@@ -7,6 +7,7 @@ use crate::geometry::Geometry;
 use crate::scene::arm_rows;
 use crate::state::State;
 use crate::system::System;
+use crate::tie::kinetic;
 use crate::wheel::Damper;
 
 /// Energy stored in a scene at one time.
@@ -111,15 +112,12 @@ impl Audit {
 
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
-    let mut energy = Stored {
-        kinetic: system.blocks.iter().map(|block| block.kinetic(state.v.as_slice())).sum(),
-        ..Stored::default()
-    };
+    let mut energy = Stored { kinetic: kinetic(&system.blocks, &system.ties, &state.v), ..Stored::default() };
     energy.kinetic += system.energy_of_turns(state.t);
     energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
-    let [kinetic, gravity] = system.rides.energy(system, state.t, &state.q, &state.v);
-    energy.kinetic += kinetic;
-    energy.gravity += gravity;
+    let [motion, lift] = system.rides.energy(system, state.t, &state.q, &state.v);
+    energy.kinetic += motion;
+    energy.gravity += lift;
     for (b, body) in system.scene.bodies.iter().enumerate().filter(|(b, _)| !system.rides.has(*b)) {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
@@ -290,7 +288,8 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
         }
     }
     for (index, (link, hold)) in system.links.iter().zip(&geometry.links).enumerate() {
-        force += link.by_travel(system, b, hold.direction) * state.force[system.link(index)];
+        let by_travel = link.by_travel(system, b, (state.t, &state.q), hold.direction);
+        force += by_travel * state.force[system.link(index)];
     }
     force
 }

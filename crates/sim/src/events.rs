@@ -147,7 +147,8 @@ impl Stepper<'_, '_> {
             } else {
                 dot(&pull.row, &system.body(pull.body, at.t, &at.q, &at.v).1)
             };
-            pull.margins(system.scene, at.t, speed, pull.traction(&at.force))
+            let reference = pull.reference(system.scene, &geometry.switches, at.t);
+            pull.margins(reference, speed, pull.traction(&at.force))
         };
         let shares = system.pulls.iter().enumerate().flat_map(|(index, pull)| {
             let (from, to) = (margins(index, pull, &self.from), margins(index, pull, &self.to));
@@ -171,6 +172,9 @@ impl Stepper<'_, '_> {
         let system = self.solver.system;
         if i >= system.normals.len() {
             let index = i - system.link(0);
+            if self.solver.geometry.switches.is_released(index) {
+                return -1.0;
+            }
             let margin = self.solver.geometry.margin(system, index, at);
             let hold = &self.solver.geometry.links[index];
             return if hold.taut { -margin - hold.noise } else { margin - hold.noise };

@@ -5,6 +5,7 @@ use splines::{Influence, Probe};
 
 use crate::dense::along;
 use crate::link::Hold;
+use crate::rule::Switches;
 use crate::scene::arm_rows;
 use crate::system::{System, WheelPoint};
 use crate::{Error, Moving};
@@ -38,6 +39,8 @@ pub(crate) struct Geometry {
     pub pulls: Vec<bool>,
     /// Ropes and stops.
     pub links: Vec<Hold>,
+    /// What rules have switched.
+    pub switches: Switches,
     /// Growth of each approach along the rail by the shape of the unloaded rail, d e/d x.
     pub rise: Vec<f64>,
     /// Slope of the deflected rail under each component, d u/d x, that of its own shape included.
@@ -70,6 +73,7 @@ impl Geometry {
             pulls: vec![false; system.pulls.len()],
             links: vec![Hold::default(); system.links.len()],
             rise: vec![0.0; m],
+            switches: Switches::new(&system.scene.actuators),
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
@@ -112,7 +116,7 @@ impl Geometry {
             self.rate_held[system.traction(i)] = travel + spin;
         }
         for (i, pull) in system.pulls.iter().enumerate() {
-            let reference = pull.reference(system.scene, t);
+            let reference = pull.reference(system.scene, &self.switches, t);
             self.pulls[i] = reference.is_some();
             self.rate_held[system.pull(i)] = -reference.unwrap_or(0.0);
         }

@@ -3,6 +3,8 @@
 //! u_b = J_b q + held + e_x x(t): the freedoms of the body itself and of the bodies it is pinned to, starting values that
 //! are held, and the prescribed travel of the body at the root of its tree. M = sum of J_b^T M_b J_b.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::ride::Rides;
@@ -47,12 +49,24 @@ impl Kinematics {
     }
 
     /// Adds up the masses of the trees and of the structures on them, without bodies that ride on others.
-    pub fn weigh(&mut self, scene: &Scene, foundations: &[Foundation], rides: &Rides) {
+    /// `structures` are the structures' freedoms.
+    pub fn weigh(
+        &mut self,
+        scene: &Scene,
+        foundations: &[Foundation],
+        structures: &[Range<usize>],
+        rides: &Rides,
+    ) {
         for (b, body) in scene.bodies.iter().enumerate().filter(|(b, _)| !rides.has(*b)) {
             self.weigh_one(b, &body.mass_matrix()[0]);
         }
-        for mount in foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        for (foundation, freedoms) in foundations.iter().zip(structures) {
+            let Some(mount) = &foundation.on else { continue };
             self.weigh_one(mount.body, &mount.mass[0]);
+            let root = self.root[mount.body];
+            for (number, shares) in freedoms.clone().zip(&mount.coupling) {
+                add(&mut self.drag[root], number, shares[0]);
+            }
         }
     }
 

@@ -74,6 +74,7 @@ impl Method {
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
             (system.is_uneven, "even rails"),
             (!system.rides.is_empty(), "bodies that ride on the ground's rails"),
+            (!system.ties.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
         ];

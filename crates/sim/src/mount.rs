@@ -13,6 +13,9 @@ pub struct Mount {
     /// Mass of the structure moving as one with the body, 6 x 6 over x, y, z, roll, yaw, pitch of the body's origin, in the
     /// order of [`crate::Freedom`]; zeros where it is part of the body's.
     pub mass: [[f64; 6]; 6],
+    /// Momentum of each of the structure's freedoms by the six motions of the body's origin, phi^T M r; empty where the
+    /// structure has none.
+    pub coupling: Vec<[f64; 6]>,
 }
 
 /// A straight, level rail on a body.
@@ -47,9 +50,16 @@ impl Mount {
     /// # Errors
     /// A body that does not exist; a mass that is not finite, or below zero.
     pub(crate) fn check(scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
-        for mount in foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        for foundation in foundations {
+            let Some(mount) = &foundation.on else { continue };
+            if ![0, foundation.freedoms()].contains(&mount.coupling.len()) {
+                return Err(Error::NoSuch { what: "freedom of a structure", index: mount.coupling.len() });
+            }
             if mount.body >= scene.bodies.len() {
                 return Err(Error::NoSuch { what: "body", index: mount.body });
+            }
+            if let Some(found) = mount.coupling.as_flattened().iter().copied().find(|b| !b.is_finite()) {
+                return Err(Error::Number { what: "momentum of a structure", wanted: "finite", found });
             }
             for (i, line) in mount.mass.iter().enumerate() {
                 if let Some(found) = line.iter().copied().find(|m| !m.is_finite() || line[i] < 0.0) {

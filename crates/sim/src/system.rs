@@ -15,6 +15,7 @@ use crate::link::Link;
 use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
+use crate::tie::Tie;
 use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
 
 /// One physical wheel.
@@ -79,6 +80,8 @@ pub(crate) struct System<'a> {
     pub freedoms: usize,
     /// M, C and K: the bodies and spins, then each structure; without bodies that ride on others.
     pub blocks: Vec<Block>,
+    /// Inertia between the bodies and structures on them.
+    pub ties: Vec<Tie>,
     /// Weights, without those of bodies that ride on others.
     pub gravity: DVector<f64>,
     /// Probes of each structure.
@@ -177,14 +180,8 @@ impl<'a> System<'a> {
             (0..wheels.len()).filter(|&w| wheels[w].spin.is_some() || wheels[w].turn.is_some()).collect();
 
         let mut kinematics = Kinematics::new(scene, &freedom)?;
-        let rides = Rides::new(scene, foundations, |b| kinematics.root(b))?;
-        kinematics.weigh(scene, foundations, &rides);
-        // Points of riders in space are not known.
-        let ends = scene.actuators.ropes.iter().flat_map(|rope| [rope.from.body, rope.to.body]);
-        let met = scene.actuators.stops.iter().map(|stop| Some(stop.body));
-        if let Some(body) = ends.chain(met).flatten().find(|&body| rides.has(body)) {
-            return Err(Error::Mounted { body });
-        }
+        let rides = Rides::new(scene, foundations, &kinematics)?;
+        kinematics.weigh(scene, foundations, &structure, &rides);
         let mut system = System {
             scene,
             foundations,
@@ -200,6 +197,7 @@ impl<'a> System<'a> {
             structure,
             freedoms,
             blocks: Vec::new(),
+            ties: Vec::new(),
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
             is_direct: Vec::new(),
@@ -371,7 +369,8 @@ impl<'a> System<'a> {
         let mut whole = mass.clone();
         if !self.rides.is_empty() {
             let rest = DVector::zeros(self.freedoms);
-            self.rides.add(self, (0.0, &rest, &rest), &mut whole, &mut rest.clone());
+            let sums = (&mut whole, &mut rest.clone());
+            self.rides.add(self, (0.0, &rest, &rest), sums, &mut Vec::new());
         }
         for (b, numbers) in self.freedom.iter().enumerate() {
             for (number, freedom) in numbers.iter().zip(Freedom::ALL) {
@@ -390,6 +389,9 @@ impl<'a> System<'a> {
         for (range, foundation) in self.structure.iter().zip(self.foundations) {
             if let Some(structure) = &foundation.structure {
                 self.blocks.push(Block::structure(range.clone(), structure));
+                let mount = foundation.on.as_ref();
+                self.ties
+                    .extend(mount.and_then(|mount| Tie::new(&self.kinematics, mount, range.clone(), bodies)));
             }
         }
         Ok(())

@@ -30,5 +30,5 @@ pub fn mount(structure: &Structure) -> Result<Option<Mount>, Failure> {
         Axle { origin: [0, 1, 2].map(|k| at[k] + rail.origin[k] + across[k] - ahead * along[k]), along }
     };
     let mass = Mount::moved(&fea::rigid_mass(&model).map_err(refused)?, at);
-    Ok(Some(Mount { body, rails: rails.iter().map(axle).collect(), mass }))
+    Ok(Some(Mount { body, rails: rails.iter().map(axle).collect(), mass, coupling: Vec::new() }))
 }
