@@ -46,6 +46,7 @@ mod stepper;
 mod system;
 mod tableau;
 mod tie;
+mod touch;
 mod trigger;
 mod turn;
 mod wheel;
