@@ -126,7 +126,7 @@ impl<'a> Solver<'a> {
     }
 
     /// M^-1 times a row of forces.
-    pub(crate) fn spread_row(&mut self, row: &[f64], spread: &mut [f64]) {
+    pub(crate) fn spread_row(&self, row: &[f64], spread: &mut [f64]) {
         self.inverse.apply(row, spread);
     }
 
