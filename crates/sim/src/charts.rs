@@ -29,8 +29,10 @@ impl Charts {
     ) {
         self.0.clear();
         let hangs = |point: &Point| point.free_numbers(system);
-        let mut left: Vec<usize> =
-            (0..system.scene.actuators.ropes.len()).filter(|&rope| taut(rope)).collect();
+        let ropes = &system.scene.actuators.ropes;
+        let mut left: Vec<usize> = (0..ropes.len()).filter(|&rope| taut(rope)).collect();
+        let stiffness = |rope: usize| ropes[rope].stiffness / ropes[rope].length;
+        left.sort_by(|&a, &b| stiffness(b).total_cmp(&stiffness(a)));
         let mut grows = true;
         while grows {
             grows = false;
@@ -180,14 +182,14 @@ impl Solver<'_> {
     ///
     /// # Errors
     /// What the rail refuses.
-    pub fn balance(&mut self, h: f64, at: &mut State) -> Result<(), Error> {
+    pub fn stretch_ropes(&mut self, h: f64, at: &mut State) -> Result<(), Error> {
         let charts = std::mem::take(&mut self.charts);
-        let done = charts.0.iter().try_for_each(|chart| self.balance_one(chart, h, at));
+        let done = charts.0.iter().try_for_each(|chart| self.stretch_rope(chart, h, at));
         self.charts = charts;
         done
     }
 
-    fn balance_one(&mut self, chart: &Chart, h: f64, at: &mut State) -> Result<(), Error> {
+    fn stretch_rope(&mut self, chart: &Chart, h: f64, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let Some(anchor) = chart.anchor(system, &self.geometry.switches, at.t) else { return Ok(()) };
         let Some(Local { y, rate, reach, .. }) = chart.local(system, &anchor, at.t, &at.q, &at.v) else {

@@ -309,7 +309,7 @@ impl<'a> Solver<'a> {
     pub fn interpolate(&mut self, [from, to]: [&State; 2], share: f64, at: &mut State) -> Result<(), Error> {
         at.interpolate(from, to, share);
         self.charts.interpolate(self.system, &self.geometry.switches, [from, to], share, at);
-        self.balance(to.t - from.t, at)
+        self.stretch_ropes(to.t - from.t, at)
     }
 
     /// Heights of the wheels' centres above their rails; returns the largest change where it matters.
