@@ -155,6 +155,7 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     for stop in &scene.stops {
         out.stops.extend(stop.meetings.iter().map(|meeting| sim::Stop {
             body: meeting.body,
+            against: stop.against,
             at: meeting.at,
             axis: stop.axis,
             place: stop.place,

@@ -143,8 +143,16 @@ fn hoisting_off_the_floor_at_speed_peaks_at_weight_and_v_root_k_m() {
     let mut line = rope(ea, l, 0);
     line.speed = Schedule::new(&[[0.0, v]]).expect("one row");
     let k_floor = 1e9;
-    let floor =
-        Stop { body: 0, at: [0.0; 3], axis: 1, place: -l, side: -1.0, stiffness: k_floor, damping: 0.0 };
+    let floor = Stop {
+        body: 0,
+        against: None,
+        at: [0.0; 3],
+        axis: 1,
+        place: -l,
+        side: -1.0,
+        stiffness: k_floor,
+        damping: 0.0,
+    };
     let start = [0.0, -l - m * G / k_floor, 0.0];
     let actuators = Actuators { ropes: vec![line], stops: vec![floor], ..Actuators::default() };
     let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, 0.3, 1e-7));
@@ -158,8 +166,16 @@ fn hoisting_off_the_floor_at_speed_peaks_at_weight_and_v_root_k_m() {
 #[test]
 fn a_buffer_peaks_at_v_root_m_k_and_gives_the_speed_back() {
     let (m, k, v) = (2000.0, 4e5, 1.5);
-    let stop =
-        Stop { body: 0, at: [1.0, 0.0, 0.0], axis: 0, place: 3.0, side: 1.0, stiffness: k, damping: 0.0 };
+    let stop = Stop {
+        body: 0,
+        against: None,
+        at: [1.0, 0.0, 0.0],
+        axis: 0,
+        place: 3.0,
+        side: 1.0,
+        stiffness: k,
+        damping: 0.0,
+    };
     let mut free = body(m, [0.0; 3], [v, 0.0, 0.0]);
     free.free[1] = false;
     let actuators = Actuators { stops: vec![stop], ..Actuators::default() };
@@ -240,4 +256,35 @@ fn a_hoisted_swing_below_a_moving_point_closes_its_energy_at_the_pace_of_the_swi
     println!("moving: {:?} {:e}", fine.counts, fine.audit.residual());
     assert!(apart < 1e-5, "{apart}");
     assert!(run.audit.residual() < 1e-7, "{:e}", run.audit.residual());
+}
+
+/// Analytic: the reduced mass on the buffer's spring peaks at v sqrt(k m1 m2/(m1 + m2)); the impact is elastic.
+#[test]
+fn a_buffer_between_two_bodies_peaks_with_their_reduced_mass() {
+    let (m1, m2, k, v) = (2000.0, 3000.0, 4e5, 1.5);
+    let stop = Stop {
+        body: 0,
+        against: Some(1),
+        at: [1.0, 0.0, 0.0],
+        axis: 0,
+        place: -0.5,
+        side: 1.0,
+        stiffness: k,
+        damping: 0.0,
+    };
+    let mut bodies = vec![body(m1, [0.0; 3], [v, 0.0, 0.0]), body(m2, [3.0, 0.0, 0.0], [0.0; 3])];
+    bodies.iter_mut().for_each(|body| body.free[1] = false);
+    let actuators = Actuators { stops: vec![stop], ..Actuators::default() };
+    let run = go(&scene(bodies, actuators, 2.5, 1e-8));
+    let force = run.history.column(Channel::Stop(0));
+    let peak = v * (k * m1 * m2 / (m1 + m2)).sqrt();
+    let most = force.iter().copied().fold(0.0, f64::max);
+    assert!((most / peak - 1.0).abs() < 1e-3, "{most} {peak}");
+    // the gap is 3 - 1 - 0.5
+    let first = force.iter().position(|force| *force > 0.0).expect("a meeting");
+    assert!((run.history.column(Channel::Time)[first] - 1.0).abs() < 3e-3, "{first}");
+    let after = |b: usize| *run.history.column(Channel::Speed(b, Freedom::X)).last().expect("samples");
+    assert!((after(0) - v * (m1 - m2) / (m1 + m2)).abs() < 1e-7, "{}", after(0));
+    assert!((after(1) - 2.0 * v * m1 / (m1 + m2)).abs() < 1e-7, "{}", after(1));
+    assert!(run.audit.residual() < 1e-8);
 }

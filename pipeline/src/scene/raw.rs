@@ -374,6 +374,8 @@ pub(crate) struct RawStop {
     pub body: Option<String>,
     pub at: Option<[f64; 3]>,
     pub side: Option<String>,
+    pub against: Option<String>,
+    pub gap: Option<f64>,
     pub k: Option<f64>,
     pub c: Option<f64>,
 }
