@@ -1,6 +1,6 @@
 //! The method by which the equations of motion are integrated.
 
-use crate::crossing;
+use crate::passage;
 use crate::system::System;
 use crate::{Dynamics, Error, Foundation, Scene};
 
@@ -78,12 +78,14 @@ impl Method {
             (system.components() > system.normals.len(), "vertical contacts alone"),
             (!system.linear_normals, "linear contacts"),
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
+            (system.is_uneven, "even rails"),
             (!system.rides.is_empty(), "bodies that ride on the ground's rails"),
+            (!system.ties.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
         ];
         let found = trouble.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted);
-        match found.or_else(|| crossing::lacks(system).filter(|_| self == Method::Series)) {
+        match found.or_else(|| passage::lacks(system).filter(|_| self == Method::Series)) {
             Some(wanted) => Err(Error::Method { method: self, wanted }),
             None => Ok(()),
         }

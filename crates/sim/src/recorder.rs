@@ -57,7 +57,20 @@ impl Recorder {
 
     /// Adds a sample; `geometry` belongs to `at`.
     pub fn record(&mut self, system: &System, geometry: &Geometry, at: &State) -> Result<(), Error> {
-        let values = &mut self.history.values;
+        let mut values = std::mem::take(&mut self.history.values);
+        let done = self.row(system, geometry, at, &mut values);
+        self.history.values = values;
+        done
+    }
+
+    /// Appends a sample to `values`; `geometry` belongs to `at`.
+    pub fn row(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        at: &State,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Error> {
         values.push(at.t);
         for b in 0..system.scene.bodies.len() {
             let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
@@ -79,7 +92,10 @@ impl Recorder {
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
             let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-            let down = -dot(&arm_rows(wheel.hub)[1], &displacement);
+            let own = system
+                .irregularity(w)
+                .map_or(0.0, |shape| shape.vertical(geometry.piece[w], geometry.x[w])[0]);
+            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
             values.extend([
                 geometry.x[w],
@@ -94,14 +110,14 @@ impl Recorder {
         }
         let ropes = system.scene.actuators.ropes.len();
         for (index, hold) in geometry.links.iter().enumerate() {
-            self.history.values.push(at.force[system.link(index)]);
+            values.push(at.force[system.link(index)]);
             if index < ropes {
-                self.history.values.push(hold.length);
+                values.push(hold.length);
             }
         }
         for gauge in &system.scene.gauges {
             let displacement = self.displacement(system, geometry, at, gauge)?;
-            self.history.values.push(displacement);
+            values.push(displacement);
         }
         Ok(())
     }

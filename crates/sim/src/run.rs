@@ -4,16 +4,16 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::crossing;
 use crate::energy::Audit;
 use crate::history::History;
+use crate::passage;
 use crate::recorder::Recorder;
 use crate::scene::Analysis;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Method, Scene, Stepping};
+use crate::{Action, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -24,12 +24,22 @@ const LOCAL_PER_GLOBAL: f64 = 3.0;
 pub enum Status {
     /// The end time was reached.
     Done,
+    /// A rule ended it.
+    Ended(Fired),
     /// The caller stopped it.
     Stopped,
     /// No step was small enough at this time.
     StepTooSmall(f64),
     /// A wheel asked for what its structure does not have, at this time.
     Refused(f64, Error),
+}
+
+impl Status {
+    /// Whether the run went as far as the scene says: to its end time, or to a rule that ends it.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        matches!(self, Status::Done | Status::Ended(_))
+    }
 }
 
 /// Everything a run found.
@@ -39,6 +49,8 @@ pub struct Run {
     pub status: Status,
     /// Samples over time.
     pub history: History,
+    /// Rules that acted, in the order of time.
+    pub fired: Vec<Fired>,
     /// The energy audit; zeros for a quasi-static sweep.
     pub audit: Audit,
     /// Work done.
@@ -82,19 +94,22 @@ pub fn run_by(
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
-    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    let mut state = State::new(&system);
     set(&system, &mut state.q, |body| body.start);
+    set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
-    if method == Method::Series && step.is_none() && scene.analysis == Analysis::Dynamic {
-        set(&system, &mut state.v, |body| body.start_speed);
-        if let Some(run) = crossing::run(&system, &state, placed(&system), watch)? {
+    if method == Method::Series {
+        if step.is_none()
+            && scene.analysis == Analysis::Dynamic
+            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+        {
             return Ok(run);
         }
-    }
-    if method == Method::Series {
         method = Method::Radau;
     }
     let mut solver = Solver::new(&system)?;
+    solver.locate(&state)?;
+    state.v.fill(0.0);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
@@ -133,6 +148,9 @@ fn integrate(
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
+    if system.is_uneven {
+        solver.follow(&mut state);
+    }
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
@@ -151,15 +169,24 @@ fn integrate(
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
     let mut stepper =
-        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(stepping.method);
+        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
     stepper.fixed = stepping.step;
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
+    let mut pieces = stepper.solver.geometry.piece.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
+    let due = stepper.due()?;
+    let (mut fired, ends) = stepper.act(due)?;
+    if ends {
+        status = ended(scene, &fired);
+        breaks.clear();
+    }
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
+            // A sample within the step belongs to where the step began.
+            pieces.clone_from(&stepper.solver.geometry.piece);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -172,11 +199,17 @@ fn integrate(
                 }
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
+            let due = stepper.due()?;
             active.clone_from(&stepper.solver.active);
             links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
-                if t >= to * (1.0 - 1e-14) {
+                let is_end = t >= to * (1.0 - 1e-14);
+                let after = stepper.solver.geometry.piece.clone();
+                if !is_end {
+                    stepper.solver.geometry.piece.clone_from(&pieces);
+                }
+                if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
                     sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
@@ -184,8 +217,28 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, &stepper.solver.geometry, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
+            }
+            if !due.is_empty() {
+                let ends = match stepper.act(due) {
+                    Ok((now, ends)) => {
+                        fired.extend(now);
+                        ends
+                    }
+                    Err(error) => {
+                        status = Status::Refused(to, error);
+                        break 'run;
+                    }
+                };
+                if ends {
+                    if (next - 1) as f64 * scene.output_dt < to {
+                        recorder.record(system, &stepper.solver.geometry, &stepper.to)?;
+                    }
+                    status = ended(scene, &fired);
+                    break 'run;
+                }
             }
             if watch(to).is_break() {
                 status = Status::Stopped;
@@ -196,10 +249,18 @@ fn integrate(
     Ok(Run {
         status,
         history: recorder.history,
+        fired,
         audit: stepper.audit,
         counts: stepper.counts,
         method: Some(stepping.method),
     })
+}
+
+/// The status after the first rule that ends the run.
+fn ended(scene: &Scene, fired: &[Fired]) -> Status {
+    let rules = &scene.actuators.rules;
+    let last = fired.iter().find(|fired| rules[fired.rule].actions.contains(&Action::End));
+    last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
 fn sweep(
@@ -222,6 +283,7 @@ fn sweep(
     }
     for t in times {
         state.t = t;
+        solver.locate(&state)?;
         match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
@@ -237,5 +299,6 @@ fn sweep(
             break;
         }
     }
-    Ok(Run { status, history: recorder.history, audit: Audit::default(), counts, method: None })
+    let (history, audit) = (recorder.history, Audit::default());
+    Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
 }
