@@ -10,6 +10,7 @@ use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
 use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
+use self::mount::Push;
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
@@ -88,9 +89,12 @@ pub fn foundation(
     lateral: bool,
 ) -> Result<Foundation, Failure> {
     let irregularities = structure.irregularities.clone();
-    let on = mount::mount(structure)?;
+    let mut on = mount::mount(structure)?;
     let is_dragged = structure.longitudinal;
-    let foundation = grounded(structure, solved, lateral)?;
+    let mut foundation = grounded(structure, solved, lateral)?;
+    if let (Some(on), Some(own)) = (&mut on, foundation.on.take()) {
+        (on.mass, on.coupling) = (own.mass, own.coupling);
+    }
     if let (true, Some(compliance), Some(rail)) =
         (is_dragged, &foundation.compliance, structure.rails.first())
     {
@@ -111,9 +115,7 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let pushes =
-        [(Axis::Vertical, true), (Axis::Lateral, lateral), (Axis::Longitudinal, structure.longitudinal)];
-    let axes: Vec<Axis> = pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect();
+    let push = Push { lateral, longitudinal: structure.longitudinal, on: structure.on };
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }),
         scene::Foundation::Influence => influence(structure, solved),
@@ -121,13 +123,13 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
             let girder = solved.and_then(|solved| solved.girder.as_ref()).ok_or_else(|| {
                 Failure::Untrusted(format!("{}: parts need a beam spec of a straight girder", structure.name))
             })?;
-            parts::foundation(girder, count, handover, lateral)
+            parts::foundation(girder, count, handover, push)
         }
         scene::Foundation::Modal { modes, damping } => {
-            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, &axes)
+            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, push)
         }
         scene::Foundation::Full { elements, damping } => {
-            modal::full(&structure.name, needed(structure, solved)?, elements, damping, &axes)
+            modal::full(&structure.name, needed(structure, solved)?, elements, damping, push)
         }
         scene::Foundation::Ties { moves: false, .. } => influence(structure, solved),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -136,7 +138,7 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
                 Origin::Tables { .. } => &[],
             };
             let dampers = modal::Dampers { pads, c };
-            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, &axes)
+            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, push)
         }
     }
 }
@@ -218,7 +220,7 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 /// # Errors
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
-    parts::foundation(girder, count, Handover::Blend { length: window }, false)
+    parts::foundation(girder, count, Handover::Blend { length: window }, false.into())
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
@@ -226,7 +228,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    modal::full("structure", solved, elements, 0.0, &[Axis::Vertical])
+    modal::full("structure", solved, elements, 0.0, false.into())
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

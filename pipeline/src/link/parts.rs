@@ -4,19 +4,20 @@ use std::sync::Arc;
 
 use fea::{Girder, Link, Member, Model, Support};
 use nalgebra::{DMatrix, DVector};
-use sim::{BlendedParts, Dynamics, Extent, Foundation, PartChain, PartShapes, Structure};
+use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line, Surface};
 
+use super::mount::Push;
 use super::window;
 use crate::exit::Failure;
-use crate::scene::Handover;
+use crate::scene::{Handover, On};
 
 /// Smallest stiffness kept, relative to the most compliant combination of the parts' freedoms.
 const RIGID: f64 = 1e-13;
 
 /// `count` rigid parts of equal length, beams between their centres, supports on the parts above them; where
-/// the girder has mass, each part has its share. `lateral`: whether wheels push sideways; otherwise parts with
-/// mass move in the vertical plane alone.
+/// the girder has mass, each part has its share. Where wheels do not push sideways, parts with mass move in the vertical
+/// plane alone.
 ///
 /// # Errors
 /// What the FE model refuses.
@@ -24,7 +25,7 @@ pub fn foundation(
     girder: &Girder,
     count: usize,
     handover: Handover,
-    lateral: bool,
+    push: Push,
 ) -> Result<Foundation, Failure> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or_else(|| {
@@ -44,7 +45,8 @@ pub fn foundation(
         foundation.parts = Some(vec![chain.clone()]);
     }
     if let Some(mass) = girder.mass_per_length {
-        let motion = Motion::new(girder, mass, &ends, &nodal, lateral);
+        let motion = Motion::new(girder, mass, &ends, &nodal, push.lateral);
+        foundation.on = push.on.map(|on| motion.mount(&centres, on));
         foundation.structure = Some(motion.structure(PartShapes {
             line,
             basis: motion.basis.clone(),
@@ -117,6 +119,8 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Failure>
 struct Motion {
     /// States of the parts (six each) x freedoms.
     basis: DMatrix<f64>,
+    /// Masses and inertias of the states.
+    lumped: DVector<f64>,
     mass: DMatrix<f64>,
     stiffness: DMatrix<f64>,
 }
@@ -149,9 +153,38 @@ impl Motion {
             3 => part * polar.max(1e-6 * length * length),
             _ => part * length * length / 12.0,
         };
-        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped(i) * basis[(i, k)]);
+        let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));
+        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
         let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
-        Motion { mass: basis.transpose() * weighted, stiffness: DMatrix::from_diagonal(&stiffness), basis }
+        Motion {
+            mass: basis.transpose() * weighted,
+            stiffness: DMatrix::from_diagonal(&stiffness),
+            basis,
+            lumped,
+        }
+    }
+
+    /// Mass of the parts as one, and the momentum of their freedoms: R^T M R and basis^T M R, R the motion of the parts
+    /// about their `centres` by the six of the body that carries them.
+    fn mount(&self, centres: &[f64], on: On) -> Mount {
+        let motion = DMatrix::from_fn(6 * centres.len(), 6, |i, k| {
+            let (x, axis) = (centres[i / 6], i % 6);
+            match (axis, k) {
+                (1, 5) => x,
+                (2, 4) => -x,
+                _ => f64::from(u8::from(axis == k)),
+            }
+        });
+        let weighted = DMatrix::from_fn(motion.nrows(), 6, |i, k| self.lumped[i] * motion[(i, k)]);
+        let (total, own) = (motion.transpose() * &weighted, self.basis.transpose() * &weighted);
+        let total = std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)]));
+        let line = |k: usize| Mount::moved_load(&std::array::from_fn(|i| own[(k, i)]), on.at);
+        Mount {
+            body: on.body,
+            rails: Vec::new(),
+            mass: Mount::moved(&total, on.at),
+            coupling: (0..own.nrows()).map(line).collect(),
+        }
     }
 
     /// As a structure of the simulation; undamped.

@@ -30,7 +30,7 @@ pub use method::STEPPERS;
 pub use rope::Rope;
 pub use spin::Spin;
 pub use stop::{Meeting, Stop};
-pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
+pub use structure::{Foundation, Handover, On, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
 

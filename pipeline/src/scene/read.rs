@@ -61,8 +61,8 @@ pub(super) fn scene(
         bodies.push(body);
     }
     pin::read(&raw.bodies, &mut bodies, check);
-    mount::read(&raw.structures, &mut structures, &bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
+    mount::read(&raw.structures, &mut structures, &bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
     let place = root.key("wheels");

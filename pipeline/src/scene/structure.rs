@@ -38,8 +38,19 @@ pub struct Structure {
     pub longitudinal: bool,
     /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
     pub irregularities: Vec<sim::Irregularity>,
-    /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
-    pub on: Option<(usize, [f64; 3])>,
+    /// The body that carries it; `None`: the ground.
+    pub on: Option<On>,
+}
+
+/// What carries a structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct On {
+    /// Index of the body.
+    pub body: usize,
+    /// Where the spec's origin is from that body's.
+    pub at: [f64; 3],
+    /// Which of x, y, z, roll, yaw, pitch of the body's origin may move.
+    pub moves: [bool; 6],
 }
 
 /// Where influence coefficients come from.
