@@ -34,6 +34,7 @@ pub mod place;
 pub mod progress;
 pub mod record;
 pub mod report;
+pub mod response;
 pub mod scene;
 pub mod source;
 pub mod spec;

@@ -120,7 +120,7 @@ impl Record {
         record
     }
 
-    fn push(&mut self, name: impl Into<String>, dimension: Dimension, values: Vec<f64>) {
+    pub(crate) fn push(&mut self, name: impl Into<String>, dimension: Dimension, values: Vec<f64>) {
         self.columns.push(Column { name: name.into(), dimension, values });
     }
 

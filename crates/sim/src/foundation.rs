@@ -79,6 +79,8 @@ pub struct Foundation {
     pub parts: Option<Vec<PartChain>>,
     /// Extents of the rails; empty: rails without end or break.
     pub rails: Vec<Extent>,
+    /// Whether histories hold its freedoms and their accelerations.
+    pub recorded: bool,
     /// The body that carries the structure, all its supports in it; `None`: the ground.
     pub on: Option<Mount>,
 }

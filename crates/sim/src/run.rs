@@ -1,6 +1,6 @@
 //! One scene from start to end.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 
 use nalgebra::DVector;
 use splines::{Influence, Probe};
@@ -219,6 +219,12 @@ fn sweep(
     Ok(Run { status, history: recorder.history, audit: Audit::default(), counts, method: None })
 }
 
+/// Structures whose freedoms are recorded, with the numbers of these.
+fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
+    let all = system.structure.iter().zip(system.foundations).enumerate();
+    all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
+}
+
 /// Writes samples.
 struct Recorder {
     history: History,
@@ -251,6 +257,10 @@ impl Recorder {
         channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
         channels.extend((0..actuators.stops.len()).map(Channel::Stop));
         channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
+        for (s, range) in recorded(system) {
+            channels.extend((0..range.len()).map(|k| Channel::Coordinate(s, k)));
+            channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
+        }
         let history = History { channels, values: Vec::new() };
         Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
     }
@@ -302,6 +312,12 @@ impl Recorder {
         for gauge in &system.scene.gauges {
             let displacement = self.displacement(system, solver, at, gauge)?;
             self.history.values.push(displacement);
+        }
+        let moves = system.scene.analysis == Analysis::Dynamic;
+        for (_, range) in recorded(system) {
+            let values = &mut self.history.values;
+            values.extend(range.clone().map(|k| at.q[k]));
+            values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
         }
         Ok(())
     }

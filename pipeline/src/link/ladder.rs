@@ -57,8 +57,10 @@ pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Resul
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, false),
-        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, false),
+        (Rung::Modal(modes), _) => Ok(modal::lowest(name, solved, modes, damping, false)?.foundation),
+        (Rung::Full, _) => {
+            Ok(modal::full(name, solved, finer * elements(Some(solved)), damping, false)?.foundation)
+        }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }

@@ -4,6 +4,7 @@ mod actuator;
 mod body;
 mod compare;
 mod gauge;
+mod output;
 mod pin;
 mod raw;
 mod read;
@@ -18,6 +19,7 @@ pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use gauge::Gauge;
+pub use output::{Output, Pick};
 pub use rope::Rope;
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
@@ -59,6 +61,8 @@ pub struct Scene {
     pub end: f64,
     /// Time between two rows of the history.
     pub dt: f64,
+    /// What is written beside the motion.
+    pub output: Output,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
 }
