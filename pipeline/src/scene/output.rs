@@ -1,6 +1,6 @@
 //! What a run writes beside the motion: the scene's member `output`.
 
-use super::raw::{RawOutput, RawPick, RawScene};
+use super::raw::{RawColumns, RawOutput, RawScene};
 use super::{Origin, SceneRail, Structure};
 use crate::check::Check;
 use crate::fault::{Fault, nearest};
@@ -69,11 +69,11 @@ pub(super) fn read(
             Origin::Tables { .. } => None,
         })
         .collect();
-    let mut pick = |raw: &Option<RawPick>, key: &str, kind: usize, form: &str| match raw {
+    let mut pick = |raw: &Option<RawColumns>, key: &str, kind: usize, form: &str| match raw {
         None => Pick::Few,
-        Some(RawPick::All(true)) => Pick::All,
-        Some(RawPick::All(false)) => Pick::None,
-        Some(RawPick::Names(own)) => {
+        Some(RawColumns::All(true)) => Pick::All,
+        Some(RawColumns::All(false)) => Pick::None,
+        Some(RawColumns::Names(own)) => {
             for (index, name) in own.iter().enumerate() {
                 let all = || known.iter().flat_map(|names| &names[kind]);
                 if all().any(|known| belongs(known, name)) {
