@@ -104,7 +104,53 @@ impl Lines {
                 out.inertia[(column, k)] += inertia[(e, k)];
             }
         }
-        Ok(Some(out))
+        let felt = out.felt();
+        if !felt.contains(&true) {
+            return Ok(None);
+        }
+        Ok(Some(out.only(&felt, model, &frame, &effects)?))
+    }
+
+    /// Which columns any load, weight or inertia can make other than zero.
+    fn felt(&self) -> Vec<bool> {
+        let mut felt: Vec<bool> = (0..self.columns.len())
+            .map(|column| self.dead[column] != 0.0 || self.inertia.row(column).iter().any(|s| *s != 0.0))
+            .collect();
+        for cell in self.line().cells() {
+            for share in [0.0, 0.3, 0.6, 1.0] {
+                let x = cell.x[0] + share * (cell.x[1] - cell.x[0]);
+                for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
+                    let unit = self.unit(Probe { rail: cell.rail, x, axis }).unwrap_or_default();
+                    felt.iter_mut().zip(unit).for_each(|(felt, value)| *felt |= value != 0.0);
+                }
+            }
+        }
+        felt
+    }
+
+    /// The columns that are `kept`.
+    fn only(
+        self,
+        kept: &[bool],
+        model: &Model,
+        frame: &Frame,
+        effects: &[Effect],
+    ) -> Result<Lines, fea::Error> {
+        if !kept.contains(&false) {
+            return Ok(self);
+        }
+        let number = |column: usize| kept[..column].iter().filter(|kept| **kept).count();
+        let rows: Vec<usize> = (0..kept.len()).filter(|column| kept[*column]).collect();
+        let of = |(_, column): &(&Effect, &usize)| kept[**column];
+        let (effects, owner): (Vec<Effect>, Vec<usize>) =
+            effects.iter().zip(&self.owner).filter(of).map(|(e, column)| (*e, number(*column))).unzip();
+        Ok(Lines {
+            effects: frame.influence_lines(model, &effects)?,
+            owner,
+            inertia: self.inertia.select_rows(&rows),
+            dead: rows.iter().map(|row| self.dead[*row]).collect(),
+            columns: rows.iter().map(|row| self.columns[*row].clone()).collect(),
+        })
     }
 
     /// The columns.

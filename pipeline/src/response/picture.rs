@@ -13,6 +13,8 @@ use crate::units::Dimension;
 const CURVES: usize = 8;
 /// Reactions of one direction shown run against run.
 const SHOWN: usize = 2;
+/// Share of the largest reaction below which one is rounding.
+const STILL: f64 = 1e-9;
 /// Places at which an influence line is drawn.
 const SAMPLES: usize = 241;
 
@@ -22,13 +24,15 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
     let scene = run.scene;
     let mut plates = Vec::new();
+    let forces = response.columns.iter().filter(|column| column.is_reaction && column.direction.is_some());
+    let most = forces.map(|column| reach(run.record.values(&column.name))).fold(0.0, f64::max);
     for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
         let mut own: Vec<(f64, &Column)> = response
             .columns
             .iter()
             .filter(|column| column.is_reaction && column.direction == Some(toward))
             .map(|column| (reach(run.record.values(&column.name)), column))
-            .filter(|(reach, _)| *reach > 0.0)
+            .filter(|(reach, _)| *reach > STILL * most)
             .collect();
         // the largest first; equals stay in their order
         own.sort_by(|a, b| b.0.total_cmp(&a.0));
