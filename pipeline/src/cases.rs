@@ -147,7 +147,7 @@ fn one(
     let foundations: Vec<Foundation> =
         laid.iter_mut().map(|own| std::mem::take(&mut own.foundation)).collect();
     let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
-    let run = sim::run(&cast.scene, &foundations, watch)
+    let run = sim::run_by(scene.stepping, &cast.scene, &foundations, watch)
         .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
     for (own, foundation) in laid.iter_mut().zip(foundations) {
         own.foundation = foundation;

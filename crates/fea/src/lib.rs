@@ -41,6 +41,7 @@ pub use frame::{ACCURACY, Frame};
 pub use girder::Girder;
 pub use grid::{Grid, grid};
 pub use inertial::Inertial;
+pub use mass::rigid_mass;
 pub use memory::MEMORY;
 pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Support};
 pub use modes::{Mode, Modes, modes};

@@ -2,6 +2,7 @@
 
 mod ladder;
 mod modal;
+mod mount;
 mod parts;
 
 use fea::Frame;
@@ -117,6 +118,14 @@ pub enum Motion {
 /// # Errors
 /// As [`foundation`].
 pub fn laid(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
+    let irregularities = structure.irregularities.clone();
+    let on = mount::mount(structure)?;
+    let Laid { foundation, motion } = grounded(structure, solved, lateral)?;
+    Ok(Laid { foundation: Foundation { on, irregularities, ..foundation }, motion })
+}
+
+/// The same, without what carries it.
+fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value, json};
 use sim::{Channel, Freedom, History};
 
+use super::column::Column;
 use super::wheel_load::WheelLoads;
 use crate::motion::Cast;
 use crate::record::Record;
@@ -35,49 +36,34 @@ pub struct Extreme {
 }
 
 impl Envelope {
-    /// Of a column of `record`, which has the rows of `history`; `None` where it has none.
-    #[must_use]
-    pub fn new(
-        column: &str,
+    /// Of `columns` of `record`, which has the rows of `history`.
+    ///
+    /// # Errors
+    /// A column without values.
+    pub fn all(
+        columns: &[Column],
         scene: &Scene,
         cast: &Cast,
         history: &History,
         loads: &WheelLoads,
         record: &Record,
-    ) -> Option<Envelope> {
-        let values = record.values(column);
-        let pick = |better: fn(f64, f64) -> bool| {
-            (0..values.len()).reduce(|best, i| if better(values[i], values[best]) { i } else { best })
+    ) -> Result<Vec<Envelope>, practice::Error> {
+        if columns.is_empty() {
+            return Ok(Vec::new());
+        }
+        let series: Vec<&[f64]> = columns.iter().map(|column| record.values(&column.name)).collect();
+        let run = practice::Run { times: record.values("time"), series: &series };
+        let found = practice::envelope(&[run], columns.len())?;
+        let extreme = |index: usize, at: &practice::Instant| {
+            let value = at.values[index];
+            Extreme { value, time: at.time, ..elsewhere(at.sample, scene, cast, history, loads) }
         };
-        let extreme = |row: usize| {
-            let sample = history.sample(row);
-            let of = |channel: Channel| {
-                history.channels().iter().position(|c| *c == channel).map_or(0.0, |at| sample[at])
-            };
-            let bodies = scene.bodies.iter().enumerate().map(|(b, body)| {
-                let all: &[Freedom] =
-                    if body.in_space { &[Freedom::X, Freedom::Y, Freedom::Z] } else { &[Freedom::X] };
-                let places = all.iter().map(|freedom| of(Channel::Displacement(b, *freedom)));
-                (body.name.clone(), places.collect())
-            });
-            let forces = loads.at(sample);
-            let wheels = cast.wheels.iter().zip(&forces).map(|(wheel, load)| {
-                let [along, up, side] = load.force;
-                (wheel.name.clone(), [0.0 - up, side, along])
-            });
-            Extreme {
-                value: values[row],
-                row,
-                time: of(Channel::Time),
-                bodies: bodies.collect(),
-                wheels: wheels.collect(),
-            }
-        };
-        Some(Envelope {
-            column: column.to_owned(),
-            max: extreme(pick(|a, b| a > b)?),
-            min: extreme(pick(|a, b| a < b)?),
-        })
+        let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| Envelope {
+            column: column.name.clone(),
+            max: extreme(index, &found.most),
+            min: extreme(index, &found.least),
+        });
+        Ok(each.collect())
     }
 
     /// As a member of `envelopes`.
@@ -101,4 +87,23 @@ impl Extreme {
             .collect();
         json!({ "value": self.value + 0.0, "time": self.time, "bodies": bodies, "wheels": wheels })
     }
+}
+
+/// What is at a row of the history.
+fn elsewhere(row: usize, scene: &Scene, cast: &Cast, history: &History, loads: &WheelLoads) -> Extreme {
+    let sample = history.sample(row);
+    let of =
+        |channel: Channel| history.channels().iter().position(|c| *c == channel).map_or(0.0, |at| sample[at]);
+    let bodies = scene.bodies.iter().enumerate().map(|(b, body)| {
+        let all: &[Freedom] =
+            if body.in_space { &[Freedom::X, Freedom::Y, Freedom::Z] } else { &[Freedom::X] };
+        let places = all.iter().map(|freedom| of(Channel::Displacement(b, *freedom)));
+        (body.name.clone(), places.collect())
+    });
+    let forces = loads.at(sample);
+    let wheels = cast.wheels.iter().zip(&forces).map(|(wheel, load)| {
+        let [along, up, side] = load.force;
+        (wheel.name.clone(), [0.0 - up, side, along])
+    });
+    Extreme { value: 0.0, row, time: sample[0], bodies: bodies.collect(), wheels: wheels.collect() }
 }

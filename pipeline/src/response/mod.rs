@@ -119,8 +119,8 @@ impl Response {
                 response.columns.push(column.clone());
             }
         }
-        let all = |column: &Column| Envelope::new(&column.name, scene, cast, history, &loads, record);
-        response.envelopes = response.columns.iter().filter_map(all).collect();
+        response.envelopes = Envelope::all(&response.columns, scene, cast, history, &loads, record)
+            .map_err(Failure::untrusted)?;
         for (s, structure) in scene.structures.iter().enumerate() {
             let failed = |error: splines::Error| Failure::Untrusted(format!("{}: {error}", structure.name));
             let found = deflection::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
