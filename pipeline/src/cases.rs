@@ -153,7 +153,11 @@ fn one(
         own.foundation = foundation;
     }
     let mut record = Record::new(&scene, &cast, &run.history);
-    let response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
+    let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
+    // only the scene itself is drawn
+    if case.label.is_none() {
+        response.bend(&scene, &cast, &run.history, &laid, &solved)?;
+    }
     Ok(Outcome { label, cast, run, record, choices, lines, response })
 }
 

@@ -127,3 +127,54 @@ fn flexible_and_rigid_reactions_have_equal_settled_means() {
     assert!((flexible / rigid - 1.0).abs() < 1e-3);
     assert!((rigid / (0.6 * 8000.0 * 9.81) - 1.0).abs() < 1e-3);
 }
+
+/// The momentum of a mode by the mass matrix of the frame, whose path to the reactions is another.
+#[test]
+fn the_mill_girderway_with_mass_balances_in_three_directions() {
+    let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/mill_girderway");
+    let read = |name: &str| -> Value {
+        let text = std::fs::read_to_string(example.join(name)).expect("an example");
+        serde_json::from_str(&text).expect("JSON")
+    };
+    let (mut given, mut spec) = (read("scene.json"), read("spec.json"));
+    for material in spec["materials"].as_array_mut().expect("materials") {
+        material["density"] = json!(15.2);
+    }
+    given["structures"]["aisle"] =
+        json!({"spec": "spec.json", "foundation": "modal", "modes": 8, "damping": 0.02});
+    given["wheels"]["runway"]["lateral"] = json!({"k": 1e6, "clearance": 0.0});
+    given["bodies"]["truck"]["dof"] = json!(["y", "z", "pitch"]);
+    given["bodies"]["truck"]["start"] = json!({"z": 0.01});
+    given["motions"][0]["speed"] = json!([[0, 40]]);
+    given["end"]["time"] = json!(1.0);
+    given["output"]["dt"] = json!(0.02);
+    given["accuracy"] = json!(1e-4);
+    given["compare"] = json!([]);
+    let ran = run(&given, &spec);
+    let structure = &ran.document.cases[0].scene.structures[0];
+    let laid = link::laid(structure, solved_of(&ran.known, &structure.origin), true).expect("a foundation");
+    let Some(Motion::Modes(both)) = &laid.motion else { panic!("natural modes") };
+    let record = &ran.outcomes[0].record;
+    let history = &ran.outcomes[0].run.history;
+    let wheels = |part: &str, sign: f64| -> Vec<f64> {
+        let all: Vec<&[f64]> = (1..=4).map(|k| record.values(&format!("truck.wheel{k}.{part}"))).collect();
+        (0..history.len()).map(|i| sign * all.iter().map(|force| force[i]).sum::<f64>()).collect()
+    };
+    let still = vec![0.0; history.len()];
+    for (k, (freedom, loads)) in
+        [(".ux", still), (".uy", wheels("vertical", -1.0)), (".uz", wheels("lateral", 1.0))]
+            .into_iter()
+            .enumerate()
+    {
+        let own = record.columns.iter().filter(|c| c.name.starts_with("aisle.") && c.name.ends_with(freedom));
+        let mut sum = loads.clone();
+        own.for_each(|column| sum.iter_mut().zip(&column.values).for_each(|(sum, value)| *sum += value));
+        for (mode, shape) in both.1.modes.modes.iter().enumerate() {
+            let acceleration = history.column(Channel::Acceleration(0, mode));
+            sum.iter_mut().zip(acceleration).for_each(|(sum, a)| *sum -= shape.coupling[k] * a);
+        }
+        let apart = largest(sum) / 480_000.0;
+        println!("mill girderway{freedom}: imbalance {apart:.1e} of the truck's weight");
+        assert!(apart < 1e-9, "{freedom}: {apart:e}");
+    }
+}

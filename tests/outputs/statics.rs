@@ -99,7 +99,9 @@ fn columns_are_those_that_the_scene_asks_for() {
     given["analysis"] = json!("quasi-static");
     given["output"]["reactions"] = json!(["girder.support2", "girder.support1.twist"]);
     given["compare"] = json!([{"label": "none", "output": {"reactions": false}}]);
-    let ran = run(&given, &girder(&[10.0, 10.0]));
+    let mut spec = girder(&[10.0, 10.0]);
+    spec["girder"]["rail_height"] = json!(0.5);
+    let ran = run(&given, &spec);
     let names = |case: usize| -> Vec<String> {
         ran.outcomes[case].response.columns.iter().map(|column| column.name.clone()).collect()
     };

@@ -106,7 +106,9 @@ pub(super) fn of(
             .map_or_else(|| spans(spec, &solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
         for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
             let [from, to] = span;
-            let inside = |load: &WheelLoad| load.rail == rail.rail && load.x > from && load.x < to;
+            let inside = |load: &WheelLoad| {
+                load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
+            };
             let rows: Vec<usize> = (0..all.len()).filter(|&i| all[i].iter().any(inside)).collect();
             if from >= to || rows.is_empty() {
                 continue;

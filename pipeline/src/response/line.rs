@@ -14,6 +14,9 @@ use crate::link::{Laid, Motion, Solved};
 use crate::spec::Spec;
 use crate::units::Dimension;
 
+/// Share of the largest of a kind below which a column is rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// Reactions and internal forces of a structure as linear functions of what loads it:
 ///
 /// E = A F - S q'' + E_0
@@ -84,13 +87,35 @@ impl Lines {
                 }
             }
         }
-        let inertia = inertia(&effects, laid, solved)?;
-        let weight = frame.inertial(model, &effects, &[])?.rigid;
+        let out = Lines::of(&frame, solved, laid, gravity, columns, &effects, owner)?;
+        let felt = out.felt();
+        if !felt.contains(&true) {
+            return Ok(None);
+        }
+        Ok(Some(out.only(&felt, model, &frame, &effects)?))
+    }
+
+    /// Lines of `effects` of the frame of `solved`, each a part of the column that `owner` says.
+    ///
+    /// # Errors
+    /// What the frame refuses.
+    pub(super) fn of(
+        frame: &Frame,
+        solved: &Solved,
+        laid: &Laid,
+        gravity: f64,
+        columns: Vec<Column>,
+        effects: &[Effect],
+        owner: Vec<usize>,
+    ) -> Result<Lines, fea::Error> {
+        let model = &solved.model;
+        let inertia = inertia(effects, laid, solved)?;
+        let weight = frame.inertial(model, effects, &[])?.rigid;
         let up = Vector3::from(model.up).normalize();
         let dead: Vec<f64> = (0..effects.len())
             .map(|e| -gravity * (0..3).map(|k| weight[(e, k)] * up[k]).sum::<f64>())
             .collect();
-        let lines = frame.influence_lines(model, &effects)?;
+        let lines = frame.influence_lines(model, effects)?;
         let mut out = Lines {
             inertia: DMatrix::zeros(columns.len(), inertia.ncols()),
             dead: vec![0.0; columns.len()],
@@ -104,25 +129,34 @@ impl Lines {
                 out.inertia[(column, k)] += inertia[(e, k)];
             }
         }
-        let felt = out.felt();
-        if !felt.contains(&true) {
-            return Ok(None);
-        }
-        Ok(Some(out.only(&felt, model, &frame, &effects)?))
+        Ok(out)
     }
 
-    /// Which columns any load, weight or inertia can make other than zero.
+    /// Which columns any load, weight or inertia can make other than zero, up to rounding.
     fn felt(&self) -> Vec<bool> {
-        let mut felt: Vec<bool> = (0..self.columns.len())
-            .map(|column| self.dead[column] != 0.0 || self.inertia.row(column).iter().any(|s| *s != 0.0))
-            .collect();
+        let n = self.columns.len();
+        let mut units = vec![0.0_f64; n];
         for cell in self.line().cells() {
             for share in [0.0, 0.3, 0.6, 1.0] {
                 let x = cell.x[0] + share * (cell.x[1] - cell.x[0]);
                 for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
                     let unit = self.unit(Probe { rail: cell.rail, x, axis }).unwrap_or_default();
-                    felt.iter_mut().zip(unit).for_each(|(felt, value)| *felt |= value != 0.0);
+                    units.iter_mut().zip(unit).for_each(|(most, value)| *most = most.max(value.abs()));
                 }
+            }
+        }
+        let dead: Vec<f64> = self.dead.iter().map(|value| value.abs()).collect();
+        let inertia =
+            (0..n).map(|column| self.inertia.row(column).iter().fold(0.0_f64, |m, s| m.max(s.abs())));
+        let mut felt = vec![false; n];
+        for sizes in [units, dead, inertia.collect()] {
+            let most = |dimension: Dimension| {
+                let own = self.columns.iter().zip(&sizes).filter(|(column, _)| column.dimension == dimension);
+                own.fold(0.0_f64, |most, (_, size)| most.max(*size))
+            };
+            let largest = [most(Dimension::FORCE), most(Dimension::MOMENT)];
+            for ((felt, size), column) in felt.iter_mut().zip(&sizes).zip(&self.columns) {
+                *felt |= *size > ROUNDING * largest[usize::from(column.dimension == Dimension::MOMENT)];
             }
         }
         felt

@@ -2,6 +2,7 @@
 //!
 //! All of it follows from the history: influence lines times wheel forces, less the inertia of the structure.
 
+mod bending;
 mod column;
 mod deflection;
 mod envelope;
@@ -14,6 +15,7 @@ mod sway;
 mod uplift;
 mod wheel_load;
 
+pub use bending::Bending;
 pub use column::{Column, MOST, names};
 pub use deflection::Deflection;
 pub use envelope::{Envelope, Extreme};
@@ -43,6 +45,8 @@ pub struct Response {
     pub dead: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<Envelope>,
+    /// Extremes of the bending moments along the rails, where they were asked for.
+    pub bending: Vec<Bending>,
     /// Sag of the spans.
     pub deflections: Vec<Deflection>,
     /// Wheels that left their rails.
@@ -129,6 +133,28 @@ impl Response {
         response.uplifts = uplift::all(cast, record);
         response.sways = sway::all(scene, record);
         Ok(response)
+    }
+
+    /// Finds the extremes of the bending moments along the rails of structures that have a beam spec, for pictures.
+    ///
+    /// # Errors
+    /// A structure that does not stand.
+    pub fn bend(
+        &mut self,
+        scene: &Scene,
+        cast: &Cast,
+        history: &History,
+        laid: &[Laid],
+        solved: &[Option<&Solved>],
+    ) -> Result<(), Failure> {
+        let loads = WheelLoads::new(scene, cast, history);
+        for (s, (laid, solved)) in laid.iter().zip(solved).enumerate() {
+            let is_known = laid.foundation.freedoms() == 0 || laid.foundation.recorded;
+            let Some(solved) = solved.filter(|_| is_known) else { continue };
+            let failed = |error| Failure::Untrusted(format!("{}: {error}", scene.structures[s].name));
+            self.bending.extend(bending::of(scene, s, history, &loads, laid, solved).map_err(failed)?);
+        }
+        Ok(())
     }
 
     /// Members of a run's summary.

@@ -72,6 +72,16 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
             plates.push(Plate::chart(format!("reaction-{}", column.name), caption, chart));
         }
     }
+    for bending in &response.bending {
+        let rail = &scene.rails[bending.rail];
+        let supports = match &scene.structures[rail.structure].origin {
+            Origin::Spec { spec, .. } => spec
+                .model()
+                .map_or_else(|_| Vec::new(), |(m, rails)| super::spans(spec, &m, &rails, rail.rail)),
+            Origin::Tables { .. } => Vec::new(),
+        };
+        plates.push(moments(run, &rail.name, &bending.rows, &supports));
+    }
     for (structure, lines) in scene.structures.iter().zip(lines) {
         let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
         let Ok((model, rails)) = spec.model() else { continue };
@@ -97,6 +107,26 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
         }
     }
     plates
+}
+
+/// Extremes of the bending moment over the girder.
+fn moments(run: &Labelled, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -> Plate {
+    let units = run.scene.units;
+    let ends = [rows.first(), rows.last()].map(|row| row.map_or([0.0; 2], |row| [row[0], 0.0]));
+    let chart = Chart::new(
+        format!("Bending moments under {rail}"),
+        Axis::new("place along the rail", units.label(Dimension::LENGTH)),
+        Axis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
+    )
+    .with(Series::new("girder", Style::Dashed, ends.to_vec()))
+    .with(Series::new("largest", Style::Line, rows.iter().map(|row| [row[0], row[1]]).collect()))
+    .with(Series::new("smallest", Style::Line, rows.iter().map(|row| [row[0], row[2]]).collect()))
+    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
+    let caption = format!(
+        "Envelope of the bending moments of the members under {rail} over the run, without own weight ({}).",
+        run.label
+    );
+    Plate::chart(format!("moments-{rail}"), caption, chart)
 }
 
 /// An influence line over the girder, with the extremes of the run.

@@ -1,11 +1,11 @@
-//! What wheels do to rails at one output time.
+//! What wheels and end stops do to rails at one output time.
 
 use sim::{Channel, History};
 
 use crate::motion::Cast;
 use crate::scene::Scene;
 
-/// The force of one wheel on its rail.
+/// The force of one wheel, or of one end stop, on its rail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WheelLoad {
     /// Index of the structure.
@@ -25,6 +25,16 @@ pub struct WheelLoad {
 pub struct WheelLoads {
     wheels: Vec<Wheel>,
     pulls: Vec<Pull>,
+    stops: Vec<Stop>,
+}
+
+struct Stop {
+    channel: usize,
+    structure: usize,
+    rail: usize,
+    x: f64,
+    /// 1 where the body comes from below x.
+    side: f64,
 }
 
 struct Wheel {
@@ -74,10 +84,22 @@ impl WheelLoads {
         let pulls = drives.chain(brakes).filter_map(|(wanted, wheels, is_brake)| {
             Some(Pull { channel: channel(wanted)?, wheels, is_brake })
         });
-        WheelLoads { wheels: wheels.collect(), pulls: pulls.collect() }
+        let met =
+            scene.stops.iter().flat_map(|stop| stop.meetings.iter().map(move |meeting| (stop, meeting)));
+        let stops = met.enumerate().filter_map(|(index, (stop, meeting))| {
+            let rail = &scene.rails[stop.rail?];
+            Some(Stop {
+                channel: channel(Channel::Stop(index))?,
+                structure: rail.structure,
+                rail: rail.rail,
+                x: stop.place.clamp(rail.range[0], rail.range[1]),
+                side: meeting.side,
+            })
+        });
+        WheelLoads { wheels: wheels.collect(), pulls: pulls.collect(), stops: stops.collect() }
     }
 
-    /// Loads of all wheels at a sample.
+    /// Loads of all wheels at a sample, in their order, then of the end stops.
     #[must_use]
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
         let mut loads: Vec<WheelLoad> = self
@@ -101,6 +123,10 @@ impl WheelLoads {
                 }
             }
         }
+        loads.extend(self.stops.iter().map(|stop| {
+            let force = [stop.side * sample[stop.channel], 0.0, 0.0];
+            WheelLoad { structure: stop.structure, rail: stop.rail, x: stop.x, force }
+        }));
         loads
     }
 }
