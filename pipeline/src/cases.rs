@@ -152,7 +152,7 @@ fn one(
     for (own, foundation) in laid.iter_mut().zip(foundations) {
         own.foundation = foundation;
     }
-    let mut record = Record::new(&scene, &cast, &run.history);
+    let mut record = Record::new(&scene, &run.history);
     let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
     // only the scene itself is drawn
     if case.label.is_none() {

@@ -81,6 +81,8 @@ pub struct Foundation {
     pub rails: Vec<Extent>,
     /// Whether histories hold its freedoms and their accelerations.
     pub recorded: bool,
+    /// Whether friction, drives and brakes load the structure along its rails, and feel their speed.
+    pub is_dragged: bool,
     /// Shapes of the rails when nothing loads them; empty: straight.
     pub irregularities: Vec<Irregularity>,
     /// The body that carries the structure, all its supports in it; `None`: the ground.

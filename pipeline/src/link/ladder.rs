@@ -1,7 +1,7 @@
 //! Foundations on demand, for structures whose foundation is "auto".
 
 use sim::{Choice, Ladder, Reason, Rung};
-use splines::Compliance;
+use splines::{Axis, Compliance};
 
 use super::{Solved, foundation, modal};
 use crate::cases::{Known, solved_of};
@@ -57,9 +57,12 @@ pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Resul
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => Ok(modal::lowest(name, solved, modes, damping, false)?.foundation),
+        (Rung::Modal(modes), _) => {
+            Ok(modal::lowest(name, solved, modes, damping, &[Axis::Vertical])?.foundation)
+        }
         (Rung::Full, _) => {
-            Ok(modal::full(name, solved, finer * elements(Some(solved)), damping, false)?.foundation)
+            let finer = finer * elements(Some(solved));
+            Ok(modal::full(name, solved, finer, damping, &[Axis::Vertical])?.foundation)
         }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))

@@ -8,7 +8,7 @@ mod parts;
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
+use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
@@ -120,8 +120,20 @@ pub enum Motion {
 pub fn laid(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
     let irregularities = structure.irregularities.clone();
     let on = mount::mount(structure)?;
+    let is_dragged = structure.longitudinal;
     let Laid { foundation, motion } = grounded(structure, solved, lateral)?;
-    Ok(Laid { foundation: Foundation { on, irregularities, ..foundation }, motion })
+    if let (true, Some(compliance), Some(rail)) =
+        (is_dragged, &foundation.compliance, structure.rails.first())
+    {
+        let probe = Probe { rail: 0, x: rail.range[0], axis: Axis::Longitudinal };
+        let mut give = Influence::zeros(1);
+        let known = compliance.fill(&[probe], &mut give).is_ok() && give.value[(0, 0)].is_finite();
+        if !known {
+            let why = "its give along the rails is not known  hint: leave `longitudinal` out";
+            return Err(Failure::Untrusted(format!("{}: {why}", structure.name)));
+        }
+    }
+    Ok(Laid { foundation: Foundation { on, irregularities, is_dragged, ..foundation }, motion })
 }
 
 /// The same, without what carries it.
@@ -130,6 +142,9 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
+    let pushes =
+        [(Axis::Vertical, true), (Axis::Lateral, lateral), (Axis::Longitudinal, structure.longitudinal)];
+    let axes: Vec<Axis> = pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect();
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
@@ -140,10 +155,10 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
             parts::foundation(girder, count, handover, lateral)
         }
         scene::Foundation::Modal { modes, damping } => {
-            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
+            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, &axes)
         }
         scene::Foundation::Full { elements, damping } => {
-            modal::full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
+            modal::full(&structure.name, needed(structure, solved)?, elements, damping, &axes)
         }
         scene::Foundation::Ties { moves: false, .. } => Ok(influence(structure, solved)?.into()),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -152,7 +167,7 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
                 Origin::Tables { .. } => &[],
             };
             let dampers = modal::Dampers { pads, c };
-            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, lateral)
+            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, &axes)
         }
     }
 }
@@ -242,7 +257,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    Ok(modal::full("structure", solved, elements, 0.0, false)?.foundation)
+    Ok(modal::full("structure", solved, elements, 0.0, &[Axis::Vertical])?.foundation)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

@@ -152,8 +152,10 @@ fn displacements(
         let mut at = probes.to_vec();
         let mut forces = Vec::new();
         for load in loads {
-            for (axis, force) in [(Axis::Vertical, load.force[1]), (Axis::Lateral, load.force[2])] {
-                if force != 0.0 {
+            for (axis, force) in
+                [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
+            {
+                if force != 0.0 && (axis != Axis::Longitudinal || foundation.is_dragged) {
                     at.push(Probe { rail: load.rail, x: load.x, axis });
                     forces.push(force);
                 }
