@@ -401,7 +401,6 @@ impl Recorder {
         }
         let moves = system.scene.analysis == Analysis::Dynamic;
         for (_, range) in recorded(system) {
-            let values = &mut self.history.values;
             values.extend(range.clone().map(|k| at.q[k]));
             values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
         }
