@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::units::Dimension;
 
 /// Sections along a rail, about.
-const SECTIONS: usize = 96;
+const SECTIONS: usize = 192;
 /// Fewest and most sections of a cell.
 const A_CELL: [usize; 2] = [2, 24];
 /// Most cells of a structure's rails.

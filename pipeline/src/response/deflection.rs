@@ -123,7 +123,12 @@ pub(super) fn of(
                 for row in (0..count).map(|k| rows[k * (rows.len() - 1) / (count - 1).max(1)]) {
                     let sample = history.sample(row);
                     let q = start.map_or(&[][..], |at| &sample[at..at + foundation.freedoms()]);
-                    let moved = displacements(foundation, &probes, &all[row], q)?;
+                    let moved = match displacements(foundation, &probes, &all[row], q) {
+                        Ok(moved) => moved,
+                        // a direction that the structure does not resist has no sag
+                        Err(Error::Unstiffened { .. }) => break,
+                        Err(error) => return Err(error),
+                    };
                     for (k, &x) in places.iter().enumerate().skip(1).take(PLACES) {
                         let share = k as f64 / (PLACES + 1) as f64;
                         let sag = (1.0 - share) * moved[0] + share * moved[PLACES + 1] - moved[k];

@@ -7,11 +7,8 @@ use splines::{Axis, Effects, Probe};
 use crate::link::{RigidParts, roll_inertia};
 
 /// Places and weights on -1..1, exact to degree five.
-const GAUSS: [[f64; 2]; 3] = [
-    [-0.774_596_669_241_483_4, 0.555_555_555_555_555_6],
-    [0.0, 0.888_888_888_888_888_9],
-    [0.774_596_669_241_483_4, 0.555_555_555_555_555_6],
-];
+const GAUSS: [[f64; 2]; 3] =
+    [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
 
 /// Effects of M a, a one of the parts' freedoms: effects x freedoms.
 ///
