@@ -4,6 +4,7 @@
 //! counts, freedoms of its own ([`Foundation`]).
 
 mod actuator;
+mod chart;
 mod collocation;
 mod complementarity;
 mod crossing;
@@ -27,9 +28,11 @@ mod method;
 mod mount;
 mod nodes;
 mod parts;
+mod pieces;
 mod point;
 mod profile;
 mod propagator;
+mod recorder;
 mod ride;
 mod rope;
 mod rule;

@@ -242,9 +242,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let tableau = self.tableau;
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(&self.from);
+        self.solver.chart(&self.from);
         for i in 0..tableau.stages() {
             self.known.q.copy_from(&self.from.q);
             self.known.v.copy_from(&self.from.v);
+            self.solver.charts.begun(&mut self.known.q, &mut self.known.v);
             self.known.p.copy_from_slice(&self.from.p);
             for (j, weight) in tableau.a[i].iter().enumerate() {
                 self.known.q.axpy(h * weight, &self.rates[j], 1.0);
@@ -256,11 +258,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
             // just before the end: a prescribed motion may jump there
             self.stage.t = (self.from.t + tableau.c[i] * h).min(self.limit.next_down());
             self.counts.stages += 1;
-            if !self.solver.stage(gamma_h, &self.known, &mut self.stage)? {
+            if !self.solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
                 return Ok(false);
             }
             self.accelerations[i].copy_from(&self.stage.a);
             self.rates[i].copy_from(&self.stage.v);
+            let switches = &self.solver.geometry.switches;
+            let rates = [&mut self.rates[i], &mut self.accelerations[i]];
+            self.solver.charts.settle(self.solver.system, switches, &self.stage, rates);
             self.p_rates[i].copy_from_slice(&self.stage.p_rate);
             self.solver.geometry.update_rail_slope(self.solver.system, &self.stage.q, &self.stage.force);
             self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
@@ -281,20 +286,25 @@ impl<'a, 'b> Stepper<'a, 'b> {
     fn error(&self) -> f64 {
         let h = self.to.t - self.from.t;
         let mut largest = 0.0_f64;
-        for i in 0..self.to.q.len() {
-            let (mut dq, mut dv) = (0.0, 0.0);
+        let of = |i: usize| {
+            let mut error = [0.0; 2];
             if let Some(collocation) = &self.collocation {
-                [dq, dv] = collocation.error(i).map(|error| error / h);
-            } else {
-                for (j, weight) in self.tableau.error.iter().enumerate() {
-                    dq += weight * self.rates[j][i];
-                    dv += weight * self.accelerations[j][i];
-                }
+                return collocation.error(i).map(|error| error / h);
             }
+            for (j, weight) in self.tableau.error.iter().enumerate() {
+                error[0] += weight * self.rates[j][i];
+                error[1] += weight * self.accelerations[j][i];
+            }
+            error
+        };
+        let mut weigh = |i: usize, [dq, dv]: [f64; 2]| {
             let scale = self.scale[i].max(self.to.q[i].abs());
             let rate_scale = self.rate_scale[i].max(self.to.v[i].abs());
             largest = largest.max((h * dq / scale).abs()).max((h * dv / rate_scale).abs());
-        }
+        };
+        let charts = &self.solver.charts;
+        (0..self.to.q.len()).filter(|&i| !charts.has(i)).for_each(|i| weigh(i, of(i)));
+        charts.errors(self.solver.system, &self.solver.geometry.switches, &self.to, of, weigh);
         largest / self.tolerance
     }
 
