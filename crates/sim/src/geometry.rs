@@ -111,7 +111,9 @@ impl Geometry {
         self.update_rows(system)?;
         self.built = true;
         for (i, &w) in system.tractions.iter().enumerate() {
-            self.rate_held[system.traction(i)] = self.travel[system.kinematics.root(system.wheels[w].body)].v;
+            let spin = system.turn(w, t).map_or(0.0, |at| at.v * self.height[w]);
+            let travel = self.travel[system.kinematics.root(system.wheels[w].body)].v;
+            self.rate_held[system.traction(i)] = travel + spin;
         }
         for (i, pull) in system.pulls.iter().enumerate() {
             let reference = pull.reference(system.scene, &self.switches, t);

@@ -49,7 +49,9 @@ mod stepper;
 mod system;
 mod tableau;
 mod tie;
+mod touch;
 mod trigger;
+mod turn;
 mod wheel;
 
 pub use actuator::{Actuators, Brake, Drive, Load};
@@ -71,4 +73,5 @@ pub use schedule::Schedule;
 pub use selector::{Choice, Ladder, Reason, Rung, Tried, choose, distance};
 pub use step::step;
 pub use stepper::Counts;
+pub use turn::Turn;
 pub use wheel::{Damper, Flange, Friction, FrictionLaw, NormalLaw, Wheel};

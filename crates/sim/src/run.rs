@@ -98,10 +98,12 @@ pub fn run_by(
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
-    if method == Method::Series && step.is_none() && scene.analysis == Analysis::Dynamic {
-        if let Some(run) = crossing::run(&system, &state, placed(&system), watch)? {
-            return Ok(run);
-        }
+    if method == Method::Series
+        && step.is_none()
+        && scene.analysis == Analysis::Dynamic
+        && let Some(run) = crossing::run(&system, &state, placed(&system), watch)?
+    {
+        return Ok(run);
     }
     if method == Method::Series {
         method = Method::Radau;

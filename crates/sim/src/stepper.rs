@@ -83,6 +83,8 @@ pub(crate) struct Stepper<'a, 'b> {
     p_rates: Vec<Vec<f64>>,
     powers: Vec<Exchanged>,
     pub(crate) probe: State,
+    /// Overlaps of the flanges where the next step starts.
+    pub(crate) overlaps: Vec<f64>,
     pub(crate) triggers: Triggers,
     begun: f64,
     /// Boundary term of the grounded dampers where the next step starts.
@@ -107,6 +109,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             stage: start.clone(),
             probe: start.clone(),
             boundary: boundary(system, &solver.geometry, &start),
+            overlaps: solver.overlaps(&start),
             from: start,
             counts: Counts::default(),
             audit: Audit { start: energy, end: energy, ..Audit::default() },
@@ -198,6 +201,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 continue;
             }
             if let Some(share) = self.first_corner().filter(|_| corners < CORNERS) {
+                corners += 1;
+                ends_at_event = true;
+                h = (h * share).max(2.0 * smallest);
+                continue;
+            }
+            if corners < CORNERS
+                && let Some(share) = self.first_touch()?
+            {
                 corners += 1;
                 ends_at_event = true;
                 h = (h * share).max(2.0 * smallest);
@@ -355,6 +366,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);
+        self.overlaps = self.solver.overlaps(&self.to);
         self.audit.end = after;
         let mut elastic = after.contact + after.structure + after.ropes;
         if !system.links.is_empty() {
