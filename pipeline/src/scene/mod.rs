@@ -16,6 +16,7 @@ mod rope;
 mod spin;
 mod stop;
 mod structure;
+mod survey;
 mod tables;
 mod ties;
 mod truck;
