@@ -57,8 +57,11 @@ pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Resul
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, false.into()),
-        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, false.into()),
+        (Rung::Modal(modes), _) => Ok(modal::lowest(name, solved, modes, damping, false.into())?.foundation),
+        (Rung::Full, _) => {
+            let finer = finer * elements(Some(solved));
+            Ok(modal::full(name, solved, finer, damping, false.into())?.foundation)
+        }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }

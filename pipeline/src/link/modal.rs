@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
 use splines::{Compliance, Line, Probe};
 
-use super::Solved;
 use super::mount::{self, Push};
+use super::{Laid, Motion, Solved};
 use crate::exit::Failure;
 use crate::track::Pad;
 
@@ -26,7 +26,7 @@ pub(super) fn lowest(
     count: usize,
     ratio: f64,
     push: Push,
-) -> Result<Foundation, Failure> {
+) -> Result<Laid, Failure> {
     lowest_with(name, solved, count, ratio, Dampers::default(), push)
 }
 
@@ -47,7 +47,7 @@ pub(super) fn on_ties(
     ratio: f64,
     dampers: Dampers<'_>,
     push: Push,
-) -> Result<Foundation, Failure> {
+) -> Result<Laid, Failure> {
     match count {
         Some(count) => lowest_with(name, solved, count, ratio, dampers, push),
         None => full_with(name, solved, 1, ratio, dampers, push),
@@ -61,7 +61,7 @@ fn lowest_with(
     ratio: f64,
     dampers: Dampers<'_>,
     push: Push,
-) -> Result<Foundation, Failure> {
+) -> Result<Laid, Failure> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
@@ -73,7 +73,7 @@ fn lowest_with(
         let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
         if all || (felt.len() >= count && !torn) {
             let lowest = felt.into_iter().take(count).collect();
-            return foundation(name, &refined, lowest, ratio, dampers, push);
+            return foundation(name, refined, lowest, ratio, dampers, push);
         }
         asked = (2 * asked).max(asked + 8);
     }
@@ -86,7 +86,7 @@ pub(super) fn full(
     parts: usize,
     ratio: f64,
     push: Push,
-) -> Result<Foundation, Failure> {
+) -> Result<Laid, Failure> {
     full_with(name, solved, parts, ratio, Dampers::default(), push)
 }
 
@@ -97,11 +97,11 @@ fn full_with(
     ratio: f64,
     dampers: Dampers<'_>,
     push: Push,
-) -> Result<Foundation, Failure> {
+) -> Result<Laid, Failure> {
     let refined =
         fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
     let felt = felt(&refined.modes, solved, push);
-    foundation(name, &refined, felt, ratio, dampers, push)
+    foundation(name, refined, felt, ratio, dampers, push)
 }
 
 fn refused(name: &str, error: &fea::Error) -> Failure {
@@ -195,17 +195,17 @@ fn places(line: &Line, rail: usize) -> Vec<f64> {
 
 fn foundation(
     name: &str,
-    refined: &Refined,
+    mut refined: Refined,
     felt: Vec<fea::Mode>,
     ratio: f64,
     dampers: Dampers<'_>,
     push: Push,
-) -> Result<Foundation, Failure> {
+) -> Result<Laid, Failure> {
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
     let surface = frame.surface().map_err(untrusted)?.surface;
-    let mut kept = refined.modes.clone();
-    kept.modes = felt;
+    refined.modes.modes = felt;
+    let kept = &refined.modes;
     let rest = kept.residual(&surface).map_err(untrusted)?;
     let line = Arc::clone(surface.line());
     let states =
@@ -220,13 +220,14 @@ fn foundation(
         Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
     };
     let shapes = Box::new(ModeShapes { line, states });
-    Ok(Foundation {
+    let foundation = Foundation {
         compliance: Some(Box::new(rest)),
         structure: Some(sim::Structure { dynamics, shapes }),
         rails,
         on: push.on.map(|on| mount::inertia(&kept, on)),
         ..Foundation::default()
-    })
+    };
+    Ok(Laid { foundation, motion: Some(Motion::Modes(Box::new((frame, refined)))) })
 }
 
 /// M = 1, K = omega^2, C = 2 zeta omega + c D^T D; D: by how much each mode stretches each damper.

@@ -8,7 +8,7 @@ use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShap
 use splines::{Cell, Flexibility, Line, Surface};
 
 use super::mount::Push;
-use super::window;
+use super::{Laid, window};
 use crate::exit::Failure;
 use crate::scene::{Handover, On};
 
@@ -21,12 +21,7 @@ const RIGID: f64 = 1e-13;
 ///
 /// # Errors
 /// What the FE model refuses.
-pub fn foundation(
-    girder: &Girder,
-    count: usize,
-    handover: Handover,
-    push: Push,
-) -> Result<Foundation, Failure> {
+pub fn foundation(girder: &Girder, count: usize, handover: Handover, push: Push) -> Result<Laid, Failure> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or_else(|| {
         Failure::Untrusted("the hand-over windows of neighbouring parts overlap: shorten `blend`".to_owned())
@@ -40,6 +35,7 @@ pub fn foundation(
     breaks.dedup();
     let mut foundation =
         Foundation { rails: vec![Extent { range: Some(range), breaks }], ..Foundation::default() };
+    let mut parts = None;
     let separate = matches!(handover, Handover::PerPart { .. });
     if separate {
         foundation.parts = Some(vec![chain.clone()]);
@@ -47,6 +43,8 @@ pub fn foundation(
     if let Some(mass) = girder.mass_per_length {
         let motion = Motion::new(girder, mass, &ends, &nodal, push.lateral);
         foundation.on = push.on.map(|on| motion.mount(&centres, on));
+        let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
+        parts = Some(super::Motion::Parts(chain_of));
         foundation.structure = Some(motion.structure(PartShapes {
             line,
             basis: motion.basis.clone(),
@@ -61,7 +59,15 @@ pub fn foundation(
             Box::new(BlendedParts { surface, chains: vec![chain] })
         });
     }
-    Ok(foundation)
+    Ok(Laid { foundation, motion: parts })
+}
+
+/// Rigid parts with mass, and how they move.
+pub struct RigidParts {
+    /// Ends of the parts along the girder, increasing.
+    pub ends: Vec<f64>,
+    /// Motion of the parts' centres, six each (displacements, rotations), by the structure's freedoms.
+    pub basis: DMatrix<f64>,
 }
 
 /// Ends of `count` parts of equal length over the girder with its overhangs.
@@ -114,6 +120,13 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Failure>
     Line::new(cells.collect()).map_err(Failure::untrusted)
 }
 
+/// Moment of inertia of a part about its axis by its mass: a thin bar resists twist a little.
+#[must_use]
+pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
+    let polar = girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+    polar.max(1e-6 * length * length)
+}
+
 /// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports
 /// hold is left out, K = diag(1/compliance), M = basis^T (lumped masses) basis.
 struct Motion {
@@ -145,12 +158,10 @@ impl Motion {
             }
         }
         let part = mass * length;
-        let polar =
-            girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+        let roll = roll_inertia(girder, length);
         let lumped = |i: usize| match i % 6 {
             0..=2 => part,
-            // a thin bar resists twist a little
-            3 => part * polar.max(1e-6 * length * length),
+            3 => part * roll,
             _ => part * length * length / 12.0,
         };
         let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));

@@ -8,6 +8,7 @@ mod gauge;
 mod irregularity;
 mod method;
 mod mount;
+mod output;
 mod pin;
 mod raw;
 mod read;
@@ -27,6 +28,7 @@ pub use compare::{Case, Document};
 pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
+pub use output::{Output, Pick};
 pub use rope::Rope;
 pub use spin::Spin;
 pub use stop::{Meeting, Stop};
@@ -76,6 +78,8 @@ pub struct Scene {
     pub end: f64,
     /// Time between two rows of the history.
     pub dt: f64,
+    /// What is written beside the motion.
+    pub output: Output,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
     /// How the motion is integrated.
