@@ -5,9 +5,9 @@
 
 mod actuator;
 mod chart;
+mod charts;
 mod collocation;
 mod complementarity;
-mod crossing;
 mod dense;
 mod drag;
 mod energy;
@@ -28,6 +28,7 @@ mod method;
 mod mount;
 mod nodes;
 mod parts;
+mod passage;
 mod pieces;
 mod point;
 mod profile;

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::crossing;
 use crate::energy::Audit;
 use crate::history::History;
+use crate::passage;
 use crate::recorder::Recorder;
 use crate::scene::Analysis;
 use crate::solver::Solver;
@@ -98,12 +98,13 @@ pub fn run_by(
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
-    if method == Method::Series && step.is_none() && scene.analysis == Analysis::Dynamic {
-        if let Some(run) = crossing::run(&system, &state, placed(&system), watch)? {
+    if method == Method::Series {
+        if step.is_none()
+            && scene.analysis == Analysis::Dynamic
+            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+        {
             return Ok(run);
         }
-    }
-    if method == Method::Series {
         method = Method::Radau;
     }
     let mut solver = Solver::new(&system)?;
@@ -212,7 +213,7 @@ fn integrate(
                     sample.copy_from(&stepper.to);
                 } else {
                     let share = (t - from) / (to - from);
-                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample);
+                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, &stepper.solver.geometry, &sample)?;

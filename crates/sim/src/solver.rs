@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SVector};
 
-use crate::chart::Charts;
+use crate::charts::Charts;
 use crate::dense::dot;
 use crate::forces::Problem;
 use crate::geometry::Geometry;
@@ -303,9 +303,13 @@ impl<'a> Solver<'a> {
     }
 
     /// Sets `at` to the interpolant between the ends of the step just tried, at its share `share`.
-    pub fn interpolate(&self, [from, to]: [&State; 2], share: f64, at: &mut State) {
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub fn interpolate(&mut self, [from, to]: [&State; 2], share: f64, at: &mut State) -> Result<(), Error> {
         at.interpolate(from, to, share);
         self.charts.interpolate(self.system, &self.geometry.switches, [from, to], share, at);
+        self.stretch_ropes(to.t - from.t, at)
     }
 
     /// Heights of the wheels' centres above their rails; returns the largest change where it matters.
