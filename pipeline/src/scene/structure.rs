@@ -293,6 +293,9 @@ pub(super) fn read(
         let fault = Fault::new(&at.key("longitudinal"), "needs a `spec`").at_key();
         check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
     }
+    if raw.longitudinal == Some(true) && raw.on.is_some() {
+        check.faults.unavailable(&at.key("longitudinal"), "give along the rails of a structure on a body");
+    }
     if raw.longitudinal == Some(true) && matches!(word, Word::Parts) {
         let fault = Fault::new(&at.key("longitudinal"), "\"parts\" do not give along the rail").at_key();
         check.faults.add(fault.hint("use \"influence\" or \"modal\""));
