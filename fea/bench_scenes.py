@@ -255,9 +255,9 @@ def settings(case, quick):
     return [("numba", by_hand, many), ("scipy", by_scipy, pairs), ("Exudyn", by_exudyn, coarse)]
 
 
-def ours(cargo, cases):
+def ours(profile, cases):
     """Rows of the example of the crate sim."""
-    command = ["cargo", "run", "-q", *(cargo or ["--release"]), "-p", "sim", "--example", "crossings"]
+    command = ["cargo", "run", "-q", "--profile", profile, "-p", "sim", "--example", "crossings"]
     text = subprocess.run(command, cwd=HERE.parent, check=True, capture_output=True, text=True).stdout
     known = {case.name: case for case in cases}
     for line in text.splitlines()[1:]:
@@ -326,12 +326,12 @@ def main():
     parser.add_argument("--quick", action="store_true", help="fewer settings and repetitions")
     parser.add_argument("--skip", nargs="*", default=[], help="codes to leave out")
     parser.add_argument("--scenes", nargs="*", default=list(GOALS), help="scenes to run")
-    parser.add_argument("--cargo", nargs="*", default=[], help="arguments for cargo run in place of --release")
+    parser.add_argument("--profile", default="release", help="profile of cargo in which ours is built")
     options = parser.parse_args()
     fine = {"S1 beam": 12000, "S2 beam": 4000, "S4 beam": 4000}
     make = lambda name: Train() if name == "S3" else Heavy(name, fine[name]) if name in fine else Crossing(name)  # noqa: E731
     cases = [make(name) for name in options.scenes]
-    rows = list(ours(options.cargo, cases)) + list(measure(cases, options.skip, options.quick))
+    rows = list(ours(options.profile, cases)) + list(measure(cases, options.skip, options.quick))
     print("scene    code       setting                  error     least    median      most, ms")
     for scene, code, setting, error, *times in sorted(rows, key=lambda row: (row[0], row[1], row[5])):
         print(f"{scene:7s}  {code:9s}  {setting:22s}  {error:8.1e}", *(f"{t:9.4f}" for t in times))
