@@ -162,7 +162,7 @@ impl Beam {
         exact: impl Compliance + 'static,
     ) -> Option<Foundation> {
         let mesh = Arc::new(Mesh::new(self, step, modes)?);
-        let range = Some([-self.overhang, self.span + self.overhang]);
+        let range = exact.range(0);
         Some(Foundation {
             rails: vec![Extent { range, breaks: vec![0.0, self.span] }],
             structure: Some(Structure {
