@@ -7,7 +7,7 @@ use crate::cases::Outcome;
 use crate::link;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Analysis, STEPPERS, Scene};
+use crate::scene::{Analysis, Event, STEPPERS, Scene};
 use crate::units::Dimension;
 
 /// Word of a run's status, and what it means for the user where it is not "done".
@@ -15,6 +15,7 @@ use crate::units::Dimension;
 pub fn status(status: &Status) -> (&'static str, Option<String>) {
     match status {
         Status::Done => ("done", None),
+        Status::Ended(_) => ("ended by event", None),
         Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
         Status::StepTooSmall(t) => (
             "step too small",
@@ -133,9 +134,19 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
             },
             "put_in": lost.put_in(),
             "steps": lost.steps,
+            "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
         });
     }
+    if !run.fired.is_empty() {
+        result["events"] =
+            run.fired.iter().map(|fired| event(&scene.events[fired.rule], fired.time)).collect();
+    }
     result
+}
+
+/// An event that happened.
+fn event(event: &Event, time: f64) -> Value {
+    json!({ "time": time, "name": event.name, "when": event.when, "what": event.what })
 }
 
 /// The word of a rung in scenes.

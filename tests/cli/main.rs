@@ -1,6 +1,7 @@
 //! The command line: help, exit status, what goes where.
 
 mod drives;
+mod events;
 mod grids;
 mod modes;
 mod rides;

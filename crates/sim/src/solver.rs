@@ -27,6 +27,8 @@ pub(crate) struct Solver<'a> {
     /// Which vertical contacts act.
     pub active: Vec<bool>,
     pub problem: Problem,
+    /// Whether the displacements of massless rails along x are known at an instant.
+    pub keeps_rails: bool,
     inverse: Whole<'a>,
     mobility: Whole<'a>,
     /// Z R^T, freedoms x components, column-major.
@@ -52,6 +54,7 @@ impl<'a> Solver<'a> {
             geometry: Geometry::new(system),
             active: vec![false; system.normals.len()],
             problem: Problem::new(system),
+            keeps_rails: true,
             mobility: Whole::new(system)?,
             inverse: Whole::new(system)?,
             spread: vec![0.0; n * system.components()],
@@ -192,6 +195,7 @@ impl<'a> Solver<'a> {
                 self.problem.memory[i] = memory.then_some(1.0 / g);
                 self.problem.known[i] = false;
             }
+            self.drag_stage(g, &known.p, at);
             if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
                 return Ok(false);
             }
@@ -210,6 +214,7 @@ impl<'a> Solver<'a> {
                 at.p[i] = self.problem.penetration(i, &at.force);
                 at.p_rate[i] = (at.p[i] - known.p[i]) / g;
             }
+            self.drag_end(g, &known.p, at);
             moved = moved.max(self.update_heights(at));
             if moved < 1e-13 || !iterates {
                 return Ok(true);
@@ -257,6 +262,7 @@ impl<'a> Solver<'a> {
             }
             self.problem.w.copy_from_slice(&self.geometry.compliance);
             self.problem.y.fill(0.0);
+            self.drag_instant(at);
             if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
                 return Ok(false);
             }

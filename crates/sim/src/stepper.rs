@@ -13,6 +13,7 @@ use crate::nodes::Nodes;
 use crate::solver::{Known, Solver};
 use crate::state::State;
 use crate::tableau::{SDIRK4, Tableau};
+use crate::trigger::{TRIALS, Triggers};
 use crate::{Audit, Error, Method};
 
 /// Work done by a run.
@@ -82,20 +83,25 @@ pub(crate) struct Stepper<'a, 'b> {
     p_rates: Vec<Vec<f64>>,
     powers: Vec<Exchanged>,
     pub(crate) probe: State,
+    pub(crate) triggers: Triggers,
     begun: f64,
     /// Boundary term of the grounded dampers where the next step starts.
-    boundary: f64,
+    pub(crate) boundary: f64,
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
     /// A run from `start`, in which the solver's active contacts are settled.
-    pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Self {
+    ///
+    /// # Errors
+    /// A rule of something that is not recorded.
+    pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Result<Self, Error> {
         let system = solver.system;
-        let (n, count) = (system.freedoms, system.normals.len());
+        let (n, count) = (system.freedoms, start.p.len());
         let tableau = &SDIRK4;
         let energy = stored(system, &solver.geometry, &start);
         let (scale, rate_scale) = floors(solver, &start);
-        Stepper {
+        Ok(Stepper {
+            triggers: Triggers::new(system)?,
             to: start.clone(),
             arrived: start.clone(),
             stage: start.clone(),
@@ -123,7 +129,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             powers: vec![Exchanged::default(); tableau.stages()],
             begun: energy.total(),
             solver,
-        }
+        })
     }
 
     /// Takes the steps by `method`, which suits the scene.
@@ -145,7 +151,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             h = limit - start;
         }
         let mut ends_at_event = false;
-        let (mut refined, mut corners, mut breaks) = (0, 0, 0);
+        let (mut refined, mut corners, mut breaks, mut trials) = (0, 0, 0, 0);
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -182,6 +188,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
                     h = if refined < REFINEMENTS { (h * share).max(2.0 * smallest) } else { 2.0 * smallest };
                     continue;
                 }
+            }
+            if trials < TRIALS
+                && let Some(shorter) = self.first_trigger(h)?
+            {
+                trials += 1;
+                ends_at_event = true;
+                h = shorter.max(2.0 * smallest);
+                continue;
             }
             if let Some(share) = self.first_corner().filter(|_| corners < CORNERS) {
                 corners += 1;
@@ -374,7 +388,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 fn floors(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system;
     let n = system.freedoms;
-    let depth = start.p.iter().fold(0.0_f64, |max, p| max.max(*p));
+    let depth = start.p[..system.normals.len()].iter().fold(0.0_f64, |max, p| max.max(*p));
     let radius = system.scene.wheels.iter().fold(1.0_f64, |max, wheel| max.max(wheel.radius));
     let depth = if depth > 0.0 { depth } else { 1e-3 * radius };
     let frequency = if system.scene.gravity > 0.0 { (system.scene.gravity / depth).sqrt() } else { 1.0 };

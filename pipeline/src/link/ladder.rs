@@ -3,6 +3,7 @@
 use sim::{Choice, Ladder, Reason, Rung};
 use splines::Compliance;
 
+use super::mount::Push;
 use super::{Solved, foundation, modal};
 use crate::cases::{Known, solved_of};
 use crate::exit::Failure;
@@ -57,8 +58,8 @@ pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Resul
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, false.into()),
-        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, false.into()),
+        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, Push::DOWN),
+        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, Push::DOWN),
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }

@@ -8,7 +8,7 @@ mod parts;
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
+use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
 use self::mount::Push;
 use crate::exit::Failure;
@@ -90,11 +90,21 @@ pub fn foundation(
 ) -> Result<Foundation, Failure> {
     let irregularities = structure.irregularities.clone();
     let mut on = mount::mount(structure)?;
+    let is_dragged = structure.longitudinal;
     let mut made = grounded(structure, solved, lateral)?;
+    if let (true, Some(compliance), Some(rail)) = (is_dragged, &made.compliance, structure.rails.first()) {
+        let probe = Probe { rail: 0, x: rail.range[0], axis: Axis::Longitudinal };
+        let mut give = Influence::zeros(1);
+        let known = compliance.fill(&[probe], &mut give).is_ok() && give.value[(0, 0)].is_finite();
+        if !known {
+            let why = "its give along the rails is not known  hint: leave `longitudinal` out";
+            return Err(Failure::Untrusted(format!("{}: {why}", structure.name)));
+        }
+    }
     if let (Some(on), Some(own)) = (&mut on, made.on.take()) {
         (on.mass, on.coupling) = (own.mass, own.coupling);
     }
-    Ok(Foundation { on, irregularities, ..made })
+    Ok(Foundation { on, irregularities, is_dragged, ..made })
 }
 
 /// The same, without what carries it.
@@ -103,7 +113,10 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let push = Push { lateral, on: structure.on };
+    let pushes =
+        [(Axis::Vertical, true), (Axis::Lateral, lateral), (Axis::Longitudinal, structure.longitudinal)];
+    let axes: Vec<Axis> = pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect();
+    let push = Push { axes: &axes, on: structure.on };
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }),
         scene::Foundation::Influence => influence(structure, solved),
@@ -208,7 +221,7 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 /// # Errors
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
-    parts::foundation(girder, count, Handover::Blend { length: window }, false.into())
+    parts::foundation(girder, count, Handover::Blend { length: window }, Push::DOWN)
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
@@ -216,7 +229,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    modal::full("structure", solved, elements, 0.0, false.into())
+    modal::full("structure", solved, elements, 0.0, Push::DOWN)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

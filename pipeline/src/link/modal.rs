@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fea::{Frame, Modes, Refined};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
-use splines::{Axis, Compliance, Line, Probe};
+use splines::{Compliance, Line, Probe};
 
 use super::Solved;
 use super::mount::{self, Push};
@@ -25,7 +25,7 @@ pub(super) fn lowest(
     solved: &Solved,
     count: usize,
     ratio: f64,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     lowest_with(name, solved, count, ratio, Dampers::default(), push)
 }
@@ -46,7 +46,7 @@ pub(super) fn on_ties(
     count: Option<usize>,
     ratio: f64,
     dampers: Dampers<'_>,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     match count {
         Some(count) => lowest_with(name, solved, count, ratio, dampers, push),
@@ -60,7 +60,7 @@ fn lowest_with(
     count: usize,
     ratio: f64,
     dampers: Dampers<'_>,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     let mut asked = count;
     loop {
@@ -85,7 +85,7 @@ pub(super) fn full(
     solved: &Solved,
     parts: usize,
     ratio: f64,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     full_with(name, solved, parts, ratio, Dampers::default(), push)
 }
@@ -96,7 +96,7 @@ fn full_with(
     parts: usize,
     ratio: f64,
     dampers: Dampers<'_>,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     let refined =
         fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
@@ -118,7 +118,7 @@ fn refused(name: &str, error: &fea::Error) -> Failure {
 /// Modes that move the rails where and as wheels can push.
 ///
 /// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
-fn felt(modes: &Modes, solved: &Solved, push: Push) -> Vec<fea::Mode> {
+fn felt(modes: &Modes, solved: &Solved, push: Push<'_>) -> Vec<fea::Mode> {
     let motions = motions(modes, solved, push);
     // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
     let limit = STILL / modes.total[0][0].sqrt();
@@ -145,8 +145,7 @@ fn felt(modes: &Modes, solved: &Solved, push: Push) -> Vec<fea::Mode> {
 }
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
-fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
-    let axes: &[Axis] = if push.lateral { &[Axis::Vertical, Axis::Lateral] } else { &[Axis::Vertical] };
+fn motions(modes: &Modes, solved: &Solved, push: Push<'_>) -> DMatrix<f64> {
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {
@@ -154,7 +153,7 @@ fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
             None => given.stations.clone(),
         };
         for x in places {
-            for &axis in axes {
+            for &axis in push.axes {
                 // a direction that nothing resists moves no mode
                 if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
                     rows.extend(shapes.into_iter().map(|[value, _]| value));
@@ -199,7 +198,7 @@ fn foundation(
     felt: Vec<fea::Mode>,
     ratio: f64,
     dampers: Dampers<'_>,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;

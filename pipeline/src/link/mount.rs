@@ -2,6 +2,7 @@
 
 use fea::Modes;
 use sim::{Axle, Mount};
+use splines::Axis;
 
 use crate::exit::Failure;
 use crate::scene::{On, Origin, Structure};
@@ -34,18 +35,16 @@ pub fn mount(structure: &Structure) -> Result<Option<Mount>, Failure> {
     Ok(Some(Mount { body, rails: rails.iter().map(axle).collect(), mass, coupling: Vec::new() }))
 }
 
-/// What moves a structure: wheels, sideways too where `lateral`, and the body that carries it.
+/// What moves a structure: wheels along `axes`, and the body that carries it.
 #[derive(Clone, Copy)]
-pub(super) struct Push {
-    pub lateral: bool,
+pub(super) struct Push<'a> {
+    pub axes: &'a [Axis],
     pub on: Option<On>,
 }
 
-impl From<bool> for Push {
-    /// Wheels on the ground's structures.
-    fn from(lateral: bool) -> Push {
-        Push { lateral, on: None }
-    }
+impl Push<'_> {
+    /// Vertical wheel forces on a structure on the ground.
+    pub const DOWN: Push<'static> = Push { axes: &[Axis::Vertical], on: None };
 }
 
 /// Momentum of every mode by the motions of its carrier that may change, relative to that of the whole mass: one line a

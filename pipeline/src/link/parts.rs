@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fea::{Girder, Link, Member, Model, Support};
 use nalgebra::{DMatrix, DVector};
 use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
-use splines::{Cell, Flexibility, Line, Surface};
+use splines::{Axis, Cell, Flexibility, Line, Surface};
 
 use super::mount::Push;
 use super::window;
@@ -25,7 +25,7 @@ pub fn foundation(
     girder: &Girder,
     count: usize,
     handover: Handover,
-    push: Push,
+    push: Push<'_>,
 ) -> Result<Foundation, Failure> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or_else(|| {
@@ -45,7 +45,7 @@ pub fn foundation(
         foundation.parts = Some(vec![chain.clone()]);
     }
     if let Some(mass) = girder.mass_per_length {
-        let motion = Motion::new(girder, mass, &ends, &nodal, push.lateral);
+        let motion = Motion::new(girder, mass, &ends, &nodal, push.axes.contains(&Axis::Lateral));
         foundation.on = push.on.map(|on| motion.mount(&centres, on));
         foundation.structure = Some(motion.structure(PartShapes {
             line,

@@ -3,6 +3,7 @@
 mod actuator;
 mod body;
 mod compare;
+mod event;
 mod gauge;
 mod irregularity;
 mod method;
@@ -21,6 +22,7 @@ mod wheel;
 pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
+pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
 pub use rope::Rope;
@@ -61,6 +63,8 @@ pub struct Scene {
     pub ropes: Vec<Rope>,
     /// End stops of rails, and floors.
     pub stops: Vec<Stop>,
+    /// What is switched on the way.
+    pub events: Vec<Event>,
     /// Forces and moments on bodies.
     pub loads: Vec<Load>,
     /// Time at which the scene ends.
