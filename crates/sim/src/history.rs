@@ -41,6 +41,10 @@ pub enum Channel {
     Stop(usize),
     /// Displacement of a gauge along its axis.
     Gauge(usize),
+    /// One freedom of a structure that is [recorded](crate::Foundation::recorded): structure, freedom.
+    Coordinate(usize, usize),
+    /// Its second derivative by time; zero in a quasi-static run.
+    Acceleration(usize, usize),
 }
 
 /// Samples of every channel at increasing times.

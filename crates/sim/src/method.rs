@@ -1,6 +1,6 @@
 //! The method by which the equations of motion are integrated.
 
-use crate::crossing;
+use crate::passage;
 use crate::system::System;
 use crate::{Dynamics, Error, Foundation, Scene};
 
@@ -85,7 +85,7 @@ impl Method {
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
         ];
         let found = trouble.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted);
-        match found.or_else(|| crossing::lacks(system).filter(|_| self == Method::Series)) {
+        match found.or_else(|| passage::lacks(system).filter(|_| self == Method::Series)) {
             Some(wanted) => Err(Error::Method { method: self, wanted }),
             None => Ok(()),
         }

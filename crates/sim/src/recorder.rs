@@ -1,5 +1,7 @@
 //! Samples of a run, channel by channel.
 
+use std::ops::Range;
+
 use splines::{Influence, Probe};
 
 use crate::dense::dot;
@@ -9,7 +11,13 @@ use crate::history::{Channel, History};
 use crate::scene::arm_rows;
 use crate::state::State;
 use crate::system::System;
-use crate::{Error, Freedom, Gauge};
+use crate::{Analysis, Error, Freedom, Gauge};
+
+/// Structures whose freedoms are recorded, with the numbers of these.
+fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
+    let all = system.structure.iter().zip(system.foundations).enumerate();
+    all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
+}
 
 /// Writes samples.
 pub(crate) struct Recorder {
@@ -47,6 +55,10 @@ impl Recorder {
         channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
         channels.extend((0..actuators.stops.len()).map(Channel::Stop));
         channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
+        for (s, range) in recorded(system) {
+            channels.extend((0..range.len()).map(|k| Channel::Coordinate(s, k)));
+            channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
+        }
         let history = History { channels, values: Vec::new() };
         Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
     }
@@ -124,6 +136,11 @@ impl Recorder {
         for gauge in &system.scene.gauges {
             let displacement = self.displacement(system, geometry, at, gauge)?;
             values.push(displacement);
+        }
+        let moves = system.scene.analysis == Analysis::Dynamic;
+        for (_, range) in recorded(system) {
+            values.extend(range.clone().map(|k| at.q[k]));
+            values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
         }
         Ok(())
     }

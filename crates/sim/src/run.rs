@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::crossing;
 use crate::energy::Audit;
 use crate::history::History;
+use crate::passage;
 use crate::recorder::Recorder;
 use crate::scene::Analysis;
 use crate::solver::Solver;
@@ -98,14 +98,13 @@ pub fn run_by(
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
-    if method == Method::Series
-        && step.is_none()
-        && scene.analysis == Analysis::Dynamic
-        && let Some(run) = crossing::run(&system, &state, placed(&system), watch)?
-    {
-        return Ok(run);
-    }
     if method == Method::Series {
+        if step.is_none()
+            && scene.analysis == Analysis::Dynamic
+            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+        {
+            return Ok(run);
+        }
         method = Method::Radau;
     }
     let mut solver = Solver::new(&system)?;

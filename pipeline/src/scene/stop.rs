@@ -18,6 +18,8 @@ pub struct Stop {
     pub against: Option<usize>,
     /// Where on that coordinate, from the origin of the body that bears it.
     pub place: f64,
+    /// The rail of the scene at whose place it stands and that holds it; `None`: the ground does.
+    pub rail: Option<usize>,
     /// Force per length.
     pub stiffness: f64,
     /// Force per speed.
@@ -80,13 +82,14 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
         let met = (body??, point.unwrap_or_default());
         let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
         let meetings = vec![Meeting { body: met.0, at: met.1, side }];
-        return Some(Stop { name, axis: 0, against: Some(against), place, stiffness, damping, meetings });
+        let against = Some(against);
+        return Some(Stop { name, axis: 0, against, place, rail: None, stiffness, damping, meetings });
     }
-    let (axis, place, meetings) = match (&raw.rail, raw.x, raw.height) {
+    let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
         (Some(rail), Some(x), None) => {
             let rail = super::rail(rail, &scene.rails, &at.key("rail"), check.faults)?;
             let x = check.number(x, &at.key("x"), Dimension::LENGTH);
-            (0, x, on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+            (0, x, Some(rail), on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
         }
         (None, None, Some(height)) => {
             let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
@@ -94,7 +97,7 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             let side =
                 raw.side.as_ref().map_or(Some(-1.0), |word| check.faults.word(word, &at.key("side"), &words));
             check.faults.need(&raw.body, at, "body")?;
-            (1, height, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
+            (1, height, None, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
         }
         _ => {
             let fault = Fault::new(at, "must have `rail` and `x`, `body` and `Y`, or `body` and `against`");
@@ -104,7 +107,7 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             return None;
         }
     };
-    Some(Stop { name, axis, against: None, place, stiffness, damping, meetings })
+    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, meetings })
 }
 
 /// A buffer between a point of one body and the body named `other`, which it meets after `gap`: the body that bears it,

@@ -60,13 +60,13 @@ pub(crate) fn lacks(system: &System) -> Option<&'static str> {
         && system.wheels.iter().all(|w| first.is_none_or(|(b, _)| system.kinematics.root(w.body) == b));
     let uniform = first.is_none_or(|(_, motion)| motion.uniform(scene.end).is_some());
     let symmetric = system.foundations.iter().all(|f| f.compliance.as_ref().is_none_or(|c| c.is_symmetric()));
+    let mounted = !system.rides.is_empty() || system.foundations.iter().any(|f| f.on.is_some());
     let troubles = [
         (!together, "wheels that travel together"),
         (!uniform, "a uniform speed"),
-        (!system.constant_rows || !system.rides.is_empty(), "structures without mass, on the ground"),
+        (!system.constant_rows || mounted, "structures without mass, on the ground"),
         (!symmetric, "a symmetric compliance"),
-        (!scene.actuators.loads.is_empty(), "no loads"),
-        (!scene.actuators.rules.is_empty(), "no rules"),
+        (!scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(), "no loads or events"),
         (system.components() > WIDEST, "eight contacts at most"),
         (system.freedoms > system.components(), "no more freedoms than contacts"),
     ];
@@ -85,15 +85,15 @@ pub(crate) fn run(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Run>, Error> {
     match system.components() {
-        1..=2 => Crossing::<2>::new(system, start)?.run(placed, watch),
-        3..=4 => Crossing::<4>::new(system, start)?.run(placed, watch),
-        5..=WIDEST => Crossing::<WIDEST>::new(system, start)?.run(placed, watch),
+        1..=2 => Passage::<2>::new(system, start)?.run(placed, watch),
+        3..=4 => Passage::<4>::new(system, start)?.run(placed, watch),
+        5..=WIDEST => Passage::<WIDEST>::new(system, start)?.run(placed, watch),
         _ => Ok(None),
     }
 }
 
 /// A crossing in progress; contacts and freedoms padded to P.
-struct Crossing<'a, const P: usize> {
+struct Passage<'a, const P: usize> {
     system: &'a System<'a>,
     geometry: Geometry,
     state: State,
@@ -125,7 +125,7 @@ struct Crossing<'a, const P: usize> {
     begun: f64,
 }
 
-impl<'a, const P: usize> Crossing<'a, P> {
+impl<'a, const P: usize> Passage<'a, P> {
     fn new(system: &'a System<'a>, start: &State) -> Result<Self, Error> {
         let (n, m) = (system.freedoms, system.components());
         let mut geometry = Geometry::new(system);
@@ -169,7 +169,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         for &(number, inertia) in root.iter().flat_map(|&root| system.kinematics.drag(root)) {
             drag[number] += inertia;
         }
-        Ok(Crossing {
+        Ok(Passage {
             places: geometry.x.clone(),
             held: pad(&geometry.held),
             weight: pad(system.gravity.as_slice()),
@@ -270,8 +270,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
         self.audit.end = stored(self.system, &self.geometry, &self.state);
         let (history, audit) = (recorder.history, self.audit);
-        let fired = Vec::new();
-        Ok(Run { status, history, fired, audit, counts, method: Some(Method::Series) })
+        Ok(Run { status, history, fired: Vec::new(), audit, counts, method: Some(Method::Series) })
     }
 
     /// Times at which wheels meet breaks of their rails, then the end.
@@ -281,9 +280,9 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let mut times = vec![end];
         for (wheel, x) in system.wheels.iter().zip(&self.places).filter(|_| self.speed != 0.0) {
             let contact = &system.scene.contacts[wheel.contact];
-            let extent = system.foundations[contact.structure].rails.get(contact.rail);
-            let places = extent.map_or(&[][..], |extent| &extent.breaks);
-            times.extend(places.iter().map(|place| (place - x) / self.speed));
+            let foundation = &system.foundations[contact.structure];
+            let places = foundation.breaks_between(contact.rail, *x, x + self.speed * end);
+            times.extend(places.map(|place| (place - x) / self.speed));
         }
         let sliver = 1e-12 * end;
         times.retain(|t| *t > sliver && (*t < end - sliver || *t == end));
