@@ -45,3 +45,4 @@ pub mod surface_file;
 pub mod tables;
 pub mod track;
 pub mod units;
+pub mod warning;

@@ -9,6 +9,7 @@ use crate::report::{Cell, Column, Report, Section, Table};
 use crate::scene::{Analysis, Document, Scene};
 use crate::summary;
 use crate::units::Dimension;
+use crate::warning;
 
 /// Assembles the report.
 #[must_use]
@@ -192,7 +193,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     }
     let mut section = Section::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in summary::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
+        for warning in warning::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));
         }
     }

@@ -23,7 +23,7 @@ impl Recorder {
     pub fn new(system: &System) -> Self {
         let actuators = &system.scene.actuators;
         let ends = 2 * actuators.ropes.len() + actuators.stops.len() + system.scene.gauges.len();
-        let count = 1 + 14 * system.scene.bodies.len() + 8 * system.wheels.len() + ends;
+        let count = 1 + 14 * system.scene.bodies.len() + 9 * system.wheels.len() + ends;
         let mut channels = Vec::with_capacity(count);
         channels.push(Channel::Time);
         for b in 0..system.scene.bodies.len() {
@@ -41,6 +41,7 @@ impl Recorder {
                 Channel::Give(w),
                 Channel::SpinAngle(w),
                 Channel::SpinSpeed(w),
+                Channel::SpinMoment(w),
             ]);
         }
         channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
@@ -96,7 +97,11 @@ impl Recorder {
                 .irregularity(w)
                 .map_or(0.0, |shape| shape.vertical(geometry.piece[w], geometry.x[w])[0]);
             let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
-            let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
+            let (angle, speed) = match (wheel.spin, system.turn(w, at.t)) {
+                (Some(number), _) => (at.q[number], at.v[number]),
+                (None, Some(turn)) => (turn.x, turn.v),
+                (None, None) => (0.0, 0.0),
+            };
             values.extend([
                 geometry.x[w],
                 vertical,
@@ -106,6 +111,7 @@ impl Recorder {
                 down - deepest,
                 angle,
                 speed,
+                system.moment(geometry, at, w),
             ]);
         }
         let ropes = system.scene.actuators.ropes.len();

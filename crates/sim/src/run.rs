@@ -212,7 +212,8 @@ fn integrate(
                 if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
-                    sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
+                    let share = (t - from) / (to - from);
+                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, &stepper.solver.geometry, &sample)?;

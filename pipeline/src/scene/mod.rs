@@ -12,8 +12,10 @@ mod pin;
 mod raw;
 mod read;
 mod rope;
+mod spin;
 mod stop;
 mod structure;
+mod survey;
 mod tables;
 mod ties;
 mod truck;
@@ -26,6 +28,7 @@ pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
 pub use rope::Rope;
+pub use spin::Spin;
 pub use stop::{Meeting, Stop};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
@@ -59,6 +62,8 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Wheels under bodies.
     pub trucks: Vec<Truck>,
+    /// Wheels whose spin is prescribed.
+    pub spins: Vec<Spin>,
     /// Ropes.
     pub ropes: Vec<Rope>,
     /// End stops of rails, and floors.

@@ -330,6 +330,8 @@ impl<'de> Visitor<'de> for NodeVisitor {
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMotion {
     pub body: Option<String>,
+    pub truck: Option<String>,
+    pub wheel: Option<usize>,
     pub dof: Option<String>,
     pub kind: Option<String>,
     pub position: Option<Vec<[f64; 2]>>,

@@ -3,7 +3,7 @@
 use super::raw::RawScene;
 use super::{
     Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
-    pin, rope, stop, structure, truck, wheel,
+    pin, rope, spin, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -86,6 +86,7 @@ pub(super) fn scene(
         bodies,
         wheels,
         trucks: Vec::new(),
+        spins: Vec::new(),
         loads,
         ropes,
         stops: Vec::new(),
@@ -101,6 +102,9 @@ pub(super) fn scene(
         stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
+    if scene.trucks.len() == raw.trucks.len() {
+        scene.spins = spin::read_all(&raw.motions, &scene, check);
+    }
     scene.stops = stop::read_all(&raw.stops, &scene, check);
     event::fit_brakes(&raw.events, &mut scene.bodies);
     scene.events = event::read_all(&raw.events, &scene, check);
