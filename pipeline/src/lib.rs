@@ -35,6 +35,7 @@ pub mod progress;
 pub mod quantity;
 pub mod record;
 pub mod report;
+pub mod response;
 pub mod scene;
 pub mod source;
 pub mod spec;

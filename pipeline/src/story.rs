@@ -34,6 +34,7 @@ pub fn report(
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
+    sections.push(crate::response::section(scene, &outcomes[0].label, &outcomes[0].response));
     sections.push(audit(document, outcomes));
     Report {
         title: scene.name.clone(),

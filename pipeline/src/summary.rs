@@ -72,6 +72,9 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     if let Some(why) = why {
         result["why"] = json!(why);
     }
+    if let Some(members) = result.as_object_mut() {
+        members.extend(outcome.response.json());
+    }
     let warnings = warnings(scene, cast, record, run);
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
@@ -90,8 +93,8 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 "switches": lost.switches,
             },
             "put_in": lost.put_in(),
-            "steps": lost.steps,
             "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
+            "steps": lost.steps,
         });
     }
     if !run.fired.is_empty() {

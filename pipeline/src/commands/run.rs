@@ -16,6 +16,7 @@ use crate::output::{self, Folder};
 use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
 use crate::record::peak;
+use crate::response::{self, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
 use crate::{grid_file, story, summary, tables, warning};
@@ -181,6 +182,8 @@ fn plates(
         .collect();
     let mut plates = pictures::paths(&labelled);
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
+    let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
+    plates.extend(response::pictures(&labelled, &responses, &outcomes[0].lines));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solved_of(known, &structure.origin) else { continue };
         plates.extend(

@@ -16,6 +16,8 @@ pub struct Stop {
     pub axis: usize,
     /// Where on that coordinate.
     pub place: f64,
+    /// The rail of the scene at whose place it stands and that holds it; `None`: the ground does.
+    pub rail: Option<usize>,
     /// Force per length.
     pub stiffness: f64,
     /// Force per speed.
@@ -70,11 +72,11 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             .faults
             .add(Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("a point of that body"));
     }
-    let (axis, place, meetings) = match (&raw.rail, raw.x, raw.height) {
+    let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
         (Some(rail), Some(x), None) => {
             let rail = super::rail(rail, &scene.rails, &at.key("rail"), check.faults)?;
             let x = check.number(x, &at.key("x"), Dimension::LENGTH);
-            (0, x, on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+            (0, x, Some(rail), on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
         }
         (None, None, Some(height)) => {
             let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
@@ -82,7 +84,7 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             let side =
                 raw.side.as_ref().map_or(Some(-1.0), |word| check.faults.word(word, &at.key("side"), &words));
             check.faults.need(&raw.body, at, "body")?;
-            (1, height, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
+            (1, height, None, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
         }
         _ => {
             let fault = Fault::new(at, "must have `rail` and `x`, or `body` and `Y`");
@@ -90,7 +92,7 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             return None;
         }
     };
-    Some(Stop { name, axis, place, stiffness, damping, meetings })
+    Some(Stop { name, axis, place, rail, stiffness, damping, meetings })
 }
 
 /// What meets the stop at `x` of a rail: of one body, or of all that move on the rail, the wheel that is nearest to it.
