@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
-use sim::{Foundation, Run};
+use sim::Run;
 
 use crate::exit::Failure;
 use crate::link::{self, Solved};
@@ -91,7 +91,8 @@ pub fn simulate(
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(case) = cases.get(index) else { return own };
             let mut watch = |t: f64| {
-                done[index].store((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+                // runs that are compared start again
+                done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
                 bar.set(done.iter().map(|share| share.load(Ordering::Relaxed)).sum());
                 ControlFlow::Continue(())
             };
@@ -121,15 +122,14 @@ fn one(
     let mut scene = case.scene.clone();
     let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
     let cast = cast(&scene)?;
-    let choices = link::choose(&mut scene, &cast.scene, known, lateral)?;
-    let foundations = scene
-        .structures
-        .iter()
-        .map(|structure| link::foundation(structure, solved_of(known, &structure.origin), lateral))
-        .collect::<Result<Vec<Foundation>, Failure>>()?;
-    let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
-    let run = sim::run(&cast.scene, &foundations, watch)
-        .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
+    let own = case.label.clone();
+    let named = |failure: Failure| match (&own, failure) {
+        (Some(label), Failure::Untrusted(why)) => Failure::Untrusted(format!("{label}: {why}")),
+        (_, failure) => failure,
+    };
+    let chosen = link::choose(&mut scene, &cast.scene, known, lateral, watch).map_err(named)?;
+    let link::Chosen { choices, run } = chosen;
+    let label = own.clone().unwrap_or_else(|| own_label(&scene));
     let record = Record::new(&scene, &cast, &run.history);
     Ok(Outcome { label, cast, run, record, choices })
 }

@@ -1,7 +1,7 @@
 //! `summary.json`: what a run found, in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Run, Rung, Status, Tried};
+use sim::{Predicted, Run, Rung, Status, Tried};
 
 use crate::cases::Outcome;
 use crate::link;
@@ -91,6 +91,14 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 entry["tolerance"] = json!(structure.tolerance);
                 entry["estimate"] = json!(choice.estimate);
                 entry["tried"] = choice.tried.iter().map(tried).collect();
+                if let Some(own) = &choice.predicted {
+                    entry["predicted"] = predicted(own);
+                }
+                for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
+                    if !rungs.is_empty() {
+                        entry[key] = rungs.iter().map(|rung| link::word(*rung)).collect();
+                    }
+                }
             }
             (structure.name.clone(), entry)
         })
@@ -110,7 +118,11 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     if let Some(why) = why {
         result["why"] = json!(why);
     }
-    let warnings = warnings(scene, cast, record, run);
+    let mut warnings = warnings(scene, cast, record, run);
+    warnings.extend(choices.iter().filter_map(|choice| {
+        let structure = &scene.structures[choice.structure];
+        link::doubt(&structure.name, choice, structure.tolerance)
+    }));
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
     }
@@ -139,7 +151,7 @@ const fn rung(rung: Rung) -> &'static str {
         Rung::Rigid => "rigid",
         Rung::Influence => "influence",
         Rung::Modal(_) => "modal",
-        Rung::Full => "full",
+        Rung::Half | Rung::Full => "full",
     }
 }
 
@@ -150,6 +162,20 @@ fn tried(tried: &Tried) -> Value {
         "estimate": tried.estimate.is_finite().then_some(tried.estimate),
         "against": link::word(tried.against),
         "stages": tried.stages,
+    })
+}
+
+/// Errors expected without a run.
+fn predicted(own: &Predicted) -> Value {
+    let errors: Map<String, Value> =
+        own.errors.iter().map(|(rung, error)| (link::word(*rung), json!(error))).collect();
+    json!({
+        "give": own.give,
+        "speed": own.speed,
+        "ripple": own.ripple,
+        "step": own.step,
+        "track": own.track,
+        "errors": errors,
     })
 }
 

@@ -1,9 +1,11 @@
 //! Foundations on demand, for structures whose foundation is "auto".
 
-use sim::{Choice, Ladder, Reason, Rung};
+use std::ops::ControlFlow;
+
+use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
 use splines::Compliance;
 
-use super::{Solved, foundation, modal};
+use super::{Solved, Spectra, foundation_by};
 use crate::cases::{Known, solved_of};
 use crate::exit::Failure;
 use crate::scene::{Foundation, Scene, Structure};
@@ -18,7 +20,15 @@ impl From<sim::Error> for Failure {
     }
 }
 
-/// Sets the foundation of every structure of `scene` that is "auto", and says why.
+/// What a scene ran on, and how the run went.
+pub struct Chosen {
+    /// Why foundations that were "auto" are what they are.
+    pub choices: Vec<Choice>,
+    /// The run.
+    pub run: Run,
+}
+
+/// Sets the foundation of every structure of `scene` that is "auto", says why, and runs the scene.
 ///
 /// # Errors
 /// A foundation that cannot be made; a scene that cannot start.
@@ -27,19 +37,19 @@ pub fn choose(
     cast: &sim::Scene,
     known: &[Known],
     lateral: bool,
-) -> Result<Vec<Choice>, Failure> {
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Chosen, Failure> {
     let tolerances: Vec<Option<f64>> =
         scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
-    if tolerances.iter().all(Option::is_none) {
-        return Ok(Vec::new());
-    }
-    let choices = sim::choose(cast, &tolerances, &mut Rungs { scene, known, lateral })?;
+    let spectra = scene.structures.iter().map(|_| Spectra::default()).collect();
+    let mut rungs = Rungs { scene, known, lateral, spectra };
+    let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut rungs, watch)?;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
         let solved = solved_of(known, &structure.origin);
         structure.foundation = at(structure, choice.rung, elements(solved));
     }
-    Ok(choices)
+    Ok(Chosen { choices, run })
 }
 
 /// Elements a member of the mesh at the top.
@@ -48,17 +58,25 @@ fn elements(solved: Option<&Solved>) -> usize {
     (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
 }
 
-/// A solved structure at `rung` for vertical wheel forces; `damping` of its modes by critical, `finer` times as many
+/// A solved structure at `rung`, by modes known in `spectra` (of this structure), for vertical wheel forces; `damping` of its modes by critical, `finer` times as many
 /// elements a member at the top as `"auto"` takes.
 ///
 /// # Errors
 /// A structure without mass where modes are asked for; too many unknowns.
-pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Result<sim::Foundation, Failure> {
+pub fn rung_of(
+    spectra: &mut Spectra,
+    solved: &Solved,
+    rung: Rung,
+    damping: f64,
+    finer: usize,
+) -> Result<sim::Foundation, Failure> {
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
+    let elements = finer * elements(Some(solved));
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, false),
-        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, false),
+        (Rung::Modal(modes), _) => spectra.lowest(name, solved, modes, damping, false),
+        (Rung::Half, _) => spectra.full(name, solved, elements / 2, damping, false),
+        (Rung::Full, _) => spectra.full(name, solved, elements, damping, false),
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }
@@ -78,6 +96,7 @@ fn at(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
         Rung::Rigid => Foundation::Rigid,
         Rung::Influence => Foundation::Influence,
         Rung::Modal(modes) => Foundation::Modal { modes, damping },
+        Rung::Half => Foundation::Full { elements: elements / 2, damping },
         Rung::Full => Foundation::Full { elements, damping },
     }
 }
@@ -86,6 +105,8 @@ struct Rungs<'a> {
     scene: &'a Scene,
     known: &'a [Known],
     lateral: bool,
+    /// One a structure.
+    spectra: Vec<Spectra>,
 }
 
 impl Rungs<'_> {
@@ -108,7 +129,8 @@ impl Ladder for Rungs<'_> {
         if own.auto {
             own.foundation = at(&own, rung, elements(self.solved(structure)));
         }
-        foundation(&own, self.solved(structure), self.lateral)
+        let solved = solved_of(self.known, &own.origin);
+        foundation_by(&mut self.spectra[structure], &own, solved, self.lateral)
     }
 }
 
@@ -119,6 +141,7 @@ pub fn word(rung: Rung) -> String {
         Rung::Rigid => "rigid".to_owned(),
         Rung::Influence => "influence".to_owned(),
         Rung::Modal(modes) => format!("modal, {modes} modes"),
+        Rung::Half => "full, half the elements".to_owned(),
         Rung::Full => "full".to_owned(),
     }
 }
@@ -127,20 +150,57 @@ pub fn word(rung: Rung) -> String {
 #[must_use]
 pub fn reason(choice: &Choice) -> String {
     let rung = word(choice.rung);
-    match (choice.reason, choice.estimate) {
+    let mut text = match (choice.reason, choice.estimate) {
         (Reason::NoMass, _) => {
             format!("auto: {rung}; no mass given: the error of leaving it out is not known")
         }
         (Reason::QuasiStatic, _) => format!("auto: {rung}; a quasi-static sweep has no inertia"),
+        (Reason::Predicted, estimate) => format!(
+            "auto: {rung}, predicted to err by {:.1e}, so far below the tolerance that no higher rung was run",
+            estimate.unwrap_or_default()
+        ),
         (Reason::Sufficient, estimate) => format!(
             "auto: {rung}, the lowest rung tried whose estimated error, {:.1e}, is within the tolerance",
             estimate.unwrap_or_default()
         ),
-        (Reason::Top, _) => {
-            format!("auto: {rung}, as nothing lower was within the tolerance; its own error is not estimated")
+        (Reason::Top, Some(estimate)) => format!(
+            "auto: {rung}, as nothing lower was within the tolerance; half the elements differ by {estimate:.1e}, more \
+             than the tolerance"
+        ),
+        (Reason::Top, None) => {
+            format!("auto: {rung}, as nothing lower was within the tolerance; its own error is not known")
         }
         (Reason::Unchecked, _) => {
             format!("auto: {rung}, which no higher rung could check: its error is not known")
         }
+    };
+    if let Some(predicted) = &choice.predicted {
+        let Predicted { give, speed, ripple, step, track, .. } = predicted;
+        text += &format!(
+            "; predicted without mass: give {give:.1e}, speed {speed:.1e}, ripple {ripple:.1e}, load step {step:.1e}, \
+             track {track:.1e}"
+        );
     }
+    text
+}
+
+/// What a user should know of a choice whose error is not known to be allowed.
+#[must_use]
+pub fn doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
+    let rung = word(choice.rung);
+    let why = match (choice.reason, choice.estimate) {
+        (Reason::Top, Some(estimate)) => format!(
+            "estimate above tolerance: {rung} is the top, and half its elements differ by {estimate:.1e}, more than \
+             {tolerance}"
+        ),
+        (Reason::Top, None) => {
+            format!("{rung} is the top, and no coarser mesh could be run: its error is not known")
+        }
+        (Reason::Unchecked, _) => format!("the error of {rung} is not known: no higher rung could be run"),
+        _ => return None,
+    };
+    let failed: Vec<String> = choice.failed.iter().map(|rung| word(*rung)).collect();
+    let list =
+        if failed.is_empty() { String::new() } else { format!(" (could not be run: {})", failed.join("; ")) };
+    Some(format!("{name}: {why}{list}"))
 }

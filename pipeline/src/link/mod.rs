@@ -14,7 +14,8 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{choose, reason, rung_of, word};
+pub use ladder::{Chosen, choose, doubt, reason, rung_of, word};
+pub use modal::Spectra;
 
 /// A structure's FE model, solved.
 pub struct Solved {
@@ -86,6 +87,16 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    foundation_by(&mut Spectra::default(), structure, solved, lateral)
+}
+
+/// The same with modes that may be known already.
+fn foundation_by(
+    spectra: &mut Spectra,
+    structure: &Structure,
+    solved: Option<&Solved>,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
@@ -100,10 +111,10 @@ pub fn foundation(
             parts::foundation(girder, count, handover, lateral)
         }
         scene::Foundation::Modal { modes, damping } => {
-            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
+            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
         }
         scene::Foundation::Full { elements, damping } => {
-            modal::full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
+            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
         }
         scene::Foundation::Ties { moves: false, .. } => influence(structure, solved),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -202,7 +213,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    modal::full("structure", solved, elements, 0.0, false)
+    Spectra::default().full("structure", solved, elements, 0.0, false)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fea::{Frame, Modes, Refined};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
-use splines::{Axis, Compliance, Line, Probe};
+use splines::{Axis, Compliance, Line, Probe, Surface};
 
 use super::Solved;
 use crate::exit::Failure;
@@ -18,15 +18,86 @@ const STILL: f64 = 1e-6;
 /// Relative difference of two frequencies that are one.
 const EQUAL: f64 = 1e-6;
 
-/// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
-pub(super) fn lowest(
-    name: &str,
-    solved: &Solved,
-    count: usize,
-    ratio: f64,
-    lateral: bool,
-) -> Result<Foundation, Failure> {
-    lowest_with(name, solved, count, ratio, Dampers::default(), lateral)
+/// Modes of one mesh that wheels can excite, and what is needed to leave some of them out.
+pub(super) struct Spectrum {
+    refined: Refined,
+    felt: Vec<fea::Mode>,
+    surface: Surface,
+    /// Whether there are no others.
+    is_whole: bool,
+}
+
+impl Spectrum {
+    /// At least the lowest `count` modes, where there are so many.
+    pub fn lowest(name: &str, solved: &Solved, count: usize, lateral: bool) -> Result<Spectrum, Failure> {
+        let mut asked = count;
+        loop {
+            let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
+                .map_err(|error| refused(name, &error))?;
+            let felt = felt(&refined.modes, solved, lateral);
+            let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
+            let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
+            // Some of the modes of one frequency are not enough to turn them.
+            let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
+            if is_whole || (felt.len() >= count && !torn) {
+                return Spectrum::new(name, refined, felt, is_whole);
+            }
+            asked = (2 * asked).max(asked + 8);
+        }
+    }
+
+    /// All modes of a mesh of `parts` elements a member.
+    pub fn whole(name: &str, solved: &Solved, parts: usize, lateral: bool) -> Result<Spectrum, Failure> {
+        let refined =
+            fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
+        let felt = felt(&refined.modes, solved, lateral);
+        Spectrum::new(name, refined, felt, true)
+    }
+
+    fn new(name: &str, refined: Refined, felt: Vec<fea::Mode>, is_whole: bool) -> Result<Spectrum, Failure> {
+        let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+        let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
+        let surface = frame.surface().map_err(untrusted)?.surface;
+        Ok(Spectrum { refined, felt, surface, is_whole })
+    }
+
+    /// Whether `count` modes are there, or all that exist.
+    pub fn has(&self, count: usize) -> bool {
+        self.is_whole || self.felt.len() >= count
+    }
+
+    /// The lowest `count` modes, `ratio` of critical damping each.
+    pub fn foundation(
+        &self,
+        name: &str,
+        count: usize,
+        ratio: f64,
+        dampers: Dampers<'_>,
+    ) -> Result<Foundation, Failure> {
+        let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+        let mut kept = self.refined.modes.clone();
+        kept.modes = self.felt.iter().take(count).cloned().collect();
+        let rest = kept.residual(&self.surface).map_err(untrusted)?;
+        let line = Arc::clone(self.surface.line());
+        let states =
+            DMatrix::from_fn(6 * line.states(), kept.modes.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
+        let rails = (0..self.refined.rails.len())
+            .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
+            .collect();
+        let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
+        let dynamics = if dampers.c > 0.0 {
+            damped(&kept.modes, &omega, ratio, dampers)
+        } else {
+            Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
+        };
+        let shapes = Box::new(ModeShapes { line, states });
+        Ok(Foundation {
+            compliance: Some(Box::new(rest)),
+            structure: Some(sim::Structure { dynamics, shapes }),
+            rails,
+            ..Foundation::default()
+        })
+    }
 }
 
 /// Dampers of one size under the ties of a rail.
@@ -47,60 +118,57 @@ pub(super) fn on_ties(
     dampers: Dampers<'_>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
-    match count {
-        Some(count) => lowest_with(name, solved, count, ratio, dampers, lateral),
-        None => full_with(name, solved, 1, ratio, dampers, lateral),
+    let spectrum = match count {
+        Some(count) => Spectrum::lowest(name, solved, count, lateral)?,
+        None => Spectrum::whole(name, solved, 1, lateral)?,
+    };
+    spectrum.foundation(name, count.unwrap_or(usize::MAX), ratio, dampers)
+}
+
+/// Modes of one structure that were found already.
+#[derive(Default)]
+pub struct Spectra {
+    lowest: Option<Spectrum>,
+    /// By elements a member.
+    whole: Vec<(usize, Spectrum)>,
+}
+
+impl Spectra {
+    /// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
+    pub(super) fn lowest(
+        &mut self,
+        name: &str,
+        solved: &Solved,
+        count: usize,
+        ratio: f64,
+        lateral: bool,
+    ) -> Result<Foundation, Failure> {
+        let known = self.lowest.take().filter(|spectrum| spectrum.has(count));
+        let spectrum = match known {
+            Some(known) => known,
+            None => Spectrum::lowest(name, solved, count, lateral)?,
+        };
+        self.lowest.insert(spectrum).foundation(name, count, ratio, Dampers::default())
     }
-}
 
-fn lowest_with(
-    name: &str,
-    solved: &Solved,
-    count: usize,
-    ratio: f64,
-    dampers: Dampers<'_>,
-    lateral: bool,
-) -> Result<Foundation, Failure> {
-    let mut asked = count;
-    loop {
-        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
-            .map_err(|error| refused(name, &error))?;
-        let felt = felt(&refined.modes, solved, lateral);
-        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
-        let all = refined.modes.modes.len() < asked || refined.modes.next.is_none();
-        // Some of the modes of one frequency are not enough to turn them.
-        let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
-        if all || (felt.len() >= count && !torn) {
-            let lowest = felt.into_iter().take(count).collect();
-            return foundation(name, &refined, lowest, ratio, dampers);
-        }
-        asked = (2 * asked).max(asked + 8);
+    /// Every mode that wheels can excite of a mesh of `parts` elements a member.
+    pub(super) fn full(
+        &mut self,
+        name: &str,
+        solved: &Solved,
+        parts: usize,
+        ratio: f64,
+        lateral: bool,
+    ) -> Result<Foundation, Failure> {
+        let at = match self.whole.iter().position(|(own, _)| *own == parts) {
+            Some(at) => at,
+            None => {
+                self.whole.push((parts, Spectrum::whole(name, solved, parts, lateral)?));
+                self.whole.len() - 1
+            }
+        };
+        self.whole[at].1.foundation(name, usize::MAX, ratio, Dampers::default())
     }
-}
-
-/// Every mode that wheels can excite of a mesh of `parts` elements a member.
-pub(super) fn full(
-    name: &str,
-    solved: &Solved,
-    parts: usize,
-    ratio: f64,
-    lateral: bool,
-) -> Result<Foundation, Failure> {
-    full_with(name, solved, parts, ratio, Dampers::default(), lateral)
-}
-
-fn full_with(
-    name: &str,
-    solved: &Solved,
-    parts: usize,
-    ratio: f64,
-    dampers: Dampers<'_>,
-    lateral: bool,
-) -> Result<Foundation, Failure> {
-    let refined =
-        fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
-    let felt = felt(&refined.modes, solved, lateral);
-    foundation(name, &refined, felt, ratio, dampers)
 }
 
 fn refused(name: &str, error: &fea::Error) -> Failure {
@@ -187,40 +255,6 @@ fn places(line: &Line, rail: usize) -> Vec<f64> {
     cells
         .flat_map(|cell| (0..=16).map(|k| cell.x[0] + (cell.x[1] - cell.x[0]) * f64::from(k) / 16.0))
         .collect()
-}
-
-fn foundation(
-    name: &str,
-    refined: &Refined,
-    felt: Vec<fea::Mode>,
-    ratio: f64,
-    dampers: Dampers<'_>,
-) -> Result<Foundation, Failure> {
-    let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
-    let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
-    let surface = frame.surface().map_err(untrusted)?.surface;
-    let mut kept = refined.modes.clone();
-    kept.modes = felt;
-    let rest = kept.residual(&surface).map_err(untrusted)?;
-    let line = Arc::clone(surface.line());
-    let states =
-        DMatrix::from_fn(6 * line.states(), kept.modes.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
-    let rails = (0..refined.rails.len())
-        .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
-        .collect();
-    let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
-    let dynamics = if dampers.c > 0.0 {
-        damped(&kept.modes, &omega, ratio, dampers)
-    } else {
-        Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
-    };
-    let shapes = Box::new(ModeShapes { line, states });
-    Ok(Foundation {
-        compliance: Some(Box::new(rest)),
-        structure: Some(sim::Structure { dynamics, shapes }),
-        rails,
-        ..Foundation::default()
-    })
 }
 
 /// M = 1, K = omega^2, C = 2 zeta omega + c D^T D; D: by how much each mode stretches each damper.

@@ -1,0 +1,227 @@
+//! One structure, from the lowest rung that may suffice to the first that does.
+
+use std::ops::ControlFlow;
+
+use super::predict::predict;
+use super::{
+    Choice, Ladder, MODES, Reason, Rung, SAFE, STEPPING, Tried, contact_frequency, distance,
+};
+use crate::foundation::Dynamics;
+use crate::{Foundation, Run, Scene, Status};
+
+/// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
+const ABOVE_CONTACT: f64 = 3.0;
+/// Errors predicted, by the tolerance, above which a rung is skipped: rigid, influence, modes.
+const SKIP: [f64; 3] = [2.0, 100.0, 100.0];
+/// Errors predicted, by the tolerance, below which a rung is taken unchecked: rigid, influence, modes.
+const TAKE: [f64; 3] = [0.0, 0.0, 0.0];
+
+/// A rung, run.
+pub(super) struct Candidate {
+    pub rung: Rung,
+    pub foundation: Foundation,
+    pub run: Run,
+}
+
+/// What came of a climb.
+pub(super) struct Outcome {
+    pub choice: Choice,
+    pub found: Candidate,
+    /// Runs made.
+    pub runs: usize,
+}
+
+/// One climb.
+pub(super) struct Climb<'a, L: Ladder> {
+    scene: &'a Scene,
+    finer: Scene,
+    tolerance: f64,
+    structure: usize,
+    foundations: &'a mut [Foundation],
+    ladder: &'a mut L,
+    watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
+    choice: Choice,
+    error: Option<L::Error>,
+    runs: usize,
+}
+
+/// Rungs to try.
+struct Plan {
+    /// To be compared with the first of the others.
+    lower: Vec<Rung>,
+    /// Each checks what was found below it.
+    higher: Vec<Rung>,
+    /// The last of `higher` needs no check.
+    taken: bool,
+}
+
+fn of_class<T: Copy>(table: [T; 3], rung: Rung) -> T {
+    match rung {
+        Rung::Rigid => table[0],
+        Rung::Influence => table[1],
+        Rung::Modal(_) | Rung::Half | Rung::Full => table[2],
+    }
+}
+
+impl<'a, L: Ladder> Climb<'a, L> {
+    pub fn new(
+        scene: &'a Scene,
+        tolerance: f64,
+        structure: usize,
+        foundations: &'a mut [Foundation],
+        ladder: &'a mut L,
+        watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Self {
+        let mut finer = scene.clone();
+        finer.accuracy = finer.accuracy.min(STEPPING * tolerance);
+        let choice = Choice::new(structure, Rung::Influence, Reason::Unchecked);
+        Climb { scene, finer, tolerance, structure, foundations, ladder, watch, choice, error: None, runs: 0 }
+    }
+
+    pub fn climb(mut self) -> Result<Outcome, L::Error> {
+        let Plan { lower, higher, taken } = self.plan();
+        let alone = lower.is_empty() && taken;
+        let mut below: Vec<Candidate> = Vec::new();
+        for rung in lower {
+            match self.attempt(rung, false) {
+                // elsewhere the wheels would leave their rails as well
+                Some(found) if found.is_final() => return Ok(self.end(found, Reason::Unchecked, None)),
+                Some(found) => below.push(found),
+                None => {}
+            }
+        }
+        let top = higher.last().copied();
+        for against in higher {
+            let Some(found) = self.attempt(against, alone) else { continue };
+            if found.is_final() {
+                let found = below.pop().unwrap_or(found);
+                return Ok(self.end(found, Reason::Unchecked, None));
+            }
+            if found.run.status != Status::Done {
+                // a higher one may still follow the motion
+                if below.is_empty() {
+                    below.push(found);
+                }
+                continue;
+            }
+            for lower in below.drain(..) {
+                let estimate = distance(&lower.run, &found.run, self.scene);
+                self.choice.tried.push(Tried {
+                    rung: lower.rung,
+                    estimate,
+                    against,
+                    stages: lower.run.counts.stages as u64,
+                });
+                if estimate <= SAFE * self.tolerance {
+                    return Ok(self.end(lower, Reason::Sufficient, Some(estimate)));
+                }
+            }
+            if taken && Some(against) == top {
+                let estimate = self.choice.predicted.as_ref().and_then(|predicted| predicted.of(against));
+                return Ok(self.end(found, Reason::Predicted, estimate));
+            }
+            if against == Rung::Full {
+                return Ok(self.top(found));
+            }
+            below.push(found);
+        }
+        match (below.pop(), self.error.take()) {
+            (Some(found), _) => Ok(self.end(found, Reason::Unchecked, None)),
+            (None, Some(error)) => Err(error),
+            // nothing fails without an error
+            (None, None) => Err(L::Error::from(crate::Error::NoSuch { what: "rung", index: self.structure })),
+        }
+    }
+
+    /// What must be tried, by what is predicted.
+    fn plan(&mut self) -> Plan {
+        let needed = ABOVE_CONTACT * contact_frequency(self.scene, self.structure);
+        let most = MODES[MODES.len() - 1];
+        let modal = self.ladder.foundation(self.structure, Rung::Modal(most)).ok();
+        let omegas: Vec<f64> = match modal.as_ref().and_then(|modal| modal.structure.as_ref()) {
+            Some(structure) => match &structure.dynamics {
+                Dynamics::Modes { omega, .. } => omega.clone(),
+                Dynamics::Matrices { .. } => Vec::new(),
+            },
+            None => Vec::new(),
+        };
+        let reaches = |m: usize| {
+            let highest = omegas.iter().take(m).copied().fold(0.0, f64::max);
+            omegas.is_empty() || highest > needed
+        };
+        let predicted =
+            modal.and_then(|modal| predict(self.scene, self.foundations, self.structure, &modal));
+        let by_tolerance = |rung: Rung| {
+            predicted.as_ref().and_then(|predicted| predicted.of(rung)).map(|error| error / self.tolerance)
+        };
+        let modal = MODES.into_iter().filter(|&m| reaches(m)).map(Rung::Modal);
+        let all: Vec<Rung> = [Rung::Rigid, Rung::Influence].into_iter().chain(modal).collect();
+        let is_complete = predicted.as_ref().is_some_and(|predicted| predicted.is_complete);
+        let sure = all.iter().copied().find(|&rung| {
+            is_complete && by_tolerance(rung).is_some_and(|error| error < of_class(TAKE, rung))
+        });
+        let last = sure.unwrap_or(Rung::Full);
+        let (skipped, kept): (Vec<Rung>, Vec<Rung>) = all
+            .into_iter()
+            .filter(|rung| *rung < last)
+            .partition(|&rung| by_tolerance(rung).is_some_and(|error| error > of_class(SKIP, rung)));
+        self.choice.skipped = skipped;
+        self.choice.predicted = predicted;
+        let (lower, mut higher): (Vec<Rung>, Vec<Rung>) =
+            kept.into_iter().partition(|rung| *rung <= Rung::Influence);
+        higher.push(last);
+        Plan { lower, higher, taken: sure.is_some() }
+    }
+
+    /// Builds and runs a rung; `plainly` at the accuracy of the scene. One that cannot be built or started is noted.
+    fn attempt(&mut self, rung: Rung, plainly: bool) -> Option<Candidate> {
+        let built = self.ladder.foundation(self.structure, rung);
+        let ran = built.and_then(|foundation| {
+            self.foundations[self.structure] = foundation;
+            let scene = if plainly { self.scene } else { &self.finer };
+            Ok(self.ladder.run(scene, self.foundations, self.watch)?)
+        });
+        match ran {
+            Ok(run) => {
+                self.runs += 1;
+                if run.status != Status::Done {
+                    self.choice.failed.push(rung);
+                }
+                let foundation = std::mem::take(&mut self.foundations[self.structure]);
+                Some(Candidate { rung, foundation, run })
+            }
+            Err(error) => {
+                self.choice.failed.push(rung);
+                self.error.get_or_insert(error);
+                None
+            }
+        }
+    }
+
+    /// The mesh whole, checked by half of it.
+    fn top(mut self, full: Candidate) -> Outcome {
+        let half = self.attempt(Rung::Half, false).filter(|half| half.run.status == Status::Done);
+        let Some(half) = half else { return self.end(full, Reason::Top, None) };
+        let estimate = distance(&half.run, &full.run, self.scene);
+        self.choice.tried.push(Tried {
+            rung: Rung::Half,
+            estimate,
+            against: Rung::Full,
+            stages: half.run.counts.stages as u64,
+        });
+        let reason = if estimate <= self.tolerance { Reason::Sufficient } else { Reason::Top };
+        self.end(full, reason, Some(estimate))
+    }
+
+    fn end(self, found: Candidate, reason: Reason, estimate: Option<f64>) -> Outcome {
+        let choice = Choice { rung: found.rung, reason, estimate, ..self.choice };
+        Outcome { choice, found, runs: self.runs }
+    }
+}
+
+impl Candidate {
+    /// Whether the run ended where no other rung would go on.
+    fn is_final(&self) -> bool {
+        matches!(self.run.status, Status::Stopped | Status::Refused(..))
+    }
+}
