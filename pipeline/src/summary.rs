@@ -70,6 +70,17 @@ pub fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<S
     all
 }
 
+/// [`warnings`] of a case, and those of the foundations chosen for it.
+#[must_use]
+pub fn cautions(scene: &Scene, outcome: &Outcome) -> Vec<String> {
+    let mut all = warnings(scene, &outcome.cast, &outcome.record, &outcome.run);
+    all.extend(outcome.choices.iter().filter_map(|choice| {
+        let structure = &scene.structures[choice.structure];
+        link::doubt(&structure.name, choice, structure.tolerance)
+    }));
+    all
+}
+
 /// One run as JSON.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
@@ -118,11 +129,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     if let Some(why) = why {
         result["why"] = json!(why);
     }
-    let mut warnings = warnings(scene, cast, record, run);
-    warnings.extend(choices.iter().filter_map(|choice| {
-        let structure = &scene.structures[choice.structure];
-        link::doubt(&structure.name, choice, structure.tolerance)
-    }));
+    let warnings = cautions(scene, outcome);
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
     }

@@ -7,7 +7,7 @@ mod predict;
 
 use std::ops::ControlFlow;
 
-use crate::{Analysis, Error, Foundation, Run, Scene, run};
+use crate::{Analysis, Error, Foundation, Run, Scene, Structure, run};
 use climb::{Candidate, Climb, Outcome};
 
 pub use distance::distance;
@@ -41,11 +41,12 @@ pub trait Ladder {
     /// What can go wrong.
     type Error: From<Error>;
 
-    /// Whether the mass of `structure` is known.
+    /// About the lowest `count` modes that vertical forces on the rails of `structure` excite, from the lowest, where it has
+    /// so many: frequencies to a few parts in a hundred will do. `None`: its mass is not known.
     ///
     /// # Errors
-    /// A structure that cannot be asked.
-    fn has_mass(&mut self, structure: usize) -> Result<bool, Self::Error>;
+    /// A structure whose modes cannot be found.
+    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<Structure>, Self::Error>;
 
     /// `structure` at `rung`; a structure whose foundation is given ignores `rung`.
     ///
@@ -156,19 +157,16 @@ pub fn choose<L: Ladder>(
     let (mut last, mut runs) = (None, 0);
     for (structure, tolerance) in tolerances.iter().enumerate() {
         let Some(tolerance) = *tolerance else { continue };
-        let settled = if scene.analysis == Analysis::QuasiStatic {
-            Some(Reason::QuasiStatic)
-        } else if !ladder.has_mass(structure)? {
-            Some(Reason::NoMass)
-        } else {
-            None
-        };
-        if let Some(reason) = settled {
-            choices.push(Choice::new(structure, Rung::Influence, reason));
+        if scene.analysis == Analysis::QuasiStatic {
+            choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
             continue;
         }
+        let Some(motion) = ladder.modes(structure, MODES[MODES.len() - 1] + 1)? else {
+            choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
+            continue;
+        };
         let climb = Climb::new(scene, tolerance, structure, &mut foundations, ladder, watch);
-        let Outcome { choice, found, runs: own } = climb.climb()?;
+        let Outcome { choice, found, runs: own } = climb.climb(&motion)?;
         let Candidate { foundation, run, .. } = found;
         foundations[structure] = foundation;
         runs += own;

@@ -102,7 +102,7 @@ fn finish(
             let name = &scene.structures[choice.structure].name;
             progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
         }
-        for warning in summary::warnings(scene, &outcome.cast, &outcome.record, &outcome.run) {
+        for warning in summary::cautions(scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
     }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
 use splines::Compliance;
 
-use super::{Solved, Spectra, foundation_by};
+use super::{Solved, Spectra, foundation_by, modal};
 use crate::cases::{Known, solved_of};
 use crate::exit::Failure;
 use crate::scene::{Foundation, Scene, Structure};
@@ -89,6 +89,14 @@ pub fn rung_of(
     }
 }
 
+/// About the lowest `count` modes of a solved structure that vertical wheel forces excite; `None` without mass.
+///
+/// # Errors
+/// Modes that cannot be found.
+pub fn modes_of(solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Failure> {
+    modal::coarse("structure", solved, count)
+}
+
 /// What a rung is in a scene.
 fn at(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
     let damping = structure.damping;
@@ -118,10 +126,11 @@ impl Rungs<'_> {
 impl Ladder for Rungs<'_> {
     type Error = Failure;
 
-    fn has_mass(&mut self, structure: usize) -> Result<bool, Failure> {
-        let Some(solved) = self.solved(structure) else { return Ok(false) };
-        let modes = fea::refined_modes(&solved.model, &solved.rails, 1, 1e-3);
-        Ok(!matches!(modes, Err(fea::Error::NoMass)))
+    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<sim::Structure>, Failure> {
+        match self.solved(structure) {
+            Some(solved) => modal::coarse(&self.scene.structures[structure].name, solved, count),
+            None => Ok(None),
+        }
     }
 
     fn foundation(&mut self, structure: usize, rung: Rung) -> Result<sim::Foundation, Failure> {

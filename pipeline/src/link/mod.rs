@@ -14,7 +14,7 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{Chosen, choose, doubt, reason, rung_of, word};
+pub use ladder::{Chosen, choose, doubt, modes_of, reason, rung_of, word};
 pub use modal::Spectra;
 
 /// A structure's FE model, solved.

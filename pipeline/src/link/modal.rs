@@ -13,6 +13,8 @@ use crate::track::Pad;
 
 /// Error of a frequency that the cutting of members may leave.
 const ACCURACY: f64 = 1e-6;
+/// The same where modes only say what is to be left out.
+const COARSE: f64 = 1e-2;
 /// Motion of the rails where wheels push, by that of the whole mass moving alike, below which wheels cannot excite it.
 const STILL: f64 = 1e-6;
 /// Relative difference of two frequencies that are one.
@@ -30,20 +32,8 @@ pub(super) struct Spectrum {
 impl Spectrum {
     /// At least the lowest `count` modes, where there are so many.
     pub fn lowest(name: &str, solved: &Solved, count: usize, lateral: bool) -> Result<Spectrum, Failure> {
-        let mut asked = count;
-        loop {
-            let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
-                .map_err(|error| refused(name, &error))?;
-            let felt = felt(&refined.modes, solved, lateral);
-            let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
-            let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
-            // Some of the modes of one frequency are not enough to turn them.
-            let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
-            if is_whole || (felt.len() >= count && !torn) {
-                return Spectrum::new(name, refined, felt, is_whole);
-            }
-            asked = (2 * asked).max(asked + 8);
-        }
+        let (refined, felt, is_whole) = search(name, solved, count, ACCURACY, lateral)?;
+        Spectrum::new(name, refined, felt, is_whole)
     }
 
     /// All modes of a mesh of `parts` elements a member.
@@ -78,9 +68,7 @@ impl Spectrum {
         let mut kept = self.refined.modes.clone();
         kept.modes = self.felt.iter().take(count).cloned().collect();
         let rest = kept.residual(&self.surface).map_err(untrusted)?;
-        let line = Arc::clone(self.surface.line());
-        let states =
-            DMatrix::from_fn(6 * line.states(), kept.modes.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
+        let shapes = Box::new(ModeShapes::new(Arc::clone(self.surface.line()), &kept.modes));
         let rails = (0..self.refined.rails.len())
             .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
             .collect();
@@ -90,7 +78,6 @@ impl Spectrum {
         } else {
             Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
         };
-        let shapes = Box::new(ModeShapes { line, states });
         Ok(Foundation {
             compliance: Some(Box::new(rest)),
             structure: Some(sim::Structure { dynamics, shapes }),
@@ -98,6 +85,47 @@ impl Spectrum {
             ..Foundation::default()
         })
     }
+}
+
+/// At least the lowest `count` modes that wheels can excite, and whether these are all; frequencies within `accuracy`.
+fn search(
+    name: &str,
+    solved: &Solved,
+    count: usize,
+    accuracy: f64,
+    lateral: bool,
+) -> Result<(Refined, Vec<fea::Mode>, bool), Failure> {
+    let mut asked = count;
+    loop {
+        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)
+            .map_err(|error| refused(name, &error))?;
+        let felt = felt(&refined.modes, solved, lateral);
+        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
+        let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
+        // Some of the modes of one frequency are not enough to turn them.
+        let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
+        if is_whole || (felt.len() >= count && !torn) {
+            return Ok((refined, felt, is_whole));
+        }
+        asked = (2 * asked).max(asked + 8);
+    }
+}
+
+/// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
+pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Failure> {
+    match fea::refined_modes(&solved.model, &solved.rails, 1, COARSE) {
+        Err(fea::Error::NoMass) => return Ok(None),
+        Err(error) => return Err(refused(name, &error)),
+        Ok(_) => {}
+    }
+    let (refined, mut felt, _) = search(name, solved, count, COARSE, false)?;
+    felt.truncate(count);
+    let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+    let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
+    let shapes = Box::new(ModeShapes::new(Arc::clone(frame.line().map_err(untrusted)?), &felt));
+    let omega: Vec<f64> = felt.iter().map(|mode| mode.omega).collect();
+    let dynamics = Dynamics::Modes { ratio: vec![0.0; omega.len()], omega };
+    Ok(Some(sim::Structure { dynamics, shapes }))
 }
 
 /// Dampers of one size under the ties of a rail.
@@ -281,6 +309,13 @@ struct ModeShapes {
     line: Arc<Line>,
     /// Freedoms of the states x modes.
     states: DMatrix<f64>,
+}
+
+impl ModeShapes {
+    fn new(line: Arc<Line>, modes: &[fea::Mode]) -> ModeShapes {
+        let states = DMatrix::from_fn(6 * line.states(), modes.len(), |k, r| modes[r].states[k / 6][k % 6]);
+        ModeShapes { line, states }
+    }
 }
 
 impl Shapes for ModeShapes {

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use splines::{Axis, Influence, Probe};
+use splines::{Axis, Probe};
 
 use super::{MODES, Rung, contact_frequency, distance};
-use crate::foundation::Dynamics;
-use crate::{Analysis, Channel, Error, Foundation, Freedom, Run, Scene, run};
+use crate::wheel::LawPoint;
+use crate::{Analysis, Channel, Error, Extent, Foundation, Freedom, Run, Scene, Structure, run};
 
 /// Positions of the sweep, and places at which modes are looked at.
 const SAMPLES: usize = 32;
@@ -53,13 +53,13 @@ struct Mode {
     k: f64,
 }
 
-/// Errors expected of the rungs of `structure`; `foundations` has it at influence, `modal` at many modes. `None` where the
-/// sweep cannot be made, or wheels of the structure carry nothing in it.
+/// Errors expected of the rungs of `structure`; `foundations` has it at influence, `motion` has its lowest modes. `None`
+/// where the sweep cannot be made, or wheels of the structure carry nothing in it.
 pub(super) fn predict(
     scene: &Scene,
     foundations: &mut [Foundation],
     structure: usize,
-    modal: &Foundation,
+    motion: &Structure,
 ) -> Option<Predicted> {
     let soft = sweep(scene, foundations).ok()?;
     let rails = foundations[structure].rails.clone();
@@ -69,12 +69,14 @@ pub(super) fn predict(
     foundations[structure] = own;
     let give = distance(&hard.ok()?, &soft, scene).min(MOST);
     let crossing = Crossing::of(scene, structure, &soft)?;
-    let modes = modes(modal)?;
-    let shares = shares(&foundations[structure], modal, &crossing.places)?;
+    let modes = modes(motion, &foundations[structure].rails)?;
+    let shares = shares(motion, &crossing.places)?;
     let load = steps(scene);
 
-    let beta = (crossing.speed * modes[0].k / crossing.omega).min(1.0);
+    let turn = crossing.speed * modes[0].k;
+    let beta = (turn / crossing.omega).min(1.0);
     let oscillating = crossing.share * beta + load.share * (2.0 / (crossing.omega * load.ramp)).min(1.0);
+    let rigid = give * (1.0 + turn * crossing.damping);
     // What is left once `kept` modes are modelled: speed, ripple, step, track, and all by the heights and forces.
     let left = |kept: usize| -> Option<[f64; 5]> {
         let (mode, s) = (modes.get(kept)?, *shares.get(kept)?);
@@ -90,19 +92,18 @@ pub(super) fn predict(
         let ripple = oscillating * (p * resonance + phase).min(2.0);
         let ramp = (2.0 / (mode.omega * load.ramp)).min(1.0);
         let step = load.share * p * ramp * r.min(1.0);
-        let force = crossing.softness * (mode.omega / crossing.contact).powi(2).min(1.0);
+        let damper = 1.0 + mode.omega * crossing.damping;
+        let force = crossing.softness * damper * (mode.omega / crossing.contact).powi(2).min(1.0);
         let weight = crossing.share.max(force) * s;
         Some([speed, ripple, step, track, weight * speed.max(track) + ripple + step])
     };
     let [speed, ripple, step, track, influence] = left(0)?;
-    let mut errors = vec![(Rung::Rigid, give), (Rung::Influence, influence.min(MOST))];
-    let all = MODES.iter().filter_map(|&m| Some((Rung::Modal(m), left(m)?[4].min(MOST))));
-    errors.extend(all);
+    let mut errors = vec![(Rung::Rigid, rigid), (Rung::Influence, influence)];
+    errors.extend(MODES.iter().filter_map(|&m| Some((Rung::Modal(m), left(m)?[4]))));
+    errors.iter_mut().for_each(|(_, error)| *error = error.min(MOST));
     let is_complete = is_complete(scene, foundations);
-    errors
-        .iter()
-        .all(|(_, error)| error.is_finite())
-        .then_some(Predicted { give, speed, ripple, step, track, errors, is_complete })
+    let are_known = errors.iter().all(|(_, error)| error.is_finite());
+    are_known.then_some(Predicted { give, speed, ripple, step, track, errors, is_complete })
 }
 
 /// Whether the predictors know all that excites the structure.
@@ -139,6 +140,8 @@ struct Crossing {
     /// Frequency of the fastest body on its contacts and the rail's give, and on its contacts alone.
     omega: f64,
     contact: f64,
+    /// Largest c / k of a damper between wheel and rail.
+    damping: f64,
     /// Where wheels are.
     places: Vec<Probe>,
 }
@@ -146,7 +149,7 @@ struct Crossing {
 impl Crossing {
     fn of(scene: &Scene, structure: usize, soft: &Run) -> Option<Crossing> {
         let contacts = scene.contacts.iter().flat_map(|contact| contact.offsets.iter().map(move |_| contact));
-        let (mut share, mut softness, mut speed) = (0.0_f64, 0.0_f64, 0.0_f64);
+        let (mut share, mut softness, mut speed, mut damping) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
         let mut stiffness = vec![0.0; scene.bodies.len()];
         let mut places = Vec::new();
         let dt = scene.end / SAMPLES as f64;
@@ -163,7 +166,10 @@ impl Crossing {
                 share = share.max(give / (give + penetration[i]));
                 softness = softness.max(give / penetration[i]);
                 let law = &scene.wheels[contact.wheel].normal;
-                let k = law.at(penetration[i], 0.0).by_penetration;
+                let LawPoint { by_penetration: k, by_rate: c, .. } = law.at(penetration[i], 0.0);
+                if law.has_memory() {
+                    damping = damping.max(c / k);
+                }
                 stiffest = stiffest.max(1.0 / (1.0 / k + give / force[i]));
             }
             stiffness[contact.body] += stiffest;
@@ -173,21 +179,20 @@ impl Crossing {
         let omega = bodies.map(|(body, k)| (k / body.mass).sqrt()).fold(0.0, f64::max);
         let contact = contact_frequency(scene, structure);
         (omega > 0.0 && contact > 0.0)
-            .then_some(Crossing { speed, share, softness, omega, contact, places })
+            .then_some(Crossing { speed, share, softness, omega, contact, damping, places })
     }
 }
 
-fn modes(modal: &Foundation) -> Option<Vec<Mode>> {
-    let structure = modal.structure.as_ref()?;
-    let Dynamics::Modes { omega, .. } = &structure.dynamics else { return None };
+fn modes(motion: &Structure, rails: &[Extent]) -> Option<Vec<Mode>> {
+    let omega = motion.dynamics.frequencies();
     let n = omega.len();
     let (mut value, mut slope) = (vec![0.0; n], vec![0.0; n]);
     let (mut values, mut slopes) = (vec![0.0_f64; n], vec![0.0_f64; n]);
-    for (rail, extent) in modal.rails.iter().enumerate() {
+    for (rail, extent) in rails.iter().enumerate() {
         let [from, to] = extent.range?;
         for i in 0..=PLACES {
             let x = from + (to - from) * i as f64 / PLACES as f64;
-            structure.shapes.row(Probe { rail, x, axis: Axis::Vertical }, &mut value, &mut slope).ok()?;
+            motion.shapes.row(Probe { rail, x, axis: Axis::Vertical }, &mut value, &mut slope).ok()?;
             for j in 0..n {
                 values[j] = values[j].max(value[j].abs());
                 slopes[j] = slopes[j].max(slope[j].abs());
@@ -198,27 +203,22 @@ fn modes(modal: &Foundation) -> Option<Vec<Mode>> {
     (n > 0).then(|| (0..n).map(|j| Mode { omega: omega[j], k: k(j) }).collect())
 }
 
-/// Largest give at `places` by the largest of all when so many modes are taken out, one entry a number.
-fn shares(influence: &Foundation, modal: &Foundation, places: &[Probe]) -> Option<Vec<f64>> {
-    let structure = modal.structure.as_ref()?;
-    let Dynamics::Modes { omega, .. } = &structure.dynamics else { return None };
+/// Largest give at `places` by the largest of all when so many modes are taken out, one entry a number. What lies beyond
+/// the modes is left out.
+fn shares(motion: &Structure, places: &[Probe]) -> Option<Vec<f64>> {
+    let omega = motion.dynamics.frequencies();
     let n = omega.len();
-    let (mut out, mut most) = (vec![0.0_f64; n + 1], 0.0_f64);
-    let (mut value, mut slope, mut all) = (vec![0.0; n], vec![0.0; n], Influence::zeros(1));
+    let (mut value, mut slope, mut out) = (vec![0.0; n], vec![0.0; n], vec![0.0_f64; n + 1]);
     for &place in places {
-        influence.compliance.as_ref()?.fill(&[place], &mut all).ok()?;
-        most = most.max(all.value[(0, 0)]);
-        structure.shapes.row(place, &mut value, &mut slope).ok()?;
-        modal.compliance.as_ref()?.fill(&[place], &mut all).ok()?;
-        let mut rest = all.value[(0, 0)].max(0.0);
-        for kept in (0..=n).rev() {
-            out[kept] = out[kept].max(rest);
-            if let Some(last) = kept.checked_sub(1) {
-                rest += (value[last] / omega[last]).powi(2);
-            }
+        motion.shapes.row(place, &mut value, &mut slope).ok()?;
+        let mut rest = 0.0;
+        for j in (0..n).rev() {
+            rest += (value[j] / omega[j]).powi(2);
+            out[j] = out[j].max(rest);
         }
     }
-    (most > 0.0).then(|| out.into_iter().map(|rest| (rest / most).min(1.0)).collect())
+    let most = out[0];
+    (most > 0.0).then(|| out.into_iter().map(|rest| rest / most).collect())
 }
 
 /// Steps of the loads.
