@@ -122,14 +122,12 @@ fn one(
     let mut scene = case.scene.clone();
     let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
     let cast = cast(&scene)?;
-    let own = case.label.clone();
-    let named = |failure: Failure| match (&own, failure) {
-        (Some(label), Failure::Untrusted(why)) => Failure::Untrusted(format!("{label}: {why}")),
-        (_, failure) => failure,
-    };
-    let chosen = link::choose(&mut scene, &cast.scene, known, lateral, watch).map_err(named)?;
-    let link::Chosen { choices, run } = chosen;
-    let label = own.clone().unwrap_or_else(|| own_label(&scene));
+    let chosen = link::choose(&mut scene, &cast.scene, known, lateral, watch);
+    let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
+    let link::Chosen { choices, run } = chosen.map_err(|trouble| match trouble {
+        link::Trouble::Foundation(failure) => failure,
+        link::Trouble::Run(error) => Failure::Untrusted(format!("{label}: {error}")),
+    })?;
     let record = Record::new(&scene, &cast, &run.history);
     Ok(Outcome { label, cast, run, record, choices })
 }

@@ -111,6 +111,17 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
             speed: rope.speed.clone(),
         });
     }
+    for stop in &scene.stops {
+        out.stops.extend(stop.meetings.iter().map(|meeting| sim::Stop {
+            body: meeting.body,
+            at: meeting.at,
+            axis: stop.axis,
+            place: stop.place,
+            side: meeting.side,
+            stiffness: stop.stiffness,
+            damping: stop.damping,
+        }));
+    }
     let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
     out.hung = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {

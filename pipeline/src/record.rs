@@ -99,6 +99,15 @@ impl Record {
             record.push(format!("{name}.tension"), Dimension::FORCE, tension);
             record.push(format!("{name}.length"), Dimension::LENGTH, history.column(Channel::Length(r)));
         }
+        let mut first = 0;
+        for stop in &scene.stops {
+            let met: Vec<Vec<f64>> = (first..first + stop.meetings.len())
+                .map(|meeting| history.column(Channel::Stop(meeting)))
+                .collect();
+            first += met.len();
+            let sums = (0..history.len()).map(|i| met.iter().map(|forces| forces[i]).sum()).collect();
+            record.push(format!("{}.force", stop.name), Dimension::FORCE, sums);
+        }
         let gauges = scene.structures.iter().flat_map(|structure| {
             structure.gauges.iter().map(move |gauge| (format!("{}.{}", structure.name, gauge.name), gauge))
         });

@@ -7,7 +7,7 @@ use crate::cases::Outcome;
 use crate::link;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Analysis, Scene};
+use crate::scene::{Analysis, STEPPERS, Scene};
 use crate::units::Dimension;
 
 /// Word of a run's status, and what it means for the user where it is not "done".
@@ -126,6 +126,10 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
             "events": run.counts.events,
         },
     });
+    if let Some(method) = run.method {
+        let name = STEPPERS.iter().find(|(_, known)| *known == method).map(|(word, _)| *word);
+        result["steps"]["method"] = json!(name);
+    }
     if let Some(why) = why {
         result["why"] = json!(why);
     }
@@ -147,6 +151,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 "switches": lost.switches,
             },
             "put_in": lost.put_in(),
+            "steps": lost.steps,
         });
     }
     result

@@ -3,7 +3,9 @@
 mod drives;
 mod grids;
 mod modes;
+mod rides;
 mod ropes;
+mod stops;
 mod tables;
 
 use std::fs;

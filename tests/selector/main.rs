@@ -8,8 +8,7 @@ use std::ops::{ControlFlow, Range};
 use std::time::Instant;
 
 use duty::{Duty, duty};
-use girderway::exit::Failure;
-use girderway::link::{Spectra, modes_of, rung_of};
+use girderway::link::{Spectra, Trouble, modes_of, rung_of};
 use sim::{Choice, Foundation, Ladder, Reason, Run, Rung, Scene, choose, distance};
 
 /// What the rules of the selector were fitted to, and what they were not.
@@ -31,14 +30,14 @@ const RUNGS: [Rung; 9] = [
 struct Rungs<'a>(&'a Duty, Spectra);
 
 impl Ladder for Rungs<'_> {
-    type Error = Failure;
+    type Error = Trouble;
 
-    fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Failure> {
-        modes_of(&self.0.solved, count)
+    fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Trouble> {
+        Ok(modes_of(&self.0.solved, count)?)
     }
 
-    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Failure> {
-        rung_of(&mut self.1, &self.0.solved, rung, self.0.damping, 1)
+    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Trouble> {
+        Ok(rung_of(&mut self.1, &self.0.solved, rung, self.0.damping, 1)?)
     }
 }
 
@@ -77,7 +76,8 @@ fn judge(seed: u64, index: u64) -> Verdict {
     let mut rungs = Rungs(&duty, Spectra::default());
     let selection =
         choose(&duty.scene, &[Some(duty.tolerance)], &mut rungs, &mut |_| ControlFlow::Continue(()))
-            .unwrap_or_else(|failure| panic!("scene {index}: {failure:?}"));
+            .ok()
+            .expect("a valid scene");
     let taken = start.elapsed().as_secs_f64();
     let choice = selection.choices[0].clone();
     let start = Instant::now();

@@ -24,8 +24,10 @@ impl Stepper<'_, '_> {
             for wheel in system.wheels.iter().filter(|w| system.kinematics.root(w.body) == b) {
                 let contact = &system.scene.contacts[wheel.contact];
                 let offset = system.kinematics.held(wheel.body)[0];
-                for &place in system.foundations[contact.structure].breaks(contact.rail) {
-                    let target = place - (wheel.hub[0] + offset);
+                let ahead = wheel.hub[0] + offset;
+                let foundation = &system.foundations[contact.structure];
+                for place in foundation.breaks_between(contact.rail, x0 + ahead, x1 + ahead) {
+                    let target = place - ahead;
                     let slack = 1e-9 * (1.0 + target.abs());
                     if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
                         continue;
@@ -57,7 +59,7 @@ impl Stepper<'_, '_> {
             }
             let contact = &system.scene.contacts[wheel.contact];
             let [x0, x1] = [&self.from, &self.to].map(|at| self.solver.geometry.place(system, w, &at.q));
-            for &place in system.foundations[contact.structure].breaks(contact.rail) {
+            for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
                 let slack = SLACK * (1.0 + place.abs());
                 // Within the slack a step may start before the break and cross it, or end beyond it.
                 if (x0 - place) * (x1 - place) >= 0.0 || (x0 - place).abs().min((x1 - place).abs()) < slack {

@@ -49,7 +49,7 @@ impl<'a> Link<'a> {
         });
         let stops = actuators.stops.iter().map(|stop| {
             let end = RopeEnd { body: Some(stop.body), at: stop.at };
-            Link::Stop { stop, point: Point::new(system, &end) }
+            Link::Stop { stop, point: Point::on_track(system, &end) }
         });
         ropes.chain(stops).collect()
     }
@@ -62,24 +62,29 @@ impl<'a> Link<'a> {
         }
     }
 
-    /// Adds `direction` times the rows of the vector that its approach measures to `row`.
-    pub fn add_row(&self, system: &System, direction: [f64; 3], row: &mut [f64]) {
+    /// Adds `direction` times the rows of the vector that its approach measures to `row`, at (t, q).
+    pub fn add_row(&self, system: &System, at: (f64, &DVector<f64>), direction: [f64; 3], row: &mut [f64]) {
         match self {
             Link::Rope { from, to, .. } => {
-                to.add_row(system, direction, row);
-                from.add_row(system, direction.map(|d| -d), row);
+                to.add_row(system, at, direction, row);
+                from.add_row(system, at, direction.map(|d| -d), row);
             }
-            Link::Stop { point, .. } => point.add_row(system, direction, row),
+            Link::Stop { point, .. } => point.add_row(system, at, direction, row),
         }
     }
 
-    /// Rate of its approach by the x of body `b`.
-    pub fn by_travel(&self, system: &System, b: usize, direction: [f64; 3]) -> f64 {
+    /// Rate of its approach along `direction` by the x of body `b`, at (t, q).
+    pub fn by_travel(
+        &self,
+        system: &System,
+        b: usize,
+        (t, q): (f64, &DVector<f64>),
+        direction: [f64; 3],
+    ) -> f64 {
+        let by = |point: &Point| scalar(direction, point.by_travel(system, b, t, q));
         match self {
-            Link::Rope { from, to, .. } => {
-                to.by_travel(system, b, direction) - from.by_travel(system, b, direction)
-            }
-            Link::Stop { point, .. } => point.by_travel(system, b, direction),
+            Link::Rope { from, to, .. } => by(to) - by(from),
+            Link::Stop { point, .. } => by(point),
         }
     }
 
@@ -107,7 +112,7 @@ impl<'a> Link<'a> {
                 hold.damping = rope.damping;
                 let size = a.iter().chain(&b).fold(hold.length, |max, c| max.max(c.abs()));
                 hold.noise = ROUNDING * hold.stiffness * size;
-                let drift = difference(to.drift(system, travel), from.drift(system, travel));
+                let drift = difference(to.drift(system, travel, t, q), from.drift(system, travel, t, q));
                 [hold.length - hold.natural[0], scalar(hold.direction, drift) - hold.natural[1]]
             }
             Link::Stop { stop, point } => {
@@ -117,7 +122,7 @@ impl<'a> Link<'a> {
                 hold.length = stop.side * (place - stop.place);
                 (hold.stiffness, hold.damping) = (stop.stiffness, stop.damping);
                 hold.noise = ROUNDING * hold.stiffness * place.abs().max(stop.place.abs());
-                [hold.length, scalar(hold.direction, point.drift(system, travel))]
+                [hold.length, scalar(hold.direction, point.drift(system, travel, t, q))]
             }
         }
     }
@@ -140,7 +145,7 @@ impl Geometry {
             let span = component * n..(component + 1) * n;
             let row = &mut self.rows[span.clone()];
             row.fill(0.0);
-            link.add_row(system, self.links[index].direction, row);
+            link.add_row(system, (t, q), self.links[index].direction, row);
             self.rate_rows[span].copy_from_slice(&self.rows[component * n..(component + 1) * n]);
             self.held[component] = approach - along(&self.rows, component, q.as_slice());
             self.rate_held[component] = rate;

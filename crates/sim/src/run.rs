@@ -13,7 +13,7 @@ use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene};
+use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -64,26 +64,34 @@ pub fn run(
     run_by(Method::default(), scene, foundations, watch)
 }
 
-/// [`run`] by `method`. A quasi-static run knows no method.
+/// [`run`] by a [`Method`], or by one with steps of a fixed length. A quasi-static run knows no method.
 ///
 /// # Errors
-/// Those of [`run`], and [`Error::Method`] where the method does not suit the scene.
+/// Those of [`run`], [`Error::Method`] where the method does not suit the scene, and [`Error::Number`] for a
+/// step that is not positive.
 pub fn run_by(
-    method: Method,
+    stepping: impl Into<Stepping>,
     scene: &Scene,
     foundations: &[Foundation],
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
+    let Stepping { method, step } = stepping.into();
     let system = System::new(scene, foundations)?;
     method.check(&system)?;
     let method = method.chosen(&system);
+    if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
+        return Err(Error::Number { what: "step", wanted: "positive", found });
+    }
     let mut solver = Solver::new(&system)?;
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     set(&system, &mut state.q, |body| body.start);
+    set(&system, &mut state.v, |body| body.start_speed);
+    solver.locate(&state)?;
+    state.v.fill(0.0);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
-        Analysis::Dynamic => integrate(method, &system, &mut solver, state, watch),
+        Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
     }
 }
 
@@ -99,7 +107,7 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
 }
 
 fn integrate(
-    method: Method,
+    stepping: Stepping,
     system: &System,
     solver: &mut Solver,
     mut state: State,
@@ -114,6 +122,9 @@ fn integrate(
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
+    if system.is_uneven {
+        solver.follow(&mut state);
+    }
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
@@ -131,14 +142,19 @@ fn integrate(
     breaks.push(scene.end);
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
-    let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
+    let mut stepper =
+        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(stepping.method);
+    stepper.fixed = stepping.step;
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
+    let mut pieces = stepper.solver.geometry.piece.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
+            // A sample within the step belongs to where the step began.
+            pieces.clone_from(&stepper.solver.geometry.piece);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -155,7 +171,12 @@ fn integrate(
             links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
-                if t >= to * (1.0 - 1e-14) {
+                let is_end = t >= to * (1.0 - 1e-14);
+                let after = stepper.solver.geometry.piece.clone();
+                if !is_end {
+                    stepper.solver.geometry.piece.clone_from(&pieces);
+                }
+                if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
                     sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
@@ -163,6 +184,7 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
             }
@@ -177,7 +199,7 @@ fn integrate(
         history: recorder.history,
         audit: stepper.audit,
         counts: stepper.counts,
-        method: Some(method),
+        method: Some(stepping.method),
     })
 }
 
@@ -201,6 +223,7 @@ fn sweep(
     }
     for t in times {
         state.t = t;
+        solver.locate(&state)?;
         match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
@@ -279,7 +302,10 @@ impl Recorder {
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
             let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-            let down = -dot(&arm_rows(wheel.hub)[1], &displacement);
+            let own = system
+                .irregularity(w)
+                .map_or(0.0, |shape| shape.vertical(solver.geometry.piece[w], solver.geometry.x[w])[0]);
+            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
             values.extend([
                 solver.geometry.x[w],

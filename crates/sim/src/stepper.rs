@@ -62,6 +62,8 @@ pub(crate) struct Stepper<'a, 'b> {
     /// In place of the tableau.
     collocation: Option<Collocation>,
     tolerance: f64,
+    /// Length of every step that no break or event ends; in place of the tolerance.
+    pub fixed: Option<f64>,
     scale: DVector<f64>,
     rate_scale: DVector<f64>,
     h: f64,
@@ -105,6 +107,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             tableau,
             collocation: None,
             tolerance,
+            fixed: None,
             scale,
             rate_scale,
             h: first,
@@ -136,9 +139,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let mut h = self.h.min(limit - start);
+        let mut h = self.fixed.unwrap_or(self.h).min(limit - start);
         // Do not leave a sliver before the limit.
-        if limit - start - h < 0.1 * h {
+        if limit - start - h < if self.fixed.is_some() { 1e-9 } else { 0.1 } * h {
             h = limit - start;
         }
         let mut ends_at_event = false;
@@ -150,7 +153,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if let Some(shorter) = self.prescribed_break(start, h) {
                 h = shorter;
             }
-            let error = if self.attempt(h)? { self.error() } else { f64::INFINITY };
+            let error = match (self.attempt(h)?, self.fixed) {
+                (false, _) => f64::INFINITY,
+                (true, None) => self.error(),
+                (true, Some(_)) => 0.0,
+            };
             // Beyond a break the error says nothing of the step that ends before it.
             if error.is_finite()
                 && breaks < REFINEMENTS
@@ -193,7 +200,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             break;
         }
         self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
-        self.chatter = if ends_at_event { self.chatter + 1 } else { 0 };
+        self.chatter = if ends_at_event && breaks == 0 { self.chatter + 1 } else { 0 };
         if self.stalled > REFINEMENTS || self.chatter > CHATTER {
             return Err(Failure::TooSmall);
         }
@@ -304,9 +311,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.turn()?;
         }
         let before = stored(system, &self.solver.geometry, &self.to);
-        let due = (0..system.normals.len()).any(|i| {
-            (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
-        }) || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
+        let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
+        let due = crosses
+            || (0..system.normals.len()).any(|i| {
+                (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
+            })
+            || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
         let mut after = before;
         if due {
             let flags = self.solver.active.clone();
@@ -314,7 +324,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if self.solver.settle(&mut self.to)? {
                 self.counts.events += usize::from(flags != self.solver.active || taut != self.solver.taut());
                 after = stored(system, &self.solver.geometry, &self.to);
-                self.audit.exchanged.switches += before.total() - after.total();
+                let gained = after.total() - before.total();
+                let exchanged = &mut self.audit.exchanged;
+                *(if crosses { &mut exchanged.steps } else { &mut exchanged.switches }) +=
+                    if crosses { gained } else { -gained };
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);

@@ -14,9 +14,23 @@ use crate::scene::{Foundation, Scene, Structure};
 const ELEMENTS: usize = 192;
 const A_MEMBER: [usize; 2] = [8, 64];
 
-impl From<sim::Error> for Failure {
-    fn from(error: sim::Error) -> Failure {
-        Failure::Untrusted(error.to_string())
+/// Why nothing was chosen.
+pub enum Trouble {
+    /// A foundation cannot be made.
+    Foundation(Failure),
+    /// The scene cannot start.
+    Run(sim::Error),
+}
+
+impl From<sim::Error> for Trouble {
+    fn from(error: sim::Error) -> Trouble {
+        Trouble::Run(error)
+    }
+}
+
+impl From<Failure> for Trouble {
+    fn from(failure: Failure) -> Trouble {
+        Trouble::Foundation(failure)
     }
 }
 
@@ -38,7 +52,7 @@ pub fn choose(
     known: &[Known],
     lateral: bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Chosen, Failure> {
+) -> Result<Chosen, Trouble> {
     let tolerances: Vec<Option<f64>> =
         scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
     let spectra = scene.structures.iter().map(|_| Spectra::default()).collect();
@@ -124,22 +138,31 @@ impl Rungs<'_> {
 }
 
 impl Ladder for Rungs<'_> {
-    type Error = Failure;
+    type Error = Trouble;
 
-    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<sim::Structure>, Failure> {
-        match self.solved(structure) {
-            Some(solved) => modal::coarse(&self.scene.structures[structure].name, solved, count),
-            None => Ok(None),
-        }
+    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<sim::Structure>, Trouble> {
+        Ok(match self.solved(structure) {
+            Some(solved) => modal::coarse(&self.scene.structures[structure].name, solved, count)?,
+            None => None,
+        })
     }
 
-    fn foundation(&mut self, structure: usize, rung: Rung) -> Result<sim::Foundation, Failure> {
+    fn foundation(&mut self, structure: usize, rung: Rung) -> Result<sim::Foundation, Trouble> {
         let mut own = self.scene.structures[structure].clone();
         if own.auto {
             own.foundation = at(&own, rung, elements(self.solved(structure)));
         }
         let solved = solved_of(self.known, &own.origin);
-        foundation_by(&mut self.spectra[structure], &own, solved, self.lateral)
+        Ok(foundation_by(&mut self.spectra[structure], &own, solved, self.lateral)?)
+    }
+
+    fn run(
+        &mut self,
+        scene: &sim::Scene,
+        foundations: &[sim::Foundation],
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Run, sim::Error> {
+        sim::run_by(self.scene.stepping, scene, foundations, watch)
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod ladder;
 mod modal;
+mod mount;
 mod parts;
 
 use fea::Frame;
@@ -14,7 +15,7 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{Chosen, choose, doubt, modes_of, reason, rung_of, word};
+pub use ladder::{Chosen, Trouble, choose, doubt, modes_of, reason, rung_of, word};
 pub use modal::Spectra;
 
 /// A structure's FE model, solved.
@@ -92,6 +93,22 @@ pub fn foundation(
 
 /// The same with modes that may be known already.
 fn foundation_by(
+    spectra: &mut Spectra,
+    structure: &Structure,
+    solved: Option<&Solved>,
+    lateral: bool,
+) -> Result<Foundation, Failure> {
+    let irregularities = structure.irregularities.clone();
+    let on = mount::mount(structure)?;
+    grounded(spectra, structure, solved, lateral).map(|foundation| Foundation {
+        on,
+        irregularities,
+        ..foundation
+    })
+}
+
+/// The same, without what carries it.
+fn grounded(
     spectra: &mut Spectra,
     structure: &Structure,
     solved: Option<&Solved>,

@@ -16,6 +16,7 @@ crate::object::objects!(
     RawTieRail,
     RawTables,
     RawGauge,
+    RawIrregularity,
     RawBody,
     RawPin,
     RawStart,
@@ -28,6 +29,7 @@ crate::object::objects!(
     RawLoad,
     RawRope,
     RawEnds,
+    RawStop,
     RawEnd,
     RawOutput
 );
@@ -55,12 +57,14 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub events: Vec<Value>,
     #[serde(default)]
-    pub stops: Vec<Value>,
+    pub stops: Vec<RawStop>,
     #[serde(default)]
     pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
     pub accuracy: Option<f64>,
+    pub stepper: Option<String>,
+    pub step: Option<f64>,
     #[serde(default)]
     pub compare: Vec<Value>,
 }
@@ -83,6 +87,8 @@ pub(crate) struct RawStructure {
     pub range: Option<[f64; 2]>,
     #[serde(default)]
     pub gauges: Entries<RawGauge>,
+    #[serde(default)]
+    pub irregularities: Vec<RawIrregularity>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
 }
@@ -166,6 +172,25 @@ pub(crate) struct RawGauge {
     pub rail: Option<String>,
     pub x: Option<f64>,
     pub direction: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawIrregularity {
+    pub rail: Option<String>,
+    pub direction: Option<String>,
+    pub kind: Option<String>,
+    pub x: Option<f64>,
+    pub height: Option<f64>,
+    pub depth: Option<f64>,
+    pub amplitude: Option<f64>,
+    pub length: Option<f64>,
+    pub phase: Option<f64>,
+    pub range: Option<[f64; 2]>,
+    pub rows: Option<Vec<[f64; 2]>>,
+    pub file: Option<String>,
+    pub columns: Option<[String; 2]>,
+    pub scale: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -329,6 +354,21 @@ pub(crate) struct RawRope {
     pub c: Option<f64>,
     pub length: Option<f64>,
     pub speed: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawStop {
+    pub name: Option<String>,
+    pub rail: Option<String>,
+    pub x: Option<f64>,
+    #[serde(rename = "Y")]
+    pub height: Option<f64>,
+    pub body: Option<String>,
+    pub at: Option<[f64; 3]>,
+    pub side: Option<String>,
+    pub k: Option<f64>,
+    pub c: Option<f64>,
 }
 
 /// One end of a rope.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
-use super::ties;
+use super::{irregularity, ties};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -34,6 +34,10 @@ pub struct Structure {
     pub tolerance: f64,
     /// Places whose displacement is recorded.
     pub gauges: Vec<Gauge>,
+    /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
+    pub irregularities: Vec<sim::Irregularity>,
+    /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
+    pub on: Option<(usize, [f64; 3])>,
 }
 
 /// Where influence coefficients come from.
@@ -200,11 +204,6 @@ pub(super) fn read(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Structure> {
-    for (key, given) in [("on", raw.on.is_some()), ("at", raw.at.is_some())] {
-        if given {
-            check.faults.unavailable(&at.key(key), "a structure that rides on a body");
-        }
-    }
     let word = foundation_word(raw, at, check);
     let count = raw.count.unwrap_or(PARTS);
     if count < 2 {
@@ -277,6 +276,8 @@ pub(super) fn read(
     }
     let auto = matches!(word, Word::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
+    let place = at.key("irregularities");
+    let irregularities = irregularity::read(&raw.irregularities, &rails, &place, inputs, elsewhere, check);
     Some(Structure {
         name: name.to_owned(),
         origin,
@@ -287,6 +288,8 @@ pub(super) fn read(
         reading,
         tolerance,
         gauges,
+        irregularities,
+        on: None,
     })
 }
 
@@ -369,7 +372,12 @@ fn read_spec(
     }
 }
 
-fn refer<'i>(file: &str, at: &Place<'_>, inputs: &'i mut Inputs, check: &mut Check<'_>) -> Option<&'i Input> {
+pub(super) fn refer<'i>(
+    file: &str,
+    at: &Place<'_>,
+    inputs: &'i mut Inputs,
+    check: &mut Check<'_>,
+) -> Option<&'i Input> {
     match inputs.refer(file) {
         Ok(input) => Some(input),
         Err(why) => {

@@ -63,7 +63,9 @@ pub(super) fn predict(
 ) -> Option<Predicted> {
     let soft = sweep(scene, foundations).ok()?;
     let rails = foundations[structure].rails.clone();
-    let rigid = Foundation { rails, on: foundations[structure].on.clone(), ..Foundation::rigid() };
+    let Foundation { on, irregularities, .. } = &foundations[structure];
+    let (on, irregularities) = (on.clone(), irregularities.clone());
+    let rigid = Foundation { rails, on, irregularities, ..Foundation::rigid() };
     let own = std::mem::replace(&mut foundations[structure], rigid);
     let hard = sweep(scene, foundations);
     foundations[structure] = own;
@@ -110,7 +112,8 @@ pub(super) fn predict(
 fn is_complete(scene: &Scene, foundations: &[Foundation]) -> bool {
     let Scene { actuators, bodies, .. } = scene;
     let steady = |profile: &crate::Profile| profile.breaks().iter().all(|&t| t >= scene.end);
-    foundations.iter().all(|foundation| foundation.on.is_none() && foundation.parts.is_none())
+    let plain = |f: &Foundation| f.on.is_none() && f.parts.is_none() && f.irregularities.is_empty();
+    foundations.iter().all(plain)
         && actuators.drives.is_empty()
         && actuators.brakes.is_empty()
         && actuators.ropes.is_empty()

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)]
 
+pub mod crane;
 pub mod modes;
 pub mod parts;
 
