@@ -84,7 +84,7 @@ pub fn cautions(scene: &Scene, outcome: &Outcome) -> Vec<String> {
 /// One run as JSON.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
-    let Outcome { cast, run, record, choices, .. } = outcome;
+    let Outcome { run, record, choices, .. } = outcome;
     let (word, why) = status(&run.status);
     let structures: Map<String, Value> = scene
         .structures

@@ -161,12 +161,16 @@ pub fn choose<L: Ladder>(
             choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
             continue;
         }
-        let Some(motion) = ladder.modes(structure, MODES[MODES.len() - 1] + 1)? else {
-            choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
-            continue;
+        let motion = match ladder.modes(structure, MODES[MODES.len() - 1] + 1) {
+            Ok(None) => {
+                choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
+                continue;
+            }
+            // what the rungs say then
+            found => found.ok().flatten(),
         };
         let climb = Climb::new(scene, tolerance, structure, &mut foundations, ladder, watch);
-        let Outcome { choice, found, runs: own } = climb.climb(&motion)?;
+        let Outcome { choice, found, runs: own } = climb.climb(motion.as_ref())?;
         let Candidate { foundation, run, .. } = found;
         foundations[structure] = foundation;
         runs += own;

@@ -79,7 +79,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
         Climb { scene, finer, tolerance, structure, foundations, ladder, watch, choice, error: None, runs: 0 }
     }
 
-    pub fn climb(mut self, motion: &Structure) -> Result<Outcome, L::Error> {
+    pub fn climb(mut self, motion: Option<&Structure>) -> Result<Outcome, L::Error> {
         let Plan { lower, higher, taken } = self.plan(motion);
         let alone = lower.is_empty() && taken;
         let mut below: Vec<Candidate> = Vec::new();
@@ -143,11 +143,15 @@ impl<'a, L: Ladder> Climb<'a, L> {
     }
 
     /// What must be tried, by what is predicted.
-    fn plan(&mut self, motion: &Structure) -> Plan {
+    fn plan(&mut self, motion: Option<&Structure>) -> Plan {
         let needed = ABOVE_CONTACT * contact_frequency(self.scene, self.structure);
-        let omega = motion.dynamics.frequencies();
-        let reaches = |m: usize| omega.iter().take(m).copied().fold(0.0, f64::max) > needed;
-        let predicted = predict(self.scene, self.foundations, self.structure, motion);
+        let reaches = |m: usize| {
+            motion.is_none_or(|motion| {
+                motion.dynamics.frequencies().iter().take(m).copied().fold(0.0, f64::max) > needed
+            })
+        };
+        let predicted =
+            motion.and_then(|motion| predict(self.scene, self.foundations, self.structure, motion));
         let by_tolerance = |rung: Rung| {
             predicted.as_ref().and_then(|predicted| predicted.of(rung)).map(|error| error / self.tolerance)
         };
