@@ -83,11 +83,14 @@ fn judge(seed: u64, index: u64) -> Verdict {
     let start = Instant::now();
     let alone = rung_of(&mut Spectra::default(), &duty.solved, choice.rung, duty.damping, 1);
     run(&scene, alone.expect("it has mass"));
-    let cost = taken / start.elapsed().as_secs_f64();
+    let spent = start.elapsed().as_secs_f64();
+    let cost = taken / spent;
+    let start = Instant::now();
+    assert!(modes_of(&duty.solved, 3).is_ok_and(|modes| modes.is_some()));
+    let modes = start.elapsed().as_secs_f64();
 
-    let mut of = |rung, finer| {
-        rung_of(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass")
-    };
+    let mut of =
+        |rung, finer| rung_of(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass");
     scene.accuracy = 3e-3 * duty.tolerance;
     let reference = run(&scene, of(Rung::Full, 1));
     let with_mesh = class(choice.rung) == 3 && index % 3 == 0;
@@ -114,10 +117,12 @@ fn judge(seed: u64, index: u64) -> Verdict {
     println!(
         "{seed}.{index} {kind:?} alpha {alpha:.3} mass {mass:.2} frequency {frequency:.2} tolerance {tolerance:.0e}: \
          cheapest {cheapest:?}, chosen {:?} ({:?}), error {own:.1e}, estimate {:?}, mesh {mesh:?}, runs {runs}, cost \
-         {cost:.2}; {}; predicted {}",
+         {cost:.2} of {:.3} ms, three modes {:.3} ms; {}; predicted {}",
         choice.rung,
         choice.reason,
         choice.estimate,
+        1e3 * spent,
+        1e3 * modes,
         said.join(" "),
         predicted.unwrap_or_default(),
     );

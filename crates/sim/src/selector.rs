@@ -15,6 +15,8 @@ pub use predict::Predicted;
 
 /// Numbers of modes that are tried, and check what lies below them.
 const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
+/// Modes that are looked at where no more are needed to tell rigid, influence and two modes.
+const FEW: usize = 3;
 /// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
 /// thirty times what they are asked.
 const STEPPING: f64 = 0.03;
@@ -161,16 +163,12 @@ pub fn choose<L: Ladder>(
             choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
             continue;
         }
-        let motion = match ladder.modes(structure, MODES[MODES.len() - 1] + 1) {
-            Ok(None) => {
-                choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
-                continue;
-            }
-            // what the rungs say then
-            found => found.ok().flatten(),
-        };
+        if matches!(ladder.modes(structure, FEW), Ok(None)) {
+            choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
+            continue;
+        }
         let climb = Climb::new(scene, tolerance, structure, &mut foundations, ladder, watch);
-        let Outcome { choice, found, runs: own } = climb.climb(motion.as_ref())?;
+        let Outcome { choice, found, runs: own } = climb.climb()?;
         let Candidate { foundation, run, .. } = found;
         foundations[structure] = foundation;
         runs += own;

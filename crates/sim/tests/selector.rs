@@ -9,7 +9,8 @@ use std::ops::ControlFlow;
 use common::modes::{beam, oscillator};
 use common::{EI, SPAN};
 use sim::{
-    Choice, Contact, Error, Foundation, Ladder, Reason, Run, Rung, Scene, Selection, Status, Structure, choose, distance,
+    Choice, Contact, Error, Foundation, Ladder, Reason, Run, Rung, Scene, Selection, Status, Structure,
+    choose, distance,
 };
 
 /// The beam at every rung.
@@ -197,8 +198,9 @@ fn every_structure_has_a_choice_of_its_own_and_all_together_keep_their_tolerance
     for alpha in [[0.25, 0.003], [0.003, 0.1], [0.25, 0.25]] {
         let scene = two(alpha);
         let mut ladder = Beam::default();
-        let found = choose(&scene, &[Some(1e-2), Some(1e-2)], &mut ladder, &mut |_| ControlFlow::Continue(()))
-            .expect("a valid scene");
+        let found =
+            choose(&scene, &[Some(1e-2), Some(1e-2)], &mut ladder, &mut |_| ControlFlow::Continue(()))
+                .expect("a valid scene");
         let whole = sim::run(&scene, &[at(Rung::Full), at(Rung::Full)], &mut |_| ControlFlow::Continue(()))
             .expect("a valid scene");
         let error = distance(&found.run, &whole, &scene);

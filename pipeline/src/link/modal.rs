@@ -32,7 +32,8 @@ pub(super) struct Spectrum {
 impl Spectrum {
     /// At least the lowest `count` modes, where there are so many.
     pub fn lowest(name: &str, solved: &Solved, count: usize, lateral: bool) -> Result<Spectrum, Failure> {
-        let (refined, felt, is_whole) = search(name, solved, count, ACCURACY, lateral)?;
+        let (refined, felt, is_whole) =
+            search(solved, count, ACCURACY, lateral).map_err(|e| refused(name, &e))?;
         Spectrum::new(name, refined, felt, is_whole)
     }
 
@@ -89,16 +90,14 @@ impl Spectrum {
 
 /// At least the lowest `count` modes that wheels can excite, and whether these are all; frequencies within `accuracy`.
 fn search(
-    name: &str,
     solved: &Solved,
     count: usize,
     accuracy: f64,
     lateral: bool,
-) -> Result<(Refined, Vec<fea::Mode>, bool), Failure> {
+) -> Result<(Refined, Vec<fea::Mode>, bool), fea::Error> {
     let mut asked = count;
     loop {
-        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)
-            .map_err(|error| refused(name, &error))?;
+        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)?;
         let felt = felt(&refined.modes, solved, lateral);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
@@ -113,12 +112,11 @@ fn search(
 
 /// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
 pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Failure> {
-    match fea::refined_modes(&solved.model, &solved.rails, 1, COARSE) {
+    let (refined, mut felt, _) = match search(solved, count, COARSE, false) {
+        Ok(found) => found,
         Err(fea::Error::NoMass) => return Ok(None),
         Err(error) => return Err(refused(name, &error)),
-        Ok(_) => {}
-    }
-    let (refined, mut felt, _) = search(name, solved, count, COARSE, false)?;
+    };
     felt.truncate(count);
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;

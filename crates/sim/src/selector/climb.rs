@@ -3,10 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::predict::predict;
-use super::{
-    Choice, Ladder, MODES, Reason, Rung, SAFE, STEPPING, Tried, contact_frequency, distance,
-};
-use crate::{Foundation, Run, Scene, Status, Structure};
+use super::{Choice, FEW, Ladder, MODES, Reason, Rung, SAFE, STEPPING, Tried, contact_frequency, distance};
+use crate::{Foundation, Run, Scene, Status};
 
 /// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
 const ABOVE_CONTACT: f64 = 3.0;
@@ -54,6 +52,8 @@ struct Plan {
     higher: Vec<Rung>,
     /// The last of `higher` needs no check.
     taken: bool,
+    /// Whether more modes would not change what is tried first.
+    is_enough: bool,
 }
 
 fn of_class<T: Copy>(table: [T; 3], rung: Rung) -> T {
@@ -79,8 +79,8 @@ impl<'a, L: Ladder> Climb<'a, L> {
         Climb { scene, finer, tolerance, structure, foundations, ladder, watch, choice, error: None, runs: 0 }
     }
 
-    pub fn climb(mut self, motion: Option<&Structure>) -> Result<Outcome, L::Error> {
-        let Plan { lower, higher, taken } = self.plan(motion);
+    pub fn climb(mut self) -> Result<Outcome, L::Error> {
+        let Plan { lower, higher, taken, .. } = self.plan();
         let alone = lower.is_empty() && taken;
         let mut below: Vec<Candidate> = Vec::new();
         for rung in lower {
@@ -131,7 +131,9 @@ impl<'a, L: Ladder> Climb<'a, L> {
             Some(found) => Some(found),
             None => {
                 let mut all = [Rung::Influence, Rung::Rigid].into_iter();
-                all.find_map(|rung| if self.choice.failed.contains(&rung) { None } else { self.attempt(rung, true) })
+                all.find_map(
+                    |rung| if self.choice.failed.contains(&rung) { None } else { self.attempt(rung, true) },
+                )
             }
         };
         match (last, self.error.take()) {
@@ -142,16 +144,24 @@ impl<'a, L: Ladder> Climb<'a, L> {
         }
     }
 
-    /// What must be tried, by what is predicted.
-    fn plan(&mut self, motion: Option<&Structure>) -> Plan {
+    /// What must be tried, by what is predicted: by few modes, where these tell enough.
+    fn plan(&mut self) -> Plan {
         let needed = ABOVE_CONTACT * contact_frequency(self.scene, self.structure);
+        let few = self.plan_by(FEW, needed);
+        if few.is_enough { few } else { self.plan_by(MODES[MODES.len() - 1] + 1, needed) }
+    }
+
+    fn plan_by(&mut self, count: usize, needed: f64) -> Plan {
+        // where there are none, the rungs say what is wrong
+        let motion = self.ladder.modes(self.structure, count).ok().flatten();
+        let motion = motion.as_ref();
+        let predicted =
+            motion.and_then(|motion| predict(self.scene, self.foundations, self.structure, motion));
         let reaches = |m: usize| {
             motion.is_none_or(|motion| {
                 motion.dynamics.frequencies().iter().take(m).copied().fold(0.0, f64::max) > needed
             })
         };
-        let predicted =
-            motion.and_then(|motion| predict(self.scene, self.foundations, self.structure, motion));
         let by_tolerance = |rung: Rung| {
             predicted.as_ref().and_then(|predicted| predicted.of(rung)).map(|error| error / self.tolerance)
         };
@@ -166,12 +176,13 @@ impl<'a, L: Ladder> Climb<'a, L> {
             .into_iter()
             .filter(|rung| *rung < last)
             .partition(|&rung| by_tolerance(rung).is_some_and(|error| error > of_class(SKIP, rung)));
+        let is_enough = sure.is_some() || kept.contains(&Rung::Modal(MODES[0]));
         self.choice.skipped = skipped;
         self.choice.predicted = predicted;
         let (lower, mut higher): (Vec<Rung>, Vec<Rung>) =
             kept.into_iter().partition(|rung| *rung <= Rung::Influence);
         higher.push(last);
-        Plan { lower, higher, taken: sure.is_some() }
+        Plan { lower, higher, taken: sure.is_some(), is_enough }
     }
 
     /// Builds and runs a rung; `plainly` at the accuracy of the scene. One that cannot be built or started is noted.

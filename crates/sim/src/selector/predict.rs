@@ -181,8 +181,15 @@ impl Crossing {
         let bodies = scene.bodies.iter().zip(stiffness);
         let omega = bodies.map(|(body, k)| (k / body.mass).sqrt()).fold(0.0, f64::max);
         let contact = contact_frequency(scene, structure);
-        (omega > 0.0 && contact > 0.0)
-            .then_some(Crossing { speed, share, softness, omega, contact, damping, places })
+        (omega > 0.0 && contact > 0.0).then_some(Crossing {
+            speed,
+            share,
+            softness,
+            omega,
+            contact,
+            damping,
+            places,
+        })
     }
 }
 
