@@ -163,12 +163,16 @@ pub fn choose<L: Ladder>(
             choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
             continue;
         }
-        if matches!(ladder.modes(structure, FEW), Ok(None)) {
-            choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
-            continue;
-        }
+        let few = match ladder.modes(structure, FEW) {
+            Ok(None) => {
+                choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
+                continue;
+            }
+            // where they cannot be found, the rungs say why
+            few => few.ok().flatten(),
+        };
         let climb = Climb::new(scene, tolerance, structure, &mut foundations, ladder, watch);
-        let Outcome { choice, found, runs: own } = climb.climb()?;
+        let Outcome { choice, found, runs: own } = climb.climb(few)?;
         let Candidate { foundation, run, .. } = found;
         foundations[structure] = foundation;
         runs += own;

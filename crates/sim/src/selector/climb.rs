@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::predict::predict;
-use super::{Choice, FEW, Ladder, MODES, Reason, Rung, SAFE, STEPPING, Tried, contact_frequency, distance};
-use crate::{Foundation, Run, Scene, Status};
+use super::{Choice, Ladder, MODES, Reason, Rung, SAFE, STEPPING, Tried, contact_frequency, distance};
+use crate::{Foundation, Run, Scene, Status, Structure};
 
 /// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
 const ABOVE_CONTACT: f64 = 3.0;
@@ -79,8 +79,8 @@ impl<'a, L: Ladder> Climb<'a, L> {
         Climb { scene, finer, tolerance, structure, foundations, ladder, watch, choice, error: None, runs: 0 }
     }
 
-    pub fn climb(mut self) -> Result<Outcome, L::Error> {
-        let Plan { lower, higher, taken, .. } = self.plan();
+    pub fn climb(mut self, few: Option<Structure>) -> Result<Outcome, L::Error> {
+        let Plan { lower, higher, taken, .. } = self.plan(few);
         let alone = lower.is_empty() && taken;
         let mut below: Vec<Candidate> = Vec::new();
         for rung in lower {
@@ -145,16 +145,17 @@ impl<'a, L: Ladder> Climb<'a, L> {
     }
 
     /// What must be tried, by what is predicted: by few modes, where these tell enough.
-    fn plan(&mut self) -> Plan {
+    fn plan(&mut self, few: Option<Structure>) -> Plan {
         let needed = ABOVE_CONTACT * contact_frequency(self.scene, self.structure);
-        let few = self.plan_by(FEW, needed);
-        if few.is_enough { few } else { self.plan_by(MODES[MODES.len() - 1] + 1, needed) }
+        let plan = self.plan_by(few.as_ref(), needed);
+        if few.is_none() || plan.is_enough {
+            return plan;
+        }
+        let more = self.ladder.modes(self.structure, MODES[MODES.len() - 1] + 1).ok().flatten();
+        self.plan_by(more.as_ref(), needed)
     }
 
-    fn plan_by(&mut self, count: usize, needed: f64) -> Plan {
-        // where there are none, the rungs say what is wrong
-        let motion = self.ladder.modes(self.structure, count).ok().flatten();
-        let motion = motion.as_ref();
+    fn plan_by(&mut self, motion: Option<&Structure>, needed: f64) -> Plan {
         let predicted =
             motion.and_then(|motion| predict(self.scene, self.foundations, self.structure, motion));
         let reaches = |m: usize| {
