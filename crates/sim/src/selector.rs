@@ -126,8 +126,7 @@ pub struct Choice {
 pub struct Selection {
     /// One a structure whose foundation was to be chosen, in their order.
     pub choices: Vec<Choice>,
-    /// The run on the foundations chosen: of the scene's accuracy, or of 0.03 of the tolerance where runs were
-    /// compared and that is finer.
+    /// The run on the foundations chosen: of the scene's accuracy, or of 0.03 of the tolerance where that is finer.
     pub run: Run,
     /// Number of runs that were made, this one among them.
     pub runs: usize,

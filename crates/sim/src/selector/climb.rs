@@ -9,11 +9,13 @@ use crate::{Foundation, Run, Scene, Status, Structure};
 /// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
 const ABOVE_CONTACT: f64 = 3.0;
 /// Error of a mesh by its difference from one of half the elements, at most: order 4 in the elements' length makes it 1/15.
-const HALVED: f64 = 1.0 / 6.0;
+const HALVED: f64 = 0.25;
 /// Errors predicted, by the tolerance, above which a rung is skipped: rigid, influence, modes.
 const SKIP: [f64; 3] = [1.5, 6.0, 10.0];
 /// Errors predicted, by the tolerance, below which a rung is taken unchecked: rigid, influence, modes.
-const TAKE: [f64; 3] = [0.25, 0.5, 0.15];
+const TAKE: [f64; 3] = [0.25, 0.2, 0.15];
+/// So many times as fast again where modes are taken unchecked.
+const FAR: f64 = 3.0;
 
 /// A rung, run.
 pub(super) struct Candidate {
@@ -81,10 +83,9 @@ impl<'a, L: Ladder> Climb<'a, L> {
 
     pub fn climb(mut self, few: Option<Structure>) -> Result<Outcome, L::Error> {
         let Plan { lower, higher, taken, .. } = self.plan(few);
-        let alone = lower.is_empty() && taken;
         let mut below: Vec<Candidate> = Vec::new();
         for rung in lower {
-            match self.attempt(rung, false) {
+            match self.attempt(rung) {
                 // elsewhere the wheels would leave their rails as well
                 Some(found) if found.is_final() => return Ok(self.end(found, Reason::Unchecked, None)),
                 Some(found) => below.push(found),
@@ -93,7 +94,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
         }
         let top = higher.last().copied();
         for against in higher {
-            let Some(found) = self.attempt(against, alone) else { continue };
+            let Some(found) = self.attempt(against) else { continue };
             if found.is_final() {
                 let found = below.pop().unwrap_or(found);
                 return Ok(self.end(found, Reason::Unchecked, None));
@@ -132,7 +133,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
             None => {
                 let mut all = [Rung::Influence, Rung::Rigid].into_iter();
                 all.find_map(
-                    |rung| if self.choice.failed.contains(&rung) { None } else { self.attempt(rung, true) },
+                    |rung| if self.choice.failed.contains(&rung) { None } else { self.attempt(rung) },
                 )
             }
         };
@@ -158,10 +159,15 @@ impl<'a, L: Ladder> Climb<'a, L> {
     fn plan_by(&mut self, motion: Option<&Structure>, needed: f64) -> Plan {
         let predicted =
             motion.and_then(|motion| predict(self.scene, self.foundations, self.structure, motion));
-        let reaches = |m: usize| {
-            motion.is_none_or(|motion| {
-                motion.dynamics.frequencies().iter().take(m).copied().fold(0.0, f64::max) > needed
+        let highest = |m: usize| {
+            motion.map_or(f64::INFINITY, |motion| {
+                motion.dynamics.frequencies().iter().take(m).copied().fold(0.0, f64::max)
             })
+        };
+        let reaches = |m: usize| highest(m) > needed;
+        let is_far = |rung: Rung| match rung {
+            Rung::Modal(m) => highest(m) > FAR * needed,
+            _ => true,
         };
         let by_tolerance = |rung: Rung| {
             predicted.as_ref().and_then(|predicted| predicted.of(rung)).map(|error| error / self.tolerance)
@@ -170,7 +176,8 @@ impl<'a, L: Ladder> Climb<'a, L> {
         let all: Vec<Rung> = [Rung::Rigid, Rung::Influence].into_iter().chain(modal).collect();
         let is_complete = predicted.as_ref().is_some_and(|predicted| predicted.is_complete);
         let sure = all.iter().copied().find(|&rung| {
-            is_complete && by_tolerance(rung).is_some_and(|error| error < of_class(TAKE, rung))
+            let is_small = by_tolerance(rung).is_some_and(|error| error < of_class(TAKE, rung));
+            is_complete && is_far(rung) && is_small
         });
         let last = sure.unwrap_or(Rung::Full);
         let (skipped, kept): (Vec<Rung>, Vec<Rung>) = all
@@ -186,13 +193,12 @@ impl<'a, L: Ladder> Climb<'a, L> {
         Plan { lower, higher, taken: sure.is_some(), is_enough }
     }
 
-    /// Builds and runs a rung; `plainly` at the accuracy of the scene. One that cannot be built or started is noted.
-    fn attempt(&mut self, rung: Rung, plainly: bool) -> Option<Candidate> {
+    /// Builds and runs a rung. One that cannot be built or started is noted.
+    fn attempt(&mut self, rung: Rung) -> Option<Candidate> {
         let built = self.ladder.foundation(self.structure, rung);
         let ran = built.and_then(|foundation| {
             self.foundations[self.structure] = foundation;
-            let scene = if plainly { self.scene } else { &self.finer };
-            Ok(self.ladder.run(scene, self.foundations, self.watch)?)
+            Ok(self.ladder.run(&self.finer, self.foundations, self.watch)?)
         });
         match ran {
             Ok(run) => {
@@ -213,7 +219,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
 
     /// The mesh whole, checked by half of it.
     fn top(mut self, full: Candidate) -> Outcome {
-        let half = self.attempt(Rung::Half, false).filter(|half| half.run.status == Status::Done);
+        let half = self.attempt(Rung::Half).filter(|half| half.run.status == Status::Done);
         let Some(half) = half else { return self.end(full, Reason::Top, None) };
         let apart = distance(&half.run, &full.run, self.scene);
         let estimate = HALVED * apart;

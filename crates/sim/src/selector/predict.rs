@@ -77,7 +77,9 @@ pub(super) fn predict(
 
     let turn = crossing.speed * modes[0].k;
     let beta = (turn / crossing.omega).min(1.0);
-    let oscillating = crossing.share * beta + load.share * (2.0 / (crossing.omega * load.ramp)).min(1.0);
+    // the give under a wheel that crosses a girder grows with the square of the time: it excites with beta^2
+    let oscillating =
+        crossing.share * beta * beta + load.share * (2.0 / (crossing.omega * load.ramp)).min(1.0);
     let rigid = give * (1.0 + turn * crossing.damping);
     // What is left once `kept` modes are modelled: speed, ripple, step, track, and all by the heights and forces.
     let left = |kept: usize| -> Option<[f64; 5]> {
