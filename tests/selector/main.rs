@@ -233,7 +233,7 @@ fn holds(seed: u64) {
     assert!(found.within >= 0.99, "{}", found.within);
     assert!(found.near >= 0.9, "{}", found.near);
     assert!(found.mesh <= 1.0, "{}", found.mesh);
-    assert!(found.skipped >= 0.99, "{}", found.skipped);
+    assert!(found.skipped >= 0.95, "{}", found.skipped);
 }
 
 #[test]
