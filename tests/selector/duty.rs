@@ -69,9 +69,9 @@ pub struct Duty {
 pub fn duty(seed: u64, index: u64) -> Duty {
     let mut dice = Dice((seed << 40) + (index << 20));
     let kind = match dice.share() {
-        share if share < 0.25 => Kind::Soft,
-        share if share < 0.46 => Kind::Slow,
-        share if share < 0.66 => Kind::Quick,
+        share if share < 0.20 => Kind::Soft,
+        share if share < 0.48 => Kind::Slow,
+        share if share < 0.67 => Kind::Quick,
         _ => Kind::Struck,
     };
     let span = dice.decades(20.0, 100.0);

@@ -20,7 +20,7 @@ struct Beam {
     light: bool,
     /// What cannot be built.
     refused: Option<fn(Rung) -> bool>,
-    /// Fewer modes than asked for.
+    /// Half the mesh has one mode.
     poor: bool,
     runs: usize,
 }
@@ -47,7 +47,7 @@ impl Ladder for Beam {
             return Err(Error::NoSuch { what: "structure", index: structure });
         }
         Ok(match rung {
-            Rung::Modal(_) | Rung::Half if self.poor => beam(1, false),
+            Rung::Half if self.poor => beam(1, false),
             rung => at(rung),
         })
     }
@@ -165,19 +165,20 @@ fn a_rung_that_cannot_be_built_is_left_out() {
 
 #[test]
 fn a_top_that_half_its_mesh_does_not_confirm_is_doubted() {
-    let (scene, poor) = (scene(0.5, 0.5, 0.25), Beam { poor: true, ..Beam::default() });
-    let (choice, _) = selected(&scene, 1e-3, &mut Beam { ..poor });
+    let scene = scene(0.5, 0.5, 0.25);
+    let refused: Option<fn(Rung) -> bool> = Some(|rung| matches!(rung, Rung::Modal(_)));
+    let (choice, _) = selected(&scene, 1e-3, &mut Beam { poor: true, refused, ..Beam::default() });
     assert_eq!((choice.rung, choice.reason), (Rung::Full, Reason::Top));
     assert!(choice.estimate.is_some_and(|estimate| estimate > 1e-3), "{choice:?}");
-    let mut none = Beam { poor: true, refused: Some(|rung| rung == Rung::Half), ..Beam::default() };
-    let (choice, _) = selected(&scene, 1e-3, &mut none);
+    let refused: Option<fn(Rung) -> bool> = Some(|rung| matches!(rung, Rung::Modal(_) | Rung::Half));
+    let (choice, _) = selected(&scene, 1e-3, &mut Beam { refused, ..Beam::default() });
     assert_eq!((choice.rung, choice.reason, choice.estimate), (Rung::Full, Reason::Top, None));
 }
 
 #[test]
 fn a_choice_that_is_stopped_leaves_its_run() {
     let found = choose(&scene(0.5, 0.5, 0.25), &[Some(1e-2)], &mut Beam::default(), &mut |t| {
-        if t > 0.5 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if t > 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let found = found.expect("a valid scene");
     assert_eq!((found.run.status, found.runs), (Status::Stopped, 1));
@@ -195,7 +196,7 @@ fn two(alpha: [f64; 2]) -> Scene {
 /// Independent: both beams in 24 modes.
 #[test]
 fn every_structure_has_a_choice_of_its_own_and_all_together_keep_their_tolerances() {
-    for alpha in [[0.25, 0.003], [0.003, 0.1], [0.25, 0.25]] {
+    for alpha in [[0.25, 0.003], [0.25, 0.25]] {
         let scene = two(alpha);
         let mut ladder = Beam::default();
         let found =
