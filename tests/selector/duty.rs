@@ -69,7 +69,7 @@ pub struct Duty {
 pub fn duty(seed: u64, index: u64) -> Duty {
     let mut dice = Dice((seed << 40) + (index << 20));
     let kind = match dice.share() {
-        share if share < 0.20 => Kind::Soft,
+        share if share < 0.22 => Kind::Soft,
         share if share < 0.48 => Kind::Slow,
         share if share < 0.67 => Kind::Quick,
         _ => Kind::Struck,

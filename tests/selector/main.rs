@@ -4,7 +4,7 @@
 
 mod duty;
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
 use std::time::Instant;
 
 use duty::{Duty, duty};
@@ -14,6 +14,9 @@ use sim::{Choice, Foundation, Ladder, Reason, Run, Rung, Scene, choose, distance
 /// What the rules of the selector were fitted to, and what they were not.
 const FITTED: u64 = 0;
 const HELD_OUT: u64 = 1;
+
+/// Scenes of every kind that are soon run.
+const QUICK: [u64; 12] = [1, 2, 3, 4, 11, 12, 15, 16, 22, 25, 30, 33];
 
 const RUNGS: [Rung; 9] = [
     Rung::Rigid,
@@ -96,7 +99,7 @@ fn judge(seed: u64, index: u64) -> Verdict {
         |rung, finer| rung_of(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass");
     scene.accuracy = 3e-3 * duty.tolerance;
     let reference = run(&scene, of(Rung::Full, 1));
-    let with_mesh = class(choice.rung) == 3 && index % 3 == 0;
+    let with_mesh = class(choice.rung) == 3 && index.is_multiple_of(3);
     let mesh = with_mesh.then(|| distance(&run(&scene, of(Rung::Full, 2)), &reference, &scene));
     scene.accuracy = 0.03 * duty.tolerance;
     let mut errors = Vec::new();
@@ -132,10 +135,10 @@ fn judge(seed: u64, index: u64) -> Verdict {
     Verdict { tolerance, choice, own, cheapest, mesh, runs, cost }
 }
 
-fn judged(seed: u64, range: Range<u64>) -> Vec<Verdict> {
+fn judged(seed: u64, scenes: &[u64]) -> Vec<Verdict> {
     let half = |odd: u64| {
-        let own = range.clone().filter(move |index| index % 2 == odd);
-        own.map(|index| judge(seed, index)).collect::<Vec<_>>()
+        let own = scenes.iter().filter(move |index| *index % 2 == odd);
+        own.map(|index| judge(seed, *index)).collect::<Vec<_>>()
     };
     std::thread::scope(|scope| {
         let other = scope.spawn(|| half(1));
@@ -223,12 +226,12 @@ fn shares(verdicts: &[Verdict]) -> Shares {
 /// External to the selector: every rung run and compared with the mesh whole.
 #[test]
 fn twelve_choices_are_within_their_tolerance_and_near_the_cheapest() {
-    let found = shares(&judged(HELD_OUT, 0..12));
+    let found = shares(&judged(HELD_OUT, &QUICK));
     assert_eq!([found.within, found.near], [1.0, 1.0]);
 }
 
 fn holds(seed: u64) {
-    let found = shares(&judged(seed, 0..200));
+    let found = shares(&judged(seed, &(0..200).collect::<Vec<_>>()));
     assert!(found.cheapest.iter().all(|share| *share >= 0.15), "{:?}", found.cheapest);
     assert!(found.within >= 0.99, "{}", found.within);
     assert!(found.near >= 0.9, "{}", found.near);
