@@ -128,7 +128,7 @@ fn one(
         link::Trouble::Foundation(failure) => failure,
         link::Trouble::Run(error) => Failure::Untrusted(format!("{label}: {error}")),
     })?;
-    let record = Record::new(&scene, &cast, &run.history);
+    let record = Record::new(&scene, &run.history);
     Ok(Outcome { label, cast, run, record, choices })
 }
 

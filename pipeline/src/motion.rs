@@ -4,7 +4,7 @@ use sim::{Contact, NormalLaw};
 use splines::Probe;
 
 use crate::exit::Failure;
-use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene};
+use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene, Truck};
 use crate::units::{Dimension, Length, Scale, Units};
 
 /// Speed at which a brake has 76 % of its friction, ft/s: it rubs with mu N tanh(s / speed).
@@ -28,8 +28,10 @@ pub struct CastWheel {
     pub rail: usize,
     /// Its kind.
     pub kind: usize,
-    /// Whether its spin is a freedom.
+    /// Whether it turns: its spin is a freedom, or prescribed.
     pub spins: bool,
+    /// Whether its spin is prescribed.
+    pub turned: bool,
 }
 
 /// Resolves `scene` for the simulator.
@@ -39,10 +41,9 @@ pub struct CastWheel {
 pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     let bodies = scene.bodies.iter().map(body).collect();
     let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
-    let (mut contacts, mut cast) = (Vec::new(), Vec::new());
+    let mut contacts = Vec::new();
     for truck in &scene.trucks {
         let rail = &scene.rails[truck.rail];
-        let mut number = 0;
         for node in &truck.tree {
             let below = node.wheels();
             if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
@@ -50,17 +51,6 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
                     "{}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels",
                     truck.name
                 )));
-            }
-            for _ in &below {
-                number += 1;
-                let kind = &wheels[truck.wheel];
-                cast.push(CastWheel {
-                    name: format!("{}.wheel{number}", truck.name),
-                    body: truck.body,
-                    rail: truck.rail,
-                    kind: truck.wheel,
-                    spins: kind.spin_inertia.is_some() && kind.friction.is_some(),
-                });
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -72,8 +62,9 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
             });
         }
     }
+    let names = self::wheels(scene);
     let scene = sim::Scene {
-        actuators: actuators(scene, &contacts),
+        actuators: sim::Actuators { turns: turns(scene), ..actuators(scene, &contacts) },
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
@@ -87,7 +78,57 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         output_dt: scene.dt,
         accuracy: scene.accuracy,
     };
-    Ok(Cast { scene, wheels: cast })
+    Ok(Cast { scene, wheels: names })
+}
+
+/// The wheels of `scene`, in the simulator's order.
+#[must_use]
+pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
+    let of_truck = |(index, truck): (usize, &Truck)| {
+        let kind = &scene.wheels[truck.wheel];
+        let (name, body, rail, kind, spins) = (
+            truck.name.clone(),
+            truck.body,
+            truck.rail,
+            truck.wheel,
+            kind.friction.is_some().then_some(kind.spin_inertia.is_some()),
+        );
+        let numbers = 1..=truck.wheel_offsets().len();
+        numbers.map(move |number| {
+            let turned = scene.spins.iter().any(|spin| (spin.truck, spin.wheel + 1) == (index, number));
+            CastWheel {
+                name: format!("{name}.wheel{number}"),
+                body,
+                rail,
+                kind,
+                spins: spins.is_some_and(|spins| spins || turned),
+                turned,
+            }
+        })
+    };
+    scene.trucks.iter().enumerate().flat_map(of_truck).collect()
+}
+
+/// Wheels whose spin is prescribed, by their contacts.
+fn turns(scene: &Scene) -> Vec<sim::Turn> {
+    let mut contact = 0;
+    let mut turns = Vec::new();
+    for (index, truck) in scene.trucks.iter().enumerate() {
+        let mut first = 0;
+        for node in &truck.tree {
+            let count = node.wheels().len();
+            let own = |spin: &&crate::scene::Spin| {
+                spin.truck == index && (first..first + count).contains(&spin.wheel)
+            };
+            turns.extend(scene.spins.iter().filter(own).map(|spin| sim::Turn {
+                contact,
+                wheel: spin.wheel - first,
+                motion: spin.motion.clone(),
+            }));
+            (contact, first) = (contact + 1, first + count);
+        }
+    }
+    turns
 }
 
 /// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
@@ -122,6 +163,7 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
             damping: stop.damping,
         }));
     }
+    out.rules = scene.events.iter().map(|event| event.rule.clone()).collect();
     let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
     out.hung = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {

@@ -1,7 +1,5 @@
 //! The report of a run: what was asked, what came out, what to look at.
 
-use sim::Status;
-
 use crate::cases::Outcome;
 use crate::coupling::Coupling;
 use crate::link::Solved;
@@ -11,6 +9,7 @@ use crate::report::{Cell, Column, Report, Section, Table};
 use crate::scene::{Analysis, Document, Scene};
 use crate::summary;
 use crate::units::Dimension;
+use crate::warning;
 
 /// Assembles the report.
 #[must_use]
@@ -180,7 +179,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     };
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         let run = &outcome.run;
-        if case.scene.analysis == Analysis::Dynamic && run.status == Status::Done {
+        if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
             let exchanged = &run.audit.exchanged;
             table.rows.push(vec![
                 Cell::from(outcome.label.clone()),
@@ -194,7 +193,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     }
     let mut section = Section::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in summary::cautions(&case.scene, outcome) {
+        for warning in warning::of_case(&case.scene, outcome) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));
         }
     }

@@ -1,12 +1,14 @@
 //! The command line: help, exit status, what goes where.
 
 mod drives;
+mod events;
 mod grids;
 mod modes;
 mod rides;
 mod ropes;
 mod stops;
 mod tables;
+mod warnings;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -2,6 +2,7 @@
 
 use crate::actuator::PullLaw;
 use crate::dense::{along, dot};
+use crate::drag::slip;
 use crate::geometry::Geometry;
 use crate::scene::arm_rows;
 use crate::state::State;
@@ -112,6 +113,7 @@ impl Audit {
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
     let mut energy = Stored { kinetic: kinetic(&system.blocks, &system.ties, &state.v), ..Stored::default() };
+    energy.kinetic += system.energy_of_turns(state.t);
     energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
     let [motion, lift] = system.rides.energy(system, state.t, &state.q, &state.v);
     energy.kinetic += motion;
@@ -145,6 +147,9 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
             let overlap = flange.overlap(geometry.approach(i, &state.q) - give);
             energy.contact += 0.5 * flange.stiffness * flange.share(geometry.height[w]).0 * overlap * overlap;
         }
+    }
+    for i in system.drags() {
+        energy.structure += 0.5 * state.force[i] * along(&geometry.compliance, i, &state.force);
     }
     for (index, hold) in geometry.links.iter().enumerate() {
         let i = system.link(index);
@@ -198,18 +203,21 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
     }
     for index in 0..system.tractions.len() {
         let i = system.traction(index);
-        power.friction += state.force[i] * rate(i);
+        power.friction += state.force[i] * slip(system, geometry, state, i);
     }
     for (b, body) in system.scene.bodies.iter().enumerate() {
         if body.motion.is_some() {
             power.drives += drive_force(system, geometry, state, b) * geometry.travel[b].v;
         }
     }
+    power.drives += system.power_of_turns(geometry, state);
     for (index, pull) in system.pulls.iter().enumerate() {
         let i = system.pull(index);
         match pull.law {
-            PullLaw::Drive { .. } => power.drives -= state.force[i] * (rate(i) - geometry.rate_held[i]),
-            PullLaw::Brake { .. } => power.friction += state.force[i] * rate(i),
+            PullLaw::Drive { .. } => {
+                power.drives -= state.force[i] * (slip(system, geometry, state, i) - geometry.rate_held[i]);
+            }
+            PullLaw::Brake { .. } => power.friction += state.force[i] * slip(system, geometry, state, i),
         }
     }
     for (index, hold) in geometry.links.iter().enumerate() {

@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::actuator::Pull;
 use crate::dense::dot;
+use crate::drag::slip;
 use crate::state::State;
 use crate::stepper::Stepper;
 
@@ -125,7 +126,7 @@ impl Stepper<'_, '_> {
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
         while high - low > 1e-12 {
             let middle = 0.5 * (low + high);
-            self.probe.interpolate(&self.from, &self.to, middle);
+            self.solver.interpolate([&self.from, &self.to], middle, &mut self.probe)?;
             if !self.solver.instant(&mut self.probe)? {
                 break;
             }
@@ -139,12 +140,18 @@ impl Stepper<'_, '_> {
     pub(crate) fn first_corner(&self) -> Option<f64> {
         let system = self.solver.system;
         let slack = OVERSHOOT * self.largest_force();
-        let margins = |pull: &Pull, at: &State| {
-            let (_, speed) = system.body(pull.body, at.t, &at.q, &at.v);
-            pull.margins(system.scene, at.t, dot(&pull.row, &speed), pull.traction(&at.force))
+        let geometry = &self.solver.geometry;
+        let margins = |index: usize, pull: &Pull, at: &State| {
+            let speed = if system.is_dragged {
+                slip(system, geometry, at, system.pull(index)) - geometry.rate_held[system.pull(index)]
+            } else {
+                dot(&pull.row, &system.body(pull.body, at.t, &at.q, &at.v).1)
+            };
+            let reference = pull.reference(system.scene, &geometry.switches, at.t);
+            pull.margins(reference, speed, pull.traction(&at.force))
         };
-        let shares = system.pulls.iter().flat_map(|pull| {
-            let (from, to) = (margins(pull, &self.from), margins(pull, &self.to));
+        let shares = system.pulls.iter().enumerate().flat_map(|(index, pull)| {
+            let (from, to) = (margins(index, pull, &self.from), margins(index, pull, &self.to));
             std::iter::zip(from, to).filter_map(|(from, to)| {
                 let passes = from * to < 0.0 && from.abs() > slack && to.abs() > slack;
                 passes.then(|| (from.abs() + 0.5 * slack) / (from.abs() + to.abs()))
@@ -165,6 +172,9 @@ impl Stepper<'_, '_> {
         let system = self.solver.system;
         if i >= system.normals.len() {
             let index = i - system.link(0);
+            if self.solver.geometry.switches.is_released(index) {
+                return -1.0;
+            }
             let margin = self.solver.geometry.margin(system, index, at);
             let hold = &self.solver.geometry.links[index];
             return if hold.taut { -margin - hold.noise } else { margin - hold.noise };

@@ -5,6 +5,7 @@ use splines::{Influence, Probe};
 
 use crate::dense::along;
 use crate::link::Hold;
+use crate::rule::Switches;
 use crate::scene::arm_rows;
 use crate::system::{System, WheelPoint};
 use crate::{Error, Moving};
@@ -38,6 +39,8 @@ pub(crate) struct Geometry {
     pub pulls: Vec<bool>,
     /// Ropes and stops.
     pub links: Vec<Hold>,
+    /// What rules have switched.
+    pub switches: Switches,
     /// Growth of each approach along the rail by the shape of the unloaded rail, d e/d x.
     pub rise: Vec<f64>,
     /// Slope of the deflected rail under each component, d u/d x, that of its own shape included.
@@ -69,6 +72,7 @@ impl Geometry {
             rate_held: vec![0.0; m],
             pulls: vec![false; system.pulls.len()],
             links: vec![Hold::default(); system.links.len()],
+            switches: Switches::new(&system.scene.actuators),
             rise: vec![0.0; m],
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
@@ -107,10 +111,12 @@ impl Geometry {
         self.update_rows(system)?;
         self.built = true;
         for (i, &w) in system.tractions.iter().enumerate() {
-            self.rate_held[system.traction(i)] = self.travel[system.kinematics.root(system.wheels[w].body)].v;
+            let spin = system.turn(w, t).map_or(0.0, |at| at.v * self.height[w]);
+            let travel = self.travel[system.kinematics.root(system.wheels[w].body)].v;
+            self.rate_held[system.traction(i)] = travel + spin;
         }
         for (i, pull) in system.pulls.iter().enumerate() {
-            let reference = pull.reference(system.scene, t);
+            let reference = pull.reference(system.scene, &self.switches, t);
             self.pulls[i] = reference.is_some();
             self.rate_held[system.pull(i)] = -reference.unwrap_or(0.0);
         }
@@ -250,7 +256,9 @@ impl Geometry {
                     .row(at, value, slope)
                     .map_err(|source| Error::Compliance { structure: s, source })?;
                 let span = entry.component * n + range.start..entry.component * n + range.end;
-                for (target, shape) in self.rows[span.clone()].iter_mut().zip(value.iter()) {
+                let is_along = system.drags().contains(&entry.component);
+                let rows = if is_along { &mut self.rate_rows } else { &mut self.rows };
+                for (target, shape) in rows[span.clone()].iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
                 }
                 for (target, shape) in self.shape_slopes[span].iter_mut().zip(slope.iter()) {

@@ -31,6 +31,8 @@ pub enum Channel {
     SpinAngle(usize),
     /// Angular speed of a wheel about z.
     SpinSpeed(usize),
+    /// Moment about z that prescribes the spin of wheel i; zero where it is free.
+    SpinMoment(usize),
     /// Tension of a rope.
     Tension(usize),
     /// Distance of the ends of a rope.

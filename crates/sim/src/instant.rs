@@ -64,7 +64,8 @@ pub fn contact_forces(
         return Err(Error::NoSuch { what: "one force a wheel on structure", index });
     }
     let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    solver.keeps_rails = false;
+    let mut state = State::new(&system);
     instants.iter().map(|instant| solver.forces_at(instant, &mut state)).collect()
 }
 
@@ -189,7 +190,8 @@ impl Solver<'_> {
                 at.p_rate[i] -= change;
             }
         }
-        Ok(unknown.is_empty() || last <= 1e-9 * at.p.iter().fold(0.0, |max, p| p.abs().max(max)))
+        Ok(unknown.is_empty()
+            || last <= 1e-9 * at.p[..system.normals.len()].iter().fold(0.0, |max, p| p.abs().max(max)))
     }
 
     fn answer(&self, at: &State) -> ContactForces {
@@ -211,7 +213,7 @@ impl Solver<'_> {
                 .collect(),
             slope: wheels.map(|w| self.geometry.rail_slope[normal(w)] * vertical(w)).collect(),
             approach: (0..count).map(|i| self.geometry.approach(i, &at.q)).collect(),
-            penetration: at.p.clone(),
+            penetration: at.p[..count].to_vec(),
             compliance: DMatrix::from_fn(count, count, |i, j| self.geometry.compliance[i * m + j]),
         }
     }

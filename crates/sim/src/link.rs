@@ -88,13 +88,15 @@ impl<'a> Link<'a> {
         }
     }
 
-    /// Approach at (t, q), and its rate by prescribed motions and hoisting; brings `hold` there.
+    /// Approach at (t, q), and its rate by prescribed motions and hoisting; brings `hold` there. A rope has the
+    /// unstretched length `natural`, with its rate.
     fn read(
         &self,
         system: &System,
         travel: &[Moving],
         t: f64,
         q: &DVector<f64>,
+        natural: [f64; 2],
         hold: &mut Hold,
     ) -> [f64; 2] {
         match self {
@@ -107,7 +109,7 @@ impl<'a> Link<'a> {
                 } else {
                     hold.direction = [0.0, -1.0, 0.0];
                 }
-                hold.natural = [rope.length - rope.speed.integral(t), -rope.speed.at(t)];
+                hold.natural = natural;
                 hold.stiffness = rope.stiffness / hold.natural[0];
                 hold.damping = rope.damping;
                 let size = a.iter().chain(&b).fold(hold.length, |max, c| max.max(c.abs()));
@@ -141,7 +143,11 @@ impl Geometry {
         let n = system.freedoms;
         for (index, link) in system.links.iter().enumerate() {
             let component = system.link(index);
-            let [approach, rate] = link.read(system, &self.travel, t, q, &mut self.links[index]);
+            let natural = match link {
+                Link::Rope { .. } => self.switches.natural(&system.scene.actuators, index, t),
+                Link::Stop { .. } => [0.0; 2],
+            };
+            let [approach, rate] = link.read(system, &self.travel, t, q, natural, &mut self.links[index]);
             let span = component * n..(component + 1) * n;
             let row = &mut self.rows[span.clone()];
             row.fill(0.0);
@@ -163,7 +169,8 @@ impl Geometry {
     /// Finds which links act at `at`.
     pub fn settle_links(&mut self, system: &System, at: &State) {
         for index in 0..system.links.len() {
-            self.links[index].taut = self.margin(system, index, at) > 0.0;
+            let holds = !self.switches.is_released(index);
+            self.links[index].taut = holds && self.margin(system, index, at) > 0.0;
         }
     }
 }

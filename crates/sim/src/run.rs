@@ -3,17 +3,17 @@
 use std::ops::ControlFlow;
 
 use nalgebra::DVector;
-use splines::{Influence, Probe};
 
-use crate::dense::dot;
-use crate::energy::{Audit, brake_force, drive_force};
-use crate::history::{Channel, History};
-use crate::scene::{Analysis, arm_rows};
+use crate::energy::Audit;
+use crate::history::History;
+use crate::passage;
+use crate::recorder::Recorder;
+use crate::scene::Analysis;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene, Stepping};
+use crate::{Action, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -24,12 +24,22 @@ const LOCAL_PER_GLOBAL: f64 = 3.0;
 pub enum Status {
     /// The end time was reached.
     Done,
+    /// A rule ended it.
+    Ended(Fired),
     /// The caller stopped it.
     Stopped,
     /// No step was small enough at this time.
     StepTooSmall(f64),
     /// A wheel asked for what its structure does not have, at this time.
     Refused(f64, Error),
+}
+
+impl Status {
+    /// Whether the run went as far as the scene says: to its end time, or to a rule that ends it.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        matches!(self, Status::Done | Status::Ended(_))
+    }
 }
 
 /// Everything a run found.
@@ -39,6 +49,8 @@ pub struct Run {
     pub status: Status,
     /// Samples over time.
     pub history: History,
+    /// Rules that acted, in the order of time.
+    pub fired: Vec<Fired>,
     /// The energy audit; zeros for a quasi-static sweep.
     pub audit: Audit,
     /// Work done.
@@ -51,7 +63,7 @@ pub struct Run {
 ///
 /// A dynamic run starts in static equilibrium (y, roll and pitch of bodies whose wheels can carry them, unless
 /// they start with a displacement of their own there), and is integrated in force form by adaptive steps of
-/// [`Method::Sdirk4`], with contacts located in time. The relative error of displacements per unit of motion is near
+/// [`Method::Auto`], with contacts located in time. The relative error of displacements per unit of motion is near
 /// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
 ///
 /// # Errors
@@ -82,10 +94,20 @@ pub fn run_by(
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
-    let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    let mut state = State::new(&system);
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
+    let mut method = method;
+    if method == Method::Series {
+        if step.is_none()
+            && scene.analysis == Analysis::Dynamic
+            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+        {
+            return Ok(run);
+        }
+        method = Method::Radau;
+    }
+    let mut solver = Solver::new(&system)?;
     solver.locate(&state)?;
     state.v.fill(0.0);
     solver.drop_below(&mut state)?;
@@ -106,6 +128,14 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
     }
 }
 
+/// Whether some body on wheels starts where the scene puts it, not at rest.
+fn placed(system: &System) -> bool {
+    system.scene.bodies.iter().enumerate().any(|(b, body)| {
+        system.wheels.iter().any(|wheel| wheel.body == b)
+            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
+    })
+}
+
 fn integrate(
     stepping: Stepping,
     system: &System,
@@ -114,11 +144,7 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    let placed = scene.bodies.iter().enumerate().any(|(b, body)| {
-        system.wheels.iter().any(|wheel| wheel.body == b)
-            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
-    });
-    if !placed {
+    if !placed(system) {
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
@@ -129,7 +155,7 @@ fn integrate(
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
     let mut recorder = Recorder::new(system);
-    recorder.record(system, solver, &state)?;
+    recorder.record(system, &solver.geometry, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
     let mut breaks: Vec<f64> = scene
         .bodies
@@ -143,7 +169,7 @@ fn integrate(
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
     let mut stepper =
-        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(stepping.method);
+        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
     stepper.fixed = stepping.step;
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
@@ -151,6 +177,12 @@ fn integrate(
     let mut pieces = stepper.solver.geometry.piece.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
+    let due = stepper.due()?;
+    let (mut fired, ends) = stepper.act(due)?;
+    if ends {
+        status = ended(scene, &fired);
+        breaks.clear();
+    }
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
             // A sample within the step belongs to where the step began.
@@ -167,6 +199,7 @@ fn integrate(
                 }
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
+            let due = stepper.due()?;
             active.clone_from(&stepper.solver.active);
             links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
@@ -179,14 +212,34 @@ fn integrate(
                 if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
-                    sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
+                    let share = (t - from) / (to - from);
+                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
-                recorder.record(system, stepper.solver, &sample)?;
+                recorder.record(system, &stepper.solver.geometry, &sample)?;
                 stepper.solver.active.clone_from(&active);
                 stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
+            }
+            if !due.is_empty() {
+                let ends = match stepper.act(due) {
+                    Ok((now, ends)) => {
+                        fired.extend(now);
+                        ends
+                    }
+                    Err(error) => {
+                        status = Status::Refused(to, error);
+                        break 'run;
+                    }
+                };
+                if ends {
+                    if (next - 1) as f64 * scene.output_dt < to {
+                        recorder.record(system, &stepper.solver.geometry, &stepper.to)?;
+                    }
+                    status = ended(scene, &fired);
+                    break 'run;
+                }
             }
             if watch(to).is_break() {
                 status = Status::Stopped;
@@ -197,10 +250,18 @@ fn integrate(
     Ok(Run {
         status,
         history: recorder.history,
+        fired,
         audit: stepper.audit,
         counts: stepper.counts,
         method: Some(stepping.method),
     })
+}
+
+/// The status after the first rule that ends the run.
+fn ended(scene: &Scene, fired: &[Fired]) -> Status {
+    let rules = &scene.actuators.rules;
+    let last = fired.iter().find(|fired| rules[fired.rule].actions.contains(&Action::End));
+    last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
 fn sweep(
@@ -233,135 +294,12 @@ fn sweep(
             }
         }
         counts.steps += 1;
-        recorder.record(system, solver, &state)?;
+        recorder.record(system, &solver.geometry, &state)?;
         if watch(t).is_break() {
             status = Status::Stopped;
             break;
         }
     }
-    Ok(Run { status, history: recorder.history, audit: Audit::default(), counts, method: None })
-}
-
-/// Writes samples.
-struct Recorder {
-    history: History,
-    /// Scratch of the gauges.
-    probes: Vec<Probe>,
-    shape: Vec<f64>,
-}
-
-impl Recorder {
-    fn new(system: &System) -> Self {
-        let mut channels = vec![Channel::Time];
-        for b in 0..system.scene.bodies.len() {
-            channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
-            channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
-            channels.extend([Channel::Drive(b), Channel::Brake(b)]);
-        }
-        for w in 0..system.wheels.len() {
-            channels.extend([
-                Channel::Place(w),
-                Channel::Vertical(w),
-                Channel::Lateral(w),
-                Channel::Traction(w),
-                Channel::Penetration(w),
-                Channel::Give(w),
-                Channel::SpinAngle(w),
-                Channel::SpinSpeed(w),
-            ]);
-        }
-        let actuators = &system.scene.actuators;
-        channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
-        channels.extend((0..actuators.stops.len()).map(Channel::Stop));
-        channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
-        let history = History { channels, values: Vec::new() };
-        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
-    }
-
-    /// Adds a sample; the solver's geometry belongs to `at`.
-    fn record(&mut self, system: &System, solver: &Solver, at: &State) -> Result<(), Error> {
-        let values = &mut self.history.values;
-        values.push(at.t);
-        for b in 0..system.scene.bodies.len() {
-            let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
-            values.extend(displacement);
-            values.extend(speed);
-            values.extend([drive_force(system, &solver.geometry, at, b), brake_force(system, at, b)]);
-        }
-        for (w, wheel) in system.wheels.iter().enumerate() {
-            let mut vertical = 0.0;
-            let mut deepest = f64::NEG_INFINITY;
-            for i in system.normals_of(w) {
-                vertical += at.force[i] / system.normals[i].count();
-                if solver.geometry.share[i][0] > 0.0 {
-                    deepest = deepest.max(at.p[i]);
-                }
-            }
-            let lateral =
-                system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
-            let traction =
-                system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
-            let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-            let own = system
-                .irregularity(w)
-                .map_or(0.0, |shape| shape.vertical(solver.geometry.piece[w], solver.geometry.x[w])[0]);
-            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
-            let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
-            values.extend([
-                solver.geometry.x[w],
-                vertical,
-                lateral,
-                traction,
-                deepest,
-                down - deepest,
-                angle,
-                speed,
-            ]);
-        }
-        let ropes = system.scene.actuators.ropes.len();
-        for (index, hold) in solver.geometry.links.iter().enumerate() {
-            self.history.values.push(at.force[system.link(index)]);
-            if index < ropes {
-                self.history.values.push(hold.length);
-            }
-        }
-        for gauge in &system.scene.gauges {
-            let displacement = self.displacement(system, solver, at, gauge)?;
-            self.history.values.push(displacement);
-        }
-        Ok(())
-    }
-
-    /// G F + Phi q at a gauge.
-    fn displacement(
-        &mut self,
-        system: &System,
-        solver: &Solver,
-        at: &State,
-        gauge: &Gauge,
-    ) -> Result<f64, Error> {
-        let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
-        let failed = |source| Error::Compliance { structure: s, source };
-        let mut sum = 0.0;
-        if let Some(compliance) = &foundation.compliance {
-            let entries = &system.entries[s];
-            self.probes.clear();
-            self.probes.push(gauge.probe);
-            let wheels = entries.iter().map(|e| Probe { x: solver.geometry.x[e.wheel], ..e.probe });
-            self.probes.extend(wheels);
-            let mut influence = Influence::zeros(self.probes.len());
-            compliance.fill(&self.probes, &mut influence).map_err(failed)?;
-            for (j, entry) in entries.iter().enumerate() {
-                sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.component];
-            }
-        }
-        if let Some(structure) = &foundation.structure {
-            let range = system.structure[s].clone();
-            let (value, slope) = self.shape.split_at_mut(system.freedoms);
-            let value = &mut value[..range.len()];
-            structure.shapes.row(gauge.probe, value, &mut slope[..range.len()]).map_err(failed)?;
-            sum += dot(value, &at.q.as_slice()[range]);
-        }
-        Ok(sum)
-    }
+    let (history, audit) = (recorder.history, Audit::default());
+    Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
 }

@@ -16,10 +16,10 @@ use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
 use crate::tie::Tie;
-use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Scene};
+use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
 
 /// One physical wheel.
-pub(crate) struct WheelPoint {
+pub(crate) struct WheelPoint<'a> {
     pub body: usize,
     pub contact: usize,
     pub kind: usize,
@@ -27,6 +27,8 @@ pub(crate) struct WheelPoint {
     pub hub: [f64; 3],
     /// Index of its spin among the freedoms.
     pub spin: Option<usize>,
+    /// Its spin over time, where it is prescribed.
+    pub turn: Option<&'a Profile>,
 }
 
 /// One vertical contact component.
@@ -57,7 +59,7 @@ pub(crate) struct Entry {
 pub(crate) struct System<'a> {
     pub scene: &'a Scene,
     pub foundations: &'a [Foundation],
-    pub wheels: Vec<WheelPoint>,
+    pub wheels: Vec<WheelPoint<'a>>,
     pub normals: Vec<Normal>,
     /// Wheels with a flange; component `normals.len() + i`.
     pub laterals: Vec<usize>,
@@ -87,6 +89,10 @@ pub(crate) struct System<'a> {
     /// Whether the probes of a structure are the components in their order, with weight -1 each: the compliance
     /// of the components is then the structure's.
     pub is_direct: Vec<bool>,
+    /// Largest stiffness of a wheel on its rail.
+    pub stiffest: f64,
+    /// Whether some structure is loaded along its rails.
+    pub is_dragged: bool,
     /// Whether some wheel runs on an uneven rail.
     pub is_uneven: bool,
     /// Whether some wheel's place along the rail depends on the freedoms.
@@ -126,16 +132,20 @@ impl<'a> System<'a> {
         for (index, contact) in scene.contacts.iter().enumerate() {
             let first = wheels.len();
             let kind = &scene.wheels[contact.wheel];
-            for offset in &contact.offsets {
+            for (own, offset) in contact.offsets.iter().enumerate() {
                 let [x, y, z] = contact.at;
-                let spin =
-                    if kind.spin_inertia.is_some() && kind.friction.is_some() { Some(next()) } else { None };
+                let mut turns = scene.actuators.turns.iter();
+                let turn =
+                    turns.find(|turn| (turn.contact, turn.wheel) == (index, own)).map(|turn| &turn.motion);
+                let spins = kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();
+                let spin = if spins { Some(next()) } else { None };
                 wheels.push(WheelPoint {
                     body: contact.body,
                     contact: index,
                     kind: contact.wheel,
                     hub: [x + offset, y, z],
                     spin,
+                    turn,
                 });
             }
             let parts = match &foundations[contact.structure].parts {
@@ -166,7 +176,8 @@ impl<'a> System<'a> {
             .collect();
         let laterals: Vec<usize> =
             (0..wheels.len()).filter(|&w| scene.wheels[wheels[w].kind].flange.is_some()).collect();
-        let tractions: Vec<usize> = (0..wheels.len()).filter(|&w| wheels[w].spin.is_some()).collect();
+        let tractions: Vec<usize> =
+            (0..wheels.len()).filter(|&w| wheels[w].spin.is_some() || wheels[w].turn.is_some()).collect();
 
         let mut kinematics = Kinematics::new(scene, &freedom)?;
         let rides = Rides::new(scene, foundations, &kinematics)?;
@@ -190,6 +201,8 @@ impl<'a> System<'a> {
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
             is_direct: Vec::new(),
+            stiffest: scene.wheels.iter().fold(0.0, |max, wheel| wheel.normal.stiffness.max(max)),
+            is_dragged: foundations.iter().any(|foundation| foundation.is_dragged),
             is_uneven: false,
             moves_freely: false,
             constant_rows: false,
@@ -269,6 +282,23 @@ impl<'a> System<'a> {
     /// Component of drive or brake `i`.
     pub fn pull(&self, i: usize) -> usize {
         self.normals.len() + self.laterals.len() + self.tractions.len() + i
+    }
+
+    /// Components along the rails whose massless give is a state: frictions, drives and brakes, where some structure is
+    /// dragged.
+    pub fn drags(&self) -> Range<usize> {
+        if self.is_dragged { self.traction(0)..self.link(0) } else { 0..0 }
+    }
+
+    /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
+    pub fn treads(&self, i: usize) -> Vec<usize> {
+        match i.checked_sub(self.pull(0)) {
+            None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
+            Some(index) => {
+                let contacts = &self.pulls[index].contacts;
+                (0..self.wheels.len()).filter(|&w| contacts.contains(&self.wheels[w].contact)).collect()
+            }
+        }
     }
 
     /// Component of rope or stop `i`.
@@ -367,8 +397,7 @@ impl<'a> System<'a> {
         Ok(())
     }
 
-    /// Probes of structure `s`. A vertical component is positive downwards, hence its weight is negative;
-    /// friction does not load the structure.
+    /// Probes of structure `s`. A vertical component is positive downwards, hence its weight is negative.
     fn structure_entries(&self, s: usize) -> Vec<Entry> {
         let mut entries = Vec::new();
         let rail_of = |contact: usize, part: Option<usize>| {
@@ -393,6 +422,16 @@ impl<'a> System<'a> {
             if self.scene.contacts[contact].structure == s && self.foundations[s].parts.is_none() {
                 let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Lateral };
                 entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe });
+            }
+        }
+        for component in self.drags().filter(|_| self.foundations[s].is_dragged) {
+            let wheels = self.treads(component);
+            for &wheel in &wheels {
+                let contact = self.wheels[wheel].contact;
+                if self.scene.contacts[contact].structure == s {
+                    let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Longitudinal };
+                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe });
+                }
             }
         }
         entries

@@ -49,7 +49,10 @@ pub(crate) struct Whole<'a> {
     reduced: DMatrix<f64>,
     /// Mass of the bodies.
     mass: DMatrix<f64>,
-    scratch: [Vec<f64>; 2],
+    /// S^-1 B^T of each tie.
+    pulls: Vec<DMatrix<f64>>,
+    /// Scratch.
+    row: DVector<f64>,
     step: f64,
 }
 
@@ -68,7 +71,8 @@ impl<'a> Whole<'a> {
             answers: system.ties.iter().map(|tie| tie.between.clone()).collect(),
             reduced: DMatrix::zeros(bodies, bodies),
             mass,
-            scratch: [vec![0.0; bodies], vec![0.0; bodies]],
+            pulls: system.ties.iter().map(|tie| tie.between.transpose()).collect(),
+            row: DVector::zeros(bodies),
             step: 0.0,
         };
         whole.reduce(system.freedoms);
@@ -127,33 +131,37 @@ impl<'a> Whole<'a> {
         self.mass -= &self.reduced;
         let set = self.parts.set_mass(&self.mass);
         self.mass += &self.reduced;
-        set
+        set?;
+        for (tie, pull) in self.ties.iter().zip(&mut self.pulls) {
+            for (k, mut column) in pull.column_iter_mut().enumerate() {
+                self.row.copy_from(&tie.between.row(k).transpose());
+                self.parts.apply_to_bodies(self.row.as_slice(), column.as_mut_slice());
+            }
+        }
+        Ok(())
     }
 
     /// `out` = Z `load`.
-    pub fn apply(&mut self, load: &[f64], out: &mut [f64]) {
+    pub fn apply(&self, load: &[f64], out: &mut [f64]) {
         self.parts.apply(load, out);
-        if self.ties.is_empty() {
-            return;
-        }
-        let [pulled, back] = &mut self.scratch;
-        pulled.fill(0.0);
-        for tie in self.ties {
-            let own = &out[tie.range.clone()];
-            for (pulled, column) in pulled.iter_mut().zip(tie.between.column_iter()) {
-                *pulled += column.iter().zip(own).map(|(b, y)| b * y).sum::<f64>();
+        let (bodies, others) = out.split_at_mut(self.mass.nrows());
+        for (tie, pull) in self.ties.iter().zip(&self.pulls) {
+            for (y, column) in others[self.own(tie)].iter().zip(pull.column_iter()) {
+                bodies.iter_mut().zip(column.iter()).for_each(|(out, p)| *out -= p * y);
             }
         }
-        self.parts.apply_to_bodies(pulled, back);
-        let (bodies, _) = out.split_at_mut(back.len());
-        bodies.iter_mut().zip(back.iter()).for_each(|(out, back)| *out -= back);
-        back.copy_from_slice(bodies);
         for (tie, answer) in self.ties.iter().zip(&self.answers) {
-            let own = &mut out[tie.range.clone()];
-            for (column, a) in answer.column_iter().zip(back.iter()) {
+            let own = &mut others[self.own(tie)];
+            for (column, a) in answer.column_iter().zip(bodies.iter()) {
                 own.iter_mut().zip(column.iter()).for_each(|(out, y)| *out -= y * a);
             }
         }
+    }
+
+    /// Freedoms of a structure after those of the bodies.
+    fn own(&self, tie: &Tie) -> Range<usize> {
+        let bodies = self.mass.nrows();
+        tie.range.start - bodies..tie.range.end - bodies
     }
 }
 

@@ -18,7 +18,7 @@ use crate::progress::Progress;
 use crate::record::peak;
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
-use crate::{grid_file, story, summary, tables};
+use crate::{grid_file, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -78,7 +78,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     folder.add_varying("timing.json", output::json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
     let written = folder.commit(Manifest::new(name, &document.inputs, settings))?;
-    finish(&outcomes, &summary, &written, scene, global, &progress)
+    finish(&outcomes, &summary, &written, &document, global, &progress)
 }
 
 /// Says how it went; the exit status is that of the worst run.
@@ -86,10 +86,11 @@ fn finish(
     outcomes: &[Outcome],
     summary: &Value,
     written: &Path,
-    scene: &Scene,
+    document: &Document,
     global: Global,
     progress: &Progress,
 ) -> Result<Exit, Failure> {
+    let scene = document.scene();
     let unit = scene.units.length.word();
     for outcome in outcomes {
         for body in &scene.bodies {
@@ -97,12 +98,12 @@ fn finish(
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
-    for outcome in outcomes {
+    for (outcome, case) in outcomes.iter().zip(&document.cases) {
         for choice in &outcome.choices {
             let name = &scene.structures[choice.structure].name;
             progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
         }
-        for warning in summary::cautions(scene, outcome) {
+        for warning in warning::of_case(&case.scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
     }

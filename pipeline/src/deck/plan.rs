@@ -198,7 +198,7 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
     Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
 }
 
-/// Refuses ropes, stops, drives, brakes, loads, uneven rails and pinned bodies, which a deck does not have yet.
+/// Refuses ropes, stops, events, drives, brakes, loads, uneven rails and pinned bodies, which a deck does not have yet.
 fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
     let refuse = |why: String, hint: &str| Err(Failure::from(Diagnostic::of_file(file, why).hint(hint)));
     if let Some(rope) = scene.ropes.first() {
@@ -207,6 +207,18 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
             why,
             "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
         );
+    }
+    if let Some(spin) = scene.spins.first() {
+        let why = format!("a deck cannot have prescribed spins: truck \"{}\"", scene.trucks[spin.truck].name);
+        return refuse(why, "leave the motion out, and add a MOTION to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.longitudinal) {
+        let why = format!("a deck cannot have give along its rails: structure \"{}\"", structure.name);
+        return refuse(why, "leave `longitudinal` out");
+    }
+    if let Some(event) = scene.events.first() {
+        let why = format!("a deck cannot have events: \"{}\"", event.name);
+        return refuse(why, "leave `events` out, and add a SENSOR to the deck by hand");
     }
     if let Some(structure) = scene.structures.iter().find(|structure| !structure.irregularities.is_empty()) {
         let why = format!("a deck cannot have uneven rails: structure \"{}\"", structure.name);

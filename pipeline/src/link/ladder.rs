@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
-use splines::Compliance;
+use splines::{Axis, Compliance};
 
 use super::{Solved, Spectra, foundation_by, modal};
 use crate::cases::{Known, solved_of};
@@ -88,9 +88,9 @@ pub fn rung_of(
     let rails = solved.rails.iter().enumerate();
     let elements = finer * elements(Some(solved));
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => spectra.lowest(name, solved, modes, damping, false),
-        (Rung::Half, _) => spectra.full(name, solved, elements / 2, damping, false),
-        (Rung::Full, _) => spectra.full(name, solved, elements, damping, false),
+        (Rung::Modal(modes), _) => spectra.lowest(name, solved, modes, damping, &[Axis::Vertical]),
+        (Rung::Half, _) => spectra.full(name, solved, elements / 2, damping, &[Axis::Vertical]),
+        (Rung::Full, _) => spectra.full(name, solved, elements, damping, &[Axis::Vertical]),
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }

@@ -8,7 +8,7 @@ mod parts;
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
+use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
@@ -100,11 +100,20 @@ fn foundation_by(
 ) -> Result<Foundation, Failure> {
     let irregularities = structure.irregularities.clone();
     let on = mount::mount(structure)?;
-    grounded(spectra, structure, solved, lateral).map(|foundation| Foundation {
-        on,
-        irregularities,
-        ..foundation
-    })
+    let is_dragged = structure.longitudinal;
+    let foundation = grounded(spectra, structure, solved, lateral)?;
+    if let (true, Some(compliance), Some(rail)) =
+        (is_dragged, &foundation.compliance, structure.rails.first())
+    {
+        let probe = Probe { rail: 0, x: rail.range[0], axis: Axis::Longitudinal };
+        let mut give = Influence::zeros(1);
+        let known = compliance.fill(&[probe], &mut give).is_ok() && give.value[(0, 0)].is_finite();
+        if !known {
+            let why = "its give along the rails is not known  hint: leave `longitudinal` out";
+            return Err(Failure::Untrusted(format!("{}: {why}", structure.name)));
+        }
+    }
+    Ok(Foundation { on, irregularities, is_dragged, ..foundation })
 }
 
 /// The same, without what carries it.
@@ -118,6 +127,9 @@ fn grounded(
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
+    let pushes =
+        [(Axis::Vertical, true), (Axis::Lateral, lateral), (Axis::Longitudinal, structure.longitudinal)];
+    let axes: Vec<Axis> = pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect();
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }),
         scene::Foundation::Influence => influence(structure, solved),
@@ -128,10 +140,10 @@ fn grounded(
             parts::foundation(girder, count, handover, lateral)
         }
         scene::Foundation::Modal { modes, damping } => {
-            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
+            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, &axes)
         }
         scene::Foundation::Full { elements, damping } => {
-            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
+            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, &axes)
         }
         scene::Foundation::Ties { moves: false, .. } => influence(structure, solved),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -140,7 +152,7 @@ fn grounded(
                 Origin::Tables { .. } => &[],
             };
             let dampers = modal::Dampers { pads, c };
-            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, lateral)
+            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, &axes)
         }
     }
 }
@@ -230,7 +242,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    Spectra::default().full("structure", solved, elements, 0.0, false)
+    Spectra::default().full("structure", solved, elements, 0.0, &[Axis::Vertical])
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

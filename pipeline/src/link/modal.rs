@@ -31,17 +31,17 @@ pub(super) struct Spectrum {
 
 impl Spectrum {
     /// At least the lowest `count` modes, where there are so many.
-    pub fn lowest(name: &str, solved: &Solved, count: usize, lateral: bool) -> Result<Spectrum, Failure> {
+    pub fn lowest(name: &str, solved: &Solved, count: usize, axes: &[Axis]) -> Result<Spectrum, Failure> {
         let (refined, felt, is_whole) =
-            search(solved, count, ACCURACY, lateral).map_err(|e| refused(name, &e))?;
+            search(solved, count, ACCURACY, axes).map_err(|e| refused(name, &e))?;
         Spectrum::new(name, refined, felt, is_whole)
     }
 
     /// All modes of a mesh of `parts` elements a member.
-    pub fn whole(name: &str, solved: &Solved, parts: usize, lateral: bool) -> Result<Spectrum, Failure> {
+    pub fn whole(name: &str, solved: &Solved, parts: usize, axes: &[Axis]) -> Result<Spectrum, Failure> {
         let refined =
             fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
-        let felt = felt(&refined.modes, solved, lateral);
+        let felt = felt(&refined.modes, solved, axes);
         Spectrum::new(name, refined, felt, true)
     }
 
@@ -93,12 +93,12 @@ fn search(
     solved: &Solved,
     count: usize,
     accuracy: f64,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<(Refined, Vec<fea::Mode>, bool), fea::Error> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)?;
-        let felt = felt(&refined.modes, solved, lateral);
+        let felt = felt(&refined.modes, solved, axes);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
         // Some of the modes of one frequency are not enough to turn them.
@@ -112,7 +112,7 @@ fn search(
 
 /// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
 pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Failure> {
-    let (refined, mut felt, _) = match search(solved, count, COARSE, false) {
+    let (refined, mut felt, _) = match search(solved, count, COARSE, &[Axis::Vertical]) {
         Ok(found) => found,
         Err(fea::Error::NoMass) => return Ok(None),
         Err(error) => return Err(refused(name, &error)),
@@ -142,11 +142,11 @@ pub(super) fn on_ties(
     count: Option<usize>,
     ratio: f64,
     dampers: Dampers<'_>,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<Foundation, Failure> {
     let spectrum = match count {
-        Some(count) => Spectrum::lowest(name, solved, count, lateral)?,
-        None => Spectrum::whole(name, solved, 1, lateral)?,
+        Some(count) => Spectrum::lowest(name, solved, count, axes)?,
+        None => Spectrum::whole(name, solved, 1, axes)?,
     };
     spectrum.foundation(name, count.unwrap_or(usize::MAX), ratio, dampers)
 }
@@ -167,12 +167,12 @@ impl Spectra {
         solved: &Solved,
         count: usize,
         ratio: f64,
-        lateral: bool,
+        axes: &[Axis],
     ) -> Result<Foundation, Failure> {
         let known = self.lowest.take().filter(|spectrum| spectrum.has(count));
         let spectrum = match known {
             Some(known) => known,
-            None => Spectrum::lowest(name, solved, count, lateral)?,
+            None => Spectrum::lowest(name, solved, count, axes)?,
         };
         self.lowest.insert(spectrum).foundation(name, count, ratio, Dampers::default())
     }
@@ -184,12 +184,12 @@ impl Spectra {
         solved: &Solved,
         parts: usize,
         ratio: f64,
-        lateral: bool,
+        axes: &[Axis],
     ) -> Result<Foundation, Failure> {
         let at = match self.whole.iter().position(|(own, _)| *own == parts) {
             Some(at) => at,
             None => {
-                self.whole.push((parts, Spectrum::whole(name, solved, parts, lateral)?));
+                self.whole.push((parts, Spectrum::whole(name, solved, parts, axes)?));
                 self.whole.len() - 1
             }
         };
@@ -211,8 +211,8 @@ fn refused(name: &str, error: &fea::Error) -> Failure {
 /// Modes that move the rails where and as wheels can push.
 ///
 /// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
-fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Vec<fea::Mode> {
-    let motions = motions(modes, solved, lateral);
+fn felt(modes: &Modes, solved: &Solved, axes: &[Axis]) -> Vec<fea::Mode> {
+    let motions = motions(modes, solved, axes);
     // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
     let limit = STILL / modes.total[0][0].sqrt();
     let mut kept = Vec::new();
@@ -238,8 +238,7 @@ fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Vec<fea::Mode> {
 }
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
-fn motions(modes: &Modes, solved: &Solved, lateral: bool) -> DMatrix<f64> {
-    let axes: &[Axis] = if lateral { &[Axis::Vertical, Axis::Lateral] } else { &[Axis::Vertical] };
+fn motions(modes: &Modes, solved: &Solved, axes: &[Axis]) -> DMatrix<f64> {
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {

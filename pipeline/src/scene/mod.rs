@@ -3,6 +3,7 @@
 mod actuator;
 mod body;
 mod compare;
+mod event;
 mod gauge;
 mod irregularity;
 mod method;
@@ -11,8 +12,10 @@ mod pin;
 mod raw;
 mod read;
 mod rope;
+mod spin;
 mod stop;
 mod structure;
+mod survey;
 mod tables;
 mod ties;
 mod truck;
@@ -21,9 +24,11 @@ mod wheel;
 pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
+pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
 pub use rope::Rope;
+pub use spin::Spin;
 pub use stop::{Meeting, Stop};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
@@ -57,10 +62,14 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Wheels under bodies.
     pub trucks: Vec<Truck>,
+    /// Wheels whose spin is prescribed.
+    pub spins: Vec<Spin>,
     /// Ropes.
     pub ropes: Vec<Rope>,
     /// End stops of rails, and floors.
     pub stops: Vec<Stop>,
+    /// What is switched on the way.
+    pub events: Vec<Event>,
     /// Forces and moments on bodies.
     pub loads: Vec<Load>,
     /// Time at which the scene ends.

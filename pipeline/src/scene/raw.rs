@@ -30,6 +30,10 @@ crate::object::objects!(
     RawRope,
     RawEnds,
     RawStop,
+    RawEvent,
+    RawDo,
+    RawFollow,
+    RawHoist,
     RawEnd,
     RawOutput
 );
@@ -55,7 +59,7 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub motions: Vec<RawMotion>,
     #[serde(default)]
-    pub events: Vec<Value>,
+    pub events: Vec<RawEvent>,
     #[serde(default)]
     pub stops: Vec<RawStop>,
     #[serde(default)]
@@ -89,6 +93,7 @@ pub(crate) struct RawStructure {
     pub gauges: Entries<RawGauge>,
     #[serde(default)]
     pub irregularities: Vec<RawIrregularity>,
+    pub longitudinal: Option<bool>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
 }
@@ -325,6 +330,8 @@ impl<'de> Visitor<'de> for NodeVisitor {
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMotion {
     pub body: Option<String>,
+    pub truck: Option<String>,
+    pub wheel: Option<usize>,
     pub dof: Option<String>,
     pub kind: Option<String>,
     pub position: Option<Vec<[f64; 2]>>,
@@ -369,6 +376,42 @@ pub(crate) struct RawStop {
     pub side: Option<String>,
     pub k: Option<f64>,
     pub c: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawEvent {
+    pub name: Option<String>,
+    pub when: Option<String>,
+    #[serde(rename = "do")]
+    pub actions: Option<RawDo>,
+}
+
+/// What an event does.
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawDo {
+    pub brake: Option<String>,
+    pub release_brake: Option<String>,
+    pub drive: Option<RawFollow>,
+    pub drive_off: Option<String>,
+    pub hoist: Option<RawHoist>,
+    pub drop: Option<String>,
+    pub end: Option<bool>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawFollow {
+    pub body: Option<String>,
+    pub speed: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawHoist {
+    pub rope: Option<String>,
+    pub speed: Option<f64>,
 }
 
 /// One end of a rope.

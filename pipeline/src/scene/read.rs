@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, method, mount, pin,
-    rope, stop, structure, truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
+    pin, rope, spin, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -39,7 +39,6 @@ pub(super) fn scene(
     if raw.name.is_some() {
         super::name(&name, &root.key("name"), check.faults);
     }
-    refuse_later(raw, &root, check);
     let gravity = read_gravity(raw, &root, check);
     let mut structures = read_structures(raw, &root, known, inputs, elsewhere, check);
     let rails = rails_of(&structures);
@@ -87,9 +86,11 @@ pub(super) fn scene(
         bodies,
         wheels,
         trucks: Vec::new(),
+        spins: Vec::new(),
         loads,
         ropes,
         stops: Vec::new(),
+        events: Vec::new(),
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -101,8 +102,13 @@ pub(super) fn scene(
         stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
+    if scene.trucks.len() == raw.trucks.len() {
+        scene.spins = spin::read_all(&raw.motions, &scene, check);
+    }
     scene.stops = stop::read_all(&raw.stops, &scene, check);
-    actuator::check_wheels(&raw.motions, &scene, check.faults);
+    event::fit_brakes(&raw.events, &mut scene.bodies);
+    scene.events = event::read_all(&raw.events, &scene, check);
+    actuator::check_wheels(raw, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
         mount::check(&scene, check.faults);
@@ -110,15 +116,6 @@ pub(super) fn scene(
         method::suits(&scene, &root, check.faults);
     }
     units.map(|_| scene)
-}
-
-fn refuse_later(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) {
-    let later = [("events", raw.events.is_empty(), "an event")];
-    for (key, empty, what) in later {
-        if !empty {
-            check.faults.unavailable(&root.key(key), what);
-        }
-    }
 }
 
 fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Option<f64> {

@@ -34,6 +34,8 @@ pub struct Structure {
     pub tolerance: f64,
     /// Places whose displacement is recorded.
     pub gauges: Vec<Gauge>,
+    /// Whether friction, drives and brakes load it along its rails.
+    pub longitudinal: bool,
     /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
     pub irregularities: Vec<sim::Irregularity>,
     /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
@@ -276,6 +278,14 @@ pub(super) fn read(
     }
     let auto = matches!(word, Word::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
+    if raw.longitudinal == Some(true) && raw.tables.is_some() {
+        let fault = Fault::new(&at.key("longitudinal"), "needs a `spec`").at_key();
+        check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
+    }
+    if raw.longitudinal == Some(true) && matches!(word, Word::Parts) {
+        let fault = Fault::new(&at.key("longitudinal"), "\"parts\" do not give along the rail").at_key();
+        check.faults.add(fault.hint("use \"influence\" or \"modal\""));
+    }
     let place = at.key("irregularities");
     let irregularities = irregularity::read(&raw.irregularities, &rails, &place, inputs, elsewhere, check);
     Some(Structure {
@@ -288,6 +298,7 @@ pub(super) fn read(
         reading,
         tolerance,
         gauges,
+        longitudinal: raw.longitudinal.unwrap_or(false),
         irregularities,
         on: None,
     })

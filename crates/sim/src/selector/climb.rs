@@ -99,7 +99,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
                 let found = below.pop().unwrap_or(found);
                 return Ok(self.end(found, Reason::Unchecked, None));
             }
-            if found.run.status != Status::Done {
+            if !found.run.status.is_complete() {
                 // a higher one may still follow the motion
                 if below.is_empty() {
                     below.push(found);
@@ -203,7 +203,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
         match ran {
             Ok(run) => {
                 self.runs += 1;
-                if run.status != Status::Done {
+                if !run.status.is_complete() {
                     self.choice.failed.push(rung);
                 }
                 let foundation = std::mem::take(&mut self.foundations[self.structure]);
@@ -219,7 +219,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
 
     /// The mesh whole, checked by half of it.
     fn top(mut self, full: Candidate) -> Outcome {
-        let half = self.attempt(Rung::Half).filter(|half| half.run.status == Status::Done);
+        let half = self.attempt(Rung::Half).filter(|half| half.run.status.is_complete());
         let Some(half) = half else { return self.end(full, Reason::Top, None) };
         let apart = distance(&half.run, &full.run, self.scene);
         let estimate = HALVED * apart;

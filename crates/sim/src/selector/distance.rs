@@ -7,7 +7,9 @@ use crate::{Channel, Freedom, Run, Scene, Status};
 /// reach its end.
 #[must_use]
 pub fn distance(a: &Run, b: &Run, scene: &Scene) -> f64 {
-    if a.status != Status::Done || b.status != Status::Done || a.history.len() != b.history.len() {
+    let by_rule = matches!((&a.status, &b.status), (Status::Ended(_), Status::Ended(_)));
+    let reached = a.status.is_complete() && b.status.is_complete();
+    if !reached || (a.history.len() != b.history.len() && !by_rule) {
         return f64::INFINITY;
     }
     let part = |channels: &[Channel]| {

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::{Choice, Ladder, MODES, Reason, Rung, SAFE, STEPPING, Selection, Tried, distance};
-use crate::{Foundation, Scene, Status};
+use crate::{Foundation, Scene};
 
 /// Raises all structures that climbed until the next rungs of all change the run by at most 0.8 of the sum of their
 /// tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they were held.
@@ -20,7 +20,7 @@ pub(super) fn settle<L: Ladder>(
         (0..selection.choices.len()).filter(|&c| is_open(&selection.choices[c])).collect();
     let all: Vec<f64> = climbed.iter().filter_map(|&c| tolerances[selection.choices[c].structure]).collect();
     let kept = climbed.iter().skip(1).all(|&c| selection.choices[c].rung == Rung::Influence);
-    if kept || selection.run.status != Status::Done {
+    if kept || !selection.run.status.is_complete() {
         return selection;
     }
     let mut finer = scene.clone();
@@ -40,7 +40,7 @@ pub(super) fn settle<L: Ladder>(
             }
         }
         let higher = match ladder.run(&finer, &foundations, watch) {
-            Ok(higher) if higher.status == Status::Done => higher,
+            Ok(higher) if higher.status.is_complete() => higher,
             _ => return doubted(selection, &climbed, true, Reason::Unchecked),
         };
         selection.runs += 1;

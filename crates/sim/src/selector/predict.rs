@@ -114,12 +114,15 @@ pub(super) fn predict(
 fn is_complete(scene: &Scene, foundations: &[Foundation]) -> bool {
     let Scene { actuators, bodies, .. } = scene;
     let steady = |profile: &crate::Profile| profile.breaks().iter().all(|&t| t >= scene.end);
-    let plain = |f: &Foundation| f.on.is_none() && f.parts.is_none() && f.irregularities.is_empty();
+    let plain =
+        |f: &Foundation| f.on.is_none() && f.parts.is_none() && f.irregularities.is_empty() && !f.is_dragged;
     foundations.iter().all(plain)
         && actuators.drives.is_empty()
         && actuators.brakes.is_empty()
         && actuators.ropes.is_empty()
         && actuators.stops.is_empty()
+        && actuators.turns.is_empty()
+        && actuators.rules.is_empty()
         && actuators.loads.iter().all(|load| load.freedom == Freedom::Y)
         && scene.wheels.iter().all(|wheel| wheel.flange.is_none() && wheel.friction.is_none())
         && bodies.iter().all(|body| {
