@@ -128,9 +128,9 @@ fn one(
         .map(|structure| link::foundation(structure, solved_of(known, &structure.origin), lateral))
         .collect::<Result<Vec<Foundation>, Failure>>()?;
     let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
-    let run = sim::run(&cast.scene, &foundations, watch)
+    let run = sim::run_by(scene.stepping, &cast.scene, &foundations, watch)
         .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
-    let record = Record::new(&scene, &cast, &run.history);
+    let record = Record::new(&scene, &run.history);
     Ok(Outcome { label, cast, run, record, choices })
 }
 

@@ -32,6 +32,7 @@ pub mod output;
 pub mod pictures;
 pub mod place;
 pub mod progress;
+pub mod quantity;
 pub mod record;
 pub mod report;
 pub mod scene;

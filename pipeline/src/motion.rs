@@ -4,7 +4,7 @@ use sim::{Contact, NormalLaw};
 use splines::Probe;
 
 use crate::exit::Failure;
-use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene};
+use crate::scene::{Along, Analysis, Damper, FrictionLaw, Gauge, Law, Scene, Truck};
 use crate::units::{Dimension, Length, Scale, Units};
 
 /// Speed at which a brake has 76 % of its friction, ft/s: it rubs with mu N tanh(s / speed).
@@ -39,10 +39,9 @@ pub struct CastWheel {
 pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     let bodies = scene.bodies.iter().map(body).collect();
     let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
-    let (mut contacts, mut cast) = (Vec::new(), Vec::new());
+    let mut contacts = Vec::new();
     for truck in &scene.trucks {
         let rail = &scene.rails[truck.rail];
-        let mut number = 0;
         for node in &truck.tree {
             let below = node.wheels();
             if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
@@ -50,17 +49,6 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
                     "{}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels",
                     truck.name
                 )));
-            }
-            for _ in &below {
-                number += 1;
-                let kind = &wheels[truck.wheel];
-                cast.push(CastWheel {
-                    name: format!("{}.wheel{number}", truck.name),
-                    body: truck.body,
-                    rail: truck.rail,
-                    kind: truck.wheel,
-                    spins: kind.spin_inertia.is_some() && kind.friction.is_some(),
-                });
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -72,6 +60,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
             });
         }
     }
+    let names = self::wheels(scene);
     let scene = sim::Scene {
         actuators: actuators(scene, &contacts),
         gauges: gauges(scene),
@@ -87,7 +76,31 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
         output_dt: scene.dt,
         accuracy: scene.accuracy,
     };
-    Ok(Cast { scene, wheels: cast })
+    Ok(Cast { scene, wheels: names })
+}
+
+/// The wheels of `scene`, in the simulator's order.
+#[must_use]
+pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
+    let of_truck = |truck: &Truck| {
+        let kind = &scene.wheels[truck.wheel];
+        let (name, body, rail, kind, spins) = (
+            truck.name.clone(),
+            truck.body,
+            truck.rail,
+            truck.wheel,
+            kind.spin_inertia.is_some() && kind.friction.is_some(),
+        );
+        let numbers = 1..=truck.wheel_offsets().len();
+        numbers.map(move |number| CastWheel {
+            name: format!("{name}.wheel{number}"),
+            body,
+            rail,
+            kind,
+            spins,
+        })
+    };
+    scene.trucks.iter().flat_map(of_truck).collect()
 }
 
 /// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
@@ -111,6 +124,18 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
             speed: rope.speed.clone(),
         });
     }
+    for stop in &scene.stops {
+        out.stops.extend(stop.meetings.iter().map(|meeting| sim::Stop {
+            body: meeting.body,
+            at: meeting.at,
+            axis: stop.axis,
+            place: stop.place,
+            side: meeting.side,
+            stiffness: stop.stiffness,
+            damping: stop.damping,
+        }));
+    }
+    out.rules = scene.events.iter().map(|event| event.rule.clone()).collect();
     let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
     out.hung = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {

@@ -1,7 +1,5 @@
 //! The report of a run: what was asked, what came out, what to look at.
 
-use sim::Status;
-
 use crate::cases::Outcome;
 use crate::coupling::Coupling;
 use crate::link::Solved;
@@ -180,7 +178,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     };
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         let run = &outcome.run;
-        if case.scene.analysis == Analysis::Dynamic && run.status == Status::Done {
+        if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
             let exchanged = &run.audit.exchanged;
             table.rows.push(vec![
                 Cell::from(outcome.label.clone()),

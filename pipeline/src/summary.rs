@@ -7,7 +7,7 @@ use crate::cases::Outcome;
 use crate::link;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Analysis, Scene};
+use crate::scene::{Analysis, Event, STEPPERS, Scene};
 use crate::units::Dimension;
 
 /// Word of a run's status, and what it means for the user where it is not "done".
@@ -15,6 +15,7 @@ use crate::units::Dimension;
 pub fn status(status: &Status) -> (&'static str, Option<String>) {
     match status {
         Status::Done => ("done", None),
+        Status::Ended(_) => ("ended by event", None),
         Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
         Status::StepTooSmall(t) => (
             "step too small",
@@ -107,6 +108,10 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
             "events": run.counts.events,
         },
     });
+    if let Some(method) = run.method {
+        let name = STEPPERS.iter().find(|(_, known)| *known == method).map(|(word, _)| *word);
+        result["steps"]["method"] = json!(name);
+    }
     if let Some(why) = why {
         result["why"] = json!(why);
     }
@@ -128,9 +133,20 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 "switches": lost.switches,
             },
             "put_in": lost.put_in(),
+            "steps": lost.steps,
+            "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
         });
     }
+    if !run.fired.is_empty() {
+        result["events"] =
+            run.fired.iter().map(|fired| event(&scene.events[fired.rule], fired.time)).collect();
+    }
     result
+}
+
+/// An event that happened.
+fn event(event: &Event, time: f64) -> Value {
+    json!({ "time": time, "name": event.name, "when": event.when, "what": event.what })
 }
 
 /// The word of a rung in scenes.

@@ -1,9 +1,12 @@
 //! The command line: help, exit status, what goes where.
 
 mod drives;
+mod events;
 mod grids;
 mod modes;
+mod rides;
 mod ropes;
+mod stops;
 mod tables;
 
 use std::fs;

@@ -90,6 +90,13 @@ fn close_ties_come_to_a_bed_of_springs() {
     }
     println!("errors {errors:?}");
     assert!(errors[2] < 1e-5 && errors[0] / errors[1] > 12.0 && errors[1] / errors[2] > 12.0, "{errors:?}");
+    // External: the bed's deflection 24 in away, and where it first rises, 3 pi / (4 beta) away.
+    let spec = on_ground("track", UNITS, &ties(6.0, u), [0.0, 1440.0]).expect("a track");
+    let surface = solve(&spec).expect("it stands").surface.expect("it is small");
+    let at = |x| Probe { rail: 0, x, axis: Axis::Vertical };
+    let found = influence(&surface, &[at(720.0), at(744.0), at(720.0 + 104.002_238_513_251_21)]);
+    close("24 in away", found[(0, 1)], 3.010_143_301_622_467_6e-6, 1e-4);
+    assert!(found[(0, 2)].abs() < 1e-4 * found[(0, 0)], "{}", found[(0, 2)]);
 }
 
 /// Analytic: a rail on two ties is statically determinate: levers of the ties times the give of ties and girder, and

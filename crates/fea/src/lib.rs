@@ -39,6 +39,7 @@ pub use error::{Error, Fault, Item, Quantity};
 pub use frame::{ACCURACY, Frame};
 pub use girder::Girder;
 pub use grid::{Grid, grid};
+pub use mass::rigid_mass;
 pub use memory::MEMORY;
 pub use model::{Freedom, Freedoms6, Kind, Link, Mass, Member, Model, Spring, Support};
 pub use modes::{Mode, Modes, modes};

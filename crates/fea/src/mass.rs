@@ -48,6 +48,37 @@ impl Mass {
         freedoms: &Freedoms,
         assembly: &Assembly,
     ) -> Result<Mass, Error> {
+        Sum::new(m, elements, freedoms, assembly).finish()
+    }
+}
+
+/// Mass of a whole structure that moves as one with its supports: r^T M r for three translations along the global axes
+/// and three rotations about the global origin, 6 x 6, symmetric; zeros where it has none.
+///
+/// # Errors
+/// An entry of the model that cannot be used.
+pub fn rigid_mass(m: &Model) -> Result<[[f64; 6]; 6], Error> {
+    m.check()?;
+    let elements: Vec<Element> =
+        (0..m.members.len()).map(|index| Element::new(m, index)).collect::<Result<_, _>>()?;
+    let freedoms = Freedoms::new(m);
+    let assembly = Assembly::new(m, &elements, &freedoms);
+    let total = Sum::new(m, &elements, &freedoms, &assembly).symmetric_total();
+    Ok(std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)])))
+}
+
+struct Sum<'a> {
+    freedoms: &'a Freedoms,
+    assembly: &'a Assembly,
+    triplets: TriMat<f64>,
+    rigid: [Vec<f64>; 6],
+    total: Matrix6,
+    /// Of each column that nothing stiffens: its mass, and the magnitudes behind it.
+    idle: Vec<[f64; 2]>,
+}
+
+impl<'a> Sum<'a> {
+    fn new(m: &Model, elements: &[Element], freedoms: &'a Freedoms, assembly: &'a Assembly) -> Sum<'a> {
         let n = assembly.numbering.column.len();
         let mut sum = Sum {
             freedoms,
@@ -79,21 +110,13 @@ impl Mass {
             b.fixed_view_mut::<6, 6>(0, 0).copy_from(&motion);
             sum.add(m, [body, body], &b, &own, &own);
         }
-        sum.finish()
+        sum
     }
-}
 
-struct Sum<'a> {
-    freedoms: &'a Freedoms,
-    assembly: &'a Assembly,
-    triplets: TriMat<f64>,
-    rigid: [Vec<f64>; 6],
-    total: Matrix6,
-    /// Of each column that nothing stiffens: its mass, and the magnitudes behind it.
-    idle: Vec<[f64; 2]>,
-}
+    fn symmetric_total(&self) -> Matrix6 {
+        (self.total + self.total.transpose()) * 0.5
+    }
 
-impl Sum<'_> {
     /// Adds the mass `all` of a part that moves by `b` with two bodies (or twice the same); `held` of it
     /// needs something that stiffens it.
     fn add(&mut self, m: &Model, bodies: [usize; 2], b: &Matrix12, held: &Matrix12, all: &Matrix12) {
@@ -133,6 +156,7 @@ impl Sum<'_> {
     }
 
     fn finish(self) -> Result<Mass, Error> {
+        let total = self.symmetric_total();
         for (column, [own, bulk]) in self.idle.into_iter().enumerate() {
             let body = &self.freedoms.bodies[column / 6];
             if body.free[column % 6] && own > ROUNDING * bulk {
@@ -140,7 +164,6 @@ impl Sum<'_> {
                 return Err(Error::Mechanism { point: body.reference, freedom });
             }
         }
-        let total = (self.total + self.total.transpose()) * 0.5;
         Ok(Mass { upper: self.triplets.to_csc(), rigid: self.rigid, total })
     }
 }

@@ -1,8 +1,9 @@
 //! What acts on bodies besides weight and rails: loads, drives and brakes.
 
+use crate::rule::Switches;
 use crate::scene::arm_rows;
 use crate::system::System;
-use crate::{Error, Freedom, Rope, Scene, Schedule, Stop};
+use crate::{Error, Freedom, Rope, Rule, Scene, Schedule, Stop};
 
 /// A force or a moment on one free freedom of a body, over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +69,8 @@ pub struct Actuators {
     pub stops: Vec<Stop>,
     /// Bodies without wheels that start at rest below their ropes or on their floors.
     pub hung: Vec<usize>,
+    /// What switches drives, brakes and ropes on the way.
+    pub rules: Vec<Rule>,
 }
 
 impl Actuators {
@@ -76,7 +79,8 @@ impl Actuators {
         let loads = self.loads.iter().flat_map(|load| load.value.breaks());
         let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));
         let ropes = self.ropes.iter().flat_map(Rope::breaks);
-        loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes)
+        let rules = self.rules.iter().filter_map(|rule| rule.when.time());
+        loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes).chain(rules)
     }
 
     pub(crate) fn check(&self, scene: &Scene) -> Result<(), Error> {
@@ -91,6 +95,9 @@ impl Actuators {
             if index >= scene.bodies.len() || rides {
                 return Err(Error::NoSuch { what: "body without wheels", index });
             }
+        }
+        for rule in &self.rules {
+            rule.check(scene)?;
         }
         for load in &self.loads {
             free(scene, load.body, load.freedom)?;
@@ -172,6 +179,8 @@ pub(crate) struct Pull {
     /// Mean row of the places where it acts: their speed along x by the body's freedoms.
     pub row: [f64; 6],
     pub grips: Vec<Grip>,
+    /// Contacts under whose wheels it acts.
+    pub contacts: Vec<usize>,
     pub law: PullLaw,
 }
 
@@ -188,6 +197,7 @@ impl Pull {
                 body: drive.body,
                 row: treads(system, &drive.contacts),
                 grips: if gripped { grips(system, &drive.contacts) } else { Vec::new() },
+                contacts: drive.contacts.clone(),
                 law: PullLaw::Drive { drive: index, gain: drive.gain, max_force: drive.max_force, gripped },
             });
         }
@@ -198,6 +208,7 @@ impl Pull {
                     body: brake.body,
                     row: treads(system, contact),
                     grips: grips(system, contact),
+                    contacts: contact.to_vec(),
                     law: PullLaw::Brake { brake: index, speed: brake.speed },
                 });
             }
@@ -206,13 +217,11 @@ impl Pull {
     }
 
     /// Whether it acts at `t`, and the speed that its own is measured against.
-    pub fn reference(&self, scene: &Scene, t: f64) -> Option<f64> {
+    pub fn reference(&self, scene: &Scene, switches: &Switches, t: f64) -> Option<f64> {
+        let actuators = &scene.actuators;
         match self.law {
-            PullLaw::Drive { drive, .. } => {
-                let drive = &scene.actuators.drives[drive];
-                (t < drive.until).then(|| drive.speed.at(t))
-            }
-            PullLaw::Brake { brake, .. } => (t >= scene.actuators.brakes[brake].from).then_some(0.0),
+            PullLaw::Drive { drive, .. } => switches.drives(actuators, drive, t),
+            PullLaw::Brake { brake, .. } => switches.brakes(actuators, brake, t).then_some(0.0),
         }
     }
 
@@ -221,10 +230,10 @@ impl Pull {
         self.grips.iter().map(|grip| grip.mu * force[grip.normal].max(0.0)).sum()
     }
 
-    /// What changes sign where a drive that acts at `t` reaches or leaves its limit, and where the limit changes from
+    /// What changes sign where a drive that follows `reference` reaches or leaves its limit, and where the limit changes from
     /// traction to the drive's own, for its `speed` and `traction`; zeros where there are no such corners.
-    pub fn margins(&self, scene: &Scene, t: f64, speed: f64, traction: f64) -> [f64; 2] {
-        match (self.law, self.reference(scene, t)) {
+    pub fn margins(&self, reference: Option<f64>, speed: f64, traction: f64) -> [f64; 2] {
+        match (self.law, reference) {
             (PullLaw::Drive { gain, max_force, gripped, .. }, Some(reference)) => {
                 let limit = if gripped { traction.min(max_force) } else { max_force };
                 let reach = (gain * (reference - speed)).abs() - limit;

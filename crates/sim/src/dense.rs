@@ -116,6 +116,44 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
+/// Puts the inverse of a symmetric positive definite matrix (n x n, lower triangle used) in its place: L^-T L^-1.
+///
+/// Returns false, with it spoilt, where it is not positive definite to working precision.
+#[must_use]
+pub(crate) fn invert_spd(a: &mut [f64], n: usize) -> bool {
+    for i in 0..n {
+        let (above, row) = a.split_at_mut(i * n);
+        for j in 0..i {
+            let other = &above[j * n..(j + 1) * n];
+            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
+        }
+        let pivot = row[i] - dot(&row[..i], &row[..i]);
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return false;
+        }
+        row[i] = pivot.sqrt();
+    }
+    for j in 0..n {
+        a[j * n + j] = 1.0 / a[j * n + j];
+        for i in j + 1..n {
+            let sum: f64 = (j..i).map(|k| a[i * n + k] * a[k * n + j]).sum();
+            a[i * n + j] = -sum / a[i * n + i];
+        }
+    }
+    for i in 0..n {
+        for j in 0..=i {
+            let sum: f64 = (i..n).map(|k| a[k * n + i] * a[k * n + j]).sum();
+            a[i * n + j] = sum;
+        }
+    }
+    for i in 0..n {
+        for j in 0..i {
+            a[j * n + i] = a[i * n + j];
+        }
+    }
+    true
+}
+
 #[cfg(test)]
 mod tests {
     use super::{solve_general, solve_spd};

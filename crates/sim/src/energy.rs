@@ -2,10 +2,12 @@
 
 use crate::actuator::PullLaw;
 use crate::dense::{along, dot};
+use crate::drag::slip;
 use crate::geometry::Geometry;
 use crate::scene::arm_rows;
 use crate::state::State;
 use crate::system::System;
+use crate::tie::kinetic;
 use crate::wheel::Damper;
 
 /// Energy stored in a scene at one time.
@@ -52,6 +54,8 @@ pub struct Exchanged {
     pub loads: f64,
     /// Put in by hoisting.
     pub hoists: f64,
+    /// Put in where wheels meet steps of uneven rails; what their slopes do is in `drives`, or the body's own.
+    pub steps: f64,
 }
 
 impl Exchanged {
@@ -62,10 +66,10 @@ impl Exchanged {
             - self.put_in()
     }
 
-    /// Work put in by prescribed motions, drives, loads and hoisting.
+    /// Work put in by prescribed motions, drives, loads, hoisting and steps of rails.
     #[must_use]
     pub fn put_in(&self) -> f64 {
-        self.drives + self.loads + self.hoists
+        self.drives + self.loads + self.hoists + self.steps
     }
 
     pub(crate) fn add(&mut self, power: &Exchanged, weight: f64) {
@@ -78,6 +82,7 @@ impl Exchanged {
         self.drives += weight * power.drives;
         self.loads += weight * power.loads;
         self.hoists += weight * power.hoists;
+        self.steps += weight * power.steps;
     }
 }
 
@@ -107,14 +112,11 @@ impl Audit {
 
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
-    let mut energy = Stored {
-        kinetic: system.blocks.iter().map(|block| block.kinetic(state.v.as_slice())).sum(),
-        ..Stored::default()
-    };
+    let mut energy = Stored { kinetic: kinetic(&system.blocks, &system.ties, &state.v), ..Stored::default() };
     energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
-    let [kinetic, gravity] = system.rides.energy(system, state.t, &state.q, &state.v);
-    energy.kinetic += kinetic;
-    energy.gravity += gravity;
+    let [motion, lift] = system.rides.energy(system, state.t, &state.q, &state.v);
+    energy.kinetic += motion;
+    energy.gravity += lift;
     for (b, body) in system.scene.bodies.iter().enumerate().filter(|(b, _)| !system.rides.has(*b)) {
         let (displacement, speed) = system.body(b, state.t, &state.q, &state.v);
         let lift = dot(&arm_rows(body.cg)[1], &displacement);
@@ -125,6 +127,10 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
             energy.kinetic +=
                 drag.iter().map(|&(number, inertia)| inertia * speed[0] * state.v[number]).sum::<f64>();
         }
+    }
+    for mount in system.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        let (displacement, _) = system.body(mount.body, state.t, &state.q, &state.v);
+        energy.gravity += system.scene.gravity * dot(&mount.mass[1], &displacement);
     }
     for (i, normal) in system.normals.iter().enumerate() {
         if state.force[i] != 0.0 {
@@ -141,6 +147,9 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
             energy.contact += 0.5 * flange.stiffness * flange.share(geometry.height[w]).0 * overlap * overlap;
         }
     }
+    for i in system.drags() {
+        energy.structure += 0.5 * state.force[i] * along(&geometry.compliance, i, &state.force);
+    }
     for (index, hold) in geometry.links.iter().enumerate() {
         let i = system.link(index);
         if state.force[i] != 0.0 {
@@ -154,6 +163,9 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 /// Rates of everything exchanged at `state`, less the boundary terms of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
+    let convective = |i: usize| {
+        if system.is_uneven { geometry.rise[i] * speed_along(system, state, i) } else { 0.0 }
+    };
     let structure = system.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
     let mut power = Exchanged { structure, ..Exchanged::default() };
     for (i, normal) in system.normals.iter().enumerate() {
@@ -184,13 +196,13 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         let (share, slope) = flange.share(geometry.height[w]);
         if share > 0.0 && slope != 0.0 && state.force[i] != 0.0 {
             let overlap = state.force[i] / (flange.stiffness * share);
-            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal));
+            let climb = system.normals_of(w).next().map_or(0.0, |normal| -rate(normal) - convective(normal));
             power.flanges -= 0.5 * flange.stiffness * overlap * overlap * slope * climb;
         }
     }
     for index in 0..system.tractions.len() {
         let i = system.traction(index);
-        power.friction += state.force[i] * rate(i);
+        power.friction += state.force[i] * slip(system, geometry, state, i);
     }
     for (b, body) in system.scene.bodies.iter().enumerate() {
         if body.motion.is_some() {
@@ -200,8 +212,10 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
     for (index, pull) in system.pulls.iter().enumerate() {
         let i = system.pull(index);
         match pull.law {
-            PullLaw::Drive { .. } => power.drives -= state.force[i] * (rate(i) - geometry.rate_held[i]),
-            PullLaw::Brake { .. } => power.friction += state.force[i] * rate(i),
+            PullLaw::Drive { .. } => {
+                power.drives -= state.force[i] * (slip(system, geometry, state, i) - geometry.rate_held[i]);
+            }
+            PullLaw::Brake { .. } => power.friction += state.force[i] * slip(system, geometry, state, i),
         }
     }
     for (index, hold) in geometry.links.iter().enumerate() {
@@ -272,7 +286,8 @@ pub(crate) fn drive_force(system: &System, geometry: &Geometry, state: &State, b
         }
     }
     for (index, (link, hold)) in system.links.iter().zip(&geometry.links).enumerate() {
-        force += link.by_travel(system, b, hold.direction) * state.force[system.link(index)];
+        let by_travel = link.by_travel(system, b, (state.t, &state.q), hold.direction);
+        force += by_travel * state.force[system.link(index)];
     }
     force
 }
@@ -295,7 +310,7 @@ fn speed_along(system: &System, state: &State, i: usize) -> f64 {
 }
 
 /// Q(p) = integral of STEP(p, 0, 0, depth, 1) from 0 to p; p itself where there is no ramp.
-fn ramp_integral(depth: f64, p: f64) -> f64 {
+pub(crate) fn ramp_integral(depth: f64, p: f64) -> f64 {
     if depth == 0.0 {
         p
     } else if p <= 0.0 {

@@ -38,8 +38,9 @@ impl Solver<'_> {
             at.q[number] = q;
         }
         at.force[..system.normals.len()].copy_from_slice(&balance.force);
-        at.p.copy_from_slice(&balance.p);
+        at.p[..balance.p.len()].copy_from_slice(&balance.p);
         at.p_rate.fill(0.0);
+        self.rest_rails(at);
         self.active.fill(false);
         for &i in &balance.active {
             self.active[i] = true;

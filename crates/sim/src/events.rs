@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::actuator::Pull;
 use crate::dense::dot;
+use crate::drag::slip;
 use crate::state::State;
 use crate::stepper::Stepper;
 
@@ -24,8 +25,10 @@ impl Stepper<'_, '_> {
             for wheel in system.wheels.iter().filter(|w| system.kinematics.root(w.body) == b) {
                 let contact = &system.scene.contacts[wheel.contact];
                 let offset = system.kinematics.held(wheel.body)[0];
-                for &place in system.foundations[contact.structure].breaks(contact.rail) {
-                    let target = place - (wheel.hub[0] + offset);
+                let ahead = wheel.hub[0] + offset;
+                let foundation = &system.foundations[contact.structure];
+                for place in foundation.breaks_between(contact.rail, x0 + ahead, x1 + ahead) {
+                    let target = place - ahead;
                     let slack = 1e-9 * (1.0 + target.abs());
                     if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
                         continue;
@@ -57,7 +60,7 @@ impl Stepper<'_, '_> {
             }
             let contact = &system.scene.contacts[wheel.contact];
             let [x0, x1] = [&self.from, &self.to].map(|at| self.solver.geometry.place(system, w, &at.q));
-            for &place in system.foundations[contact.structure].breaks(contact.rail) {
+            for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
                 let slack = SLACK * (1.0 + place.abs());
                 // Within the slack a step may start before the break and cross it, or end beyond it.
                 if (x0 - place) * (x1 - place) >= 0.0 || (x0 - place).abs().min((x1 - place).abs()) < slack {
@@ -137,12 +140,18 @@ impl Stepper<'_, '_> {
     pub(crate) fn first_corner(&self) -> Option<f64> {
         let system = self.solver.system;
         let slack = OVERSHOOT * self.largest_force();
-        let margins = |pull: &Pull, at: &State| {
-            let (_, speed) = system.body(pull.body, at.t, &at.q, &at.v);
-            pull.margins(system.scene, at.t, dot(&pull.row, &speed), pull.traction(&at.force))
+        let geometry = &self.solver.geometry;
+        let margins = |index: usize, pull: &Pull, at: &State| {
+            let speed = if system.is_dragged {
+                slip(system, geometry, at, system.pull(index)) - geometry.rate_held[system.pull(index)]
+            } else {
+                dot(&pull.row, &system.body(pull.body, at.t, &at.q, &at.v).1)
+            };
+            let reference = pull.reference(system.scene, &geometry.switches, at.t);
+            pull.margins(reference, speed, pull.traction(&at.force))
         };
-        let shares = system.pulls.iter().flat_map(|pull| {
-            let (from, to) = (margins(pull, &self.from), margins(pull, &self.to));
+        let shares = system.pulls.iter().enumerate().flat_map(|(index, pull)| {
+            let (from, to) = (margins(index, pull, &self.from), margins(index, pull, &self.to));
             std::iter::zip(from, to).filter_map(|(from, to)| {
                 let passes = from * to < 0.0 && from.abs() > slack && to.abs() > slack;
                 passes.then(|| (from.abs() + 0.5 * slack) / (from.abs() + to.abs()))
@@ -163,6 +172,9 @@ impl Stepper<'_, '_> {
         let system = self.solver.system;
         if i >= system.normals.len() {
             let index = i - system.link(0);
+            if self.solver.geometry.switches.is_released(index) {
+                return -1.0;
+            }
             let margin = self.solver.geometry.margin(system, index, at);
             let hold = &self.solver.geometry.links[index];
             return if hold.taut { -margin - hold.noise } else { margin - hold.noise };

@@ -12,6 +12,8 @@ use crate::wheel::LawPoint;
 /// Relative change of the forces at which Newton's method ends.
 const TOLERANCE: f64 = 1e-13;
 const ITERATIONS: usize = 60;
+/// A rate at which every law along the rail gives all it can.
+const SATURATED: f64 = 1e150;
 
 /// Matrices and free motion of one solution, over components, row-major.
 pub(crate) struct Problem {
@@ -23,6 +25,8 @@ pub(crate) struct Problem {
     pub known: Vec<bool>,
     /// Ratio of a row of `y` to the row of `w`, where the rate is that of the penetration.
     pub memory: Vec<Option<f64>>,
+    /// Components whose force keeps the give of their rail at a value, as far as their law lets it.
+    pub pinned: Vec<Option<f64>>,
     matrix: Vec<f64>,
     residual: Vec<f64>,
     start: Vec<f64>,
@@ -40,6 +44,7 @@ impl Problem {
             rate: vec![0.0; m],
             known: vec![false; m],
             memory: vec![None; m],
+            pinned: vec![None; m],
             matrix: vec![0.0; m * m],
             residual: vec![0.0; m],
             start: vec![0.0; m],
@@ -199,6 +204,15 @@ impl Problem {
             let Some(friction) = &system.scene.wheels[system.wheels[w].kind].friction else { continue };
             let (share, by_slip) = friction.share(self.rate(i, force));
             let load: f64 = system.normals_of(w).map(|n| force[n] / system.normals[n].count()).sum();
+            let bound = friction.coefficient * load;
+            if self.pin(i, bound, force) {
+                continue;
+            }
+            let (share, by_slip) = if let Some(wanted) = self.wanted(i, force) {
+                (wanted.signum(), 0.0)
+            } else {
+                (share, by_slip)
+            };
             self.residual[i] = force[i] - friction.coefficient * load * share;
             for j in 0..m {
                 self.matrix[i * m + j] += friction.coefficient * load * by_slip * self.y[i * m + j];
@@ -213,7 +227,12 @@ impl Problem {
                 self.residual[i] = force[i];
                 continue;
             }
-            let (law, by_rate, by_traction) = pull.at(self.rate(i, force), pull.traction(force));
+            let wanted = self.wanted(i, force);
+            let rate = wanted.map_or_else(|| self.rate(i, force), |wanted| SATURATED.copysign(wanted));
+            let (law, by_rate, by_traction) = pull.at(rate, pull.traction(force));
+            if wanted.is_some() && self.pin(i, law.abs(), force) {
+                continue;
+            }
             self.residual[i] = force[i] - law;
             for j in 0..m {
                 self.matrix[i * m + j] += by_rate * self.y[i * m + j];
@@ -235,6 +254,27 @@ impl Problem {
             }
         }
         largest(&self.residual)
+    }
+}
+
+impl Problem {
+    /// Force of a pinned component that keeps the give of its rail, beside the others of `force`.
+    fn wanted(&self, i: usize, force: &[f64]) -> Option<f64> {
+        let give = self.pinned[i]?;
+        let own = self.w[i * force.len() + i];
+        Some(force[i] + (give - along(&self.w, i, force)) / own)
+    }
+
+    /// The row of a pinned component whose force is within `bound`; false for others.
+    fn pin(&mut self, i: usize, bound: f64, force: &[f64]) -> bool {
+        let Some(wanted) = self.wanted(i, force).filter(|wanted| wanted.abs() <= bound) else { return false };
+        let m = force.len();
+        let own = self.w[i * m + i];
+        self.residual[i] = force[i] - wanted;
+        for j in (0..m).filter(|&j| j != i) {
+            self.matrix[i * m + j] += self.w[i * m + j] / own;
+        }
+        true
     }
 }
 

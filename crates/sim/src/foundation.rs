@@ -6,7 +6,7 @@
 use nalgebra::DMatrix;
 use splines::{Compliance, Probe};
 
-use crate::{Mount, PartChain};
+use crate::{Irregularity, Mount, PartChain};
 
 /// Shapes Phi of a structure's freedoms along its rails.
 pub trait Shapes: Send + Sync {
@@ -79,6 +79,10 @@ pub struct Foundation {
     pub parts: Option<Vec<PartChain>>,
     /// Extents of the rails; empty: rails without end or break.
     pub rails: Vec<Extent>,
+    /// Whether friction, drives and brakes load the structure along its rails, and feel their speed.
+    pub is_dragged: bool,
+    /// Shapes of the rails when nothing loads them; empty: straight.
+    pub irregularities: Vec<Irregularity>,
     /// The body that carries the structure, all its supports in it; `None`: the ground.
     pub on: Option<Mount>,
 }
@@ -101,10 +105,14 @@ impl Foundation {
         }
     }
 
-    /// Coordinates along `rail` at which steps must end.
-    #[must_use]
-    pub fn breaks(&self, rail: usize) -> &[f64] {
-        self.rails.get(rail).map_or(&[], |extent| &extent.breaks)
+    /// Coordinates along `rail` at which steps must end, between `a` and `b` in either order.
+    pub(crate) fn breaks_between(&self, rail: usize, a: f64, b: f64) -> impl Iterator<Item = f64> + '_ {
+        let (low, high) = (a.min(b), a.max(b));
+        let own = self.rails.get(rail).map_or(&[][..], |extent| &extent.breaks);
+        let corners = self.irregularities.get(rail).map_or(&[][..], Irregularity::breaks);
+        let first = corners.partition_point(|x| *x < low);
+        let near = corners[first..].iter().take_while(move |x| **x <= high);
+        own.iter().filter(move |x| (low..=high).contains(*x)).chain(near).copied()
     }
 
     /// Number of freedoms with mass.

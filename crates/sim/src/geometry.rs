@@ -5,6 +5,7 @@ use splines::{Influence, Probe};
 
 use crate::dense::along;
 use crate::link::Hold;
+use crate::rule::Switches;
 use crate::scene::arm_rows;
 use crate::system::{System, WheelPoint};
 use crate::{Error, Moving};
@@ -16,6 +17,8 @@ pub(crate) struct Geometry {
     pub travel: Vec<Moving>,
     /// Rail coordinate of each wheel.
     pub x: Vec<f64>,
+    /// Piece of the uneven rail that each wheel is on.
+    pub piece: Vec<usize>,
     /// Height of each wheel's centre above its rail, from the last solution.
     pub height: Vec<f64>,
     /// Share of each vertical contact's law that acts, and its slope along the rail.
@@ -36,7 +39,11 @@ pub(crate) struct Geometry {
     pub pulls: Vec<bool>,
     /// Ropes and stops.
     pub links: Vec<Hold>,
-    /// Slope of the deflected rail under each component, d u/d x.
+    /// What rules have switched.
+    pub switches: Switches,
+    /// Growth of each approach along the rail by the shape of the unloaded rail, d e/d x.
+    pub rise: Vec<f64>,
+    /// Slope of the deflected rail under each component, d u/d x, that of its own shape included.
     pub rail_slope: Vec<f64>,
     influence: Vec<Influence>,
     probes: Vec<Vec<Probe>>,
@@ -53,6 +60,7 @@ impl Geometry {
         Geometry {
             travel: vec![Moving::default(); system.scene.bodies.len()],
             x: vec![0.0; system.wheels.len()],
+            piece: vec![0; system.wheels.len()],
             height: system.wheels.iter().map(|wheel| system.scene.wheels[wheel.kind].radius).collect(),
             share: vec![[1.0, 0.0]; system.normals.len()],
             compliance: vec![0.0; m * m],
@@ -64,6 +72,8 @@ impl Geometry {
             rate_held: vec![0.0; m],
             pulls: vec![false; system.pulls.len()],
             links: vec![Hold::default(); system.links.len()],
+            rise: vec![0.0; m],
+            switches: Switches::new(&system.scene.actuators),
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
@@ -104,7 +114,7 @@ impl Geometry {
             self.rate_held[system.traction(i)] = self.travel[system.kinematics.root(system.wheels[w].body)].v;
         }
         for (i, pull) in system.pulls.iter().enumerate() {
-            let reference = pull.reference(system.scene, t);
+            let reference = pull.reference(system.scene, &self.switches, t);
             self.pulls[i] = reference.is_some();
             self.rate_held[system.pull(i)] = -reference.unwrap_or(0.0);
         }
@@ -218,6 +228,9 @@ impl Geometry {
             let row = arm_rows([x, y - self.height[w], z])[2];
             put(&mut self.rows, &mut self.held[component], component, wheel.body, row, 1.0);
         }
+        if system.is_uneven {
+            self.update_shape(system);
+        }
         let mut unused = 0.0;
         for (i, &w) in system.tractions.iter().enumerate() {
             let (component, wheel) = (system.traction(i), &system.wheels[w]);
@@ -241,7 +254,9 @@ impl Geometry {
                     .row(at, value, slope)
                     .map_err(|source| Error::Compliance { structure: s, source })?;
                 let span = entry.component * n + range.start..entry.component * n + range.end;
-                for (target, shape) in self.rows[span.clone()].iter_mut().zip(value.iter()) {
+                let is_along = system.drags().contains(&entry.component);
+                let rows = if is_along { &mut self.rate_rows } else { &mut self.rows };
+                for (target, shape) in rows[span.clone()].iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
                 }
                 for (target, shape) in self.shape_slopes[span].iter_mut().zip(slope.iter()) {
@@ -252,6 +267,27 @@ impl Geometry {
         Ok(())
     }
 
+    /// Adds the shapes of unloaded rails to the approaches: y0 up brings the rail nearer, z0 takes it along.
+    fn update_shape(&mut self, system: &System) {
+        self.rise.fill(0.0);
+        for (component, normal) in system.normals.iter().enumerate() {
+            for w in normal.wheels.clone() {
+                if let Some(shape) = system.irregularity(w) {
+                    let [height, slope] = shape.vertical(self.piece[w], self.x[w]);
+                    self.held[component] += height / normal.count();
+                    self.rise[component] += slope / normal.count();
+                }
+            }
+        }
+        for (i, &w) in system.laterals.iter().enumerate() {
+            if let Some(shape) = system.irregularity(w) {
+                let [place, slope] = shape.lateral(self.piece[w], self.x[w]);
+                self.held[system.lateral(i)] -= place;
+                self.rise[system.lateral(i)] = -slope;
+            }
+        }
+    }
+
     /// Slope of the deflected rail under each component, for the forces and freedoms given and the wheels where the
     /// last update found them.
     pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
@@ -259,6 +295,9 @@ impl Geometry {
             self.rail_slope[i] = along(&self.slope, i, force);
             if !system.constant_rows {
                 self.rail_slope[i] += along(&self.shape_slopes, i, q.as_slice());
+            }
+            if system.is_uneven {
+                self.rail_slope[i] -= self.rise[i];
             }
         }
     }

@@ -119,7 +119,7 @@ impl Solver<'_> {
                     unit[axis] = 1.0;
                     let lean = scalar(unit, hold.direction);
                     row.fill(0.0);
-                    link.add_row(system, unit, &mut row);
+                    link.add_row(system, (at.t, &at.q), unit, &mut row);
                     let across = DVector::from_fn(size, |r, _| {
                         row[hung[r]] - lean * self.geometry.rows[i * n + hung[r]]
                     });

@@ -2,13 +2,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::settle::RIGID;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::system::System;
 use crate::{Error, Foundation, Scene};
 
-/// Give of a rail, relative to the wheel's, below which it counts as rigid.
-const RIGID: f64 = 1e-9;
 /// Newton iterations on the rates of penetration.
 const ITERATIONS: usize = 30;
 
@@ -65,7 +64,8 @@ pub fn contact_forces(
         return Err(Error::NoSuch { what: "one force a wheel on structure", index });
     }
     let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    solver.keeps_rails = false;
+    let mut state = State::new(&system);
     instants.iter().map(|instant| solver.forces_at(instant, &mut state)).collect()
 }
 
@@ -129,6 +129,7 @@ impl Solver<'_> {
         }
         self.geometry.height.clear();
         self.geometry.height.extend(system.wheels.iter().map(|wheel| system.scene.wheels[wheel.kind].radius));
+        self.locate(at)?;
         self.geometry.update(system, at.t, &at.q, &at.force)
     }
 
@@ -138,7 +139,7 @@ impl Solver<'_> {
         instant.penetration[self.system.normals[i].contact].filter(|_| remembers)
     }
 
-    fn stands_on_rigid(&self, i: usize) -> bool {
+    pub(crate) fn stands_on_rigid(&self, i: usize) -> bool {
         self.geometry.compliance[i * self.system.components() + i] * self.system.law(i).stiffness <= RIGID
     }
 
@@ -146,15 +147,21 @@ impl Solver<'_> {
     /// own penetration and rate. Returns whether it converged.
     fn solve_rates(&mut self, instant: &Instant, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
-        let m = system.components();
         for i in (0..system.normals.len()).filter(|&i| system.law(i).has_memory() && self.stands_on_rigid(i))
         {
             at.p[i] = self.geometry.approach(i, &at.q);
-            at.p_rate[i] = self.geometry.rate(i, &at.v);
+            at.p_rate[i] = self.approach_rate(i, at);
         }
         let unknown: Vec<usize> = (0..system.normals.len())
             .filter(|&i| self.active[i] && self.given(instant, i).is_some() && !self.stands_on_rigid(i))
             .collect();
+        self.solve_rates_of(&unknown, at)
+    }
+
+    /// Finds the rates of the penetrations of the contacts `unknown` such that p + G F = e. Returns whether it converged.
+    pub(crate) fn solve_rates_of(&mut self, unknown: &[usize], at: &mut State) -> Result<bool, Error> {
+        let system = self.system;
+        let m = system.components();
         let slope = |solver: &Self, at: &State, i: usize| {
             let scale = system.normals[i].count() * solver.geometry.share[i][0];
             scale * system.law(i).at(at.p[i], at.p_rate[i]).by_rate
@@ -183,7 +190,8 @@ impl Solver<'_> {
                 at.p_rate[i] -= change;
             }
         }
-        Ok(unknown.is_empty() || last <= 1e-9 * at.p.iter().fold(0.0, |max, p| p.abs().max(max)))
+        Ok(unknown.is_empty()
+            || last <= 1e-9 * at.p[..system.normals.len()].iter().fold(0.0, |max, p| p.abs().max(max)))
     }
 
     fn answer(&self, at: &State) -> ContactForces {
@@ -205,7 +213,7 @@ impl Solver<'_> {
                 .collect(),
             slope: wheels.map(|w| self.geometry.rail_slope[normal(w)] * vertical(w)).collect(),
             approach: (0..count).map(|i| self.geometry.approach(i, &at.q)).collect(),
-            penetration: at.p.clone(),
+            penetration: at.p[..count].to_vec(),
             compliance: DMatrix::from_fn(count, count, |i, j| self.geometry.compliance[i * m + j]),
         }
     }

@@ -3,11 +3,13 @@
 //! u_b = J_b q + held + e_x x(t): the freedoms of the body itself and of the bodies it is pinned to, starting values that
 //! are held, and the prescribed travel of the body at the root of its tree. M = sum of J_b^T M_b J_b.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::ride::Rides;
 use crate::scene::arm_rows;
-use crate::{Body, Error, Freedom, Scene};
+use crate::{Body, Error, Foundation, Freedom, Scene};
 
 /// Freedoms and their coefficients in one displacement.
 pub(crate) type Terms = Vec<(usize, f64)>;
@@ -46,15 +48,35 @@ impl Kinematics {
         Ok(kinematics)
     }
 
-    /// Adds up the masses of the trees, without bodies that ride on others.
-    pub fn weigh(&mut self, scene: &Scene, rides: &Rides) {
+    /// Adds up the masses of the trees and of the structures on them, without bodies that ride on others.
+    /// `structures` are the structures' freedoms.
+    pub fn weigh(
+        &mut self,
+        scene: &Scene,
+        foundations: &[Foundation],
+        structures: &[Range<usize>],
+        rides: &Rides,
+    ) {
         for (b, body) in scene.bodies.iter().enumerate().filter(|(b, _)| !rides.has(*b)) {
-            let (root, matrix) = (self.root[b], body.mass_matrix());
-            self.mass[root] += matrix[0][0];
-            for (inertia, terms) in matrix[0].iter().zip(&self.terms[b]) {
-                for &(number, coefficient) in terms {
-                    add(&mut self.drag[root], number, inertia * coefficient);
-                }
+            self.weigh_one(b, &body.mass_matrix()[0]);
+        }
+        for (foundation, freedoms) in foundations.iter().zip(structures) {
+            let Some(mount) = &foundation.on else { continue };
+            self.weigh_one(mount.body, &mount.mass[0]);
+            let root = self.root[mount.body];
+            for (number, shares) in freedoms.clone().zip(&mount.coupling) {
+                add(&mut self.drag[root], number, shares[0]);
+            }
+        }
+    }
+
+    /// Adds a mass that moves with body `b`, given by its line of x.
+    fn weigh_one(&mut self, b: usize, line: &[f64; 6]) {
+        let root = self.root[b];
+        self.mass[root] += line[0];
+        for (inertia, terms) in line.iter().zip(&self.terms[b]).filter(|(inertia, _)| **inertia != 0.0) {
+            for &(number, coefficient) in terms {
+                add(&mut self.drag[root], number, inertia * coefficient);
             }
         }
     }

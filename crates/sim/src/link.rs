@@ -49,7 +49,7 @@ impl<'a> Link<'a> {
         });
         let stops = actuators.stops.iter().map(|stop| {
             let end = RopeEnd { body: Some(stop.body), at: stop.at };
-            Link::Stop { stop, point: Point::new(system, &end) }
+            Link::Stop { stop, point: Point::on_track(system, &end) }
         });
         ropes.chain(stops).collect()
     }
@@ -62,34 +62,41 @@ impl<'a> Link<'a> {
         }
     }
 
-    /// Adds `direction` times the rows of the vector that its approach measures to `row`.
-    pub fn add_row(&self, system: &System, direction: [f64; 3], row: &mut [f64]) {
+    /// Adds `direction` times the rows of the vector that its approach measures to `row`, at (t, q).
+    pub fn add_row(&self, system: &System, at: (f64, &DVector<f64>), direction: [f64; 3], row: &mut [f64]) {
         match self {
             Link::Rope { from, to, .. } => {
-                to.add_row(system, direction, row);
-                from.add_row(system, direction.map(|d| -d), row);
+                to.add_row(system, at, direction, row);
+                from.add_row(system, at, direction.map(|d| -d), row);
             }
-            Link::Stop { point, .. } => point.add_row(system, direction, row),
+            Link::Stop { point, .. } => point.add_row(system, at, direction, row),
         }
     }
 
-    /// Rate of its approach by the x of body `b`.
-    pub fn by_travel(&self, system: &System, b: usize, direction: [f64; 3]) -> f64 {
+    /// Rate of its approach along `direction` by the x of body `b`, at (t, q).
+    pub fn by_travel(
+        &self,
+        system: &System,
+        b: usize,
+        (t, q): (f64, &DVector<f64>),
+        direction: [f64; 3],
+    ) -> f64 {
+        let by = |point: &Point| scalar(direction, point.by_travel(system, b, t, q));
         match self {
-            Link::Rope { from, to, .. } => {
-                to.by_travel(system, b, direction) - from.by_travel(system, b, direction)
-            }
-            Link::Stop { point, .. } => point.by_travel(system, b, direction),
+            Link::Rope { from, to, .. } => by(to) - by(from),
+            Link::Stop { point, .. } => by(point),
         }
     }
 
-    /// Approach at (t, q), and its rate by prescribed motions and hoisting; brings `hold` there.
+    /// Approach at (t, q), and its rate by prescribed motions and hoisting; brings `hold` there. A rope has the
+    /// unstretched length `natural`, with its rate.
     fn read(
         &self,
         system: &System,
         travel: &[Moving],
         t: f64,
         q: &DVector<f64>,
+        natural: [f64; 2],
         hold: &mut Hold,
     ) -> [f64; 2] {
         match self {
@@ -102,12 +109,12 @@ impl<'a> Link<'a> {
                 } else {
                     hold.direction = [0.0, -1.0, 0.0];
                 }
-                hold.natural = [rope.length - rope.speed.integral(t), -rope.speed.at(t)];
+                hold.natural = natural;
                 hold.stiffness = rope.stiffness / hold.natural[0];
                 hold.damping = rope.damping;
                 let size = a.iter().chain(&b).fold(hold.length, |max, c| max.max(c.abs()));
                 hold.noise = ROUNDING * hold.stiffness * size;
-                let drift = difference(to.drift(system, travel), from.drift(system, travel));
+                let drift = difference(to.drift(system, travel, t, q), from.drift(system, travel, t, q));
                 [hold.length - hold.natural[0], scalar(hold.direction, drift) - hold.natural[1]]
             }
             Link::Stop { stop, point } => {
@@ -117,7 +124,7 @@ impl<'a> Link<'a> {
                 hold.length = stop.side * (place - stop.place);
                 (hold.stiffness, hold.damping) = (stop.stiffness, stop.damping);
                 hold.noise = ROUNDING * hold.stiffness * place.abs().max(stop.place.abs());
-                [hold.length, scalar(hold.direction, point.drift(system, travel))]
+                [hold.length, scalar(hold.direction, point.drift(system, travel, t, q))]
             }
         }
     }
@@ -136,11 +143,15 @@ impl Geometry {
         let n = system.freedoms;
         for (index, link) in system.links.iter().enumerate() {
             let component = system.link(index);
-            let [approach, rate] = link.read(system, &self.travel, t, q, &mut self.links[index]);
+            let natural = match link {
+                Link::Rope { .. } => self.switches.natural(&system.scene.actuators, index, t),
+                Link::Stop { .. } => [0.0; 2],
+            };
+            let [approach, rate] = link.read(system, &self.travel, t, q, natural, &mut self.links[index]);
             let span = component * n..(component + 1) * n;
             let row = &mut self.rows[span.clone()];
             row.fill(0.0);
-            link.add_row(system, self.links[index].direction, row);
+            link.add_row(system, (t, q), self.links[index].direction, row);
             self.rate_rows[span].copy_from_slice(&self.rows[component * n..(component + 1) * n]);
             self.held[component] = approach - along(&self.rows, component, q.as_slice());
             self.rate_held[component] = rate;
@@ -158,7 +169,8 @@ impl Geometry {
     /// Finds which links act at `at`.
     pub fn settle_links(&mut self, system: &System, at: &State) {
         for index in 0..system.links.len() {
-            self.links[index].taut = self.margin(system, index, at) > 0.0;
+            let holds = !self.switches.is_released(index);
+            self.links[index].taut = holds && self.margin(system, index, at) > 0.0;
         }
     }
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use nalgebra::DMatrix;
 
 use crate::Error;
-use crate::dense::dot;
+use crate::dense::{dot, invert_spd};
 use crate::foundation::{Dynamics, Structure};
 
 /// M, C and K of freedoms that nothing but contact couples to others.
@@ -160,11 +160,21 @@ impl Mobility {
     ///
     /// # Errors
     /// A mass that is not positive definite.
-    pub fn set_mass(&mut self, mass: DMatrix<f64>) -> Result<(), Error> {
-        if let Some((_, bodies)) = self.blocks.first_mut() {
-            *bodies = Inverse::Matrix(inverse(mass)?);
+    pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
+        if let Some((_, Inverse::Matrix(bodies))) = self.blocks.first_mut() {
+            bodies.copy_from(mass);
+            if !invert_spd(bodies.as_mut_slice(), mass.nrows()) {
+                return Err(not_definite(mass.diagonal().min()));
+            }
         }
         Ok(())
+    }
+
+    /// `out` = Z `load` of the bodies alone, both over their freedoms.
+    pub fn apply_to_bodies(&self, load: &[f64], out: &mut [f64]) {
+        if let Some((_, inverse)) = self.blocks.first() {
+            inverse.apply(load, out);
+        }
     }
 
     /// M^-1; of bodies whose mass changes, what [`Mobility::set_mass`] makes it later.
@@ -195,20 +205,25 @@ impl Mobility {
     /// `out` = Z `load`.
     pub fn apply(&self, load: &[f64], out: &mut [f64]) {
         for (range, inverse) in &self.blocks {
-            let (load, out) = (&load[range.clone()], &mut out[range.clone()]);
-            match inverse {
-                Inverse::Matrix(matrix) => {
-                    out.fill(0.0);
-                    for (j, factor) in load.iter().enumerate().filter(|(_, load)| **load != 0.0) {
-                        for (out, entry) in out.iter_mut().zip(matrix.column(j).as_slice()) {
-                            *out += entry * factor;
-                        }
+            inverse.apply(&load[range.clone()], &mut out[range.clone()]);
+        }
+    }
+}
+
+impl Inverse {
+    fn apply(&self, load: &[f64], out: &mut [f64]) {
+        match self {
+            Inverse::Matrix(matrix) => {
+                out.fill(0.0);
+                for (j, factor) in load.iter().enumerate().filter(|(_, load)| **load != 0.0) {
+                    for (out, entry) in out.iter_mut().zip(matrix.column(j).as_slice()) {
+                        *out += entry * factor;
                     }
                 }
-                Inverse::Diagonal(diagonal) => {
-                    for ((out, load), entry) in out.iter_mut().zip(load).zip(diagonal) {
-                        *out = entry * load;
-                    }
+            }
+            Inverse::Diagonal(diagonal) => {
+                for ((out, load), entry) in out.iter_mut().zip(load).zip(diagonal) {
+                    *out = entry * load;
                 }
             }
         }
@@ -220,11 +235,11 @@ fn inverse(matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         return Ok(matrix);
     }
     let smallest = matrix.diagonal().min();
-    matrix.cholesky().map(|factor| factor.inverse()).ok_or(Error::Number {
-        what: "mass matrix",
-        wanted: "positive definite",
-        found: smallest,
-    })
+    matrix.cholesky().map(|factor| factor.inverse()).ok_or(not_definite(smallest))
+}
+
+fn not_definite(found: f64) -> Error {
+    Error::Number { what: "mass matrix", wanted: "positive definite", found }
 }
 
 fn quadratic(matrix: &DMatrix<f64>, x: &[f64]) -> f64 {

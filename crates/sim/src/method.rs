@@ -1,7 +1,7 @@
 //! The method by which the equations of motion are integrated.
 
 use crate::system::System;
-use crate::{Dynamics, Error};
+use crate::{Dynamics, Error, Foundation, Scene};
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -19,7 +19,30 @@ pub enum Method {
     Gauss3,
 }
 
+/// A method of integration, and the length of its steps.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Stepping {
+    /// The method.
+    pub method: Method,
+    /// Time of a step; all are equal but those that end at a break or an event. `None`: as the accuracy asks.
+    pub step: Option<f64>,
+}
+
+impl From<Method> for Stepping {
+    fn from(method: Method) -> Self {
+        Stepping { method, step: None }
+    }
+}
+
 impl Method {
+    /// Whether the method can integrate `scene` on `foundations`.
+    ///
+    /// # Errors
+    /// [`Error::Method`] where it cannot, with what the scene lacks; another for a scene that cannot be set up.
+    pub fn suits(self, scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
+        self.check(&System::new(scene, foundations)?)
+    }
+
     /// The method itself, or the one chosen for the scene.
     pub(crate) fn chosen(self, system: &System) -> Method {
         match self {
@@ -49,7 +72,9 @@ impl Method {
             (system.components() > system.normals.len(), "vertical contacts alone"),
             (!system.linear_normals, "linear contacts"),
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
+            (system.is_uneven, "even rails"),
             (!system.rides.is_empty(), "bodies that ride on the ground's rails"),
+            (!system.ties.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
         ];

@@ -31,7 +31,8 @@ pub struct Rope {
     pub speed: Schedule,
 }
 
-/// A one-sided contact of a point of a body with a fixed plane: an end stop of a rail, or a floor.
+/// A one-sided contact of a point of a body with a fixed plane: an end stop of a rail, or a floor. The plane of a body
+/// that rides on another is fixed to the rail it runs on.
 ///
 /// With p = side (coordinate - place) > 0 it pushes back with max(0, k p + c p').
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +41,7 @@ pub struct Stop {
     pub body: usize,
     /// Point of the body that meets it, from its origin.
     pub at: [f64; 3],
-    /// Which coordinate of space: 0 X, 1 Y, 2 Z.
+    /// Which coordinate of space, or of the track of a body that rides: 0 X, 1 Y, 2 Z.
     pub axis: usize,
     /// Coordinate of the plane.
     pub place: f64,

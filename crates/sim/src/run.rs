@@ -13,7 +13,7 @@ use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Body, Error, Foundation, Freedom, Gauge, Method, Scene};
+use crate::{Action, Body, Error, Fired, Foundation, Freedom, Gauge, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -24,12 +24,22 @@ const LOCAL_PER_GLOBAL: f64 = 3.0;
 pub enum Status {
     /// The end time was reached.
     Done,
+    /// A rule ended it.
+    Ended(Fired),
     /// The caller stopped it.
     Stopped,
     /// No step was small enough at this time.
     StepTooSmall(f64),
     /// A wheel asked for what its structure does not have, at this time.
     Refused(f64, Error),
+}
+
+impl Status {
+    /// Whether the run went as far as the scene says: to its end time, or to a rule that ends it.
+    #[must_use]
+    pub fn is_complete(&self) -> bool {
+        matches!(self, Status::Done | Status::Ended(_))
+    }
 }
 
 /// Everything a run found.
@@ -39,6 +49,8 @@ pub struct Run {
     pub status: Status,
     /// Samples over time.
     pub history: History,
+    /// Rules that acted, in the order of time.
+    pub fired: Vec<Fired>,
     /// The energy audit; zeros for a quasi-static sweep.
     pub audit: Audit,
     /// Work done.
@@ -64,26 +76,34 @@ pub fn run(
     run_by(Method::default(), scene, foundations, watch)
 }
 
-/// [`run`] by `method`. A quasi-static run knows no method.
+/// [`run`] by a [`Method`], or by one with steps of a fixed length. A quasi-static run knows no method.
 ///
 /// # Errors
-/// Those of [`run`], and [`Error::Method`] where the method does not suit the scene.
+/// Those of [`run`], [`Error::Method`] where the method does not suit the scene, and [`Error::Number`] for a
+/// step that is not positive.
 pub fn run_by(
-    method: Method,
+    stepping: impl Into<Stepping>,
     scene: &Scene,
     foundations: &[Foundation],
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
+    let Stepping { method, step } = stepping.into();
     let system = System::new(scene, foundations)?;
     method.check(&system)?;
     let method = method.chosen(&system);
+    if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
+        return Err(Error::Number { what: "step", wanted: "positive", found });
+    }
     let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
+    let mut state = State::new(&system);
     set(&system, &mut state.q, |body| body.start);
+    set(&system, &mut state.v, |body| body.start_speed);
+    solver.locate(&state)?;
+    state.v.fill(0.0);
     solver.drop_below(&mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
-        Analysis::Dynamic => integrate(method, &system, &mut solver, state, watch),
+        Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
     }
 }
 
@@ -99,7 +119,7 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
 }
 
 fn integrate(
-    method: Method,
+    stepping: Stepping,
     system: &System,
     solver: &mut Solver,
     mut state: State,
@@ -114,6 +134,9 @@ fn integrate(
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
+    if system.is_uneven {
+        solver.follow(&mut state);
+    }
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
@@ -131,14 +154,25 @@ fn integrate(
     breaks.push(scene.end);
     breaks.sort_by(f64::total_cmp);
     breaks.dedup();
-    let mut stepper = Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first).by(method);
+    let mut stepper =
+        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
+    stepper.fixed = stepping.step;
     let mut sample = stepper.to.clone();
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
+    let mut pieces = stepper.solver.geometry.piece.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
+    let due = stepper.due()?;
+    let (mut fired, ends) = stepper.act(due)?;
+    if ends {
+        status = ended(scene, &fired);
+        breaks.clear();
+    }
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
+            // A sample within the step belongs to where the step began.
+            pieces.clone_from(&stepper.solver.geometry.piece);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -151,11 +185,17 @@ fn integrate(
                 }
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
+            let due = stepper.due()?;
             active.clone_from(&stepper.solver.active);
             links.clone_from(&stepper.solver.geometry.links);
             while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
                 let t = next as f64 * scene.output_dt;
-                if t >= to * (1.0 - 1e-14) {
+                let is_end = t >= to * (1.0 - 1e-14);
+                let after = stepper.solver.geometry.piece.clone();
+                if !is_end {
+                    stepper.solver.geometry.piece.clone_from(&pieces);
+                }
+                if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
                     sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
@@ -163,8 +203,28 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, stepper.solver, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
+            }
+            if !due.is_empty() {
+                let ends = match stepper.act(due) {
+                    Ok((now, ends)) => {
+                        fired.extend(now);
+                        ends
+                    }
+                    Err(error) => {
+                        status = Status::Refused(to, error);
+                        break 'run;
+                    }
+                };
+                if ends {
+                    if (next - 1) as f64 * scene.output_dt < to {
+                        recorder.record(system, stepper.solver, &stepper.to)?;
+                    }
+                    status = ended(scene, &fired);
+                    break 'run;
+                }
             }
             if watch(to).is_break() {
                 status = Status::Stopped;
@@ -175,10 +235,18 @@ fn integrate(
     Ok(Run {
         status,
         history: recorder.history,
+        fired,
         audit: stepper.audit,
         counts: stepper.counts,
-        method: Some(method),
+        method: Some(stepping.method),
     })
+}
+
+/// The status after the first rule that ends the run.
+fn ended(scene: &Scene, fired: &[Fired]) -> Status {
+    let rules = &scene.actuators.rules;
+    let last = fired.iter().find(|fired| rules[fired.rule].actions.contains(&Action::End));
+    last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
 fn sweep(
@@ -201,6 +269,7 @@ fn sweep(
     }
     for t in times {
         state.t = t;
+        solver.locate(&state)?;
         match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
@@ -216,19 +285,20 @@ fn sweep(
             break;
         }
     }
-    Ok(Run { status, history: recorder.history, audit: Audit::default(), counts, method: None })
+    let (history, audit) = (recorder.history, Audit::default());
+    Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
 }
 
 /// Writes samples.
-struct Recorder {
-    history: History,
+pub(crate) struct Recorder {
+    pub history: History,
     /// Scratch of the gauges.
     probes: Vec<Probe>,
     shape: Vec<f64>,
 }
 
 impl Recorder {
-    fn new(system: &System) -> Self {
+    pub fn new(system: &System) -> Self {
         let mut channels = vec![Channel::Time];
         for b in 0..system.scene.bodies.len() {
             channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
@@ -257,7 +327,20 @@ impl Recorder {
 
     /// Adds a sample; the solver's geometry belongs to `at`.
     fn record(&mut self, system: &System, solver: &Solver, at: &State) -> Result<(), Error> {
-        let values = &mut self.history.values;
+        let mut values = std::mem::take(&mut self.history.values);
+        let done = self.row(system, solver, at, &mut values);
+        self.history.values = values;
+        done
+    }
+
+    /// Appends a sample to `values`; the solver's geometry belongs to `at`.
+    pub fn row(
+        &mut self,
+        system: &System,
+        solver: &Solver,
+        at: &State,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Error> {
         values.push(at.t);
         for b in 0..system.scene.bodies.len() {
             let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
@@ -279,7 +362,10 @@ impl Recorder {
             let traction =
                 system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
             let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-            let down = -dot(&arm_rows(wheel.hub)[1], &displacement);
+            let own = system
+                .irregularity(w)
+                .map_or(0.0, |shape| shape.vertical(solver.geometry.piece[w], solver.geometry.x[w])[0]);
+            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
             let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
             values.extend([
                 solver.geometry.x[w],
@@ -294,14 +380,14 @@ impl Recorder {
         }
         let ropes = system.scene.actuators.ropes.len();
         for (index, hold) in solver.geometry.links.iter().enumerate() {
-            self.history.values.push(at.force[system.link(index)]);
+            values.push(at.force[system.link(index)]);
             if index < ropes {
-                self.history.values.push(hold.length);
+                values.push(hold.length);
             }
         }
         for gauge in &system.scene.gauges {
             let displacement = self.displacement(system, solver, at, gauge)?;
-            self.history.values.push(displacement);
+            values.push(displacement);
         }
         Ok(())
     }

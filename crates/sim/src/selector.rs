@@ -176,10 +176,10 @@ fn climb<L: Ladder>(
     }
     lower.push((Rung::Influence, influence));
     let mut tried = Vec::new();
-    let none = lower.iter().all(|(_, run)| run.status != Status::Done);
+    let none = lower.iter().all(|(_, run)| !run.status.is_complete());
     for against in MODES.map(Rung::Modal).into_iter().chain([Rung::Full]).filter(|_| !none) {
         let higher = match attempt(against, ladder) {
-            Ok((higher, highest)) if higher.status == Status::Done => {
+            Ok((higher, highest)) if higher.status.is_complete() => {
                 if highest <= needed && against != Rung::Full {
                     continue;
                 }
@@ -210,7 +210,9 @@ fn climb<L: Ladder>(
 /// reach its end.
 #[must_use]
 pub fn distance(a: &Run, b: &Run, scene: &Scene) -> f64 {
-    if a.status != Status::Done || b.status != Status::Done || a.history.len() != b.history.len() {
+    let by_rule = matches!((&a.status, &b.status), (Status::Ended(_), Status::Ended(_)));
+    let reached = a.status.is_complete() && b.status.is_complete();
+    if !reached || (a.history.len() != b.history.len() && !by_rule) {
         return f64::INFINITY;
     }
     let part = |channels: &[Channel]| {

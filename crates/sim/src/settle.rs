@@ -2,12 +2,11 @@
 
 use crate::Error;
 use crate::complementarity::complementarity;
-use crate::dense::along;
 use crate::solver::Solver;
 use crate::state::State;
 
 /// Give of a rail, relative to the wheel's, below which it counts as rigid.
-const RIGID: f64 = 1e-9;
+pub(crate) const RIGID: f64 = 1e-9;
 
 impl Solver<'_> {
     /// Finds which vertical contacts act at (t, q, v), and the forces: the complementarity problem, by sweeps
@@ -50,7 +49,7 @@ impl Solver<'_> {
             let point = law.at(at.p[i], 0.0);
             if point.by_rate > 0.0 { -point.force / point.by_rate } else { 0.0 }
         } else {
-            along(&self.geometry.rows, i, at.v.as_slice())
+            self.approach_rate(i, at)
         }
     }
 

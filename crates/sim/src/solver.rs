@@ -1,13 +1,13 @@
 //! Solutions at one instant and at one stage of a step, over the numbered scene.
 
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::dense::dot;
 use crate::forces::Problem;
 use crate::geometry::Geometry;
-use crate::matter::Mobility;
 use crate::state::State;
 use crate::system::System;
+use crate::tie::Whole;
 use crate::{Damper, Error};
 
 /// Iterations on the wheels' places and heights inside one solution.
@@ -27,8 +27,10 @@ pub(crate) struct Solver<'a> {
     /// Which vertical contacts act.
     pub active: Vec<bool>,
     pub problem: Problem,
-    inverse: Mobility,
-    mobility: Mobility,
+    /// Whether the displacements of massless rails along x are known at an instant.
+    pub keeps_rails: bool,
+    inverse: Whole<'a>,
+    mobility: Whole<'a>,
     /// Z R^T, freedoms x components, column-major.
     spread: Vec<f64>,
     /// R Z R^T, components x components, row-major; and the same with the rows of the rates.
@@ -38,6 +40,9 @@ pub(crate) struct Solver<'a> {
     free_q: DVector<f64>,
     free_v: DVector<f64>,
     load: DVector<f64>,
+    /// Mass of the bodies, those that ride among them, and scratch for it.
+    mass: DMatrix<f64>,
+    columns: Vec<SVector<f64, 6>>,
     spread_is_fixed: bool,
 }
 
@@ -49,8 +54,9 @@ impl<'a> Solver<'a> {
             geometry: Geometry::new(system),
             active: vec![false; system.normals.len()],
             problem: Problem::new(system),
-            mobility: Mobility::new(&system.blocks, !system.rides.is_empty())?,
-            inverse: Mobility::new(&system.blocks, !system.rides.is_empty())?,
+            keeps_rails: true,
+            mobility: Whole::new(system)?,
+            inverse: Whole::new(system)?,
             spread: vec![0.0; n * system.components()],
             mobile: vec![0.0; system.components() * system.components()],
             mobile_rate: vec![0.0; system.components() * system.components()],
@@ -58,6 +64,8 @@ impl<'a> Solver<'a> {
             free_q: DVector::zeros(n),
             free_v: DVector::zeros(n),
             load: DVector::zeros(n),
+            mass: DMatrix::zeros(system.body_freedoms(), system.body_freedoms()),
+            columns: Vec::new(),
             spread_is_fixed: false,
         })
     }
@@ -92,16 +100,18 @@ impl<'a> Solver<'a> {
         self.geometry.links.iter().map(|hold| hold.taut).collect()
     }
 
-    /// Inertia of the bodies that ride on others at `at`, and the forces it adds to the load.
-    fn fill_mass(&mut self, at: &State) -> Result<(), Error> {
+    /// Inertia of the bodies that ride on others at `at`, and the forces it adds to the load; the mobility of a stage
+    /// or of an instant follows.
+    fn fill_mass(&mut self, at: &State, in_stage: bool) -> Result<(), Error> {
         let system = self.system;
         let Some(fixed) = system.blocks[0].body_mass().filter(|_| !system.rides.is_empty()) else {
             return Ok(());
         };
-        let mut mass = fixed.clone();
-        system.rides.add(system, (at.t, &at.q, &at.v), &mut mass, &mut self.load);
-        self.inverse.set_mass(mass.clone())?;
-        self.mobility.set_mass(mass)
+        self.mass.copy_from(fixed);
+        let sums = (&mut self.mass, &mut self.load);
+        system.rides.add(system, (at.t, &at.q, &at.v), sums, &mut self.columns);
+        let mobility = if in_stage { &mut self.mobility } else { &mut self.inverse };
+        mobility.set_mass(&self.mass)
     }
 
     /// M^-1 times the forces at `t` that do not depend on the contacts.
@@ -141,7 +151,7 @@ impl<'a> Solver<'a> {
     pub fn stage(&mut self, g: f64, known: &Known, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
-        self.mobility.set_step(&system.blocks, g)?;
+        self.mobility.set_step(system, g)?;
         let rides = !system.rides.is_empty();
         let places_move =
             system.moves_freely || rides || !system.laterals.is_empty() || !system.links.is_empty();
@@ -185,6 +195,7 @@ impl<'a> Solver<'a> {
                 self.problem.memory[i] = memory.then_some(1.0 / g);
                 self.problem.known[i] = false;
             }
+            self.drag_stage(g, &known.p, at);
             if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
                 return Ok(false);
             }
@@ -203,6 +214,7 @@ impl<'a> Solver<'a> {
                 at.p[i] = self.problem.penetration(i, &at.force);
                 at.p_rate[i] = (at.p[i] - known.p[i]) / g;
             }
+            self.drag_end(g, &known.p, at);
             moved = moved.max(self.update_heights(at));
             if moved < 1e-13 || !iterates {
                 return Ok(true);
@@ -215,7 +227,7 @@ impl<'a> Solver<'a> {
     fn move_freely(&mut self, g: f64, known: &Known, at: &State) -> Result<(), Error> {
         let system = self.system;
         self.fill_load(at.t);
-        self.fill_mass(at)?;
+        self.fill_mass(at, true)?;
         if system.has_structures() {
             self.free_q.copy_from(&known.q);
             self.free_q.axpy(g, &known.v, 1.0);
@@ -250,6 +262,7 @@ impl<'a> Solver<'a> {
             }
             self.problem.w.copy_from_slice(&self.geometry.compliance);
             self.problem.y.fill(0.0);
+            self.drag_instant(at);
             if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
                 return Ok(false);
             }
@@ -265,7 +278,7 @@ impl<'a> Solver<'a> {
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         self.geometry.update_rail_slope(system, &at.q, &at.force);
         self.fill_load(at.t);
-        self.fill_mass(at)?;
+        self.fill_mass(at, false)?;
         for block in &system.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }

@@ -2,6 +2,8 @@
 
 use nalgebra::DVector;
 
+use crate::system::System;
+
 /// Freedoms, their rates, penetrations and forces at one time.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
@@ -9,23 +11,29 @@ pub(crate) struct State {
     pub q: DVector<f64>,
     pub v: DVector<f64>,
     pub a: DVector<f64>,
-    /// Penetration of each vertical contact, negative where it is open.
+    /// Penetration of each vertical contact, negative where it is open; then the displacements of massless rails along x
+    /// ([`System::drags`]).
     pub p: Vec<f64>,
-    /// Rate of penetration, where a damper between wheel and rail makes it a state.
+    /// Rate of penetration, where a damper between wheel and rail makes it a state; then those of the rails.
     pub p_rate: Vec<f64>,
     /// Force of each component.
     pub force: Vec<f64>,
 }
 
 impl State {
-    pub fn zeros(freedoms: usize, normals: usize, components: usize) -> Self {
+    /// The state zero of a scene.
+    pub fn new(system: &System) -> Self {
+        State::zeros(system.freedoms, system.normals.len() + system.drags().len(), system.components())
+    }
+
+    pub fn zeros(freedoms: usize, penetrations: usize, components: usize) -> Self {
         State {
             t: 0.0,
             q: DVector::zeros(freedoms),
             v: DVector::zeros(freedoms),
             a: DVector::zeros(freedoms),
-            p: vec![0.0; normals],
-            p_rate: vec![0.0; normals],
+            p: vec![0.0; penetrations],
+            p_rate: vec![0.0; penetrations],
             force: vec![0.0; components],
         }
     }

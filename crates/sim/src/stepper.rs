@@ -13,6 +13,7 @@ use crate::nodes::Nodes;
 use crate::solver::{Known, Solver};
 use crate::state::State;
 use crate::tableau::{SDIRK4, Tableau};
+use crate::trigger::{TRIALS, Triggers};
 use crate::{Audit, Error, Method};
 
 /// Work done by a run.
@@ -62,6 +63,8 @@ pub(crate) struct Stepper<'a, 'b> {
     /// In place of the tableau.
     collocation: Option<Collocation>,
     tolerance: f64,
+    /// Length of every step that no break or event ends; in place of the tolerance.
+    pub fixed: Option<f64>,
     scale: DVector<f64>,
     rate_scale: DVector<f64>,
     h: f64,
@@ -80,20 +83,25 @@ pub(crate) struct Stepper<'a, 'b> {
     p_rates: Vec<Vec<f64>>,
     powers: Vec<Exchanged>,
     pub(crate) probe: State,
+    pub(crate) triggers: Triggers,
     begun: f64,
     /// Boundary term of the grounded dampers where the next step starts.
-    boundary: f64,
+    pub(crate) boundary: f64,
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
     /// A run from `start`, in which the solver's active contacts are settled.
-    pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Self {
+    ///
+    /// # Errors
+    /// A rule of something that is not recorded.
+    pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Result<Self, Error> {
         let system = solver.system;
-        let (n, count) = (system.freedoms, system.normals.len());
+        let (n, count) = (system.freedoms, start.p.len());
         let tableau = &SDIRK4;
         let energy = stored(system, &solver.geometry, &start);
         let (scale, rate_scale) = floors(solver, &start);
-        Stepper {
+        Ok(Stepper {
+            triggers: Triggers::new(system)?,
             to: start.clone(),
             arrived: start.clone(),
             stage: start.clone(),
@@ -105,6 +113,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             tableau,
             collocation: None,
             tolerance,
+            fixed: None,
             scale,
             rate_scale,
             h: first,
@@ -120,7 +129,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             powers: vec![Exchanged::default(); tableau.stages()],
             begun: energy.total(),
             solver,
-        }
+        })
     }
 
     /// Takes the steps by `method`, which suits the scene.
@@ -136,13 +145,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let mut h = self.h.min(limit - start);
+        let mut h = self.fixed.unwrap_or(self.h).min(limit - start);
         // Do not leave a sliver before the limit.
-        if limit - start - h < 0.1 * h {
+        if limit - start - h < if self.fixed.is_some() { 1e-9 } else { 0.1 } * h {
             h = limit - start;
         }
         let mut ends_at_event = false;
-        let (mut refined, mut corners, mut breaks) = (0, 0, 0);
+        let (mut refined, mut corners, mut breaks, mut trials) = (0, 0, 0, 0);
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -150,7 +159,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if let Some(shorter) = self.prescribed_break(start, h) {
                 h = shorter;
             }
-            let error = if self.attempt(h)? { self.error() } else { f64::INFINITY };
+            let error = match (self.attempt(h)?, self.fixed) {
+                (false, _) => f64::INFINITY,
+                (true, None) => self.error(),
+                (true, Some(_)) => 0.0,
+            };
             // Beyond a break the error says nothing of the step that ends before it.
             if error.is_finite()
                 && breaks < REFINEMENTS
@@ -176,6 +189,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
                     continue;
                 }
             }
+            if trials < TRIALS
+                && let Some(shorter) = self.first_trigger(h)?
+            {
+                trials += 1;
+                ends_at_event = true;
+                h = shorter.max(2.0 * smallest);
+                continue;
+            }
             if let Some(share) = self.first_corner().filter(|_| corners < CORNERS) {
                 corners += 1;
                 ends_at_event = true;
@@ -193,7 +214,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             break;
         }
         self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
-        self.chatter = if ends_at_event { self.chatter + 1 } else { 0 };
+        self.chatter = if ends_at_event && breaks == 0 { self.chatter + 1 } else { 0 };
         if self.stalled > REFINEMENTS || self.chatter > CHATTER {
             return Err(Failure::TooSmall);
         }
@@ -304,9 +325,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.turn()?;
         }
         let before = stored(system, &self.solver.geometry, &self.to);
-        let due = (0..system.normals.len()).any(|i| {
-            (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
-        }) || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
+        let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
+        let due = crosses
+            || (0..system.normals.len()).any(|i| {
+                (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
+            })
+            || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
         let mut after = before;
         if due {
             let flags = self.solver.active.clone();
@@ -314,7 +338,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
             if self.solver.settle(&mut self.to)? {
                 self.counts.events += usize::from(flags != self.solver.active || taut != self.solver.taut());
                 after = stored(system, &self.solver.geometry, &self.to);
-                self.audit.exchanged.switches += before.total() - after.total();
+                let gained = after.total() - before.total();
+                let exchanged = &mut self.audit.exchanged;
+                *(if crosses { &mut exchanged.steps } else { &mut exchanged.switches }) +=
+                    if crosses { gained } else { -gained };
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);
@@ -361,7 +388,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 fn floors(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system;
     let n = system.freedoms;
-    let depth = start.p.iter().fold(0.0_f64, |max, p| max.max(*p));
+    let depth = start.p[..system.normals.len()].iter().fold(0.0_f64, |max, p| max.max(*p));
     let radius = system.scene.wheels.iter().fold(1.0_f64, |max, wheel| max.max(wheel.radius));
     let depth = if depth > 0.0 { depth } else { 1e-3 * radius };
     let frequency = if system.scene.gravity > 0.0 { (system.scene.gravity / depth).sqrt() } else { 1.0 };

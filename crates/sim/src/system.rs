@@ -10,12 +10,13 @@ use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
 use crate::actuator::Pull;
-use crate::kinematics::Kinematics;
+use crate::kinematics::{Kinematics, Terms};
 use crate::link::Link;
 use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
-use crate::{Error, Foundation, Freedom, Load, NormalLaw, Scene};
+use crate::tie::Tie;
+use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint {
@@ -77,6 +78,8 @@ pub(crate) struct System<'a> {
     pub freedoms: usize,
     /// M, C and K: the bodies and spins, then each structure; without bodies that ride on others.
     pub blocks: Vec<Block>,
+    /// Inertia between the bodies and structures on them.
+    pub ties: Vec<Tie>,
     /// Weights, without those of bodies that ride on others.
     pub gravity: DVector<f64>,
     /// Probes of each structure.
@@ -84,6 +87,12 @@ pub(crate) struct System<'a> {
     /// Whether the probes of a structure are the components in their order, with weight -1 each: the compliance
     /// of the components is then the structure's.
     pub is_direct: Vec<bool>,
+    /// Largest stiffness of a wheel on its rail.
+    pub stiffest: f64,
+    /// Whether some structure is loaded along its rails.
+    pub is_dragged: bool,
+    /// Whether some wheel runs on an uneven rail.
+    pub is_uneven: bool,
     /// Whether some wheel's place along the rail depends on the freedoms.
     pub moves_freely: bool,
     /// Whether the rows of contact are the same at every time and place.
@@ -98,6 +107,7 @@ impl<'a> System<'a> {
     /// Numbers a scene.
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         scene.check(foundations.len())?;
+        Mount::check(scene, foundations)?;
         let mut freedoms = 0;
         let mut next = || {
             freedoms += 1;
@@ -163,14 +173,8 @@ impl<'a> System<'a> {
         let tractions: Vec<usize> = (0..wheels.len()).filter(|&w| wheels[w].spin.is_some()).collect();
 
         let mut kinematics = Kinematics::new(scene, &freedom)?;
-        let rides = Rides::new(scene, foundations, |b| kinematics.root(b))?;
-        kinematics.weigh(scene, &rides);
-        // Points of riders in space are not known.
-        let ends = scene.actuators.ropes.iter().flat_map(|rope| [rope.from.body, rope.to.body]);
-        let met = scene.actuators.stops.iter().map(|stop| Some(stop.body));
-        if let Some(body) = ends.chain(met).flatten().find(|&body| rides.has(body)) {
-            return Err(Error::Mounted { body });
-        }
+        let rides = Rides::new(scene, foundations, &kinematics)?;
+        kinematics.weigh(scene, foundations, &structure, &rides);
         let mut system = System {
             scene,
             foundations,
@@ -186,9 +190,13 @@ impl<'a> System<'a> {
             structure,
             freedoms,
             blocks: Vec::new(),
+            ties: Vec::new(),
             gravity: DVector::zeros(freedoms),
             entries: Vec::new(),
             is_direct: Vec::new(),
+            stiffest: scene.wheels.iter().fold(0.0, |max, wheel| wheel.normal.stiffness.max(max)),
+            is_dragged: foundations.iter().any(|foundation| foundation.is_dragged),
+            is_uneven: false,
             moves_freely: false,
             constant_rows: false,
             linear_normals: false,
@@ -210,7 +218,9 @@ impl<'a> System<'a> {
             .wheels
             .iter()
             .any(|wheel| !system.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
+        system.is_uneven = (0..system.wheels.len()).any(|w| system.irregularity(w).is_some());
         system.constant_rows = !system.moves_freely
+            && !system.is_uneven
             && system.laterals.is_empty()
             && system.tractions.is_empty()
             && system.pulls.is_empty()
@@ -228,6 +238,13 @@ impl<'a> System<'a> {
                 )
             });
         Ok(system)
+    }
+
+    /// Shape of the unloaded rail of wheel `w`, where it is uneven.
+    pub fn irregularity(&self, w: usize) -> Option<&'a Irregularity> {
+        let contact = &self.scene.contacts[self.wheels[w].contact];
+        let shapes = &self.foundations[contact.structure].irregularities;
+        shapes.get(contact.rail).filter(|shape| !shape.is_straight())
     }
 
     /// Number of contact components.
@@ -258,6 +275,23 @@ impl<'a> System<'a> {
     /// Component of drive or brake `i`.
     pub fn pull(&self, i: usize) -> usize {
         self.normals.len() + self.laterals.len() + self.tractions.len() + i
+    }
+
+    /// Components along the rails whose massless give is a state: frictions, drives and brakes, where some structure is
+    /// dragged.
+    pub fn drags(&self) -> Range<usize> {
+        if self.is_dragged { self.traction(0)..self.link(0) } else { 0..0 }
+    }
+
+    /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
+    pub fn treads(&self, i: usize) -> Vec<usize> {
+        match i.checked_sub(self.pull(0)) {
+            None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
+            Some(index) => {
+                let contacts = &self.pulls[index].contacts;
+                (0..self.wheels.len()).filter(|&w| contacts.contains(&self.wheels[w].contact)).collect()
+            }
+        }
     }
 
     /// Component of rope or stop `i`.
@@ -317,16 +351,19 @@ impl<'a> System<'a> {
         let mut mass = DMatrix::zeros(bodies, bodies);
         for (b, body) in self.scene.bodies.iter().enumerate().filter(|(b, _)| !self.rides.has(*b)) {
             self.kinematics.add_mass(b, &body.mass_matrix(), &mut mass);
-            for (arm, terms) in arm_rows(body.cg)[1].iter().zip(self.kinematics.terms(b)) {
-                for &(number, coefficient) in terms {
-                    self.gravity[number] -= body.mass * self.scene.gravity * arm * coefficient;
-                }
-            }
+            let line = arm_rows(body.cg)[1].map(|arm| body.mass * arm);
+            weigh(&mut self.gravity, self.scene, self.kinematics.terms(b), &line);
+        }
+        for mount in self.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+            self.kinematics.add_mass(mount.body, &mount.mass, &mut mass);
+            let terms = self.kinematics.terms(mount.body);
+            weigh(&mut self.gravity, self.scene, terms, &mount.mass[1]);
         }
         let mut whole = mass.clone();
         if !self.rides.is_empty() {
             let rest = DVector::zeros(self.freedoms);
-            self.rides.add(self, (0.0, &rest, &rest), &mut whole, &mut rest.clone());
+            let sums = (&mut whole, &mut rest.clone());
+            self.rides.add(self, (0.0, &rest, &rest), sums, &mut Vec::new());
         }
         for (b, numbers) in self.freedom.iter().enumerate() {
             for (number, freedom) in numbers.iter().zip(Freedom::ALL) {
@@ -345,13 +382,15 @@ impl<'a> System<'a> {
         for (range, foundation) in self.structure.iter().zip(self.foundations) {
             if let Some(structure) = &foundation.structure {
                 self.blocks.push(Block::structure(range.clone(), structure));
+                let mount = foundation.on.as_ref();
+                self.ties
+                    .extend(mount.and_then(|mount| Tie::new(&self.kinematics, mount, range.clone(), bodies)));
             }
         }
         Ok(())
     }
 
-    /// Probes of structure `s`. A vertical component is positive downwards, hence its weight is negative;
-    /// friction does not load the structure.
+    /// Probes of structure `s`. A vertical component is positive downwards, hence its weight is negative.
     fn structure_entries(&self, s: usize) -> Vec<Entry> {
         let mut entries = Vec::new();
         let rail_of = |contact: usize, part: Option<usize>| {
@@ -378,6 +417,25 @@ impl<'a> System<'a> {
                 entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe });
             }
         }
+        for component in self.drags().filter(|_| self.foundations[s].is_dragged) {
+            let wheels = self.treads(component);
+            for &wheel in &wheels {
+                let contact = self.wheels[wheel].contact;
+                if self.scene.contacts[contact].structure == s {
+                    let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Longitudinal };
+                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe });
+                }
+            }
+        }
         entries
+    }
+}
+
+/// Adds the weight of a mass that moves with a body, given by its line of y and the body's displacements.
+fn weigh(gravity: &mut DVector<f64>, scene: &Scene, terms: &[Terms; 6], line: &[f64; 6]) {
+    for (mass, terms) in line.iter().zip(terms) {
+        for &(number, coefficient) in terms {
+            gravity[number] -= scene.gravity * mass * coefficient;
+        }
     }
 }

@@ -284,7 +284,7 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
             continue;
         };
         ended[match run.status {
-            Status::Done | Status::Stopped => 0,
+            Status::Done | Status::Ended(_) | Status::Stopped => 0,
             Status::StepTooSmall(_) => 1,
             Status::Refused(..) => 2,
         }] += 1;

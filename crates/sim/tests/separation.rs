@@ -1,4 +1,4 @@
-//! A wheel leaves the rail: when, as the accuracy asked is tightened.
+//! A wheel leaves the rail and lands again: where, as steps shrink.
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
@@ -9,10 +9,10 @@ use std::ops::ControlFlow;
 
 use common::modes::{MASS, beam, omega, oscillator};
 use common::{EI, SPAN};
-use sim::{Channel, Scene, Status};
+use sim::{Channel, Method, Scene, Status, Stepping, run_by};
 
 /// A one-sided wheel under a mass over a beam without mass, beta = g L^2 / (16 v^2 S) = 5.
-fn scene(accuracy: f64) -> Scene {
+fn scene() -> Scene {
     let (mass, beta) = (0.5, 5.0);
     let weight = mass * MASS * SPAN * 32.174;
     let sag = weight * SPAN.powi(3) / (48.0 * EI);
@@ -21,53 +21,83 @@ fn scene(accuracy: f64) -> Scene {
     // A wheel with a twentieth of the give of the beam: soft, so that steps are long and the error is that of the motion.
     scene.wheels[0].normal.stiffness = 20.0 * weight / sag;
     scene.wheels[0].normal.bilateral = false;
-    scene.accuracy = accuracy;
     scene.output_dt = scene.end / 20_000.0;
     scene
 }
 
-/// Places at which the force meets zero: (leaves, lands), x / L, by linear interpolation of the gap.
-fn places(accuracy: f64) -> (f64, Option<f64>, usize) {
-    let scene = scene(accuracy);
-    let run = sim::run(&scene, &[beam(0, true)], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+/// Places at which the force meets zero: leaves, lands, x / L, by linear interpolation of the gap between outputs; steps.
+fn places(stepping: Stepping, accuracy: f64) -> ([f64; 2], usize) {
+    let mut scene = scene();
+    scene.accuracy = accuracy;
+    let run = run_by(stepping, &scene, &[beam(0, true)], &mut |_| ControlFlow::Continue(()))
+        .expect("a valid scene");
     assert_eq!(run.status, Status::Done);
-    let (gap, place, force) = (
-        run.history.column(Channel::Penetration(0)),
-        run.history.column(Channel::Place(0)),
-        run.history.column(Channel::Vertical(0)),
-    );
+    let [gap, place, force] = [Channel::Penetration(0), Channel::Place(0), Channel::Vertical(0)]
+        .map(|channel| run.history.column(channel));
     assert!(force.iter().all(|f| *f >= 0.0), "a one-sided wheel never pulls");
-    let crossing = |from: usize, down: bool| {
-        (from + 1..gap.len()).find(|&i| {
-            if down { gap[i - 1] >= 0.0 && gap[i] < 0.0 } else { gap[i - 1] < 0.0 && gap[i] >= 0.0 }
-        })
-    };
+    let off = (2..gap.len()).find(|&i| gap[i - 1] >= 0.0 && gap[i] < 0.0).expect("it leaves");
+    let on = (off + 1..gap.len()).find(|&i| gap[i - 1] < 0.0 && gap[i] >= 0.0).expect("it lands");
     let at = |i: usize| {
         let share = gap[i - 1] / (gap[i - 1] - gap[i]);
         (place[i - 1] + share * (place[i] - place[i - 1])) / SPAN
     };
-    let off = crossing(1, true).expect("it leaves");
-    (at(off), crossing(off, false).map(at), run.counts.steps)
+    ([at(off), at(on)], run.counts.steps)
 }
 
-/// Order 4 of the stepper in the steps taken, or better: adaptive steps shrink most where the wheel leaves and lands.
+/// Slope of ln(error) by ln(steps) through all points, by least squares, negated.
+fn order(points: &[(f64, f64)]) -> f64 {
+    let n = points.len() as f64;
+    let logs: Vec<(f64, f64)> = points.iter().map(|(steps, error)| (steps.ln(), error.ln())).collect();
+    let (x, y) = logs.iter().fold((0.0, 0.0), |(x, y), (a, b)| (x + a / n, y + b / n));
+    let (above, below) =
+        logs.iter().fold((0.0, 0.0), |(u, v), (a, b)| (u + (a - x) * (b - y), v + (a - x).powi(2)));
+    -above / below
+}
+
+/// Orders of both places over `runs`, by their distance from the last of them.
+fn orders(runs: &[([f64; 2], usize)]) -> [f64; 2] {
+    let Some((last, rest)) = runs.split_last() else { return [0.0; 2] };
+    [0, 1].map(|k| {
+        let points: Vec<(f64, f64)> =
+            rest.iter().map(|(places, steps)| (*steps as f64, (places[k] - last.0[k]).abs())).collect();
+        for pair in points.windows(2) {
+            let local = (pair[0].1 / pair[1].1).ln() / (pair[1].0 / pair[0].0).ln();
+            println!(
+                "{} {:.0} steps: {:.2e} L, order {local:.2}",
+                ["leaves", "lands"][k],
+                pair[1].0,
+                pair[1].1
+            );
+        }
+        order(&points)
+    })
+}
+
+/// Self-convergence with fixed steps, 100 to 800 a crossing against 6,400.
 #[test]
 fn places_at_which_the_wheel_leaves_and_lands_converge_with_the_order_of_the_stepper() {
-    let (off, on, _) = places(1e-10);
-    let on = on.expect("it lands");
-    println!("leaves at {off:.9} L, lands at {on:.9} L");
-    let rows: Vec<(f64, f64, f64)> = [1e-5, 1e-6, 1e-7, 1e-8]
-        .into_iter()
-        .map(|accuracy| {
-            let (leaves, lands, steps) = places(accuracy);
-            let errors = ((leaves - off).abs(), (lands.expect("it lands") - on).abs());
-            println!("{accuracy:.0e}: {steps} steps, errors {:.2e} and {:.2e} L", errors.0, errors.1);
-            (steps as f64, errors.0, errors.1)
-        })
-        .collect();
-    let (first, last) = (rows[0], rows[3]);
-    let steps = (last.0 / first.0).ln();
-    let orders = ((first.1 / last.1).ln() / steps, (first.2 / last.2).ln() / steps);
-    println!("orders {:.2} and {:.2}", orders.0, orders.1);
-    assert!(orders.0 > 3.8 && orders.1 > 3.8 && last.1 < 1e-8 && last.2 < 1e-8);
+    for (method, wanted) in [(Method::Sdirk4, 4.0), (Method::Gauss2, 4.0), (Method::Radau, 5.0)] {
+        let runs: Vec<([f64; 2], usize)> = [100, 200, 400, 800, 6400]
+            .into_iter()
+            .map(|count: u32| {
+                let step = Some(scene().end / f64::from(count));
+                places(Stepping { method, step }, 1e-9)
+            })
+            .collect();
+        let found = orders(&runs);
+        println!("{method:?}: leaves and lands at {:?} L, orders {found:.2?}", runs[4].0);
+        assert!(found.iter().all(|order| (order - wanted).abs() < 0.15), "{method:?}: {found:?}");
+    }
+}
+
+/// The same places by adaptive steps: within 1e-8 L at accuracy 1e-8.
+#[test]
+fn adaptive_steps_find_the_same_places() {
+    let fine = places(Stepping { method: Method::Sdirk4, step: Some(scene().end / 6400.0) }, 1e-9).0;
+    for accuracy in [1e-5, 1e-6, 1e-7, 1e-8] {
+        let (found, steps) = places(Stepping::default(), accuracy);
+        let errors = [0, 1].map(|k| (found[k] - fine[k]).abs());
+        println!("{accuracy:.0e}: {steps} steps, errors {:.1e} and {:.1e} L", errors[0], errors[1]);
+        assert!(errors.iter().all(|error| *error < accuracy), "{accuracy:e}: {errors:?}");
+    }
 }

@@ -198,7 +198,7 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
     Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
 }
 
-/// Refuses drives, brakes, loads and pinned bodies, which a deck does not have yet.
+/// Refuses ropes, stops, events, drives, brakes, loads, uneven rails and pinned bodies, which a deck does not have yet.
 fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
     let refuse = |why: String, hint: &str| Err(Failure::from(Diagnostic::of_file(file, why).hint(hint)));
     if let Some(rope) = scene.ropes.first() {
@@ -208,9 +208,25 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
             "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
         );
     }
+    if let Some(structure) = scene.structures.iter().find(|structure| !structure.irregularities.is_empty()) {
+        let why = format!("a deck cannot have uneven rails: structure \"{}\"", structure.name);
+        return refuse(why, "leave `irregularities` out");
+    }
+    if let Some(event) = scene.events.first() {
+        let why = format!("a deck cannot have events: \"{}\"", event.name);
+        return refuse(why, "leave `events` out, and add a SENSOR to the deck by hand");
+    }
+    if let Some(stop) = scene.stops.first() {
+        let why = format!("a deck cannot have stops: \"{}\"", stop.name);
+        return refuse(why, "leave `stops` out, and add an SFORCE with IMPACT to the deck by hand");
+    }
     if let Some(body) = scene.bodies.iter().find(|body| body.in_space) {
         let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);
         return refuse(why, "leave it out, and add a PART to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.on.is_some()) {
+        let why = format!("structure \"{}\": a deck cannot have structures on bodies", structure.name);
+        return refuse(why, "leave out the trolley, and put its mass into the bridge");
     }
     for body in &scene.bodies {
         if body.pinned.is_some() {

@@ -1,7 +1,7 @@
 //! Foundations on demand, for structures whose foundation is "auto".
 
 use sim::{Choice, Ladder, Reason, Rung};
-use splines::Compliance;
+use splines::{Axis, Compliance};
 
 use super::{Solved, foundation, modal};
 use crate::cases::{Known, solved_of};
@@ -57,8 +57,10 @@ pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Resul
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, false),
-        (Rung::Full, _) => modal::full(name, solved, finer * elements(Some(solved)), damping, false),
+        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, &[Axis::Vertical]),
+        (Rung::Full, _) => {
+            modal::full(name, solved, finer * elements(Some(solved)), damping, &[Axis::Vertical])
+        }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }

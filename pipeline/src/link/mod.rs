@@ -2,12 +2,13 @@
 
 mod ladder;
 mod modal;
+mod mount;
 mod parts;
 
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Kind, Reading, Sheet, Surface, Table};
+use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
@@ -86,10 +87,33 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    let irregularities = structure.irregularities.clone();
+    let on = mount::mount(structure)?;
+    let is_dragged = structure.longitudinal;
+    let foundation = grounded(structure, solved, lateral)?;
+    if let (true, Some(compliance), Some(rail)) =
+        (is_dragged, &foundation.compliance, structure.rails.first())
+    {
+        let probe = Probe { rail: 0, x: rail.range[0], axis: Axis::Longitudinal };
+        let mut give = Influence::zeros(1);
+        let known = compliance.fill(&[probe], &mut give).is_ok() && give.value[(0, 0)].is_finite();
+        if !known {
+            let why = "its give along the rails is not known  hint: leave `longitudinal` out";
+            return Err(Failure::Untrusted(format!("{}: {why}", structure.name)));
+        }
+    }
+    Ok(Foundation { on, irregularities, is_dragged, ..foundation })
+}
+
+/// The same, without what carries it.
+fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Foundation, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
+    let pushes =
+        [(Axis::Vertical, true), (Axis::Lateral, lateral), (Axis::Longitudinal, structure.longitudinal)];
+    let axes: Vec<Axis> = pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect();
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }),
         scene::Foundation::Influence => influence(structure, solved),
@@ -100,10 +124,10 @@ pub fn foundation(
             parts::foundation(girder, count, handover, lateral)
         }
         scene::Foundation::Modal { modes, damping } => {
-            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, lateral)
+            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, &axes)
         }
         scene::Foundation::Full { elements, damping } => {
-            modal::full(&structure.name, needed(structure, solved)?, elements, damping, lateral)
+            modal::full(&structure.name, needed(structure, solved)?, elements, damping, &axes)
         }
         scene::Foundation::Ties { moves: false, .. } => influence(structure, solved),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -112,7 +136,7 @@ pub fn foundation(
                 Origin::Tables { .. } => &[],
             };
             let dampers = modal::Dampers { pads, c };
-            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, lateral)
+            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, &axes)
         }
     }
 }
@@ -202,7 +226,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    modal::full("structure", solved, elements, 0.0, false)
+    modal::full("structure", solved, elements, 0.0, &[Axis::Vertical])
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

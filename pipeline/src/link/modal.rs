@@ -24,9 +24,9 @@ pub(super) fn lowest(
     solved: &Solved,
     count: usize,
     ratio: f64,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<Foundation, Failure> {
-    lowest_with(name, solved, count, ratio, Dampers::default(), lateral)
+    lowest_with(name, solved, count, ratio, Dampers::default(), axes)
 }
 
 /// Dampers of one size under the ties of a rail.
@@ -45,11 +45,11 @@ pub(super) fn on_ties(
     count: Option<usize>,
     ratio: f64,
     dampers: Dampers<'_>,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<Foundation, Failure> {
     match count {
-        Some(count) => lowest_with(name, solved, count, ratio, dampers, lateral),
-        None => full_with(name, solved, 1, ratio, dampers, lateral),
+        Some(count) => lowest_with(name, solved, count, ratio, dampers, axes),
+        None => full_with(name, solved, 1, ratio, dampers, axes),
     }
 }
 
@@ -59,13 +59,13 @@ fn lowest_with(
     count: usize,
     ratio: f64,
     dampers: Dampers<'_>,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<Foundation, Failure> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
             .map_err(|error| refused(name, &error))?;
-        let felt = felt(&refined.modes, solved, lateral);
+        let felt = felt(&refined.modes, solved, axes);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let all = refined.modes.modes.len() < asked || refined.modes.next.is_none();
         // Some of the modes of one frequency are not enough to turn them.
@@ -84,9 +84,9 @@ pub(super) fn full(
     solved: &Solved,
     parts: usize,
     ratio: f64,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<Foundation, Failure> {
-    full_with(name, solved, parts, ratio, Dampers::default(), lateral)
+    full_with(name, solved, parts, ratio, Dampers::default(), axes)
 }
 
 fn full_with(
@@ -95,11 +95,11 @@ fn full_with(
     parts: usize,
     ratio: f64,
     dampers: Dampers<'_>,
-    lateral: bool,
+    axes: &[Axis],
 ) -> Result<Foundation, Failure> {
     let refined =
         fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
-    let felt = felt(&refined.modes, solved, lateral);
+    let felt = felt(&refined.modes, solved, axes);
     foundation(name, &refined, felt, ratio, dampers)
 }
 
@@ -117,8 +117,8 @@ fn refused(name: &str, error: &fea::Error) -> Failure {
 /// Modes that move the rails where and as wheels can push.
 ///
 /// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
-fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Vec<fea::Mode> {
-    let motions = motions(modes, solved, lateral);
+fn felt(modes: &Modes, solved: &Solved, axes: &[Axis]) -> Vec<fea::Mode> {
+    let motions = motions(modes, solved, axes);
     // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
     let limit = STILL / modes.total[0][0].sqrt();
     let mut kept = Vec::new();
@@ -144,8 +144,7 @@ fn felt(modes: &Modes, solved: &Solved, lateral: bool) -> Vec<fea::Mode> {
 }
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
-fn motions(modes: &Modes, solved: &Solved, lateral: bool) -> DMatrix<f64> {
-    let axes: &[Axis] = if lateral { &[Axis::Vertical, Axis::Lateral] } else { &[Axis::Vertical] };
+fn motions(modes: &Modes, solved: &Solved, axes: &[Axis]) -> DMatrix<f64> {
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {

@@ -3,7 +3,7 @@
 use sim::Schedule;
 
 use super::body::FREEDOMS;
-use super::raw::{RawLoad, RawMotion};
+use super::raw::{RawLoad, RawMotion, RawScene};
 use super::{Along, Body, Scene};
 use crate::check::Check;
 use crate::fault::{Fault, Faults, alternatives};
@@ -114,9 +114,9 @@ pub(super) fn read_rows(
 }
 
 /// Wheels that drives and brakes of the bodies can act on.
-pub(super) fn check_wheels(motions: &[RawMotion], scene: &Scene, faults: &mut Faults) {
+pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
     let root = Place::root();
-    let (list, kinds) = (root.key("motions"), root.key("wheels"));
+    let kinds = root.key("wheels");
     for truck in &scene.trucks {
         let Some((root, _)) = super::pin::root_of(&scene.bodies, truck.body) else { continue };
         let (body, kind) = (&scene.bodies[root], &scene.wheels[truck.wheel]);
@@ -144,17 +144,29 @@ pub(super) fn check_wheels(motions: &[RawMotion], scene: &Scene, faults: &mut Fa
                 faults.add(fault.at_key().hint("leave `spin_inertia` out: the wheel rolls with its body"));
             }
         }
-        let motion = motions.iter().position(|motion| motion.body.as_ref() == Some(&body.name));
-        let (Some(index), Some(_)) = (motion, body.brake) else { continue };
-        let at = list.index(index);
-        let place = at.key("brake");
+        if body.brake.is_none() {
+            continue;
+        }
         if !own().any(|kind| kind.braked) {
-            let fault = Fault::new(&place, format!("no wheel of body {} is braked", body.name)).at_key();
-            faults.add(fault.hint("give a kind of its wheels \"braked\": true"));
+            let fault = brake_fault(raw, &body.name, format!("no wheel of body {} is braked", body.name));
+            faults.add(fault.at_key().hint("give a kind of its wheels \"braked\": true"));
         }
         if let Some(kind) = own().find(|kind| kind.braked && kind.friction.is_none()) {
             let fault = Fault::new(&kinds.key(&kind.name), "a braked wheel needs `friction`").at_key();
             faults.add(fault.hint("its `mu` limits the brake"));
         }
     }
+}
+
+/// A fault of the brake of body `name`, where its motion or the first event gives it.
+fn brake_fault(raw: &RawScene, name: &String, expected: String) -> Fault {
+    let root = Place::root();
+    let (motions, events) = (root.key("motions"), root.key("events"));
+    let motion = raw.motions.iter().position(|m| m.body.as_ref() == Some(name) && m.brake.is_some());
+    if let Some(index) = motion {
+        return Fault::new(&motions.index(index).key("brake"), expected);
+    }
+    let event = raw.events.iter().position(|event| super::event::brakes(event, name));
+    let at = events.index(event.unwrap_or_default());
+    Fault::new(&at.key("do").key("brake"), expected)
 }

@@ -3,11 +3,16 @@
 mod actuator;
 mod body;
 mod compare;
+mod event;
 mod gauge;
+mod irregularity;
+mod method;
+mod mount;
 mod pin;
 mod raw;
 mod read;
 mod rope;
+mod stop;
 mod structure;
 mod tables;
 mod ties;
@@ -17,8 +22,11 @@ mod wheel;
 pub use actuator::{Drive, Load};
 pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
+pub use event::Event;
 pub use gauge::Gauge;
+pub use method::STEPPERS;
 pub use rope::Rope;
+pub use stop::{Meeting, Stop};
 pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
@@ -53,6 +61,10 @@ pub struct Scene {
     pub trucks: Vec<Truck>,
     /// Ropes.
     pub ropes: Vec<Rope>,
+    /// End stops of rails, and floors.
+    pub stops: Vec<Stop>,
+    /// What is switched on the way.
+    pub events: Vec<Event>,
     /// Forces and moments on bodies.
     pub loads: Vec<Load>,
     /// Time at which the scene ends.
@@ -61,6 +73,8 @@ pub struct Scene {
     pub dt: f64,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
+    /// How the motion is integrated.
+    pub stepping: sim::Stepping,
 }
 
 /// What is computed.

@@ -16,6 +16,7 @@ crate::object::objects!(
     RawTieRail,
     RawTables,
     RawGauge,
+    RawIrregularity,
     RawBody,
     RawPin,
     RawStart,
@@ -28,6 +29,11 @@ crate::object::objects!(
     RawLoad,
     RawRope,
     RawEnds,
+    RawStop,
+    RawEvent,
+    RawDo,
+    RawFollow,
+    RawHoist,
     RawEnd,
     RawOutput
 );
@@ -53,14 +59,16 @@ pub(crate) struct RawScene {
     #[serde(default)]
     pub motions: Vec<RawMotion>,
     #[serde(default)]
-    pub events: Vec<Value>,
+    pub events: Vec<RawEvent>,
     #[serde(default)]
-    pub stops: Vec<Value>,
+    pub stops: Vec<RawStop>,
     #[serde(default)]
     pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
     pub accuracy: Option<f64>,
+    pub stepper: Option<String>,
+    pub step: Option<f64>,
     #[serde(default)]
     pub compare: Vec<Value>,
 }
@@ -83,6 +91,9 @@ pub(crate) struct RawStructure {
     pub range: Option<[f64; 2]>,
     #[serde(default)]
     pub gauges: Entries<RawGauge>,
+    #[serde(default)]
+    pub irregularities: Vec<RawIrregularity>,
+    pub longitudinal: Option<bool>,
     pub on: Option<String>,
     pub at: Option<[f64; 3]>,
 }
@@ -166,6 +177,25 @@ pub(crate) struct RawGauge {
     pub rail: Option<String>,
     pub x: Option<f64>,
     pub direction: Option<String>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawIrregularity {
+    pub rail: Option<String>,
+    pub direction: Option<String>,
+    pub kind: Option<String>,
+    pub x: Option<f64>,
+    pub height: Option<f64>,
+    pub depth: Option<f64>,
+    pub amplitude: Option<f64>,
+    pub length: Option<f64>,
+    pub phase: Option<f64>,
+    pub range: Option<[f64; 2]>,
+    pub rows: Option<Vec<[f64; 2]>>,
+    pub file: Option<String>,
+    pub columns: Option<[String; 2]>,
+    pub scale: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -329,6 +359,57 @@ pub(crate) struct RawRope {
     pub c: Option<f64>,
     pub length: Option<f64>,
     pub speed: Option<Vec<[f64; 2]>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawStop {
+    pub name: Option<String>,
+    pub rail: Option<String>,
+    pub x: Option<f64>,
+    #[serde(rename = "Y")]
+    pub height: Option<f64>,
+    pub body: Option<String>,
+    pub at: Option<[f64; 3]>,
+    pub side: Option<String>,
+    pub k: Option<f64>,
+    pub c: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawEvent {
+    pub name: Option<String>,
+    pub when: Option<String>,
+    #[serde(rename = "do")]
+    pub actions: Option<RawDo>,
+}
+
+/// What an event does.
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawDo {
+    pub brake: Option<String>,
+    pub release_brake: Option<String>,
+    pub drive: Option<RawFollow>,
+    pub drive_off: Option<String>,
+    pub hoist: Option<RawHoist>,
+    pub drop: Option<String>,
+    pub end: Option<bool>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawFollow {
+    pub body: Option<String>,
+    pub speed: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawHoist {
+    pub rope: Option<String>,
+    pub speed: Option<f64>,
 }
 
 /// One end of a rope.

@@ -2,8 +2,8 @@
 
 use super::raw::RawScene;
 use super::{
-    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, pin, rope, structure,
-    truck, wheel,
+    Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
+    pin, rope, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -39,9 +39,8 @@ pub(super) fn scene(
     if raw.name.is_some() {
         super::name(&name, &root.key("name"), check.faults);
     }
-    refuse_later(raw, &root, check);
     let gravity = read_gravity(raw, &root, check);
-    let structures = read_structures(raw, &root, known, inputs, elsewhere, check);
+    let mut structures = read_structures(raw, &root, known, inputs, elsewhere, check);
     let rails = rails_of(&structures);
     let all_structures = structures.len() == raw.structures.0.len();
     let mut bodies = Vec::new();
@@ -62,6 +61,7 @@ pub(super) fn scene(
         bodies.push(body);
     }
     pin::read(&raw.bodies, &mut bodies, check);
+    mount::read(&raw.structures, &mut structures, &bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
@@ -88,6 +88,8 @@ pub(super) fn scene(
         trucks: Vec::new(),
         loads,
         ropes,
+        stops: Vec::new(),
+        events: Vec::new(),
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -96,23 +98,20 @@ pub(super) fn scene(
             Dimension::NUMBER,
             "a relative error, such as 1e-4",
         ),
+        stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
-    actuator::check_wheels(&raw.motions, &scene, check.faults);
+    scene.stops = stop::read_all(&raw.stops, &scene, check);
+    event::fit_brakes(&raw.events, &mut scene.bodies);
+    scene.events = event::read_all(&raw.events, &scene, check);
+    actuator::check_wheels(raw, &scene, check.faults);
     let held = check.faults.0.is_empty();
     if held {
+        mount::check(&scene, check.faults);
         stay_on_rails(raw, &scene, &root, check.faults);
+        method::suits(&scene, &root, check.faults);
     }
     units.map(|_| scene)
-}
-
-fn refuse_later(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) {
-    let later = [("events", raw.events.is_empty(), "an event"), ("stops", raw.stops.is_empty(), "a stop")];
-    for (key, empty, what) in later {
-        if !empty {
-            check.faults.unavailable(&root.key(key), what);
-        }
-    }
 }
 
 fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Option<f64> {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
-use super::ties;
+use super::{irregularity, ties};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
 use crate::fault::Fault;
@@ -34,6 +34,12 @@ pub struct Structure {
     pub tolerance: f64,
     /// Places whose displacement is recorded.
     pub gauges: Vec<Gauge>,
+    /// Whether friction, drives and brakes load it along its rails.
+    pub longitudinal: bool,
+    /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
+    pub irregularities: Vec<sim::Irregularity>,
+    /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
+    pub on: Option<(usize, [f64; 3])>,
 }
 
 /// Where influence coefficients come from.
@@ -198,11 +204,6 @@ pub(super) fn read(
     elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
 ) -> Option<Structure> {
-    for (key, given) in [("on", raw.on.is_some()), ("at", raw.at.is_some())] {
-        if given {
-            check.faults.unavailable(&at.key(key), "a structure that rides on a body");
-        }
-    }
     let word = foundation_word(raw, at, check);
     let count = raw.count.unwrap_or(PARTS);
     if count < 2 {
@@ -277,6 +278,16 @@ pub(super) fn read(
     }
     let auto = matches!(word, Word::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
+    if raw.longitudinal == Some(true) && raw.tables.is_some() {
+        let fault = Fault::new(&at.key("longitudinal"), "needs a `spec`").at_key();
+        check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
+    }
+    if raw.longitudinal == Some(true) && matches!(word, Word::Parts) {
+        let fault = Fault::new(&at.key("longitudinal"), "\"parts\" do not give along the rail").at_key();
+        check.faults.add(fault.hint("use \"influence\" or \"modal\""));
+    }
+    let place = at.key("irregularities");
+    let irregularities = irregularity::read(&raw.irregularities, &rails, &place, inputs, elsewhere, check);
     Some(Structure {
         name: name.to_owned(),
         origin,
@@ -287,6 +298,9 @@ pub(super) fn read(
         reading,
         tolerance,
         gauges,
+        longitudinal: raw.longitudinal.unwrap_or(false),
+        irregularities,
+        on: None,
     })
 }
 
@@ -358,7 +372,12 @@ fn read_spec(
     }
 }
 
-fn refer<'i>(file: &str, at: &Place<'_>, inputs: &'i mut Inputs, check: &mut Check<'_>) -> Option<&'i Input> {
+pub(super) fn refer<'i>(
+    file: &str,
+    at: &Place<'_>,
+    inputs: &'i mut Inputs,
+    check: &mut Check<'_>,
+) -> Option<&'i Input> {
     match inputs.refer(file) {
         Ok(input) => Some(input),
         Err(why) => {

@@ -19,6 +19,7 @@ mod units;
 mod view;
 mod wrong;
 
+pub(crate) use self::csv::Columns;
 pub use build::{adm, data_set};
 pub use deviation::Deviation;
 pub use digits::{Rounding, Unrounded, round};
@@ -28,3 +29,16 @@ pub use format::{Contents, Format, contents, is_tables, read, write};
 pub use only::only;
 pub use product::Product;
 pub use set::{Table, TableSet};
+
+/// What is wrong with the last of these rows (x, value), where x must not fall and two rows at one x are a step.
+pub(crate) fn disorder(rows: &[[f64; 2]]) -> Option<String> {
+    match rows {
+        [.., before, last] if last[0] < before[0] => {
+            Some(format!("x must not fall: the row before is at {}", crate::fault::number(before[0])))
+        }
+        [.., first, _, last] if last[0] == first[0] => {
+            Some("two rows at one x at most: they are a step".to_owned())
+        }
+        _ => None,
+    }
+}

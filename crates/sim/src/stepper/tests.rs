@@ -59,7 +59,7 @@ fn with<T>(y: f64, v: f64, body: impl FnOnce(&mut Stepper<'_, '_>) -> Result<T, 
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     (state.q[0], state.v[0]) = (y, v);
     solver.settle(&mut state)?;
-    body(&mut Stepper::new(&mut solver, state, 1.0, 1.0))
+    body(&mut Stepper::new(&mut solver, state, 1.0, 1.0)?)
 }
 
 fn slope(errors: &[f64]) -> f64 {
@@ -168,7 +168,7 @@ fn end(
     let mut state = State::zeros(system.freedoms, system.normals.len(), system.components());
     state.q[0] = -0.12;
     solver.settle(&mut state)?;
-    let mut stepper = Stepper::new(&mut solver, state, 1.0, 1.0).by(method);
+    let mut stepper = Stepper::new(&mut solver, state, 1.0, 1.0)?.by(method);
     for _ in 0..steps {
         stepper.from.copy_from(&stepper.to);
         assert!(stepper.attempt(1.0 / f64::from(steps))?);
@@ -235,7 +235,7 @@ fn gauss_conserves_the_energy_of_ten_thousand_cycles() -> Result<(), Error> {
         let mut state = State::zeros(1, 1, 1);
         state.q[0] = -0.05;
         solver.settle(&mut state)?;
-        let mut stepper = Stepper::new(&mut solver, state, 1.0, 1.0).by(method);
+        let mut stepper = Stepper::new(&mut solver, state, 1.0, 1.0)?.by(method);
         let h = 2.0 * std::f64::consts::PI / 120.0;
         let of = |at: &State| 0.5 * at.v[0].powi(2) + 50.0 * (at.q[0] + 0.1).powi(2);
         let begun = of(&stepper.to);

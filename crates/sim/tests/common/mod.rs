@@ -2,6 +2,8 @@
 
 #![allow(dead_code)]
 
+pub mod crane;
+pub mod kutta;
 pub mod modes;
 pub mod parts;
 

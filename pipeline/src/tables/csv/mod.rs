@@ -1,6 +1,7 @@
 //! Tables as rows of values: one value a line, or a matrix with x above and z to the left.
 
 mod cells;
+mod columns;
 mod long;
 mod matrix;
 
@@ -14,6 +15,8 @@ use crate::diagnostic::Diagnostic;
 use crate::source::Source;
 use crate::units::{Dimension, Units};
 use cells::Sheet;
+
+pub(crate) use columns::Columns;
 
 /// The text: one value a line, under a header that says the units; the products in comments above it.
 pub(super) fn write(set: &TableSet) -> String {

@@ -1,0 +1,78 @@
+//! Damping of a free oscillation.
+
+use std::f64::consts::PI;
+
+use crate::Error;
+use crate::error::{Argument, positive, usable, within};
+use crate::spectrum::NOISE;
+
+/// A free oscillation that dies away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Decay {
+    /// Damping ratio, negative where it grows.
+    pub ratio: f64,
+    /// Damped frequency, cycles per unit of time.
+    pub frequency: f64,
+    /// Over how many half cycles.
+    pub halves: usize,
+}
+
+/// Damping ratio by the logarithmic decrement.
+///
+/// With the ranges r_k between successive extremes (a parabola through three samples each), from the largest on
+/// while above `floor` of it, delta = -2 s for the slope s of the line through (k, ln r_k) by least squares, and
+///
+/// zeta = delta/sqrt(4 pi^2 + delta^2).
+///
+/// Ranges do not feel a constant shift, so the settled mean need not be known. None where fewer than two ranges
+/// remain. Several modes at once have no one damping: filter first.
+///
+/// # Errors
+/// A step that is not positive, a floor outside 0..=1, a sample that is not finite.
+///
+/// # Source
+/// Clough and Penzien, Dynamics of Structures (1993), section 2-6.
+pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Error> {
+    let step = positive(Argument::Time, step)?;
+    let floor = within(Argument::Share, floor, 0.0, 1.0)?;
+    usable(0, values)?;
+    let noise = NOISE * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let tops = extremes(values);
+    let ranges: Vec<f64> = tops.windows(2).map(|pair| (pair[0].1 - pair[1].1).abs()).collect();
+    let start = (0..ranges.len()).fold(0, |top, k| if ranges[k] > ranges[top] { k } else { top });
+    let kept = ranges[start.min(ranges.len())..].iter();
+    let logs: Vec<f64> = kept
+        .take_while(|range| **range > noise && **range >= floor * ranges[start])
+        .map(|range| range.ln())
+        .collect();
+    if logs.len() < 2 {
+        return Ok(None);
+    }
+    let middle = (logs.len() - 1) as f64 / 2.0;
+    let (mut square, mut product) = (0.0, 0.0);
+    for (k, log) in logs.iter().enumerate() {
+        square += (k as f64 - middle).powi(2);
+        product += (k as f64 - middle) * log;
+    }
+    let delta = -2.0 * product / square;
+    let time = (tops[start + logs.len()].0 - tops[start].0) * step;
+    Ok(Some(Decay {
+        ratio: delta / (4.0 * PI * PI + delta * delta).sqrt(),
+        frequency: logs.len() as f64 / (2.0 * time),
+        halves: logs.len(),
+    }))
+}
+
+/// Places, in samples, and values of the extremes, by parabolas.
+fn extremes(values: &[f64]) -> Vec<(f64, f64)> {
+    let mut tops = Vec::new();
+    for k in 1..values.len().saturating_sub(1) {
+        let [a, b, c] = [values[k - 1], values[k], values[k + 1]];
+        if (b > a && b >= c) || (b < a && b <= c) {
+            let curve = a - 2.0 * b + c;
+            let shift = if curve == 0.0 { 0.0 } else { 0.5 * (a - c) / curve };
+            tops.push((k as f64 + shift, b - 0.25 * (a - c) * shift));
+        }
+    }
+    tops
+}

@@ -1,0 +1,37 @@
+//! Values of 29 CFR 1910.179, arguments in SI.
+
+use crate::Error;
+use crate::cmaa::FOOT;
+use crate::error::{Argument, least_zero};
+
+/// Share of the rated speed at which bumpers must be able to stop a crane.
+///
+/// # Source
+/// 29 CFR 1910.179(e)(2).
+pub const BUMPER_SPEED: f64 = 0.4;
+
+/// Share of the rated speed at which the mean deceleration by bumpers must not exceed [`BUMPER_DECELERATION`].
+///
+/// # Source
+/// 29 CFR 1910.179(e)(2).
+pub const BUMPER_GENTLE: f64 = 0.2;
+
+/// 3 ft/s2 in m/s2.
+///
+/// # Source
+/// 29 CFR 1910.179(e)(2).
+pub const BUMPER_DECELERATION: f64 = 3.0 * FOOT;
+
+/// The longest way, in m, on which brakes may stop a bridge or trolley from its full-load `speed` in m/s: in feet,
+/// 10 % of the speed in feet per minute.
+///
+/// So the way of 6 s at that speed, and a mean deceleration of at least v/(12 s).
+///
+/// # Errors
+/// A speed that is negative or not finite.
+///
+/// # Source
+/// 29 CFR 1910.179(f)(4)(vii); the same in CMAA 70-1983, 4.9.3 and 4.9.4.
+pub fn brake_distance(speed: f64) -> Result<f64, Error> {
+    Ok(6.0 * least_zero(Argument::Speed, speed)?)
+}

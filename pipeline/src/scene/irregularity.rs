@@ -1,0 +1,299 @@
+//! Uneven rails: steps, joints, dips, sinusoids and sampled profiles.
+
+use std::f64::consts::FRAC_PI_2;
+
+use sim::{Irregularity, Wave};
+use splines::Axis;
+
+use super::raw::RawIrregularity;
+use super::structure::refer;
+use crate::check::Check;
+use crate::diagnostic::Diagnostic;
+use crate::fault::{Fault, nearest, number};
+use crate::inputs::Inputs;
+use crate::place::Place;
+use crate::spec::RailOutline;
+use crate::tables::{Columns, disorder};
+use crate::units::Dimension;
+
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Step,
+    Joint,
+    Dip,
+    Sinusoid,
+    Profile,
+}
+
+const KINDS: [(&str, Kind); 5] = [
+    ("step", Kind::Step),
+    ("joint", Kind::Joint),
+    ("dip", Kind::Dip),
+    ("sinusoid", Kind::Sinusoid),
+    ("profile", Kind::Profile),
+];
+
+const DIRECTIONS: [(&str, Axis); 2] = [("vertical", Axis::Vertical), ("lateral", Axis::Lateral)];
+
+impl Kind {
+    /// Keys beside `rail`, `direction` and `kind`.
+    fn keys(self) -> &'static [&'static str] {
+        match self {
+            Kind::Step => &["x", "height"],
+            Kind::Joint | Kind::Dip => &["x", "depth", "length"],
+            Kind::Sinusoid => &["amplitude", "length", "phase", "range"],
+            Kind::Profile => &["rows", "file", "columns", "scale"],
+        }
+    }
+}
+
+/// The sums of all irregularities, one a rail; none where there are none.
+pub(super) fn read(
+    raw: &[RawIrregularity],
+    rails: &[RailOutline],
+    at: &Place<'_>,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Vec<Irregularity> {
+    if raw.is_empty() {
+        return Vec::new();
+    }
+    let mut sums = vec![Irregularity::default(); rails.len()];
+    for (index, raw) in raw.iter().enumerate() {
+        let at = at.index(index);
+        let words: Vec<(&str, usize)> =
+            rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
+        let rail = match (&raw.rail, rails.len()) {
+            (Some(rail), _) => check.faults.word(rail, &at.key("rail"), &words),
+            (None, 1) => Some(0),
+            (None, _) => check.faults.need(&raw.rail, &at, "rail").map(|_| 0),
+        };
+        let axis = match &raw.direction {
+            Some(word) => check.faults.word(word, &at.key("direction"), &DIRECTIONS),
+            None => Some(Axis::Vertical),
+        };
+        let kind = check.faults.need(&raw.kind, &at, "kind");
+        let kind = kind.and_then(|kind| check.faults.word(kind, &at.key("kind"), &KINDS));
+        let (Some(rail), Some(axis), Some(kind)) = (rail, axis, kind) else { continue };
+        if strangers(raw, kind, &at, check) {
+            continue;
+        }
+        let faults = check.faults.0.len();
+        let shape = match kind {
+            Kind::Profile => profile(raw, &at, inputs, elsewhere, check).map(|rows| table(axis, &rows)),
+            Kind::Sinusoid => Some(sinusoid(raw, axis, &rails[rail], &at, check)),
+            Kind::Step | Kind::Joint | Kind::Dip => local(raw, kind, axis, &rails[rail], &at, check),
+        };
+        if faults < check.faults.0.len() {
+            continue;
+        }
+        match shape {
+            Some(Ok(shape)) => sums[rail] = sums[rail].plus(&shape),
+            Some(Err(error)) => check.faults.add(Fault::new(&at, error.to_string())),
+            None => {}
+        }
+    }
+    sums
+}
+
+/// Refuses keys of other kinds.
+fn strangers(raw: &RawIrregularity, kind: Kind, at: &Place<'_>, check: &mut Check<'_>) -> bool {
+    let given = [
+        ("x", raw.x.is_some()),
+        ("height", raw.height.is_some()),
+        ("depth", raw.depth.is_some()),
+        ("amplitude", raw.amplitude.is_some()),
+        ("length", raw.length.is_some()),
+        ("phase", raw.phase.is_some()),
+        ("range", raw.range.is_some()),
+        ("rows", raw.rows.is_some()),
+        ("file", raw.file.is_some()),
+        ("columns", raw.columns.is_some()),
+        ("scale", raw.scale.is_some()),
+    ];
+    let word = KINDS.iter().find(|(_, other)| *other == kind).map_or("", |(word, _)| *word);
+    let foreign = given.into_iter().filter(|(key, given)| *given && !kind.keys().contains(key));
+    let mut some = false;
+    for (key, _) in foreign {
+        let fault =
+            Fault::new(&at.key(key), format!("`{key}` does not belong to the kind \"{word}\"")).at_key();
+        check.faults.add(fault.hint(format!("it has {}", kind.keys().join(", "))));
+        some = true;
+    }
+    some
+}
+
+fn table(axis: Axis, rows: &[[f64; 2]]) -> Result<Irregularity, sim::Error> {
+    if axis == Axis::Lateral { Irregularity::new(&[], rows) } else { Irregularity::new(rows, &[]) }
+}
+
+/// A step, a joint or a dip.
+fn local(
+    raw: &RawIrregularity,
+    kind: Kind,
+    axis: Axis,
+    rail: &RailOutline,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Result<Irregularity, sim::Error>> {
+    let (key, size) = if kind == Kind::Step { ("height", &raw.height) } else { ("depth", &raw.depth) };
+    let x = check.faults.need(&raw.x, at, "x").copied();
+    let size = check.faults.need(size, at, key).copied();
+    let half = match kind {
+        Kind::Step => 0.0,
+        _ => 0.5 * check.needed(raw.length, at, "length", Dimension::LENGTH, "from end to end"),
+    };
+    let (x, size) = (x?, size?);
+    let x = check.number(x, &at.key("x"), Dimension::LENGTH);
+    let size = check.number(size, &at.key(key), Dimension::LENGTH);
+    on_rail([x - half, x + half], rail, &at.key("x"), check);
+    Some(match kind {
+        Kind::Joint => table(axis, &[[x - half, 0.0], [x, -size], [x + half, 0.0]]),
+        Kind::Dip => {
+            // -size (1 + cos)/2 about x: a level below, and a sinusoid that meets the rail at both ends.
+            let (from, to) = (x - half, x + half);
+            let low = -0.5 * size;
+            let level = table(axis, &[[from, 0.0], [from, low], [to, low], [to, 0.0]]);
+            let wave = Wave { amplitude: -low, length: 2.0 * half, phase: FRAC_PI_2, range: [from, to] };
+            level.and_then(|level| Ok(level.plus(&Irregularity::wave(axis, wave)?)))
+        }
+        _ => table(axis, &[[x, 0.0], [x, size]]),
+    })
+}
+
+fn sinusoid(
+    raw: &RawIrregularity,
+    axis: Axis,
+    rail: &RailOutline,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Result<Irregularity, sim::Error> {
+    let amplitude = check.faults.need(&raw.amplitude, at, "amplitude").copied().unwrap_or_default();
+    let amplitude = check.number(amplitude, &at.key("amplitude"), Dimension::LENGTH);
+    let length = check.needed(raw.length, at, "length", Dimension::LENGTH, "from crest to crest");
+    let phase = check.number(raw.phase.unwrap_or_default(), &at.key("phase"), Dimension::NUMBER);
+    let place = at.key("range");
+    let range = match raw.range {
+        None => [f64::NEG_INFINITY, f64::INFINITY],
+        Some(given) => {
+            let range = [0, 1].map(|k| check.number(given[k], &place.index(k), Dimension::LENGTH));
+            if given[1] <= given[0] {
+                let fault = Fault::new(&place.index(1), format!("must be above {}", number(given[0])));
+                check.faults.add(fault.got(number(given[1])).hint("first and last coordinate"));
+            }
+            on_rail(range, rail, &place, check);
+            range
+        }
+    };
+    Irregularity::wave(axis, Wave { amplitude, length, phase, range })
+}
+
+fn on_rail(range: [f64; 2], rail: &RailOutline, at: &Place<'_>, check: &mut Check<'_>) {
+    let [first, last] = rail.range;
+    if range[0] < first || range[1] > last {
+        let found = if range[0] == range[1] {
+            number(range[0])
+        } else {
+            format!("from {} to {}", number(range[0]), number(range[1]))
+        };
+        let fault = Fault::new(at, format!("must lie on rail {}", rail.name)).got(found);
+        check.faults.add(fault.hint(format!("it runs from {first} to {last}")));
+    }
+}
+
+/// Rows (x, value) of a profile, given here or in columns of a file.
+fn profile(
+    raw: &RawIrregularity,
+    at: &Place<'_>,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Option<Vec<[f64; 2]>> {
+    let scale = check.number(raw.scale.unwrap_or(1.0), &at.key("scale"), Dimension::NUMBER);
+    let (rows, place) = match (&raw.rows, &raw.file) {
+        (Some(rows), None) => {
+            if let Some(columns) = &raw.columns {
+                let fault = Fault::new(&at.key("columns"), "needs a `file`").got(columns.join(", "));
+                check.faults.add(fault.at_key());
+            }
+            (listed(rows, &at.key("rows"), check), at.key("rows"))
+        }
+        (None, Some(file)) => (filed(raw, file, at, inputs, elsewhere, check)?, at.key("file")),
+        (rows, _) => {
+            let found = if rows.is_some() { "both" } else { "neither" };
+            let fault = Fault::new(at, "must have either `rows` or `file`").got(found);
+            check.faults.add(fault.hint("rows [x, height], or a file with such columns"));
+            return None;
+        }
+    };
+    let length = check.scale.factor(Dimension::LENGTH);
+    let scaled = |[x, value]: [f64; 2]| [x * length, value * length * scale];
+    let rows: Vec<[f64; 2]> = rows.into_iter().map(scaled).collect();
+    if rows.iter().flatten().any(|number| !number.is_finite()) {
+        check.faults.add(Fault::new(&place, "must stay within double precision after `scale`"));
+    }
+    Some(rows)
+}
+
+fn listed(rows: &[[f64; 2]], at: &Place<'_>, check: &mut Check<'_>) -> Vec<[f64; 2]> {
+    if rows.is_empty() {
+        check.faults.add(Fault::new(at, "must have at least one row [x, value]"));
+    }
+    for index in 0..rows.len() {
+        if let Some(why) = disorder(&rows[..=index]) {
+            check.faults.add(Fault::new(&at.index(index), why).got(number(rows[index][0])));
+        }
+    }
+    rows.to_vec()
+}
+
+fn filed(
+    raw: &RawIrregularity,
+    file: &str,
+    at: &Place<'_>,
+    inputs: &mut Inputs,
+    elsewhere: &mut Vec<Diagnostic>,
+    check: &mut Check<'_>,
+) -> Option<Vec<[f64; 2]>> {
+    let input = refer(file, &at.key("file"), inputs, check)?;
+    let read = input.source().map_err(|error| vec![*error]).and_then(|source| {
+        let columns = Columns::of(&source).map_err(|error| vec![*error])?;
+        match picked(raw, &columns, at, check) {
+            Some(picked) => columns.rows(picked).map(Some),
+            None => Ok(None),
+        }
+    });
+    read.unwrap_or_else(|wrong| {
+        elsewhere.extend(wrong.into_iter().filter(|one| !elsewhere.contains(one)).collect::<Vec<_>>());
+        None
+    })
+}
+
+/// Indices of the columns of x and of the value: the first two, or those named.
+fn picked(
+    raw: &RawIrregularity,
+    columns: &Columns<'_>,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<[usize; 2]> {
+    let Some(wanted) = &raw.columns else { return Some([0, 1]) };
+    let known: Vec<&str> = columns.names().iter().map(String::as_str).collect();
+    let mut find = |k: usize| {
+        let found = known.iter().position(|name| *name == wanted[k]);
+        if found.is_none() {
+            let near = nearest(&wanted[k], &known).map(|near| format!("did you mean \"{near}\"? "));
+            let list = if known.is_empty() {
+                "it has no header".to_owned()
+            } else {
+                format!("known: {}", known.join(", "))
+            };
+            let fault = Fault::new(&at.key("columns").index(k), "must be the name of a column of the file");
+            let hint = format!("{}{list}", near.unwrap_or_default());
+            check.faults.add(fault.got(format!("\"{}\"", wanted[k])).hint(hint));
+        }
+        found
+    };
+    let (x, value) = (find(0), find(1));
+    Some([x?, value?])
+}

@@ -1,0 +1,92 @@
+//! Structures that ride on bodies.
+
+use super::body::Body;
+use super::pin::root_of;
+use super::raw::RawStructure;
+use super::structure::{Foundation, Origin, Structure};
+use super::{Scene, Truck};
+use crate::check::Check;
+use crate::entries::Entries;
+use crate::fault::{Fault, Faults};
+use crate::place::Place;
+use crate::spec::Spec;
+use crate::units::Dimension;
+
+/// Reads what carries the structures into them.
+pub(super) fn read(
+    raw: &Entries<RawStructure>,
+    structures: &mut [Structure],
+    bodies: &[Body],
+    check: &mut Check<'_>,
+) {
+    let root = Place::root();
+    let list = root.key("structures");
+    for (name, raw) in &raw.0 {
+        let at = list.key(name);
+        let Some(carrier) = &raw.on else {
+            if raw.at.is_some() {
+                let fault = Fault::new(&at.key("at"), "`at` belongs to a structure `on` a body");
+                check.faults.add(fault.at_key());
+            }
+            continue;
+        };
+        let known = super::names(bodies, |body| &body.name);
+        let carrier = super::resolve(carrier, &known, "body", &at.key("on"), check.faults);
+        let position = check.vector(raw.at.unwrap_or_default(), &at.key("at"), Dimension::LENGTH);
+        let Some(structure) = structures.iter_mut().find(|structure| structure.name == *name) else {
+            continue;
+        };
+        structure.auto = false;
+        if !matches!(structure.foundation, Foundation::Rigid | Foundation::Influence) {
+            let what = format!("foundation \"{}\" of a structure on a body", structure.foundation.word());
+            check.faults.unavailable(&at.key("foundation"), &what);
+        }
+        match &structure.origin {
+            Origin::Tables { .. } => {
+                check.faults.unavailable(&at.key("tables"), "tables of a structure on a body")
+            }
+            Origin::Spec { spec, .. } => refuse(spec, &at, check),
+        }
+        structure.on = carrier.map(|carrier| (carrier, position));
+    }
+}
+
+/// Refuses rails that are not level.
+fn refuse(spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) {
+    // A spec of numbers that no model can be made of is refused where it is solved.
+    let Ok((model, rails)) = spec.model() else { return };
+    if rails.iter().any(|rail| rail.axis[1] != 0.0 || model.up != [0.0, 1.0, 0.0]) {
+        check
+            .faults
+            .unavailable(&at.key("spec"), "a rail that is not level, or another `up` than y, on a body");
+    }
+}
+
+/// Refuses ways to ride that no motion is known for: on two carriers, or one on the other; loads on what rides.
+pub(super) fn check(scene: &Scene, faults: &mut Faults) {
+    let root = Place::root();
+    let (trucks, loads) = (root.key("trucks"), root.key("loads"));
+    let tree = |body: usize| root_of(&scene.bodies, body).map_or(body, |(root, _)| root);
+    let carrier =
+        |truck: &Truck| scene.structures[scene.rails[truck.rail].structure].on.map(|(body, _)| body);
+    let name = |body: usize| &scene.bodies[body].name;
+    for (index, truck) in scene.trucks.iter().enumerate() {
+        let Some(on) = carrier(truck) else { continue };
+        let at = trucks.index(index);
+        let (own, below) = (tree(truck.body), tree(on));
+        let apart = |other: &&Truck| tree(other.body) == own && carrier(other).map(tree) != Some(below);
+        if below == own {
+            let fault = Fault::new(&at, format!("\"{}\" cannot ride on what it carries", name(truck.body)));
+            faults.add(fault.got(format!("rail {}", scene.rails[truck.rail].name)));
+        } else if let Some(other) = scene.trucks.iter().find(apart) {
+            let expected = format!("all wheels of \"{}\" must run on structures of one body", name(own));
+            let fault = Fault::new(&at, expected);
+            faults.add(fault.got(format!("others on rail {}", scene.rails[other.rail].name)));
+        } else if scene.trucks.iter().any(|other| tree(other.body) == below && carrier(other).is_some()) {
+            faults.unavailable(&at, &format!("\"{}\", which rides itself, as a carrier", name(below)));
+        }
+        for (load, _) in scene.loads.iter().enumerate().filter(|(_, load)| tree(load.body) == own) {
+            faults.unavailable(&loads.index(load), "a load on a body that rides on another");
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! End stops of rails, and floors.
+
+use super::raw::RawStop;
+use super::{Along, Scene, Truck, pin};
+use crate::check::Check;
+use crate::fault::{Fault, number};
+use crate::place::Place;
+use crate::units::Dimension;
+
+/// A one-sided plane with a spring and a damper.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stop {
+    /// Its name; `stop<n>` where the scene gives none.
+    pub name: String,
+    /// Which coordinate of space: 0 along the rail, 1 up.
+    pub axis: usize,
+    /// Where on that coordinate.
+    pub place: f64,
+    /// Force per length.
+    pub stiffness: f64,
+    /// Force per speed.
+    pub damping: f64,
+    /// What meets it.
+    pub meetings: Vec<Meeting>,
+}
+
+/// A point of a body that meets a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Meeting {
+    /// Index of the body.
+    pub body: usize,
+    /// The point from its origin.
+    pub at: [f64; 3],
+    /// 1 where it comes from below the stop's coordinate, -1 where from above.
+    pub side: f64,
+}
+
+/// Reads the stops of a scene whose bodies and trucks are known.
+pub(super) fn read_all(raw: &[RawStop], scene: &Scene, check: &mut Check<'_>) -> Vec<Stop> {
+    let root = Place::root();
+    let list = root.key("stops");
+    let mut stops: Vec<Stop> = Vec::new();
+    for (index, raw) in raw.iter().enumerate() {
+        let at = list.index(index);
+        let Some(stop) = read(raw, index + 1, scene, &at, check) else { continue };
+        let others = stops.iter().map(|other| &other.name);
+        let others = others.chain(scene.bodies.iter().map(|body| &body.name));
+        if others.chain(scene.ropes.iter().map(|rope| &rope.name)).any(|other| *other == stop.name) {
+            let expected = format!("the name \"{}\" is taken", stop.name);
+            check.faults.add(Fault::new(&at, expected).hint("stops, ropes and bodies name columns"));
+        }
+        stops.push(stop);
+    }
+    stops
+}
+
+fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<Stop> {
+    let name = raw.name.clone().unwrap_or_else(|| format!("stop{count}"));
+    super::name(&name, &at.key("name"), check.faults);
+    let stiffness = check.needed(raw.k, at, "k", Dimension::STIFFNESS, "force per length");
+    let damping =
+        check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "force per speed");
+    let body = raw.body.as_ref().map(|name| {
+        let known = super::names(&scene.bodies, |body| &body.name);
+        super::resolve(name, &known, "body", &at.key("body"), check.faults)
+    });
+    let point = raw.at.map(|point| check.vector(point, &at.key("at"), Dimension::LENGTH));
+    if point.is_some() && body.is_none() {
+        check
+            .faults
+            .add(Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("a point of that body"));
+    }
+    let (axis, place, meetings) = match (&raw.rail, raw.x, raw.height) {
+        (Some(rail), Some(x), None) => {
+            let rail = super::rail(rail, &scene.rails, &at.key("rail"), check.faults)?;
+            let x = check.number(x, &at.key("x"), Dimension::LENGTH);
+            (0, x, on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+        }
+        (None, None, Some(height)) => {
+            let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
+            let words = [("above", -1.0), ("below", 1.0)];
+            let side =
+                raw.side.as_ref().map_or(Some(-1.0), |word| check.faults.word(word, &at.key("side"), &words));
+            check.faults.need(&raw.body, at, "body")?;
+            (1, height, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
+        }
+        _ => {
+            let fault = Fault::new(at, "must have `rail` and `x`, or `body` and `Y`");
+            check.faults.add(fault.hint("an end stop of a rail, or a floor below a body"));
+            return None;
+        }
+    };
+    Some(Stop { name, axis, place, stiffness, damping, meetings })
+}
+
+/// What meets the stop at `x` of a rail: of one body, or of all that move on the rail, the wheel that is nearest to it.
+fn on_rail(
+    raw: &RawStop,
+    [body, rail]: [Option<Option<usize>>; 2],
+    point: Option<[f64; 3]>,
+    x: f64,
+    scene: &Scene,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Vec<Meeting>> {
+    let words = [("before", 1.0), ("beyond", -1.0)];
+    let side = match &raw.side {
+        Some(word) => Some(check.faults.word(word, &at.key("side"), &words)?),
+        None => None,
+    };
+    let meant: Vec<usize> = match body {
+        Some(body) => vec![body?],
+        None => (0..scene.bodies.len()).filter(|&b| scene.bodies[b].pinned.is_none()).collect(),
+    };
+    let mut meetings = Vec::new();
+    for b in meant {
+        let Some((root, ahead)) = pin::root_of(&scene.bodies, b) else { continue };
+        if body.is_none() && scene.bodies[root].motion == Along::Held {
+            continue;
+        }
+        let x0 = scene.bodies[root].x0;
+        let points: Vec<(usize, [f64; 3], f64)> = match point {
+            Some(point) => vec![(b, point, x0 + ahead + point[0])],
+            None => treads(scene, b, rail.flatten()),
+        };
+        let first = points.iter().min_by(|a, b| a.2.total_cmp(&b.2));
+        let last = points.iter().max_by(|a, b| a.2.total_cmp(&b.2));
+        let (Some(first), Some(last)) = (first, last) else {
+            if body.is_some() {
+                let expected = format!("no wheel of body {} is on that rail", scene.bodies[b].name);
+                check
+                    .faults
+                    .add(Fault::new(&at.key("body"), expected).hint("`at` is the point that meets the stop"));
+            }
+            continue;
+        };
+        let side = match side {
+            Some(side) => side,
+            None if last.2 <= x => 1.0,
+            None if first.2 >= x => -1.0,
+            None => {
+                let expected = format!("body {} stands astride the stop", scene.bodies[b].name);
+                let found = format!("wheels from x = {} to {}", number(first.2), number(last.2));
+                let hint = "\"side\": \"before\" or \"beyond\" says where the body belongs";
+                check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
+                1.0
+            }
+        };
+        let (body, at, _) = if side > 0.0 { *last } else { *first };
+        meetings.push(Meeting { body, at, side });
+    }
+    if meetings.is_empty() && body.is_none() {
+        check.faults.add(Fault::new(&at.key("rail"), "no body moves on that rail"));
+    }
+    Some(meetings)
+}
+
+/// Wheels of the tree of body `b` on a rail where they touch it: their bodies, treads from those bodies' origins, and x
+/// at the start.
+fn treads(scene: &Scene, b: usize, rail: Option<usize>) -> Vec<(usize, [f64; 3], f64)> {
+    let below = |truck: &&Truck| {
+        let mut at = truck.body;
+        while let (true, Some((to, _))) = (at != b, scene.bodies[at].pinned) {
+            at = to;
+        }
+        at == b && Some(truck.rail) == rail
+    };
+    let trucks = scene.trucks.iter().filter(below);
+    trucks
+        .flat_map(|truck| {
+            let (root, ahead) = pin::root_of(&scene.bodies, truck.body).unwrap_or((truck.body, 0.0));
+            let radius = scene.wheels[truck.wheel].radius;
+            truck.wheel_offsets().into_iter().map(move |offset| {
+                let tread = [offset, truck.at[1] - radius, truck.at[2]];
+                (truck.body, tread, scene.bodies[root].x0 + ahead + offset)
+            })
+        })
+        .collect()
+}
