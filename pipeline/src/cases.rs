@@ -7,10 +7,11 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use sim::{Foundation, Run};
 
 use crate::exit::Failure;
-use crate::link::{self, Solved};
+use crate::link::{self, Laid, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
 use crate::record::Record;
+use crate::response::{self, Lines, Response};
 use crate::scene::{Case, Document, Origin, Scene};
 use crate::spec::Spec;
 
@@ -26,6 +27,10 @@ pub struct Outcome {
     pub record: Record,
     /// Why foundations that were "auto" are what they are.
     pub choices: Vec<sim::Choice>,
+    /// Influence lines of the columns that structures answer in, one a structure.
+    pub lines: Vec<Option<Lines>>,
+    /// What the structures answered.
+    pub response: Response,
 }
 
 /// A spec that was solved, and what came of it.
@@ -113,6 +118,9 @@ pub fn simulate(
     outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
+/// Values of structures' freedoms that a history holds where no reaction asks for them.
+const RECORDED: f64 = 1e7;
+
 fn one(
     case: &Case,
     known: &[Known],
@@ -122,16 +130,35 @@ fn one(
     let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
     let cast = cast(&scene)?;
     let choices = link::choose(&mut scene, &cast.scene, known, lateral)?;
-    let foundations = scene
+    let solved: Vec<Option<&Solved>> =
+        scene.structures.iter().map(|structure| solved_of(known, &structure.origin)).collect();
+    let mut laid = scene
         .structures
         .iter()
-        .map(|structure| link::foundation(structure, solved_of(known, &structure.origin), lateral))
-        .collect::<Result<Vec<Foundation>, Failure>>()?;
+        .zip(&solved)
+        .map(|(structure, solved)| link::laid(structure, *solved, lateral))
+        .collect::<Result<Vec<Laid>, Failure>>()?;
+    let lines = response::lines(&scene, &laid, &solved)?;
+    let rows = scene.end / scene.dt;
+    for (own, lines) in laid.iter_mut().zip(&lines) {
+        let freedoms = own.foundation.freedoms();
+        own.foundation.recorded = freedoms > 0 && (lines.is_some() || freedoms as f64 * rows < RECORDED);
+    }
+    let foundations: Vec<Foundation> =
+        laid.iter_mut().map(|own| std::mem::take(&mut own.foundation)).collect();
     let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
     let run = sim::run_by(scene.stepping, &cast.scene, &foundations, watch)
         .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
-    let record = Record::new(&scene, &run.history);
-    Ok(Outcome { label, cast, run, record, choices })
+    for (own, foundation) in laid.iter_mut().zip(foundations) {
+        own.foundation = foundation;
+    }
+    let mut record = Record::new(&scene, &run.history);
+    let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
+    // only the scene itself is drawn
+    if case.label.is_none() {
+        response.bend(&scene, &cast, &run.history, &laid, &solved)?;
+    }
+    Ok(Outcome { label, cast, run, record, choices, lines, response })
 }
 
 /// The scene's own run is labelled by what carries it.

@@ -28,8 +28,10 @@ pub struct CastWheel {
     pub rail: usize,
     /// Its kind.
     pub kind: usize,
-    /// Whether its spin is a freedom.
+    /// Whether it turns: its spin is a freedom, or prescribed.
     pub spins: bool,
+    /// Whether its spin is prescribed.
+    pub turned: bool,
 }
 
 /// Resolves `scene` for the simulator.
@@ -62,7 +64,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
     }
     let names = self::wheels(scene);
     let scene = sim::Scene {
-        actuators: actuators(scene, &contacts),
+        actuators: sim::Actuators { turns: turns(scene), ..actuators(scene, &contacts) },
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
@@ -82,25 +84,51 @@ pub fn cast(scene: &Scene) -> Result<Cast, Failure> {
 /// The wheels of `scene`, in the simulator's order.
 #[must_use]
 pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
-    let of_truck = |truck: &Truck| {
+    let of_truck = |(index, truck): (usize, &Truck)| {
         let kind = &scene.wheels[truck.wheel];
         let (name, body, rail, kind, spins) = (
             truck.name.clone(),
             truck.body,
             truck.rail,
             truck.wheel,
-            kind.spin_inertia.is_some() && kind.friction.is_some(),
+            kind.friction.is_some().then_some(kind.spin_inertia.is_some()),
         );
         let numbers = 1..=truck.wheel_offsets().len();
-        numbers.map(move |number| CastWheel {
-            name: format!("{name}.wheel{number}"),
-            body,
-            rail,
-            kind,
-            spins,
+        numbers.map(move |number| {
+            let turned = scene.spins.iter().any(|spin| (spin.truck, spin.wheel + 1) == (index, number));
+            CastWheel {
+                name: format!("{name}.wheel{number}"),
+                body,
+                rail,
+                kind,
+                spins: spins.is_some_and(|spins| spins || turned),
+                turned,
+            }
         })
     };
-    scene.trucks.iter().flat_map(of_truck).collect()
+    scene.trucks.iter().enumerate().flat_map(of_truck).collect()
+}
+
+/// Wheels whose spin is prescribed, by their contacts.
+fn turns(scene: &Scene) -> Vec<sim::Turn> {
+    let mut contact = 0;
+    let mut turns = Vec::new();
+    for (index, truck) in scene.trucks.iter().enumerate() {
+        let mut first = 0;
+        for node in &truck.tree {
+            let count = node.wheels().len();
+            let own = |spin: &&crate::scene::Spin| {
+                spin.truck == index && (first..first + count).contains(&spin.wheel)
+            };
+            turns.extend(scene.spins.iter().filter(own).map(|spin| sim::Turn {
+                contact,
+                wheel: spin.wheel - first,
+                motion: spin.motion.clone(),
+            }));
+            (contact, first) = (contact + 1, first + count);
+        }
+    }
+    turns
 }
 
 /// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
@@ -127,6 +155,7 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     for stop in &scene.stops {
         out.stops.extend(stop.meetings.iter().map(|meeting| sim::Stop {
             body: meeting.body,
+            against: stop.against,
             at: meeting.at,
             axis: stop.axis,
             place: stop.place,

@@ -25,7 +25,7 @@ pub struct Plate {
 }
 
 impl Plate {
-    fn chart(name: impl Into<String>, caption: impl Into<String>, chart: Chart) -> Plate {
+    pub(crate) fn chart(name: impl Into<String>, caption: impl Into<String>, chart: Chart) -> Plate {
         Plate { name: name.into(), caption: caption.into(), picture: chart.into() }
     }
 

@@ -45,6 +45,9 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
             list.one(format!("{name}.spin_angle"), Dimension::NUMBER, Channel::SpinAngle(w));
             list.one(format!("{name}.spin_speed"), Dimension::of(0, 0, -1), Channel::SpinSpeed(w));
         }
+        if wheel.turned {
+            list.one(format!("{name}.moment"), Dimension::MOMENT, Channel::SpinMoment(w));
+        }
     }
     for (r, rope) in scene.ropes.iter().enumerate() {
         list.one(format!("{}.tension", rope.name), Dimension::FORCE, Channel::Tension(r));

@@ -37,6 +37,10 @@ impl Record {
         Record { columns: columns.collect() }
     }
 
+    pub(crate) fn push(&mut self, name: impl Into<String>, dimension: Dimension, values: Vec<f64>) {
+        self.columns.push(Column { name: name.into(), dimension, values });
+    }
+
     /// One column by name; empty where there is none.
     #[must_use]
     pub fn values(&self, name: &str) -> &[f64] {

@@ -9,6 +9,7 @@ use crate::report::{Cell, Column, Report, Section, Table};
 use crate::scene::{Analysis, Document, Scene};
 use crate::summary;
 use crate::units::Dimension;
+use crate::warning;
 
 /// Assembles the report.
 #[must_use]
@@ -33,6 +34,7 @@ pub fn report(
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
+    sections.push(crate::response::section(scene, &outcomes[0].label, &outcomes[0].response));
     sections.push(audit(document, outcomes));
     Report {
         title: scene.name.clone(),
@@ -192,7 +194,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     }
     let mut section = Section::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in summary::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
+        for warning in warning::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));
         }
     }

@@ -1,14 +1,14 @@
 //! `summary.json`: what a run found, in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Run, Rung, Status, Tried};
+use sim::{Rung, Status, Tried};
 
 use crate::cases::Outcome;
 use crate::link;
-use crate::motion::Cast;
 use crate::record::Record;
 use crate::scene::{Analysis, Event, STEPPERS, Scene};
 use crate::units::Dimension;
+use crate::warning::warnings;
 
 /// Word of a run's status, and what it means for the user where it is not "done".
 #[must_use]
@@ -26,49 +26,6 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
         ),
         Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
     }
-}
-
-/// Energy residual above which a run's forces are not to be trusted blindly.
-const RESIDUAL: f64 = 1e-3;
-
-/// Deflection of a rail by its length above which structures are hardly linear.
-const BENT: f64 = 0.01;
-
-/// What a user should know before believing a run.
-#[must_use]
-pub fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<String> {
-    let mut all = Vec::new();
-    let residual = run.audit.residual();
-    if residual > RESIDUAL {
-        all.push(format!(
-            "the energy audit leaves {residual:.1e} of the peak stored energy open; a smaller \"accuracy\" closes it, but \
-             for a table that is not symmetric and a flange that takes hold at once"
-        ));
-    }
-    for (r, rail) in scene.rails.iter().enumerate() {
-        let gives = cast.wheels.iter().filter(|wheel| wheel.rail == r);
-        let gives = gives.flat_map(|wheel| record.part(&wheel.name, "rail_deflection"));
-        let share = gives.fold(0.0_f64, |most, give| most.max(give.abs())) / (rail.range[1] - rail.range[0]);
-        if share > BENT {
-            all.push(format!(
-                "{} gives by {share:.3} of its length, more than {BENT}: small displacements are no longer small",
-                rail.name
-            ));
-        }
-    }
-    for wheel in &cast.wheels {
-        let forces = record.part(&wheel.name, "vertical");
-        if let Some(first) = forces.iter().position(|force| *force == 0.0) {
-            let off = forces.iter().filter(|force| **force == 0.0).count();
-            all.push(format!(
-                "{} is off its rail at {off} of {} output times, first at {} s",
-                wheel.name,
-                forces.len(),
-                record.values("time").get(first).copied().unwrap_or_default()
-            ));
-        }
-    }
-    all
 }
 
 /// One run as JSON.
@@ -115,6 +72,9 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     if let Some(why) = why {
         result["why"] = json!(why);
     }
+    if let Some(members) = result.as_object_mut() {
+        members.extend(outcome.response.json());
+    }
     let warnings = warnings(scene, cast, record, run);
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
@@ -133,8 +93,8 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 "switches": lost.switches,
             },
             "put_in": lost.put_in(),
-            "steps": lost.steps,
             "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
+            "steps": lost.steps,
         });
     }
     if !run.fired.is_empty() {

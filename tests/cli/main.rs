@@ -8,6 +8,7 @@ mod rides;
 mod ropes;
 mod stops;
 mod tables;
+mod warnings;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -206,6 +206,65 @@ fn a_ladle_below_the_trolley_loads_rope_trolley_and_end_trucks() {
     assert!(swung > 0.1, "the ladle follows the trolley, by {swung}");
 }
 
+/// A girder of 20 m in four members, 300 kg/m; what holds its ends comes in.
+fn spanning(ends: &str) -> String {
+    format!(
+        r#"{{"format": "girderway-beam/1", "units": {{"length": "m", "force": "N", "time": "s"}},
+ "points": [[0, 0, 0], [5, 0, 0], [10, 0, 0], [15, 0, 0], [20, 0, 0]],
+ "cells": [{{"type": "line", "data": [[0, 1], [1, 2], [2, 3], [3, 4]]}}],
+ "cell_data": {{"section": [[0, 0, 0, 0]], "orientation": [[[0, 1, 0], [0, 1, 0], [0, 1, 0], [0, 1, 0]]]}},
+ "materials": [{{"name": "steel", "E": 2.1e11, "G": 8.1e10, "density": 10000}}],
+ "sections": [{{"name": "girder", "material": "steel", "A": 0.03, "Iy": 2e-4, "Iz": 2e-3, "J": 1e-4}}],
+ {ends}, "up": [0, 1, 0],
+ "rails": {{"rail": {{"origin": [0, 0, 0], "axis": [1, 0, 0], "segments": [{{"cell": [0, 0]}}, {{"cell": [0, 1]}}, {{"cell": [0, 2]}}, {{"cell": [0, 3]}}], "stations": [0, 5, 10, 15, 20]}}}}}}"#
+    )
+}
+
+/// External to the carrier's own equations: a rigid body of mass m and inertia m L^2 / 4 on two springs is two masses m / 2
+/// at the ends of the girder, which then stands in one FE model on the ground. Wheels are small: above the axis, what pitches
+/// moves along it. The trolley starts at rest: its speed along a tilted rail has a part upwards.
+#[test]
+fn a_girder_on_a_sprung_body_is_a_girder_on_springs_and_masses() {
+    let fixed = spanning(
+        r#""supports": [{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}, {"point": 4, "fix": ["uy", "uz"]}]"#,
+    );
+    let sprung = spanning(
+        r#""supports": [{"point": 0, "fix": ["ux", "uz", "rx"]}, {"point": 4, "fix": ["uz"]}],
+ "springs": [{"point": 0, "dof": "uy", "k": 2e6}, {"point": 4, "dof": "uy", "k": 2e6}], "masses": [{"point": 0, "mass": 1000}, {"point": 4, "mass": 1000}]"#,
+    );
+    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let scene = |girder: &str, body: &str, truck: &str| {
+        format!(
+            r#"{{"format": "girderway-scene/1", "units": {{"length": "m", "force": "N", "time": "s"}}, "gravity": 9.80665,
+ "structures": {{{girder}}},
+ "bodies": {{{body}"trolley": {{"mass": 3000, "inertia": [0, 0, 2500], "dof": ["y", "pitch"], "track": ["girder.rail"], "x0": 3}}}},
+ "wheels": {{"crane": {{"radius": 1e-6, "vertical": {{"k": 2e6}}}}, "spring": {{"radius": 0.3, "vertical": {{"k": 2e6, "bilateral": true}}}}}},
+ "trucks": [{truck}{{"name": "cart", "body": "trolley", "rail": "girder.rail", "tree": [-1, 1], "wheel": "crane"}}],
+ "motions": [{{"body": "trolley", "dof": "x", "kind": "prescribed", "speed": [[0, 0], [0.4, 10]]}}],
+ "end": {{"time": 0.6}}, "output": {{"dt": 0.02}}, "accuracy": 1e-7}}"#
+        )
+    };
+    let files = [("fixed.json", fixed.as_str()), ("sprung.json", &sprung), ("long.json", &long)];
+    let columns = ["cart.wheel1.vertical", "cart.wheel2.vertical"];
+    let kind = r#""full", "elements": 1"#;
+    let upper = scene(
+        &format!(
+            r#""runway": {{"spec": "long.json", "foundation": "rigid"}}, "girder": {{"spec": "fixed.json", "foundation": {kind}, "on": "bridge", "at": [-10, 0, 0]}}"#
+        ),
+        r#""bridge": {"mass": 2000, "inertia": [0, 0, 2e5], "dof": ["y", "pitch"], "track": ["runway.rail"], "x0": 50}, "#,
+        r#"{"name": "base", "body": "bridge", "rail": "runway.rail", "tree": [-10, 10], "wheel": "spring"}, "#,
+    );
+    let lower = scene(&format!(r#""girder": {{"spec": "sprung.json", "foundation": {kind}}}"#), "", "");
+    let upper = run(&upper, &files, &columns);
+    let lower = run(&lower, &files, &columns);
+    assert_eq!(upper.len(), lower.len());
+    let pairs = upper.iter().flatten().zip(lower.iter().flatten());
+    let worst = pairs.fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / (1500.0 * 9.80665);
+    let swing = upper.iter().map(|row| row[0]).fold(0.0_f64, f64::max) / (1500.0 * 9.80665);
+    println!("{kind}: {worst:.1e} of the weight on a wheel, which peaks at {swing:.2}");
+    assert!(worst < 1e-6, "a wheel errs by {worst}");
+}
+
 #[test]
 fn a_trolley_runs_over_a_bridge_that_moves() {
     let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");

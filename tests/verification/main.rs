@@ -3,6 +3,7 @@
 #[path = "../../crates/sim/tests/common/mod.rs"]
 mod common;
 mod crossings;
+mod rails;
 
 use std::ops::ControlFlow;
 

@@ -29,10 +29,10 @@ pub enum Effect {
 
 /// An effect as a linear function of the motions of the bodies under a load and of the load itself:
 /// strain u - direct p + what a loaded member adds between its held ends.
-struct Functional {
-    strain: Sum,
-    direct: Sum,
-    section: Option<Section>,
+pub(crate) struct Functional {
+    pub strain: Sum,
+    pub direct: Sum,
+    pub section: Option<Section>,
 }
 
 impl Frame {
@@ -113,7 +113,7 @@ impl Frame {
         Ok(value)
     }
 
-    fn functionals(&self, m: &Model, effects: &[Effect]) -> Result<Vec<Functional>, Error> {
+    pub(crate) fn functionals(&self, m: &Model, effects: &[Effect]) -> Result<Vec<Functional>, Error> {
         let one = |(index, effect): (usize, &Effect)| {
             let invalid = |fault| Error::Invalid { item: Item::Effect(index), fault };
             match *effect {

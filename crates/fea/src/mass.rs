@@ -169,7 +169,7 @@ impl<'a> Sum<'a> {
 }
 
 /// Cubic in the fraction of the length: coefficient of each power.
-type Cubic = [f64; 4];
+pub(crate) type Cubic = [f64; 4];
 
 /// Integral of a product over the unit length.
 fn product(a: &Cubic, b: &Cubic) -> f64 {
@@ -191,8 +191,39 @@ fn product(a: &Cubic, b: &Cubic) -> f64 {
 /// # Source
 /// Archer (1965), AIAA J. 3; Przemieniecki, Theory of Matrix Structural Analysis (1968), section 11.4.
 fn inertia(element: &Element, section: &Section, theory: Theory, kind: Kind) -> Inertia {
+    let Inertia { mut held, mut loose } = unreleased(element, section, theory, kind);
+    if let Some(shape) = shapes(element) {
+        held = shape.transpose() * held * shape;
+        loose = shape.transpose() * loose * shape;
+    }
+    Inertia { held, loose }
+}
+
+/// Mass of a member between its flexible ends, local, as if nothing were released.
+pub(crate) fn plain(element: &Element, section: &Section, theory: Theory, kind: Kind) -> Matrix12 {
+    let Inertia { held, loose } = unreleased(element, section, theory, kind);
+    held + loose
+}
+
+/// Square of the radius of gyration of a second moment; 0 without area.
+pub(crate) fn gyration(section: &Section, second: f64) -> f64 {
+    if section.area > 0.0 { second / section.area } else { 0.0 }
+}
+
+/// Motion of the flexible ends by that of the tips of the arms; `None` where nothing is released.
+pub(crate) fn shapes(element: &Element) -> Option<Matrix12> {
+    let mut shape = element.released.as_ref()?.recovery;
+    // A release where the section resists nothing changes nothing.
+    for k in (0..12).filter(|&k| element.scale[k] == 0.0) {
+        shape.row_mut(k).fill(0.0);
+        shape[(k, k)] = 1.0;
+    }
+    Some(shape)
+}
+
+fn unreleased(element: &Element, section: &Section, theory: Theory, kind: Kind) -> Inertia {
     let (mass, length) = (section.mass, element.length);
-    let gyration = |second: f64| if section.area > 0.0 { second / section.area } else { 0.0 };
+    let gyration = |second: f64| gyration(section, second);
     let linear = [[1.0, -1.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
     let mut held = Matrix12::zeros();
     let mut loose = Matrix12::zeros();
@@ -229,21 +260,11 @@ fn inertia(element: &Element, section: &Section, theory: Theory, kind: Kind) -> 
             }
         }
     }
-    if let Some(released) = &element.released {
-        let mut shape = released.recovery;
-        // A release where the section resists nothing changes nothing.
-        for k in (0..12).filter(|&k| element.scale[k] == 0.0) {
-            shape.row_mut(k).fill(0.0);
-            shape[(k, k)] = 1.0;
-        }
-        held = shape.transpose() * held * shape;
-        loose = shape.transpose() * loose * shape;
-    }
     Inertia { held, loose }
 }
 
 /// Deflection and rotation by v, theta of the first end, then of the last; p = 12 EI / (G As L^2).
-fn bent(p: f64, length: f64) -> [(Cubic, Cubic); 4] {
+pub(crate) fn bent(p: f64, length: f64) -> [(Cubic, Cubic); 4] {
     let (d, h) = (1.0 / (1.0 + p), length);
     let scaled = |factor: f64, cubic: Cubic| cubic.map(|x| factor * x);
     [

@@ -2,6 +2,7 @@
 
 use nalgebra::Vector3;
 
+use crate::effect::Effect;
 use crate::error::Error;
 use crate::model::{Kind, Member, Model};
 use crate::modes::{Modes, modes};
@@ -27,6 +28,27 @@ pub struct Refined {
     pub error: Option<f64>,
     /// Modes of the model.
     pub modes: Modes,
+}
+
+impl Refined {
+    /// An effect of the model given, in the model cut into parts. Where two parts meet the section is just beyond.
+    #[must_use]
+    pub fn effect(&self, effect: Effect) -> Effect {
+        match effect {
+            Effect::Force { member, place, component } if member < self.parts.len() => {
+                let first: usize = self.parts[..member].iter().sum();
+                let count = self.parts[member];
+                let along = place * count as f64;
+                let part = (along.floor() as usize).min(count - 1);
+                Effect::Force {
+                    member: first + part,
+                    place: (along - part as f64).clamp(0.0, 1.0),
+                    component,
+                }
+            }
+            other => other,
+        }
+    }
 }
 
 /// The `count` lowest modes, members cut so that frequencies lie within `accuracy`, relative, of those of

@@ -3,7 +3,7 @@
 use crate::rule::Switches;
 use crate::scene::arm_rows;
 use crate::system::System;
-use crate::{Error, Freedom, Rope, Rule, Scene, Schedule, Stop};
+use crate::{Error, Freedom, Rope, Rule, Scene, Schedule, Stop, Turn};
 
 /// A force or a moment on one free freedom of a body, over time.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,6 +67,8 @@ pub struct Actuators {
     pub ropes: Vec<Rope>,
     /// End stops and floors.
     pub stops: Vec<Stop>,
+    /// Wheels whose spin is prescribed.
+    pub turns: Vec<Turn>,
     /// Bodies without wheels that start at rest below their ropes or on their floors.
     pub hung: Vec<usize>,
     /// What switches drives, brakes and ropes on the way.
@@ -80,6 +82,8 @@ impl Actuators {
         let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));
         let ropes = self.ropes.iter().flat_map(Rope::breaks);
         let rules = self.rules.iter().filter_map(|rule| rule.when.time());
+        let turns = self.turns.iter().flat_map(|turn| turn.motion.breaks().iter().copied());
+        let loads = loads.chain(turns);
         loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes).chain(rules)
     }
 
@@ -90,6 +94,7 @@ impl Actuators {
         for stop in &self.stops {
             stop.check(scene)?;
         }
+        Turn::check_all(&self.turns, scene)?;
         for &index in &self.hung {
             let rides = scene.contacts.iter().any(|contact| contact.body == index);
             if index >= scene.bodies.len() || rides {
@@ -151,7 +156,8 @@ fn rides(scene: &Scene, body: usize, index: usize) -> Result<(), Error> {
     }
     let kind =
         scene.wheels.get(contact.wheel).ok_or(Error::NoSuch { what: "wheel", index: contact.wheel })?;
-    if kind.spin_inertia.is_some() && kind.friction.is_some() {
+    let turns = scene.actuators.turns.iter().any(|turn| turn.contact == index);
+    if turns || kind.spin_inertia.is_some() && kind.friction.is_some() {
         return Err(Error::Spins { contact: index });
     }
     Ok(())

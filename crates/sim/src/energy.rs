@@ -113,6 +113,7 @@ impl Audit {
 /// Energy stored at `state`; `geometry` must belong to it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
     let mut energy = Stored { kinetic: kinetic(&system.blocks, &system.ties, &state.v), ..Stored::default() };
+    energy.kinetic += system.energy_of_turns(state.t);
     energy.structure = system.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
     let [motion, lift] = system.rides.energy(system, state.t, &state.q, &state.v);
     energy.kinetic += motion;
@@ -209,6 +210,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
             power.drives += drive_force(system, geometry, state, b) * geometry.travel[b].v;
         }
     }
+    power.drives += system.power_of_turns(geometry, state);
     for (index, pull) in system.pulls.iter().enumerate() {
         let i = system.pull(index);
         match pull.law {

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::dense::dot;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::system::System;
@@ -9,6 +10,8 @@ use crate::{Error, Freedom};
 
 /// Sweeps of the active set.
 const SWEEPS: usize = 60;
+/// Iterations on the forces of flanges.
+const FLANGES: usize = 60;
 /// Newton iterations on the laws of one active set.
 const ITERATIONS: usize = 50;
 /// Relative error of the balance beyond which the wheels cannot carry the weight.
@@ -28,6 +31,29 @@ impl Solver<'_> {
         let none = Error::NoEquilibrium { time: at.t };
         at.v.fill(0.0);
         at.force[..system.link(0)].fill(0.0);
+        let flanges = system.lateral(0)..system.traction(0);
+        let mut relaxation = Relaxation::default();
+        for _ in 0..FLANGES {
+            self.balance(at)?;
+            if flanges.is_empty() {
+                return Ok(());
+            }
+            let taken = at.force[flanges.clone()].to_vec();
+            if !self.instant(at)? {
+                return Err(none);
+            }
+            let largest = at.force.iter().fold(self.system.gravity.amax(), |max, force| max.max(force.abs()));
+            if relaxation.step(&taken, &mut at.force[flanges.clone()]) <= 1e-12 * largest {
+                return Ok(());
+            }
+        }
+        Err(none)
+    }
+
+    /// The balance under the flange forces of `at`.
+    fn balance(&mut self, at: &mut State) -> Result<(), Error> {
+        let system = self.system;
+        let none = Error::NoEquilibrium { time: at.t };
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         let moving = self.balancing();
         let mut balance = Balance::new(self, moving, at)?;
@@ -59,10 +85,10 @@ impl Solver<'_> {
             .collect()
     }
 
-    /// G + Phi K^-1 Phi^T over the vertical contacts.
+    /// G + Phi K^-1 Phi^T over the vertical contacts, then the flanges.
     fn static_compliance(&self) -> Result<DMatrix<f64>, Error> {
         let system = self.system;
-        let (n, m, count) = (system.freedoms, system.components(), system.normals.len());
+        let (n, m, count) = (system.freedoms, system.components(), system.traction(0));
         let mut compliance = DMatrix::from_fn(count, count, |i, j| self.geometry.compliance[i * m + j]);
         for block in &system.blocks[1..] {
             let first = block.range.start;
@@ -73,19 +99,45 @@ impl Solver<'_> {
         Ok(compliance)
     }
 
-    /// Structures' freedoms under the vertical forces of `at`.
+    /// Structures' freedoms under the vertical and the flange forces of `at`.
     fn settle_structures(&mut self, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let n = system.freedoms;
         for block in &system.blocks[1..] {
             let (first, size) = (block.range.start, block.range.len());
             let load = DMatrix::from_fn(size, 1, |k, _| {
-                let forces = at.force[..system.normals.len()].iter().enumerate();
+                let forces = at.force[..system.traction(0)].iter().enumerate();
                 -forces.map(|(i, force)| self.geometry.rows[i * n + first + k] * force).sum::<f64>()
             });
             at.q.rows_mut(first, size).copy_from(&block.rest(&load)?.column(0));
         }
         Ok(())
+    }
+}
+
+/// Aitken's relaxation of forces that follow from themselves.
+#[derive(Default)]
+struct Relaxation {
+    share: Option<f64>,
+    residual: Vec<f64>,
+}
+
+impl Relaxation {
+    /// From the forces `taken` and those that `followed`: the next ones to take, in place of these, and the change.
+    fn step(&mut self, taken: &[f64], followed: &mut [f64]) -> f64 {
+        let residual: Vec<f64> = followed.iter().zip(taken).map(|(new, old)| new - old).collect();
+        let bend: Vec<f64> = residual.iter().zip(&self.residual).map(|(new, old)| new - old).collect();
+        let square: f64 = bend.iter().map(|b| b * b).sum();
+        let share = match self.share {
+            Some(share) if square > 0.0 => -share * dot(&self.residual, &bend) / square,
+            _ => 1.0,
+        };
+        for (next, (old, change)) in followed.iter_mut().zip(taken.iter().zip(&residual)) {
+            *next = old + share * change;
+        }
+        let largest = residual.iter().fold(0.0_f64, |max, r| max.max(r.abs()));
+        (self.share, self.residual) = (Some(share), residual);
+        largest
     }
 }
 
@@ -117,9 +169,12 @@ impl<'a> Balance<'a> {
         let stays =
             |k: usize| !moving.contains(&k) && !system.structure.iter().any(|range| range.contains(&k));
         let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
+        let all = solver.static_compliance()?;
+        let flanges = || system.lateral(0)..system.traction(0);
         let held: Vec<f64> = (0..count)
             .map(|i| {
-                geometry.held[i] + staying.iter().map(|&k| geometry.rows[i * n + k] * at.q[k]).sum::<f64>()
+                let staid = staying.iter().map(|&k| geometry.rows[i * n + k] * at.q[k]).sum::<f64>();
+                geometry.held[i] + staid - flanges().map(|l| all[(i, l)] * at.force[l]).sum::<f64>()
             })
             .collect();
         let share: Vec<f64> =
@@ -136,9 +191,12 @@ impl<'a> Balance<'a> {
                 weight[j] += load.value.at(at.t);
             }
         }
+        for (j, &k) in moving.iter().enumerate() {
+            weight[j] -= flanges().map(|l| geometry.rows[l * n + k] * at.force[l]).sum::<f64>();
+        }
         let each = weight.amax() / active.len().max(1) as f64;
         Ok(Balance {
-            compliance: solver.static_compliance()?,
+            compliance: all.view((0, 0), (count, count)).into_owned(),
             rows: DMatrix::from_fn(count, moving.len(), |i, j| geometry.rows[i * n + moving[j]]),
             p: (0..count).map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each))).collect(),
             q: DVector::zeros(moving.len()),

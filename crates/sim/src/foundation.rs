@@ -79,6 +79,8 @@ pub struct Foundation {
     pub parts: Option<Vec<PartChain>>,
     /// Extents of the rails; empty: rails without end or break.
     pub rails: Vec<Extent>,
+    /// Whether histories hold its freedoms and their accelerations.
+    pub recorded: bool,
     /// Whether friction, drives and brakes load the structure along its rails, and feel their speed.
     pub is_dragged: bool,
     /// Shapes of the rails when nothing loads them; empty: straight.

@@ -72,8 +72,8 @@ impl Geometry {
             rate_held: vec![0.0; m],
             pulls: vec![false; system.pulls.len()],
             links: vec![Hold::default(); system.links.len()],
-            rise: vec![0.0; m],
             switches: Switches::new(&system.scene.actuators),
+            rise: vec![0.0; m],
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
@@ -111,7 +111,9 @@ impl Geometry {
         self.update_rows(system)?;
         self.built = true;
         for (i, &w) in system.tractions.iter().enumerate() {
-            self.rate_held[system.traction(i)] = self.travel[system.kinematics.root(system.wheels[w].body)].v;
+            let spin = system.turn(w, t).map_or(0.0, |at| at.v * self.height[w]);
+            let travel = self.travel[system.kinematics.root(system.wheels[w].body)].v;
+            self.rate_held[system.traction(i)] = travel + spin;
         }
         for (i, pull) in system.pulls.iter().enumerate() {
             let reference = pull.reference(system.scene, &self.switches, t);

@@ -31,6 +31,8 @@ pub enum Channel {
     SpinAngle(usize),
     /// Angular speed of a wheel about z.
     SpinSpeed(usize),
+    /// Moment about z that prescribes the spin of wheel i; zero where it is free.
+    SpinMoment(usize),
     /// Tension of a rope.
     Tension(usize),
     /// Distance of the ends of a rope.
@@ -39,6 +41,10 @@ pub enum Channel {
     Stop(usize),
     /// Displacement of a gauge along its axis.
     Gauge(usize),
+    /// One freedom of a structure that is [recorded](crate::Foundation::recorded): structure, freedom.
+    Coordinate(usize, usize),
+    /// Its second derivative by time; zero in a quasi-static run.
+    Acceleration(usize, usize),
 }
 
 /// Samples of every channel at increasing times.

@@ -4,9 +4,10 @@
 //! counts, freedoms of its own ([`Foundation`]).
 
 mod actuator;
+mod chart;
+mod charts;
 mod collocation;
 mod complementarity;
-mod crossing;
 mod dense;
 mod drag;
 mod energy;
@@ -27,9 +28,12 @@ mod method;
 mod mount;
 mod nodes;
 mod parts;
+mod passage;
+mod pieces;
 mod point;
 mod profile;
 mod propagator;
+mod recorder;
 mod ride;
 mod rope;
 mod rule;
@@ -46,7 +50,9 @@ mod stepper;
 mod system;
 mod tableau;
 mod tie;
+mod touch;
 mod trigger;
+mod turn;
 mod wheel;
 
 pub use actuator::{Actuators, Brake, Drive, Load};
@@ -68,4 +74,5 @@ pub use schedule::Schedule;
 pub use selector::{Choice, Ladder, Reason, Rung, Tried, choose, distance};
 pub use step::step;
 pub use stepper::Counts;
+pub use turn::Turn;
 pub use wheel::{Damper, Flange, Friction, FrictionLaw, NormalLaw, Wheel};

@@ -18,7 +18,7 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 /// A rope or a stop.
 pub(crate) enum Link<'a> {
     Rope { rope: &'a Rope, from: Point, to: Point },
-    Stop { stop: &'a Stop, point: Point },
+    Stop { stop: &'a Stop, point: Point, bearer: Option<Point> },
 }
 
 /// A link at one state.
@@ -49,7 +49,14 @@ impl<'a> Link<'a> {
         });
         let stops = actuators.stops.iter().map(|stop| {
             let end = RopeEnd { body: Some(stop.body), at: stop.at };
-            Link::Stop { stop, point: Point::on_track(system, &end) }
+            let point = Point::on_track(system, &end);
+            let rest = DVector::zeros(system.freedoms);
+            let bearer = stop.against.map(|b| {
+                let origin = Point::on_track(system, &RopeEnd { body: Some(b), at: [0.0; 3] });
+                let apart = point.place(system, 0.0, &rest) - origin.place(system, 0.0, &rest);
+                Point::on_track(system, &RopeEnd { body: Some(b), at: [0.0, apart.y, apart.z] })
+            });
+            Link::Stop { stop, point, bearer }
         });
         ropes.chain(stops).collect()
     }
@@ -58,7 +65,9 @@ impl<'a> Link<'a> {
     pub fn is_on(&self, b: usize) -> bool {
         match self {
             Link::Rope { from, to, .. } => from.body == Some(b) || to.body == Some(b),
-            Link::Stop { point, .. } => point.body == Some(b),
+            Link::Stop { point, bearer, .. } => {
+                point.body == Some(b) || bearer.as_ref().is_some_and(|bearer| bearer.body == Some(b))
+            }
         }
     }
 
@@ -69,7 +78,12 @@ impl<'a> Link<'a> {
                 to.add_row(system, at, direction, row);
                 from.add_row(system, at, direction.map(|d| -d), row);
             }
-            Link::Stop { point, .. } => point.add_row(system, at, direction, row),
+            Link::Stop { point, bearer, .. } => {
+                point.add_row(system, at, direction, row);
+                if let Some(bearer) = bearer {
+                    bearer.add_row(system, at, direction.map(|d| -d), row);
+                }
+            }
         }
     }
 
@@ -84,7 +98,7 @@ impl<'a> Link<'a> {
         let by = |point: &Point| scalar(direction, point.by_travel(system, b, t, q));
         match self {
             Link::Rope { from, to, .. } => by(to) - by(from),
-            Link::Stop { point, .. } => by(point),
+            Link::Stop { point, bearer, .. } => by(point) - bearer.as_ref().map_or(0.0, by),
         }
     }
 
@@ -117,14 +131,16 @@ impl<'a> Link<'a> {
                 let drift = difference(to.drift(system, travel, t, q), from.drift(system, travel, t, q));
                 [hold.length - hold.natural[0], scalar(hold.direction, drift) - hold.natural[1]]
             }
-            Link::Stop { stop, point } => {
+            Link::Stop { stop, point, bearer } => {
                 let place = point.position(system, t, q)[stop.axis];
+                let borne = bearer.as_ref().map_or(0.0, |at| at.position(system, t, q)[stop.axis]);
                 hold.direction = [0.0; 3];
                 hold.direction[stop.axis] = stop.side;
-                hold.length = stop.side * (place - stop.place);
+                hold.length = stop.side * (place - borne - stop.place);
                 (hold.stiffness, hold.damping) = (stop.stiffness, stop.damping);
-                hold.noise = ROUNDING * hold.stiffness * place.abs().max(stop.place.abs());
-                [hold.length, scalar(hold.direction, point.drift(system, travel, t, q))]
+                hold.noise = ROUNDING * hold.stiffness * place.abs().max(stop.place.abs()).max(borne.abs());
+                let drift = |point: &Point| scalar(hold.direction, point.drift(system, travel, t, q));
+                [hold.length, drift(point) - bearer.as_ref().map_or(0.0, drift)]
             }
         }
     }

@@ -26,7 +26,7 @@ impl Nodes {
     pub fn new(method: Method) -> Option<Nodes> {
         let (six, fifteen) = (6.0_f64.sqrt(), 15.0_f64.sqrt());
         let c = match method {
-            Method::Auto | Method::Sdirk4 => return None,
+            Method::Auto | Method::Sdirk4 | Method::Series => return None,
             Method::Radau => vec![(4.0 - six) / 10.0, (4.0 + six) / 10.0, 1.0],
             Method::Gauss2 => vec![0.5 - 3.0_f64.sqrt() / 6.0, 0.5 + 3.0_f64.sqrt() / 6.0],
             Method::Gauss3 => vec![0.5 - fifteen / 10.0, 0.5, 0.5 + fifteen / 10.0],

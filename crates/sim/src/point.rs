@@ -59,6 +59,35 @@ impl Point {
         [moved[0], moved[1] + self.origin[0], moved[2] + self.origin[1]]
     }
 
+    /// Place in space at (t, q), as a vector.
+    pub fn place(&self, system: &System, t: f64, q: &DVector<f64>) -> Vector3<f64> {
+        self.position(system, t, q).into()
+    }
+
+    /// Whether it rides on a body that moves: its rows change.
+    pub fn rides(&self) -> bool {
+        self.spot.is_some()
+    }
+
+    /// Its displacement by the freedoms, or a rate of it by theirs; it does not ride.
+    pub fn rate(&self, of: &DVector<f64>) -> Vector3<f64> {
+        let along = |terms: &Terms| terms.iter().map(|&(number, share)| share * of[number]).sum();
+        Vector3::from(self.rows.each_ref().map(along))
+    }
+
+    /// Numbers of its X, Y and Z where nothing else moves it, and no wheel holds it.
+    pub fn free_numbers(&self, system: &System) -> Option<[usize; 3]> {
+        let own = self.body?;
+        let root = |b: usize| system.kinematics.root(b);
+        if system.wheels.iter().any(|wheel| root(wheel.body) == root(own)) {
+            return None;
+        }
+        let [[(x, a)], [(y, b)], [(z, c)]] = self.rows.each_ref().map(|terms| terms.as_slice()) else {
+            return None;
+        };
+        ([*a, *b, *c] == [1.0; 3]).then_some([*x, *y, *z])
+    }
+
     /// Velocity by prescribed motions alone at (t, q), `travel` being those of t.
     pub fn drift(&self, system: &System, travel: &[Moving], t: f64, q: &DVector<f64>) -> [f64; 3] {
         let mut sum = [0.0; 3];

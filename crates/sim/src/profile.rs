@@ -82,6 +82,18 @@ impl Profile {
         }
     }
 
+    /// The speed, where it is the same until `end` and x does not jump.
+    #[must_use]
+    pub(crate) fn uniform(&self, end: f64) -> Option<f64> {
+        let first = self.pieces.first()?;
+        let goes_on = |piece: &Piece| {
+            let x = first.at(piece.start).x;
+            (piece.v, piece.a, piece.jerk) == (first.v, 0.0, 0.0)
+                && (piece.x - x).abs() <= 4.0 * f64::EPSILON * x.abs()
+        };
+        self.pieces.iter().filter(|piece| piece.start < end).all(goes_on).then_some(first.v)
+    }
+
     /// Times at which position, speed, acceleration or jerk may jump, 0 left out.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {

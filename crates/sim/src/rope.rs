@@ -31,7 +31,7 @@ pub struct Rope {
     pub speed: Schedule,
 }
 
-/// A one-sided contact of a point of a body with a fixed plane: an end stop of a rail, or a floor. The plane of a body
+/// A one-sided contact of a point of a body with a plane: an end stop of a rail, a floor, or another body. The plane of a body
 /// that rides on another is fixed to the rail it runs on.
 ///
 /// With p = side (coordinate - place) > 0 it pushes back with max(0, k p + c p').
@@ -43,7 +43,9 @@ pub struct Stop {
     pub at: [f64; 3],
     /// Which coordinate of space, or of the track of a body that rides: 0 X, 1 Y, 2 Z.
     pub axis: usize,
-    /// Coordinate of the plane.
+    /// Body that bears the plane, met at the height of `at`; `None`: it stands in space.
+    pub against: Option<usize>,
+    /// Coordinate of the plane, from the origin of the body that bears it.
     pub place: f64,
     /// 1 where the body comes from below `place`, -1 where from above.
     pub side: f64,
@@ -78,6 +80,7 @@ impl Rope {
 impl Stop {
     pub(crate) fn check(&self, scene: &Scene) -> Result<(), Error> {
         exists(scene, self.body)?;
+        self.against.map_or(Ok(()), |bearer| exists(scene, bearer))?;
         number("stiffness of a stop", "positive", self.stiffness, self.stiffness > 0.0)?;
         number("damping of a stop", "zero or above", self.damping, self.damping >= 0.0)?;
         number("side of a stop", "1 or -1", self.side, self.side.abs() == 1.0)?;

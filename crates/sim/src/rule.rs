@@ -209,6 +209,11 @@ impl Switches {
         }
     }
 
+    /// Second rate of the unstretched length of a rope at `t`.
+    pub fn natural_bend(&self, actuators: &Actuators, rope: usize, t: f64) -> f64 {
+        if self.hoists[rope].is_some() { 0.0 } else { -actuators.ropes[rope].speed.slope(t) }
+    }
+
     /// Whether link `index`, a rope, was let go.
     pub fn is_released(&self, index: usize) -> bool {
         self.released.get(index).copied().unwrap_or_default()

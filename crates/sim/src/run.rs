@@ -3,17 +3,17 @@
 use std::ops::ControlFlow;
 
 use nalgebra::DVector;
-use splines::{Influence, Probe};
 
-use crate::dense::dot;
-use crate::energy::{Audit, brake_force, drive_force};
-use crate::history::{Channel, History};
-use crate::scene::{Analysis, arm_rows};
+use crate::energy::Audit;
+use crate::history::History;
+use crate::passage;
+use crate::recorder::Recorder;
+use crate::scene::Analysis;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::{Counts, Failure, Stepper};
 use crate::system::System;
-use crate::{Action, Body, Error, Fired, Foundation, Freedom, Gauge, Method, Scene, Stepping};
+use crate::{Action, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -63,7 +63,7 @@ pub struct Run {
 ///
 /// A dynamic run starts in static equilibrium (y, roll and pitch of bodies whose wheels can carry them, unless
 /// they start with a displacement of their own there), and is integrated in force form by adaptive steps of
-/// [`Method::Sdirk4`], with contacts located in time. The relative error of displacements per unit of motion is near
+/// [`Method::Auto`], with contacts located in time. The relative error of displacements per unit of motion is near
 /// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
 ///
 /// # Errors
@@ -94,10 +94,20 @@ pub fn run_by(
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
-    let mut solver = Solver::new(&system)?;
     let mut state = State::new(&system);
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
+    let mut method = method;
+    if method == Method::Series {
+        if step.is_none()
+            && scene.analysis == Analysis::Dynamic
+            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+        {
+            return Ok(run);
+        }
+        method = Method::Radau;
+    }
+    let mut solver = Solver::new(&system)?;
     solver.locate(&state)?;
     state.v.fill(0.0);
     solver.drop_below(&mut state)?;
@@ -118,6 +128,14 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
     }
 }
 
+/// Whether some body on wheels starts where the scene puts it, not at rest.
+fn placed(system: &System) -> bool {
+    system.scene.bodies.iter().enumerate().any(|(b, body)| {
+        system.wheels.iter().any(|wheel| wheel.body == b)
+            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
+    })
+}
+
 fn integrate(
     stepping: Stepping,
     system: &System,
@@ -126,11 +144,7 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    let placed = scene.bodies.iter().enumerate().any(|(b, body)| {
-        system.wheels.iter().any(|wheel| wheel.body == b)
-            && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
-    });
-    if !placed {
+    if !placed(system) {
         solver.equilibrate(&mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
@@ -141,7 +155,7 @@ fn integrate(
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
     let mut recorder = Recorder::new(system);
-    recorder.record(system, solver, &state)?;
+    recorder.record(system, &solver.geometry, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
     let mut breaks: Vec<f64> = scene
         .bodies
@@ -198,10 +212,11 @@ fn integrate(
                 if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
-                    sample.interpolate(&stepper.from, &stepper.arrived, (t - from) / (to - from));
+                    let share = (t - from) / (to - from);
+                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
-                recorder.record(system, stepper.solver, &sample)?;
+                recorder.record(system, &stepper.solver.geometry, &sample)?;
                 stepper.solver.active.clone_from(&active);
                 stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
@@ -220,7 +235,7 @@ fn integrate(
                 };
                 if ends {
                     if (next - 1) as f64 * scene.output_dt < to {
-                        recorder.record(system, stepper.solver, &stepper.to)?;
+                        recorder.record(system, &stepper.solver.geometry, &stepper.to)?;
                     }
                     status = ended(scene, &fired);
                     break 'run;
@@ -279,7 +294,7 @@ fn sweep(
             }
         }
         counts.steps += 1;
-        recorder.record(system, solver, &state)?;
+        recorder.record(system, &solver.geometry, &state)?;
         if watch(t).is_break() {
             status = Status::Stopped;
             break;
@@ -287,141 +302,4 @@ fn sweep(
     }
     let (history, audit) = (recorder.history, Audit::default());
     Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
-}
-
-/// Writes samples.
-pub(crate) struct Recorder {
-    pub history: History,
-    /// Scratch of the gauges.
-    probes: Vec<Probe>,
-    shape: Vec<f64>,
-}
-
-impl Recorder {
-    pub fn new(system: &System) -> Self {
-        let mut channels = vec![Channel::Time];
-        for b in 0..system.scene.bodies.len() {
-            channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
-            channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
-            channels.extend([Channel::Drive(b), Channel::Brake(b)]);
-        }
-        for w in 0..system.wheels.len() {
-            channels.extend([
-                Channel::Place(w),
-                Channel::Vertical(w),
-                Channel::Lateral(w),
-                Channel::Traction(w),
-                Channel::Penetration(w),
-                Channel::Give(w),
-                Channel::SpinAngle(w),
-                Channel::SpinSpeed(w),
-            ]);
-        }
-        let actuators = &system.scene.actuators;
-        channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
-        channels.extend((0..actuators.stops.len()).map(Channel::Stop));
-        channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
-        let history = History { channels, values: Vec::new() };
-        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
-    }
-
-    /// Adds a sample; the solver's geometry belongs to `at`.
-    fn record(&mut self, system: &System, solver: &Solver, at: &State) -> Result<(), Error> {
-        let mut values = std::mem::take(&mut self.history.values);
-        let done = self.row(system, solver, at, &mut values);
-        self.history.values = values;
-        done
-    }
-
-    /// Appends a sample to `values`; the solver's geometry belongs to `at`.
-    pub fn row(
-        &mut self,
-        system: &System,
-        solver: &Solver,
-        at: &State,
-        values: &mut Vec<f64>,
-    ) -> Result<(), Error> {
-        values.push(at.t);
-        for b in 0..system.scene.bodies.len() {
-            let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
-            values.extend(displacement);
-            values.extend(speed);
-            values.extend([drive_force(system, &solver.geometry, at, b), brake_force(system, at, b)]);
-        }
-        for (w, wheel) in system.wheels.iter().enumerate() {
-            let mut vertical = 0.0;
-            let mut deepest = f64::NEG_INFINITY;
-            for i in system.normals_of(w) {
-                vertical += at.force[i] / system.normals[i].count();
-                if solver.geometry.share[i][0] > 0.0 {
-                    deepest = deepest.max(at.p[i]);
-                }
-            }
-            let lateral =
-                system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
-            let traction =
-                system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
-            let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
-            let own = system
-                .irregularity(w)
-                .map_or(0.0, |shape| shape.vertical(solver.geometry.piece[w], solver.geometry.x[w])[0]);
-            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
-            let (angle, speed) = wheel.spin.map_or((0.0, 0.0), |number| (at.q[number], at.v[number]));
-            values.extend([
-                solver.geometry.x[w],
-                vertical,
-                lateral,
-                traction,
-                deepest,
-                down - deepest,
-                angle,
-                speed,
-            ]);
-        }
-        let ropes = system.scene.actuators.ropes.len();
-        for (index, hold) in solver.geometry.links.iter().enumerate() {
-            values.push(at.force[system.link(index)]);
-            if index < ropes {
-                values.push(hold.length);
-            }
-        }
-        for gauge in &system.scene.gauges {
-            let displacement = self.displacement(system, solver, at, gauge)?;
-            values.push(displacement);
-        }
-        Ok(())
-    }
-
-    /// G F + Phi q at a gauge.
-    fn displacement(
-        &mut self,
-        system: &System,
-        solver: &Solver,
-        at: &State,
-        gauge: &Gauge,
-    ) -> Result<f64, Error> {
-        let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
-        let failed = |source| Error::Compliance { structure: s, source };
-        let mut sum = 0.0;
-        if let Some(compliance) = &foundation.compliance {
-            let entries = &system.entries[s];
-            self.probes.clear();
-            self.probes.push(gauge.probe);
-            let wheels = entries.iter().map(|e| Probe { x: solver.geometry.x[e.wheel], ..e.probe });
-            self.probes.extend(wheels);
-            let mut influence = Influence::zeros(self.probes.len());
-            compliance.fill(&self.probes, &mut influence).map_err(failed)?;
-            for (j, entry) in entries.iter().enumerate() {
-                sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.component];
-            }
-        }
-        if let Some(structure) = &foundation.structure {
-            let range = system.structure[s].clone();
-            let (value, slope) = self.shape.split_at_mut(system.freedoms);
-            let value = &mut value[..range.len()];
-            structure.shapes.row(gauge.probe, value, &mut slope[..range.len()]).map_err(failed)?;
-            sum += dot(value, &at.q.as_slice()[range]);
-        }
-        Ok(sum)
-    }
 }

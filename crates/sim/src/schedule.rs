@@ -25,6 +25,12 @@ impl Schedule {
         linear(&self.rows, t).0
     }
 
+    /// Its slope at `t`, behind a break.
+    #[must_use]
+    pub fn slope(&self, t: f64) -> f64 {
+        linear(&self.rows, t).1
+    }
+
     /// Integral of the value from 0 to `t`.
     #[must_use]
     pub fn integral(&self, t: f64) -> f64 {

@@ -2,6 +2,7 @@
 
 use nalgebra::{DMatrix, DVector, SVector};
 
+use crate::charts::Charts;
 use crate::dense::dot;
 use crate::forces::Problem;
 use crate::geometry::Geometry;
@@ -24,6 +25,8 @@ pub(crate) struct Known {
 pub(crate) struct Solver<'a> {
     pub system: &'a System<'a>,
     pub geometry: Geometry,
+    /// Coordinates of hung bodies during a step.
+    pub charts: Charts,
     /// Which vertical contacts act.
     pub active: Vec<bool>,
     pub problem: Problem,
@@ -52,6 +55,7 @@ impl<'a> Solver<'a> {
         Ok(Solver {
             system,
             geometry: Geometry::new(system),
+            charts: Charts::default(),
             active: vec![false; system.normals.len()],
             problem: Problem::new(system),
             keeps_rails: true,
@@ -148,7 +152,7 @@ impl<'a> Solver<'a> {
 
     /// Solves the stage Q = q* + g V, V = v* + g A at `at.t` with the contacts that are active; `at` brings
     /// the previous solution as a guess. Returns whether it converged.
-    pub fn stage(&mut self, g: f64, known: &Known, at: &mut State) -> Result<bool, Error> {
+    pub fn stage(&mut self, g: f64, known: &mut Known, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
         self.mobility.set_step(system, g)?;
@@ -162,8 +166,15 @@ impl<'a> Solver<'a> {
                 at.q[i] = known.q[i] + g * at.v[i];
             }
         }
+        let hangs = !self.charts.is_empty();
+        if hangs {
+            self.charts.guess(system, &self.geometry.switches, g, known, at);
+        }
         for pass in 0..PASSES {
-            if pass == 0 || rides {
+            if hangs {
+                self.charts.flatten(system, &self.geometry.switches, g, known, at);
+            }
+            if pass == 0 || rides || hangs {
                 self.move_freely(g, known, at)?;
             }
             self.geometry.update(system, at.t, &at.q, &at.force)?;
@@ -289,6 +300,16 @@ impl<'a> Solver<'a> {
         }
         self.inverse.apply(self.load.as_slice(), at.a.as_mut_slice());
         Ok(true)
+    }
+
+    /// Sets `at` to the interpolant between the ends of the step just tried, at its share `share`.
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub fn interpolate(&mut self, [from, to]: [&State; 2], share: f64, at: &mut State) -> Result<(), Error> {
+        at.interpolate(from, to, share);
+        self.charts.interpolate(self.system, &self.geometry.switches, [from, to], share, at);
+        self.stretch_ropes(to.t - from.t, at)
     }
 
     /// Heights of the wheels' centres above their rails; returns the largest change where it matters.

@@ -83,6 +83,8 @@ pub(crate) struct Stepper<'a, 'b> {
     p_rates: Vec<Vec<f64>>,
     powers: Vec<Exchanged>,
     pub(crate) probe: State,
+    /// Overlaps of the flanges where the next step starts.
+    pub(crate) overlaps: Vec<f64>,
     pub(crate) triggers: Triggers,
     begun: f64,
     /// Boundary term of the grounded dampers where the next step starts.
@@ -107,6 +109,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             stage: start.clone(),
             probe: start.clone(),
             boundary: boundary(system, &solver.geometry, &start),
+            overlaps: solver.overlaps(&start),
             from: start,
             counts: Counts::default(),
             audit: Audit { start: energy, end: energy, ..Audit::default() },
@@ -203,6 +206,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 h = (h * share).max(2.0 * smallest);
                 continue;
             }
+            if corners < CORNERS
+                && let Some(share) = self.first_touch()?
+            {
+                corners += 1;
+                ends_at_event = true;
+                h = (h * share).max(2.0 * smallest);
+                continue;
+            }
             let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
             self.last_error = error.max(1e-4);
             if !ends_at_event {
@@ -242,9 +253,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let tableau = self.tableau;
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(&self.from);
+        self.solver.chart(&self.from);
         for i in 0..tableau.stages() {
             self.known.q.copy_from(&self.from.q);
             self.known.v.copy_from(&self.from.v);
+            self.solver.charts.begun(&mut self.known.q, &mut self.known.v);
             self.known.p.copy_from_slice(&self.from.p);
             for (j, weight) in tableau.a[i].iter().enumerate() {
                 self.known.q.axpy(h * weight, &self.rates[j], 1.0);
@@ -256,11 +269,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
             // just before the end: a prescribed motion may jump there
             self.stage.t = (self.from.t + tableau.c[i] * h).min(self.limit.next_down());
             self.counts.stages += 1;
-            if !self.solver.stage(gamma_h, &self.known, &mut self.stage)? {
+            if !self.solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
                 return Ok(false);
             }
             self.accelerations[i].copy_from(&self.stage.a);
             self.rates[i].copy_from(&self.stage.v);
+            let switches = &self.solver.geometry.switches;
+            let rates = [&mut self.rates[i], &mut self.accelerations[i]];
+            self.solver.charts.settle(self.solver.system, switches, &self.stage, rates);
             self.p_rates[i].copy_from_slice(&self.stage.p_rate);
             self.solver.geometry.update_rail_slope(self.solver.system, &self.stage.q, &self.stage.force);
             self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
@@ -281,20 +297,25 @@ impl<'a, 'b> Stepper<'a, 'b> {
     fn error(&self) -> f64 {
         let h = self.to.t - self.from.t;
         let mut largest = 0.0_f64;
-        for i in 0..self.to.q.len() {
-            let (mut dq, mut dv) = (0.0, 0.0);
+        let of = |i: usize| {
+            let mut error = [0.0; 2];
             if let Some(collocation) = &self.collocation {
-                [dq, dv] = collocation.error(i).map(|error| error / h);
-            } else {
-                for (j, weight) in self.tableau.error.iter().enumerate() {
-                    dq += weight * self.rates[j][i];
-                    dv += weight * self.accelerations[j][i];
-                }
+                return collocation.error(i).map(|error| error / h);
             }
+            for (j, weight) in self.tableau.error.iter().enumerate() {
+                error[0] += weight * self.rates[j][i];
+                error[1] += weight * self.accelerations[j][i];
+            }
+            error
+        };
+        let mut weigh = |i: usize, [dq, dv]: [f64; 2]| {
             let scale = self.scale[i].max(self.to.q[i].abs());
             let rate_scale = self.rate_scale[i].max(self.to.v[i].abs());
             largest = largest.max((h * dq / scale).abs()).max((h * dv / rate_scale).abs());
-        }
+        };
+        let charts = &self.solver.charts;
+        (0..self.to.q.len()).filter(|&i| !charts.has(i)).for_each(|i| weigh(i, of(i)));
+        charts.errors(self.solver.system, &self.solver.geometry.switches, &self.to, of, weigh);
         largest / self.tolerance
     }
 
@@ -345,6 +366,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
         }
         self.boundary = boundary(system, &self.solver.geometry, &self.to);
+        self.overlaps = self.solver.overlaps(&self.to);
         self.audit.end = after;
         let mut elastic = after.contact + after.structure + after.ropes;
         if !system.links.is_empty() {

@@ -16,10 +16,10 @@ use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
 use crate::tie::Tie;
-use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Scene};
+use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
 
 /// One physical wheel.
-pub(crate) struct WheelPoint {
+pub(crate) struct WheelPoint<'a> {
     pub body: usize,
     pub contact: usize,
     pub kind: usize,
@@ -27,6 +27,8 @@ pub(crate) struct WheelPoint {
     pub hub: [f64; 3],
     /// Index of its spin among the freedoms.
     pub spin: Option<usize>,
+    /// Its spin over time, where it is prescribed.
+    pub turn: Option<&'a Profile>,
 }
 
 /// One vertical contact component.
@@ -57,7 +59,7 @@ pub(crate) struct Entry {
 pub(crate) struct System<'a> {
     pub scene: &'a Scene,
     pub foundations: &'a [Foundation],
-    pub wheels: Vec<WheelPoint>,
+    pub wheels: Vec<WheelPoint<'a>>,
     pub normals: Vec<Normal>,
     /// Wheels with a flange; component `normals.len() + i`.
     pub laterals: Vec<usize>,
@@ -130,16 +132,20 @@ impl<'a> System<'a> {
         for (index, contact) in scene.contacts.iter().enumerate() {
             let first = wheels.len();
             let kind = &scene.wheels[contact.wheel];
-            for offset in &contact.offsets {
+            for (own, offset) in contact.offsets.iter().enumerate() {
                 let [x, y, z] = contact.at;
-                let spin =
-                    if kind.spin_inertia.is_some() && kind.friction.is_some() { Some(next()) } else { None };
+                let mut turns = scene.actuators.turns.iter();
+                let turn =
+                    turns.find(|turn| (turn.contact, turn.wheel) == (index, own)).map(|turn| &turn.motion);
+                let spins = kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();
+                let spin = if spins { Some(next()) } else { None };
                 wheels.push(WheelPoint {
                     body: contact.body,
                     contact: index,
                     kind: contact.wheel,
                     hub: [x + offset, y, z],
                     spin,
+                    turn,
                 });
             }
             let parts = match &foundations[contact.structure].parts {
@@ -170,7 +176,8 @@ impl<'a> System<'a> {
             .collect();
         let laterals: Vec<usize> =
             (0..wheels.len()).filter(|&w| scene.wheels[wheels[w].kind].flange.is_some()).collect();
-        let tractions: Vec<usize> = (0..wheels.len()).filter(|&w| wheels[w].spin.is_some()).collect();
+        let tractions: Vec<usize> =
+            (0..wheels.len()).filter(|&w| wheels[w].spin.is_some() || wheels[w].turn.is_some()).collect();
 
         let mut kinematics = Kinematics::new(scene, &freedom)?;
         let rides = Rides::new(scene, foundations, &kinematics)?;

@@ -1,7 +1,7 @@
 //! When rules act: their conditions at a state, and the instant within a step at which one is met.
 
 use crate::energy::{boundary, stored};
-use crate::run::Recorder;
+use crate::recorder::Recorder;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::Stepper;
@@ -60,7 +60,7 @@ impl Triggers {
             return Ok(Vec::new());
         }
         self.row.clear();
-        self.recorder.row(system, solver, at, &mut self.row)?;
+        self.recorder.row(system, &solver.geometry, at, &mut self.row)?;
         let is_met = |trigger: &&Trigger| {
             let sum = trigger.columns.iter().map(|&(column, factor)| factor * self.row[column]).sum();
             system.scene.actuators.rules[trigger.rule].when.is_met(sum)
@@ -82,7 +82,7 @@ impl Stepper<'_, '_> {
         while (high - low) * h > 0.25 * slack {
             let middle = 0.5 * (low + high);
             self.probe.copy_from(&self.to);
-            self.probe.interpolate(&self.from, &self.to, middle);
+            self.solver.interpolate([&self.from, &self.to], middle, &mut self.probe)?;
             if !self.solver.instant(&mut self.probe)? {
                 break;
             }

@@ -193,6 +193,7 @@ fn a_trolley_that_meets_the_end_of_its_rails_pushes_the_bridge() {
     (scene.bodies[1].start[0], scene.bodies[1].start_speed[0]) = (2.0, 5.0);
     scene.actuators.stops = vec![Stop {
         body: 1,
+        against: None,
         at: [6.0, 0.0, 0.0],
         axis: 0,
         place: 14.0,

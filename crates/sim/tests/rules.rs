@@ -155,8 +155,16 @@ fn a_load_let_go_leaves_its_carrier_at_its_own_frequency() {
 #[test]
 fn a_load_hoisted_off_the_ground_peaks_at_weight_and_v_root_k_m() {
     let (m, l, ea, v, ground) = (1000.0, 1e3, 1e9, 0.2, 1e10);
-    let floor =
-        Stop { body: 0, at: [0.0; 3], axis: 1, place: -l, side: -1.0, stiffness: ground, damping: 0.0 };
+    let floor = Stop {
+        body: 0,
+        against: None,
+        at: [0.0; 3],
+        axis: 1,
+        place: -l,
+        side: -1.0,
+        stiffness: ground,
+        damping: 0.0,
+    };
     let rules = vec![
         rule(Channel::Time, Compare::AtLeast, 0.1, &[Action::Hoist { rope: 0, speed: v }]),
         rule(Channel::Stop(0), Compare::AtMost, 0.0, &[]),

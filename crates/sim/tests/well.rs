@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, WEIGHT, bogie, surface};
 use sim::{Channel, Damper, Foundation, Freedom, Run, Status};
-use splines::{Axis, Kind, Reading, Sheet};
+use splines::{Axis, Compliance, Error, Influence, Jets, Kind, Probe, Reading, Sheet};
 
 /// Where the bogie is let go, ft; two turns end one cycle.
 const START: f64 = 12.0;
@@ -30,10 +30,41 @@ fn rolling(foundation: Foundation, end: f64, accuracy: f64) -> Run {
     run
 }
 
-fn printed_table(kind: Kind) -> Foundation {
+fn reading(kind: Kind) -> Reading {
     let way = (0, Axis::Vertical);
     let sheet = Sheet { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
-    Foundation::influence(Box::new(Reading::new(kind, &[sheet]).expect("a table")), 1)
+    Reading::new(kind, &[sheet]).expect("a table")
+}
+
+fn printed_table(kind: Kind) -> Foundation {
+    Foundation::influence(Box::new(reading(kind)), 1)
+}
+
+/// AKISPL read the other way round: cubic along the wheel that moves, straight along the one that loads it.
+struct Turned(Reading);
+
+impl Compliance for Turned {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
+        for (i, p) in at.iter().enumerate() {
+            for (j, q) in at.iter().enumerate() {
+                let jet = self.0.jet(*q, *p)?;
+                (out.value[(i, j)], out.slope[(i, j)]) = (jet.value, jet.q);
+            }
+        }
+        Ok(())
+    }
+
+    fn breaks(&self, rail: usize) -> Vec<f64> {
+        self.0.breaks(rail)
+    }
+
+    fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        self.0.range(rail)
+    }
+
+    fn is_symmetric(&self) -> bool {
+        false
+    }
 }
 
 /// Time of the `count`-th turn.
@@ -50,7 +81,7 @@ fn largest_kinetic(run: &Run) -> f64 {
 }
 
 #[test]
-fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half_and_not_on_akispl() {
+fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
     let exact = || Foundation::influence(Box::new(surface()), 1);
     let end = turn(&rolling(exact(), 160.0, 1e-4), 7);
     let run = rolling(exact(), end, 1e-8);
@@ -61,18 +92,31 @@ fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half_and_not_on
     let natural = rolling(printed_table(Kind::Natural), end, 1e-6);
     println!("printed table, natural: {:.2e} ft lb", natural.audit.end.total() - natural.audit.start.total());
     assert!(natural.audit.imbalance < 1e-7 * largest_kinetic(&natural));
+}
 
-    // Forth and back make up for each other but for the bounce: the largest error on the way tells.
-    for accuracy in [1e-5, 1e-6] {
-        let akispl = rolling(printed_table(Kind::Akispl), end, accuracy);
-        let change = akispl.audit.end.total() - akispl.audit.start.total();
-        let (kinetic, largest) = (largest_kinetic(&akispl), akispl.audit.imbalance);
+/// External: an independent simulation (scipy, Akima's curves) has 83,589 ft lb, and with the table read the other way
+/// round 76,304: over 3.5 cycles 21,801 a cycle, 2.9 % of the kinetic energy; 21,835 and 2.9 % have been published. It is
+/// the largest on the way by the number of cycles, no loss that adds up: `crates/splines/tests/well.rs` has the same
+/// without motion.
+#[test]
+fn akispl_errs_by_a_tenth_of_the_well_on_the_way_either_way_round() {
+    let turned = Foundation::influence(Box::new(Turned(reading(Kind::Akispl))), 1);
+    for (what, foundation, wanted) in
+        [("as in decks", printed_table(Kind::Akispl), 83_589.0), ("turned", turned, 76_304.0)]
+    {
+        let run = rolling(foundation, 133.6, 1e-6);
+        let change = run.audit.end.total() - run.audit.start.total();
+        let (kinetic, largest) = (largest_kinetic(&run), run.audit.imbalance);
         println!(
-            "printed table, AKISPL, accuracy {accuracy:.0e}: up to {largest:.0} of {kinetic:.3e} ft lb on the way \
-             ({:.1} %), {change:.0} at the end, {:?}",
-            100.0 * largest / kinetic,
-            akispl.counts
+            "{what}: up to {largest:.0} of {kinetic:.3e} ft lb on the way, {:.0} a cycle ({:.1} %), {change:.0} at the \
+             end, {:?}",
+            largest / 3.5,
+            100.0 * largest / 3.5 / kinetic,
+            run.counts
         );
-        assert!(largest > 0.02 * kinetic, "{largest}");
+        assert!((largest / wanted - 1.0).abs() < 2e-3, "{what}: {largest}");
+        if what == "turned" {
+            assert!((largest / 3.5 / 21_835.0 - 1.0).abs() < 3e-3);
+        }
     }
 }

@@ -16,9 +16,10 @@ use crate::output::{self, Folder};
 use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
 use crate::record::peak;
+use crate::response::{self, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
-use crate::{grid_file, story, summary, tables};
+use crate::{grid_file, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -78,7 +79,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     folder.add_varying("timing.json", output::json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
     let written = folder.commit(Manifest::new(name, &document.inputs, settings))?;
-    finish(&outcomes, &summary, &written, scene, global, &progress)
+    finish(&outcomes, &summary, &written, &document, global, &progress)
 }
 
 /// Says how it went; the exit status is that of the worst run.
@@ -86,10 +87,11 @@ fn finish(
     outcomes: &[Outcome],
     summary: &Value,
     written: &Path,
-    scene: &Scene,
+    document: &Document,
     global: Global,
     progress: &Progress,
 ) -> Result<Exit, Failure> {
+    let scene = document.scene();
     let unit = scene.units.length.word();
     for outcome in outcomes {
         for body in &scene.bodies {
@@ -97,12 +99,12 @@ fn finish(
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
-    for outcome in outcomes {
+    for (outcome, case) in outcomes.iter().zip(&document.cases) {
         for choice in &outcome.choices {
             let name = &scene.structures[choice.structure].name;
             progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
         }
-        for warning in summary::warnings(scene, &outcome.cast, &outcome.record, &outcome.run) {
+        for warning in warning::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
     }
@@ -180,6 +182,8 @@ fn plates(
         .collect();
     let mut plates = pictures::paths(&labelled);
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
+    let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
+    plates.extend(response::pictures(&labelled, &responses, &outcomes[0].lines));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solved_of(known, &structure.origin) else { continue };
         plates.extend(

@@ -208,13 +208,21 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Failure> {
             "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
         );
     }
-    if let Some(structure) = scene.structures.iter().find(|structure| !structure.irregularities.is_empty()) {
-        let why = format!("a deck cannot have uneven rails: structure \"{}\"", structure.name);
-        return refuse(why, "leave `irregularities` out");
+    if let Some(spin) = scene.spins.first() {
+        let why = format!("a deck cannot have prescribed spins: truck \"{}\"", scene.trucks[spin.truck].name);
+        return refuse(why, "leave the motion out, and add a MOTION to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.longitudinal) {
+        let why = format!("a deck cannot have give along its rails: structure \"{}\"", structure.name);
+        return refuse(why, "leave `longitudinal` out");
     }
     if let Some(event) = scene.events.first() {
         let why = format!("a deck cannot have events: \"{}\"", event.name);
         return refuse(why, "leave `events` out, and add a SENSOR to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| !structure.irregularities.is_empty()) {
+        let why = format!("a deck cannot have uneven rails: structure \"{}\"", structure.name);
+        return refuse(why, "leave `irregularities` out");
     }
     if let Some(stop) = scene.stops.first() {
         let why = format!("a deck cannot have stops: \"{}\"", stop.name);

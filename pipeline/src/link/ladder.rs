@@ -1,7 +1,7 @@
 //! Foundations on demand, for structures whose foundation is "auto".
 
 use sim::{Choice, Ladder, Reason, Rung};
-use splines::{Axis, Compliance};
+use splines::Compliance;
 
 use super::{Solved, foundation, modal};
 use crate::cases::{Known, solved_of};
@@ -57,9 +57,10 @@ pub fn rung_of(solved: &Solved, rung: Rung, damping: f64, finer: usize) -> Resul
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => modal::lowest(name, solved, modes, damping, &[Axis::Vertical]),
+        (Rung::Modal(modes), _) => Ok(modal::lowest(name, solved, modes, damping, false.into())?.foundation),
         (Rung::Full, _) => {
-            modal::full(name, solved, finer * elements(Some(solved)), damping, &[Axis::Vertical])
+            let finer = finer * elements(Some(solved));
+            Ok(modal::full(name, solved, finer, damping, false.into())?.foundation)
         }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))

@@ -10,12 +10,14 @@ use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
 use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
+use self::mount::Push;
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
 pub use ladder::{choose, reason, rung_of, word};
+pub use parts::{RigidParts, roll_inertia};
 
 /// A structure's FE model, solved.
 pub struct Solved {
@@ -87,10 +89,43 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
+    Ok(laid(structure, solved, lateral)?.foundation)
+}
+
+/// A foundation, with the model behind its freedoms.
+pub struct Laid {
+    /// What carries the rails.
+    pub foundation: Foundation,
+    /// What moves; `None`: nothing that has mass.
+    pub motion: Option<Motion>,
+}
+
+impl From<Foundation> for Laid {
+    fn from(foundation: Foundation) -> Laid {
+        Laid { foundation, motion: None }
+    }
+}
+
+/// The model whose motions are the freedoms of a foundation, in their order.
+pub enum Motion {
+    /// Natural modes of a frame, with its members cut, as far as wheels can excite them.
+    Modes(Box<(Frame, fea::Refined)>),
+    /// Rigid parts of a straight girder.
+    Parts(RigidParts),
+}
+
+/// As [`foundation`], with the model behind it.
+///
+/// # Errors
+/// As [`foundation`].
+pub fn laid(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
     let irregularities = structure.irregularities.clone();
-    let on = mount::mount(structure)?;
+    let mut on = mount::mount(structure)?;
     let is_dragged = structure.longitudinal;
-    let foundation = grounded(structure, solved, lateral)?;
+    let Laid { mut foundation, motion } = grounded(structure, solved, lateral)?;
+    if let (Some(on), Some(own)) = (&mut on, foundation.on.take()) {
+        (on.mass, on.coupling) = (own.mass, own.coupling);
+    }
     if let (true, Some(compliance), Some(rail)) =
         (is_dragged, &foundation.compliance, structure.rails.first())
     {
@@ -102,41 +137,39 @@ pub fn foundation(
             return Err(Failure::Untrusted(format!("{}: {why}", structure.name)));
         }
     }
-    Ok(Foundation { on, irregularities, is_dragged, ..foundation })
+    Ok(Laid { foundation: Foundation { on, irregularities, is_dragged, ..foundation }, motion })
 }
 
 /// The same, without what carries it.
-fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Foundation, Failure> {
+fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let pushes =
-        [(Axis::Vertical, true), (Axis::Lateral, lateral), (Axis::Longitudinal, structure.longitudinal)];
-    let axes: Vec<Axis> = pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect();
+    let push = Push { lateral, longitudinal: structure.longitudinal, on: structure.on };
     match structure.foundation {
-        scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }),
-        scene::Foundation::Influence => influence(structure, solved),
+        scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
+        scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
         scene::Foundation::Parts { count, handover } => {
             let girder = solved.and_then(|solved| solved.girder.as_ref()).ok_or_else(|| {
                 Failure::Untrusted(format!("{}: parts need a beam spec of a straight girder", structure.name))
             })?;
-            parts::foundation(girder, count, handover, lateral)
+            parts::foundation(girder, count, handover, push)
         }
         scene::Foundation::Modal { modes, damping } => {
-            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, &axes)
+            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, push)
         }
         scene::Foundation::Full { elements, damping } => {
-            modal::full(&structure.name, needed(structure, solved)?, elements, damping, &axes)
+            modal::full(&structure.name, needed(structure, solved)?, elements, damping, push)
         }
-        scene::Foundation::Ties { moves: false, .. } => influence(structure, solved),
+        scene::Foundation::Ties { moves: false, .. } => Ok(influence(structure, solved)?.into()),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
             let pads = match &structure.origin {
                 Origin::Spec { spec, .. } => spec.pads(),
                 Origin::Tables { .. } => &[],
             };
             let dampers = modal::Dampers { pads, c };
-            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, &axes)
+            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, push)
         }
     }
 }
@@ -218,7 +251,7 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 /// # Errors
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
-    parts::foundation(girder, count, Handover::Blend { length: window }, false)
+    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, false.into())?.foundation)
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
@@ -226,7 +259,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    modal::full("structure", solved, elements, 0.0, &[Axis::Vertical])
+    Ok(modal::full("structure", solved, elements, 0.0, false.into())?.foundation)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use fea::{Frame, Modes, Refined};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
-use splines::{Axis, Compliance, Line, Probe};
+use splines::{Compliance, Line, Probe};
 
-use super::Solved;
+use super::mount::{self, Push};
+use super::{Laid, Motion, Solved};
 use crate::exit::Failure;
 use crate::track::Pad;
 
@@ -24,9 +25,9 @@ pub(super) fn lowest(
     solved: &Solved,
     count: usize,
     ratio: f64,
-    axes: &[Axis],
-) -> Result<Foundation, Failure> {
-    lowest_with(name, solved, count, ratio, Dampers::default(), axes)
+    push: Push,
+) -> Result<Laid, Failure> {
+    lowest_with(name, solved, count, ratio, Dampers::default(), push)
 }
 
 /// Dampers of one size under the ties of a rail.
@@ -45,11 +46,11 @@ pub(super) fn on_ties(
     count: Option<usize>,
     ratio: f64,
     dampers: Dampers<'_>,
-    axes: &[Axis],
-) -> Result<Foundation, Failure> {
+    push: Push,
+) -> Result<Laid, Failure> {
     match count {
-        Some(count) => lowest_with(name, solved, count, ratio, dampers, axes),
-        None => full_with(name, solved, 1, ratio, dampers, axes),
+        Some(count) => lowest_with(name, solved, count, ratio, dampers, push),
+        None => full_with(name, solved, 1, ratio, dampers, push),
     }
 }
 
@@ -59,20 +60,20 @@ fn lowest_with(
     count: usize,
     ratio: f64,
     dampers: Dampers<'_>,
-    axes: &[Axis],
-) -> Result<Foundation, Failure> {
+    push: Push,
+) -> Result<Laid, Failure> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
             .map_err(|error| refused(name, &error))?;
-        let felt = felt(&refined.modes, solved, axes);
+        let felt = felt(&refined.modes, solved, push);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let all = refined.modes.modes.len() < asked || refined.modes.next.is_none();
         // Some of the modes of one frequency are not enough to turn them.
         let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
         if all || (felt.len() >= count && !torn) {
             let lowest = felt.into_iter().take(count).collect();
-            return foundation(name, &refined, lowest, ratio, dampers);
+            return foundation(name, refined, lowest, ratio, dampers, push);
         }
         asked = (2 * asked).max(asked + 8);
     }
@@ -84,9 +85,9 @@ pub(super) fn full(
     solved: &Solved,
     parts: usize,
     ratio: f64,
-    axes: &[Axis],
-) -> Result<Foundation, Failure> {
-    full_with(name, solved, parts, ratio, Dampers::default(), axes)
+    push: Push,
+) -> Result<Laid, Failure> {
+    full_with(name, solved, parts, ratio, Dampers::default(), push)
 }
 
 fn full_with(
@@ -95,12 +96,12 @@ fn full_with(
     parts: usize,
     ratio: f64,
     dampers: Dampers<'_>,
-    axes: &[Axis],
-) -> Result<Foundation, Failure> {
+    push: Push,
+) -> Result<Laid, Failure> {
     let refined =
         fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
-    let felt = felt(&refined.modes, solved, axes);
-    foundation(name, &refined, felt, ratio, dampers)
+    let felt = felt(&refined.modes, solved, push);
+    foundation(name, refined, felt, ratio, dampers, push)
 }
 
 fn refused(name: &str, error: &fea::Error) -> Failure {
@@ -117,8 +118,8 @@ fn refused(name: &str, error: &fea::Error) -> Failure {
 /// Modes that move the rails where and as wheels can push.
 ///
 /// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
-fn felt(modes: &Modes, solved: &Solved, axes: &[Axis]) -> Vec<fea::Mode> {
-    let motions = motions(modes, solved, axes);
+fn felt(modes: &Modes, solved: &Solved, push: Push) -> Vec<fea::Mode> {
+    let motions = motions(modes, solved, push);
     // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
     let limit = STILL / modes.total[0][0].sqrt();
     let mut kept = Vec::new();
@@ -144,7 +145,8 @@ fn felt(modes: &Modes, solved: &Solved, axes: &[Axis]) -> Vec<fea::Mode> {
 }
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
-fn motions(modes: &Modes, solved: &Solved, axes: &[Axis]) -> DMatrix<f64> {
+fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
+    let axes = push.axes();
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {
@@ -152,7 +154,7 @@ fn motions(modes: &Modes, solved: &Solved, axes: &[Axis]) -> DMatrix<f64> {
             None => given.stations.clone(),
         };
         for x in places {
-            for &axis in axes {
+            for &axis in &axes {
                 // a direction that nothing resists moves no mode
                 if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
                     rows.extend(shapes.into_iter().map(|[value, _]| value));
@@ -161,6 +163,9 @@ fn motions(modes: &Modes, solved: &Solved, axes: &[Axis]) -> DMatrix<f64> {
         }
     }
     let count = modes.modes.len();
+    if let Some(on) = push.on {
+        rows.extend(mount::felt(modes, on));
+    }
     DMatrix::from_row_slice(rows.len() / count.max(1), count, &rows)
 }
 
@@ -190,16 +195,17 @@ fn places(line: &Line, rail: usize) -> Vec<f64> {
 
 fn foundation(
     name: &str,
-    refined: &Refined,
+    mut refined: Refined,
     felt: Vec<fea::Mode>,
     ratio: f64,
     dampers: Dampers<'_>,
-) -> Result<Foundation, Failure> {
+    push: Push,
+) -> Result<Laid, Failure> {
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
     let surface = frame.surface().map_err(untrusted)?.surface;
-    let mut kept = refined.modes.clone();
-    kept.modes = felt;
+    refined.modes.modes = felt;
+    let kept = &refined.modes;
     let rest = kept.residual(&surface).map_err(untrusted)?;
     let line = Arc::clone(surface.line());
     let states =
@@ -214,12 +220,14 @@ fn foundation(
         Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
     };
     let shapes = Box::new(ModeShapes { line, states });
-    Ok(Foundation {
+    let foundation = Foundation {
         compliance: Some(Box::new(rest)),
         structure: Some(sim::Structure { dynamics, shapes }),
         rails,
+        on: push.on.map(|on| mount::inertia(kept, on)),
         ..Foundation::default()
-    })
+    };
+    Ok(Laid { foundation, motion: Some(Motion::Modes(Box::new((frame, refined)))) })
 }
 
 /// M = 1, K = omega^2, C = 2 zeta omega + c D^T D; D: by how much each mode stretches each damper.

@@ -4,28 +4,24 @@ use std::sync::Arc;
 
 use fea::{Girder, Link, Member, Model, Support};
 use nalgebra::{DMatrix, DVector};
-use sim::{BlendedParts, Dynamics, Extent, Foundation, PartChain, PartShapes, Structure};
+use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line, Surface};
 
-use super::window;
+use super::mount::Push;
+use super::{Laid, window};
 use crate::exit::Failure;
-use crate::scene::Handover;
+use crate::scene::{Handover, On};
 
 /// Smallest stiffness kept, relative to the most compliant combination of the parts' freedoms.
 const RIGID: f64 = 1e-13;
 
 /// `count` rigid parts of equal length, beams between their centres, supports on the parts above them; where
-/// the girder has mass, each part has its share. `lateral`: whether wheels push sideways; otherwise parts with
-/// mass move in the vertical plane alone.
+/// the girder has mass, each part has its share. Where wheels do not push sideways, parts with mass move in the vertical
+/// plane alone.
 ///
 /// # Errors
 /// What the FE model refuses.
-pub fn foundation(
-    girder: &Girder,
-    count: usize,
-    handover: Handover,
-    lateral: bool,
-) -> Result<Foundation, Failure> {
+pub fn foundation(girder: &Girder, count: usize, handover: Handover, push: Push) -> Result<Laid, Failure> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or_else(|| {
         Failure::Untrusted("the hand-over windows of neighbouring parts overlap: shorten `blend`".to_owned())
@@ -39,12 +35,16 @@ pub fn foundation(
     breaks.dedup();
     let mut foundation =
         Foundation { rails: vec![Extent { range: Some(range), breaks }], ..Foundation::default() };
+    let mut parts = None;
     let separate = matches!(handover, Handover::PerPart { .. });
     if separate {
         foundation.parts = Some(vec![chain.clone()]);
     }
     if let Some(mass) = girder.mass_per_length {
-        let motion = Motion::new(girder, mass, &ends, &nodal, lateral);
+        let motion = Motion::new(girder, mass, &ends, &nodal, push.lateral);
+        foundation.on = push.on.map(|on| motion.mount(&centres, on));
+        let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
+        parts = Some(super::Motion::Parts(chain_of));
         foundation.structure = Some(motion.structure(PartShapes {
             line,
             basis: motion.basis.clone(),
@@ -59,7 +59,15 @@ pub fn foundation(
             Box::new(BlendedParts { surface, chains: vec![chain] })
         });
     }
-    Ok(foundation)
+    Ok(Laid { foundation, motion: parts })
+}
+
+/// Rigid parts with mass, and how they move.
+pub struct RigidParts {
+    /// Ends of the parts along the girder, increasing.
+    pub ends: Vec<f64>,
+    /// Motion of the parts' centres, six each (displacements, rotations), by the structure's freedoms.
+    pub basis: DMatrix<f64>,
 }
 
 /// Ends of `count` parts of equal length over the girder with its overhangs.
@@ -112,11 +120,20 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Failure>
     Line::new(cells.collect()).map_err(Failure::untrusted)
 }
 
+/// Moment of inertia of a part about its axis by its mass: a thin bar resists twist a little.
+#[must_use]
+pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
+    let polar = girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+    polar.max(1e-6 * length * length)
+}
+
 /// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports
 /// hold is left out, K = diag(1/compliance), M = basis^T (lumped masses) basis.
 struct Motion {
     /// States of the parts (six each) x freedoms.
     basis: DMatrix<f64>,
+    /// Masses and inertias of the states.
+    lumped: DVector<f64>,
     mass: DMatrix<f64>,
     stiffness: DMatrix<f64>,
 }
@@ -141,17 +158,44 @@ impl Motion {
             }
         }
         let part = mass * length;
-        let polar =
-            girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+        let roll = roll_inertia(girder, length);
         let lumped = |i: usize| match i % 6 {
             0..=2 => part,
-            // a thin bar resists twist a little
-            3 => part * polar.max(1e-6 * length * length),
+            3 => part * roll,
             _ => part * length * length / 12.0,
         };
-        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped(i) * basis[(i, k)]);
+        let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));
+        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
         let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
-        Motion { mass: basis.transpose() * weighted, stiffness: DMatrix::from_diagonal(&stiffness), basis }
+        Motion {
+            mass: basis.transpose() * weighted,
+            stiffness: DMatrix::from_diagonal(&stiffness),
+            basis,
+            lumped,
+        }
+    }
+
+    /// Mass of the parts as one, and the momentum of their freedoms: R^T M R and basis^T M R, R the motion of the parts
+    /// about their `centres` by the six of the body that carries them.
+    fn mount(&self, centres: &[f64], on: On) -> Mount {
+        let motion = DMatrix::from_fn(6 * centres.len(), 6, |i, k| {
+            let (x, axis) = (centres[i / 6], i % 6);
+            match (axis, k) {
+                (1, 5) => x,
+                (2, 4) => -x,
+                _ => f64::from(u8::from(axis == k)),
+            }
+        });
+        let weighted = DMatrix::from_fn(motion.nrows(), 6, |i, k| self.lumped[i] * motion[(i, k)]);
+        let (total, own) = (motion.transpose() * &weighted, self.basis.transpose() * &weighted);
+        let total = std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)]));
+        let line = |k: usize| Mount::moved_load(&std::array::from_fn(|i| own[(k, i)]), on.at);
+        Mount {
+            body: on.body,
+            rails: Vec::new(),
+            mass: Mount::moved(&total, on.at),
+            coupling: (0..own.nrows()).map(line).collect(),
+        }
     }
 
     /// As a structure of the simulation; undamped.

@@ -2,6 +2,7 @@
 
 use super::actuator::{Drive, read_drive, read_rows};
 use super::raw::{RawBody, RawMotion, RawStart};
+use super::spin;
 use sim::{Given, Profile};
 
 use crate::check::Check;
@@ -195,8 +196,14 @@ pub(super) fn read_motions(
     let root = Place::root();
     let list = root.key("motions");
     let mut first: Vec<Option<usize>> = vec![None; bodies.len()];
-    for (index, motion) in raw.iter().enumerate() {
+    for (index, motion) in raw.iter().enumerate().filter(|(_, motion)| !spin::is_spin(motion)) {
         let at = list.index(index);
+        for (key, given) in [("truck", motion.truck.is_some()), ("wheel", motion.wheel.is_some())] {
+            if given {
+                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion of a spin"));
+                check.faults.add(fault.at_key().hint("\"dof\": \"spin\""));
+            }
+        }
         let body = check.faults.need(&motion.body, &at, "body").and_then(|name| {
             let known = super::names(bodies, |body| &body.name);
             super::resolve(name, &known, "body", &at.key("body"), check.faults)

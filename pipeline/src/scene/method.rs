@@ -11,10 +11,11 @@ use crate::place::Place;
 use crate::units::Dimension;
 
 /// Names of the methods of integration.
-pub const STEPPERS: [(&str, Method); 5] = [
+pub const STEPPERS: [(&str, Method); 6] = [
     ("auto", Method::Auto),
     ("sdirk4", Method::Sdirk4),
     ("radau", Method::Radau),
+    ("series", Method::Series),
     ("gauss2", Method::Gauss2),
     ("gauss3", Method::Gauss3),
 ];

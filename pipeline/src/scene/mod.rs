@@ -8,12 +8,15 @@ mod gauge;
 mod irregularity;
 mod method;
 mod mount;
+mod output;
 mod pin;
 mod raw;
 mod read;
 mod rope;
+mod spin;
 mod stop;
 mod structure;
+mod survey;
 mod tables;
 mod ties;
 mod truck;
@@ -25,9 +28,11 @@ pub use compare::{Case, Document};
 pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
+pub use output::{Output, Pick};
 pub use rope::Rope;
+pub use spin::Spin;
 pub use stop::{Meeting, Stop};
-pub use structure::{Foundation, Handover, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
+pub use structure::{Foundation, Handover, On, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair};
 pub use truck::{Node, Truck};
 pub use wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
 
@@ -59,6 +64,8 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Wheels under bodies.
     pub trucks: Vec<Truck>,
+    /// Wheels whose spin is prescribed.
+    pub spins: Vec<Spin>,
     /// Ropes.
     pub ropes: Vec<Rope>,
     /// End stops of rails, and floors.
@@ -71,6 +78,8 @@ pub struct Scene {
     pub end: f64,
     /// Time between two rows of the history.
     pub dt: f64,
+    /// What is written beside the motion.
+    pub output: Output,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
     /// How the motion is integrated.

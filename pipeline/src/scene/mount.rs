@@ -3,8 +3,8 @@
 use super::body::Body;
 use super::pin::root_of;
 use super::raw::RawStructure;
-use super::structure::{Foundation, Origin, Structure};
-use super::{Scene, Truck};
+use super::structure::{Foundation, On, Origin, Structure};
+use super::{Along, Scene, Truck};
 use crate::check::Check;
 use crate::entries::Entries;
 use crate::fault::{Fault, Faults};
@@ -36,10 +36,8 @@ pub(super) fn read(
         let Some(structure) = structures.iter_mut().find(|structure| structure.name == *name) else {
             continue;
         };
-        structure.auto = false;
-        if !matches!(structure.foundation, Foundation::Rigid | Foundation::Influence) {
-            let what = format!("foundation \"{}\" of a structure on a body", structure.foundation.word());
-            check.faults.unavailable(&at.key("foundation"), &what);
+        if matches!(structure.foundation, Foundation::Ties { .. }) {
+            check.faults.unavailable(&at.key("foundation"), "ties on a body");
         }
         match &structure.origin {
             Origin::Tables { .. } => {
@@ -47,8 +45,16 @@ pub(super) fn read(
             }
             Origin::Spec { spec, .. } => refuse(spec, &at, check),
         }
-        structure.on = carrier.map(|carrier| (carrier, position));
+        structure.on = carrier.map(|body| On { body, at: position, moves: moves(bodies, body) });
     }
+}
+
+/// Which of the six motions of a body may change; of a pinned one, all.
+fn moves(bodies: &[Body], b: usize) -> [bool; 6] {
+    let body = &bodies[b];
+    let mut moves = body.free;
+    moves[0] = body.motion != Along::Held;
+    if body.pinned.is_some() { [true; 6] } else { moves }
 }
 
 /// Refuses rails that are not level.
@@ -67,8 +73,7 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) {
     let root = Place::root();
     let (trucks, loads) = (root.key("trucks"), root.key("loads"));
     let tree = |body: usize| root_of(&scene.bodies, body).map_or(body, |(root, _)| root);
-    let carrier =
-        |truck: &Truck| scene.structures[scene.rails[truck.rail].structure].on.map(|(body, _)| body);
+    let carrier = |truck: &Truck| scene.structures[scene.rails[truck.rail].structure].on.map(|on| on.body);
     let name = |body: usize| &scene.bodies[body].name;
     for (index, truck) in scene.trucks.iter().enumerate() {
         let Some(on) = carrier(truck) else { continue };

@@ -330,6 +330,8 @@ impl<'de> Visitor<'de> for NodeVisitor {
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMotion {
     pub body: Option<String>,
+    pub truck: Option<String>,
+    pub wheel: Option<usize>,
     pub dof: Option<String>,
     pub kind: Option<String>,
     pub position: Option<Vec<[f64; 2]>>,
@@ -372,6 +374,8 @@ pub(crate) struct RawStop {
     pub body: Option<String>,
     pub at: Option<[f64; 3]>,
     pub side: Option<String>,
+    pub against: Option<String>,
+    pub gap: Option<f64>,
     pub k: Option<f64>,
     pub c: Option<f64>,
 }
@@ -430,4 +434,45 @@ pub(crate) struct RawEnd {
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawOutput {
     pub dt: Option<f64>,
+    pub reactions: Option<RawColumns>,
+    pub sections: Option<RawColumns>,
+    #[serde(default)]
+    pub dead_load: bool,
+    #[serde(default)]
+    pub spans: Entries<Vec<f64>>,
+}
+
+/// All, none, or some by their names.
+#[derive(Debug)]
+pub(crate) enum RawColumns {
+    All(bool),
+    Names(Vec<String>),
+}
+
+impl<'de> Deserialize<'de> for RawColumns {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ColumnsVisitor)
+    }
+}
+
+struct ColumnsVisitor;
+
+impl<'de> Visitor<'de> for ColumnsVisitor {
+    type Value = RawColumns;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("true, false or a list of names")
+    }
+
+    fn visit_bool<E: Error>(self, all: bool) -> Result<RawColumns, E> {
+        Ok(RawColumns::All(all))
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<RawColumns, A::Error> {
+        let mut names = Vec::new();
+        while let Some(name) = list.next_element()? {
+            names.push(name);
+        }
+        Ok(RawColumns::Names(names))
+    }
 }

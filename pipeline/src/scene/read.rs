@@ -3,7 +3,7 @@
 use super::raw::RawScene;
 use super::{
     Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
-    pin, rope, stop, structure, truck, wheel,
+    output, pin, rope, spin, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -61,8 +61,8 @@ pub(super) fn scene(
         bodies.push(body);
     }
     pin::read(&raw.bodies, &mut bodies, check);
-    mount::read(&raw.structures, &mut structures, &bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
+    mount::read(&raw.structures, &mut structures, &bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let mut wheels = Vec::new();
     let place = root.key("wheels");
@@ -76,8 +76,10 @@ pub(super) fn scene(
         None => 1.0,
     };
     let ropes = rope::read_all(&raw.ropes, &bodies, end, check);
+    let output = output::read(raw, &structures, &rails, &root, check);
     let mut scene = Scene {
         name,
+        output,
         units: known,
         gravity: gravity.unwrap_or_default(),
         analysis: read_analysis(raw, &root, check),
@@ -86,6 +88,7 @@ pub(super) fn scene(
         bodies,
         wheels,
         trucks: Vec::new(),
+        spins: Vec::new(),
         loads,
         ropes,
         stops: Vec::new(),
@@ -101,6 +104,9 @@ pub(super) fn scene(
         stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
+    if scene.trucks.len() == raw.trucks.len() {
+        scene.spins = spin::read_all(&raw.motions, &scene, check);
+    }
     scene.stops = stop::read_all(&raw.stops, &scene, check);
     event::fit_brakes(&raw.events, &mut scene.bodies);
     scene.events = event::read_all(&raw.events, &scene, check);

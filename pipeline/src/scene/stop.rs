@@ -14,8 +14,12 @@ pub struct Stop {
     pub name: String,
     /// Which coordinate of space: 0 along the rail, 1 up.
     pub axis: usize,
-    /// Where on that coordinate.
+    /// Body that bears it; none: it stands in space.
+    pub against: Option<usize>,
+    /// Where on that coordinate, from the origin of the body that bears it.
     pub place: f64,
+    /// The rail of the scene at whose place it stands and that holds it; `None`: the ground does.
+    pub rail: Option<usize>,
     /// Force per length.
     pub stiffness: f64,
     /// Force per speed.
@@ -70,11 +74,22 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             .faults
             .add(Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("a point of that body"));
     }
-    let (axis, place, meetings) = match (&raw.rail, raw.x, raw.height) {
+    if raw.gap.is_some() && raw.against.is_none() {
+        check.faults.add(Fault::new(&at.key("gap"), "`gap` needs `against`").at_key().hint("a body"));
+    }
+    if let (Some(other), None, None, None) = (&raw.against, &raw.rail, raw.x, raw.height) {
+        check.faults.need(&raw.body, at, "body")?;
+        let met = (body??, point.unwrap_or_default());
+        let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
+        let meetings = vec![Meeting { body: met.0, at: met.1, side }];
+        let against = Some(against);
+        return Some(Stop { name, axis: 0, against, place, rail: None, stiffness, damping, meetings });
+    }
+    let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
         (Some(rail), Some(x), None) => {
             let rail = super::rail(rail, &scene.rails, &at.key("rail"), check.faults)?;
             let x = check.number(x, &at.key("x"), Dimension::LENGTH);
-            (0, x, on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+            (0, x, Some(rail), on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
         }
         (None, None, Some(height)) => {
             let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
@@ -82,15 +97,49 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             let side =
                 raw.side.as_ref().map_or(Some(-1.0), |word| check.faults.word(word, &at.key("side"), &words));
             check.faults.need(&raw.body, at, "body")?;
-            (1, height, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
+            (1, height, None, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
         }
         _ => {
-            let fault = Fault::new(at, "must have `rail` and `x`, or `body` and `Y`");
-            check.faults.add(fault.hint("an end stop of a rail, or a floor below a body"));
+            let fault = Fault::new(at, "must have `rail` and `x`, `body` and `Y`, or `body` and `against`");
+            check
+                .faults
+                .add(fault.hint("an end stop of a rail, a floor below a body, or a buffer between bodies"));
             return None;
         }
     };
-    Some(Stop { name, axis, place, stiffness, damping, meetings })
+    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, meetings })
+}
+
+/// A buffer between a point of one body and the body named `other`, which it meets after `gap`: the body that bears it,
+/// its place from that body's origin, and the side.
+fn buffer(
+    raw: &RawStop,
+    (body, point): (usize, [f64; 3]),
+    other: &str,
+    scene: &Scene,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<(usize, f64, f64)> {
+    let known = super::names(&scene.bodies, |body| &body.name);
+    let against = super::resolve(other, &known, "body", &at.key("against"), check.faults)?;
+    let gap = raw.gap.unwrap_or_default();
+    let gap = check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "the way until they meet");
+    if let Some(side) = &raw.side {
+        let fault = Fault::new(&at.key("side"), "a buffer between bodies has no `side`").at_key();
+        check.faults.add(fault.got(format!("\"{side}\"")).hint("where they stand at the start says it"));
+    }
+    let place = |b: usize| pin::root_of(&scene.bodies, b).map(|(root, ahead)| scene.bodies[root].x0 + ahead);
+    let roots = [body, against].map(|b| pin::root_of(&scene.bodies, b).map(|(root, _)| &scene.bodies[root]));
+    let [Some(one), Some(two)] = roots else { return None };
+    let shares = one.track.iter().any(|rail| two.track.contains(rail));
+    if one.name == two.name || !shares {
+        let fault = Fault::new(&at.key("against"), "must be another body on the same rail");
+        check.faults.add(fault.got(format!("\"{other}\"")));
+        return None;
+    }
+    let apart = place(body)? + point[0] - place(against)?;
+    let side = if place(body)? <= place(against)? { 1.0 } else { -1.0 };
+    Some((against, apart + side * gap, side))
 }
 
 /// What meets the stop at `x` of a rail: of one body, or of all that move on the rail, the wheel that is nearest to it.

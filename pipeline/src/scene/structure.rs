@@ -38,8 +38,19 @@ pub struct Structure {
     pub longitudinal: bool,
     /// Shapes of its rails when nothing loads them, one a rail; none where all are straight.
     pub irregularities: Vec<sim::Irregularity>,
-    /// The body that carries it, and where the spec's origin is from that body's; `None`: the ground.
-    pub on: Option<(usize, [f64; 3])>,
+    /// The body that carries it; `None`: the ground.
+    pub on: Option<On>,
+}
+
+/// What carries a structure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct On {
+    /// Index of the body.
+    pub body: usize,
+    /// Where the spec's origin is from that body's.
+    pub at: [f64; 3],
+    /// Which of x, y, z, roll, yaw, pitch of the body's origin may move.
+    pub moves: [bool; 6],
 }
 
 /// Where influence coefficients come from.
@@ -281,6 +292,9 @@ pub(super) fn read(
     if raw.longitudinal == Some(true) && raw.tables.is_some() {
         let fault = Fault::new(&at.key("longitudinal"), "needs a `spec`").at_key();
         check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
+    }
+    if raw.longitudinal == Some(true) && raw.on.is_some() {
+        check.faults.unavailable(&at.key("longitudinal"), "give along the rails of a structure on a body");
     }
     if raw.longitudinal == Some(true) && matches!(word, Word::Parts) {
         let fault = Fault::new(&at.key("longitudinal"), "\"parts\" do not give along the rail").at_key();

@@ -3,6 +3,7 @@
 mod cuts;
 mod frame;
 mod girder;
+mod grounds;
 mod locate;
 mod members;
 mod rails;
@@ -16,6 +17,7 @@ use fea::{Girder, Model, Rail, Theory};
 
 pub use cuts::{Cut, Spot};
 pub use frame::Frame;
+pub use grounds::Ground;
 
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;

@@ -1,0 +1,63 @@
+use splines::Axis;
+
+use super::{Irregularity, Wave};
+
+#[test]
+fn pieces_are_linear_between_rows_and_constant_beyond() {
+    let shape = Irregularity::new(&[[1.0, 0.0], [3.0, 4.0], [3.0, 1.0]], &[[2.0, 5.0]]).expect("rows");
+    assert_eq!(shape.breaks(), [1.0, 2.0, 3.0]);
+    let at = |x: f64, direction: f64| shape.vertical(shape.piece(x, direction, 0), x);
+    assert_eq!(at(-7.0, 1.0), [0.0, 0.0]);
+    assert_eq!(at(1.5, 1.0), [1.0, 2.0]);
+    assert_eq!(at(2.5, -1.0), [3.0, 2.0]);
+    assert_eq!((at(3.0, -1.0), at(3.0, 1.0)), ([4.0, 2.0], [1.0, 0.0]));
+    assert_eq!(at(9.0, 1.0), [1.0, 0.0]);
+    assert_eq!(shape.lateral(0, 0.0), [5.0, 0.0]);
+}
+
+#[test]
+fn a_wheel_at_rest_at_a_corner_stays_on_its_piece() {
+    let shape = Irregularity::new(&[[1.0, 0.0], [2.0, 1.0]], &[]).expect("rows");
+    assert_eq!([0, 1, 2].map(|current| shape.piece(1.0, 0.0, current)), [0, 1, 1]);
+    assert_eq!(shape.piece(1.5, 0.0, 0), 1);
+}
+
+#[test]
+fn tables_that_fall_back_or_step_twice_are_refused() {
+    assert!(Irregularity::new(&[[1.0, 0.0], [0.5, 0.0]], &[]).is_err());
+    assert!(Irregularity::new(&[], &[[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]]).is_err());
+    assert!(Irregularity::new(&[[1.0, f64::NAN]], &[]).is_err());
+    assert!(Irregularity::new(&[], &[]).expect("nothing").is_straight());
+    let wave = Wave { amplitude: 1.0, length: 0.0, phase: 0.0, range: [0.0, 1.0] };
+    assert!(Irregularity::wave(Axis::Vertical, wave).is_err());
+    assert!(Irregularity::wave(Axis::Longitudinal, Wave { length: 1.0, ..wave }).is_err());
+    assert!(Irregularity::wave(Axis::Lateral, Wave { length: 1.0, range: [1.0, 1.0], ..wave }).is_err());
+}
+
+#[test]
+fn sum_has_the_corners_and_the_values_of_both() {
+    let step = Irregularity::new(&[[3.0, 0.0], [3.0, 0.5]], &[[1.0, 2.0]]).expect("rows");
+    let wave = Wave { amplitude: 2.0, length: 4.0, phase: 0.3, range: [2.0, 7.0] };
+    let swell = Irregularity::wave(Axis::Vertical, wave).expect("a wave");
+    let endless =
+        Irregularity::wave(Axis::Lateral, Wave { range: [f64::NEG_INFINITY, f64::INFINITY], ..wave })
+            .expect("a wave");
+    let sum = endless.plus(&step.plus(&swell));
+    assert_eq!(sum.breaks(), [1.0, 2.0, 3.0, 7.0]);
+    for x in [-4.0, 1.5, 2.5, 3.5, 6.9, 7.1] {
+        let parts = [&step, &swell, &endless];
+        let value = |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.lateral(s.piece(x, 1.0, 0), x));
+        let (vertical, lateral) = value(&sum);
+        for k in 0..2 {
+            let [a, b] = [0, 1].map(|side| {
+                parts.iter().map(|s| if side == 0 { value(s).0[k] } else { value(s).1[k] }).sum::<f64>()
+            });
+            assert!((vertical[k] - a).abs() < 1e-14 && (lateral[k] - b).abs() < 1e-14);
+        }
+    }
+    let piece = |x: f64| sum.piece(x, 1.0, 0);
+    assert!(
+        (sum.vertical(piece(2.5), 2.5)[0] - 2.0 * (0.25 * std::f64::consts::PI + 0.3).sin()).abs() < 1e-14
+    );
+    assert_eq!(sum.vertical(piece(8.0), 8.0), [0.5, 0.0]);
+}

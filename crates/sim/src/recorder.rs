@@ -1,0 +1,180 @@
+//! Samples of a run, channel by channel.
+
+use std::ops::Range;
+
+use splines::{Influence, Probe};
+
+use crate::dense::dot;
+use crate::energy::{brake_force, drive_force};
+use crate::geometry::Geometry;
+use crate::history::{Channel, History};
+use crate::scene::arm_rows;
+use crate::state::State;
+use crate::system::System;
+use crate::{Analysis, Error, Freedom, Gauge};
+
+/// Structures whose freedoms are recorded, with the numbers of these.
+fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
+    let all = system.structure.iter().zip(system.foundations).enumerate();
+    all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
+}
+
+/// Writes samples.
+pub(crate) struct Recorder {
+    pub history: History,
+    /// Scratch of the gauges.
+    probes: Vec<Probe>,
+    shape: Vec<f64>,
+}
+
+impl Recorder {
+    pub fn new(system: &System) -> Self {
+        let actuators = &system.scene.actuators;
+        let ends = 2 * actuators.ropes.len() + actuators.stops.len() + system.scene.gauges.len();
+        let count = 1 + 14 * system.scene.bodies.len() + 9 * system.wheels.len() + ends;
+        let mut channels = Vec::with_capacity(count);
+        channels.push(Channel::Time);
+        for b in 0..system.scene.bodies.len() {
+            channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
+            channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
+            channels.extend([Channel::Drive(b), Channel::Brake(b)]);
+        }
+        for w in 0..system.wheels.len() {
+            channels.extend([
+                Channel::Place(w),
+                Channel::Vertical(w),
+                Channel::Lateral(w),
+                Channel::Traction(w),
+                Channel::Penetration(w),
+                Channel::Give(w),
+                Channel::SpinAngle(w),
+                Channel::SpinSpeed(w),
+                Channel::SpinMoment(w),
+            ]);
+        }
+        channels.extend((0..actuators.ropes.len()).flat_map(|r| [Channel::Tension(r), Channel::Length(r)]));
+        channels.extend((0..actuators.stops.len()).map(Channel::Stop));
+        channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
+        for (s, range) in recorded(system) {
+            channels.extend((0..range.len()).map(|k| Channel::Coordinate(s, k)));
+            channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
+        }
+        let history = History { channels, values: Vec::new() };
+        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
+    }
+
+    /// Numbers of a sample.
+    pub fn width(&self) -> usize {
+        self.history.channels().len()
+    }
+
+    /// Adds a sample; `geometry` belongs to `at`.
+    pub fn record(&mut self, system: &System, geometry: &Geometry, at: &State) -> Result<(), Error> {
+        let mut values = std::mem::take(&mut self.history.values);
+        let done = self.row(system, geometry, at, &mut values);
+        self.history.values = values;
+        done
+    }
+
+    /// Appends a sample to `values`; `geometry` belongs to `at`.
+    pub fn row(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        at: &State,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        values.push(at.t);
+        for b in 0..system.scene.bodies.len() {
+            let (displacement, speed) = system.body(b, at.t, &at.q, &at.v);
+            values.extend(displacement);
+            values.extend(speed);
+            values.extend([drive_force(system, geometry, at, b), brake_force(system, at, b)]);
+        }
+        for (w, wheel) in system.wheels.iter().enumerate() {
+            let mut vertical = 0.0;
+            let mut deepest = f64::NEG_INFINITY;
+            for i in system.normals_of(w) {
+                vertical += at.force[i] / system.normals[i].count();
+                if geometry.share[i][0] > 0.0 {
+                    deepest = deepest.max(at.p[i]);
+                }
+            }
+            let lateral =
+                system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
+            let traction =
+                system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
+            let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
+            let own = system
+                .irregularity(w)
+                .map_or(0.0, |shape| shape.vertical(geometry.piece[w], geometry.x[w])[0]);
+            let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
+            let (angle, speed) = match (wheel.spin, system.turn(w, at.t)) {
+                (Some(number), _) => (at.q[number], at.v[number]),
+                (None, Some(turn)) => (turn.x, turn.v),
+                (None, None) => (0.0, 0.0),
+            };
+            values.extend([
+                geometry.x[w],
+                vertical,
+                lateral,
+                traction,
+                deepest,
+                down - deepest,
+                angle,
+                speed,
+                system.moment(geometry, at, w),
+            ]);
+        }
+        let ropes = system.scene.actuators.ropes.len();
+        for (index, hold) in geometry.links.iter().enumerate() {
+            values.push(at.force[system.link(index)]);
+            if index < ropes {
+                values.push(hold.length);
+            }
+        }
+        for gauge in &system.scene.gauges {
+            let displacement = self.displacement(system, geometry, at, gauge)?;
+            values.push(displacement);
+        }
+        let moves = system.scene.analysis == Analysis::Dynamic;
+        for (_, range) in recorded(system) {
+            values.extend(range.clone().map(|k| at.q[k]));
+            values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
+        }
+        Ok(())
+    }
+
+    /// G F + Phi q at a gauge.
+    fn displacement(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        at: &State,
+        gauge: &Gauge,
+    ) -> Result<f64, Error> {
+        let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
+        let failed = |source| Error::Compliance { structure: s, source };
+        let mut sum = 0.0;
+        if let Some(compliance) = &foundation.compliance {
+            let entries = &system.entries[s];
+            self.probes.clear();
+            self.probes.push(gauge.probe);
+            let wheels = entries.iter().map(|e| Probe { x: geometry.x[e.wheel], ..e.probe });
+            self.probes.extend(wheels);
+            let mut influence = Influence::zeros(self.probes.len());
+            compliance.fill(&self.probes, &mut influence).map_err(failed)?;
+            for (j, entry) in entries.iter().enumerate() {
+                sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.component];
+            }
+        }
+        if let Some(structure) = &foundation.structure {
+            let range = system.structure[s].clone();
+            let (value, slope) = self.shape.split_at_mut(system.freedoms);
+            let value = &mut value[..range.len()];
+            structure.shapes.row(gauge.probe, value, &mut slope[..range.len()]).map_err(failed)?;
+            sum += dot(value, &at.q.as_slice()[range]);
+        }
+        Ok(sum)
+    }
+}

@@ -1,0 +1,67 @@
+//! Columns of reactions and internal forces, by name.
+
+use crate::effect::COMPONENTS;
+use crate::scene::{Origin, Scene};
+use crate::spec::Spec;
+use crate::units::Dimension;
+
+/// Number of columns of one kind up to which a scene that does not say otherwise has them all.
+pub const MOST: usize = 100;
+
+/// A reaction, or a component of the internal force at a section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Column {
+    /// `<structure>.<support>.<freedom>` or `<structure>.<section>.<component>`.
+    pub name: String,
+    /// Force or moment.
+    pub dimension: Dimension,
+    /// Whether it is a reaction.
+    pub is_reaction: bool,
+    /// Whether it is a force of the ground along the structure's `up`, or sideways to its first rail.
+    pub direction: Option<Direction>,
+}
+
+/// Direction of a force of the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// Along `up`.
+    Vertical,
+    /// Normal to `up` and to the first rail.
+    Lateral,
+}
+
+/// Names of all reactions, and of all internal forces, that a structure of this spec can have.
+#[must_use]
+pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
+    let reactions = spec.model().map_or_else(
+        |_| Vec::new(),
+        |(model, _)| {
+            let grounds = spec.grounds(&model);
+            let all = grounds.iter().flat_map(|ground| {
+                ground
+                    .freedoms
+                    .iter()
+                    .map(|freedom| format!("{structure}.{}.{}", ground.name, spec.freedom_word(*freedom)))
+            });
+            all.collect()
+        },
+    );
+    let sections = spec
+        .effects
+        .iter()
+        .flat_map(|cut| COMPONENTS.iter().map(move |(word, _)| format!("{structure}.{}.{word}", cut.name)));
+    [reactions, sections.collect()]
+}
+
+/// Whether a scene has few reactions, and few internal forces: at most [`MOST`].
+pub(super) fn few(scene: &Scene) -> [bool; 2] {
+    let mut counts = [0; 2];
+    for structure in &scene.structures {
+        if let Origin::Spec { spec, .. } = &structure.origin {
+            let [reactions, sections] = names(&structure.name, spec);
+            counts[0] += reactions.len();
+            counts[1] += sections.len();
+        }
+    }
+    counts.map(|count| count <= MOST)
+}

@@ -1,0 +1,135 @@
+//! What the report says of reactions, internal forces, sag and uplift.
+
+use super::Response;
+use crate::report::{Cell, Column, Section, Table};
+use crate::scene::Scene;
+use crate::units::Dimension;
+
+/// Most rows of a table.
+const ROWS: usize = 60;
+
+/// The section of the first run.
+#[must_use]
+pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
+    let mut section = Section::new("Reactions, sag and uplift");
+    if !response.columns.is_empty() {
+        let weight = if scene.output.dead_load { "with" } else { "without" };
+        section = section
+            .say(format!(
+                "Reactions of the ground on the structures, positive along their global axes, and internal forces at \
+                 named sections: influence lines times wheel forces, less the inertia of the structure; {weight} the \
+                 structures' own weight, which stands in a column of its own."
+            ))
+            .table(envelopes(scene, label, response));
+    }
+    if !response.deflections.is_empty() {
+        section = section.table(deflections(scene, label, response));
+    }
+    if !response.uplifts.is_empty() {
+        let mut table = Table {
+            caption: format!("Wheels off their rails in the run \"{label}\"."),
+            columns: vec![Column::new("wheel", ""), Column::new("from", "s"), Column::new("for", "s")],
+            rows: Vec::new(),
+        };
+        for uplift in response.uplifts.iter().take(ROWS) {
+            table.rows.push(vec![
+                Cell::from(uplift.wheel.clone()),
+                Cell::from(uplift.time),
+                Cell::from(uplift.duration),
+            ]);
+        }
+        section = section.table(table);
+    }
+    for sway in &response.sways {
+        let unit = scene.units.label(Dimension::LENGTH);
+        for (axis, [least, most]) in ["X", "Y", "Z"].into_iter().zip(sway.range) {
+            section = section.fact(format!("{}: range of {axis}", sway.body), most - least, &unit);
+        }
+    }
+    for note in &response.notes {
+        section = section.say(format!("{note}."));
+    }
+    section
+}
+
+fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
+    let more = response.envelopes.len().saturating_sub(ROWS);
+    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let mut table = Table {
+        caption: format!(
+            "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
+        ),
+        columns: vec![
+            Column::new("quantity", ""),
+            Column::new("unit", ""),
+            Column::new("max", ""),
+            Column::new("at time", "s"),
+            Column::new("bodies at", ""),
+            Column::new("min", ""),
+            Column::new("at time", "s"),
+            Column::new("bodies at", ""),
+            Column::new("own weight", ""),
+        ],
+        rows: Vec::new(),
+    };
+    let own = response.columns.iter().zip(&response.dead);
+    for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
+        let mut row =
+            vec![Cell::from(envelope.column.clone()), Cell::from(scene.units.label(column.dimension))];
+        for extreme in [&envelope.max, &envelope.min] {
+            row.extend([Cell::from(extreme.value), Cell::from(extreme.time), Cell::from(places(extreme))]);
+        }
+        row.push(Cell::from(*dead));
+        table.rows.push(row);
+    }
+    table
+}
+
+fn places(extreme: &super::Extreme) -> String {
+    let text = |x: &f64| crate::report::number(*x, 5).unwrap_or_default();
+    let all = extreme.bodies.iter().map(|(name, at)| {
+        let at: Vec<String> = at.iter().map(text).collect();
+        format!("{name} {}", at.join(", "))
+    });
+    all.collect::<Vec<_>>().join("; ")
+}
+
+fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let mut table = Table {
+        caption: format!(
+            "Sag of the rails between the ends of each span in the run \"{label}\", and the span over it."
+        ),
+        columns: vec![
+            Column::new("rail", ""),
+            Column::new("direction", ""),
+            Column::new("from", &unit),
+            Column::new("to", &unit),
+            Column::new("sag", &unit),
+            Column::new("at", &unit),
+            Column::new("at time", "s"),
+            Column::new("span over sag", ""),
+            Column::new("keeps", ""),
+        ],
+        rows: Vec::new(),
+    };
+    for found in response.deflections.iter().take(ROWS) {
+        let kept = match (found.keeps(600.0), found.keeps(400.0)) {
+            (true, _) => "L/600",
+            (false, true) => "L/400, not L/600",
+            (false, false) => "not L/400",
+        };
+        table.rows.push(vec![
+            Cell::from(found.rail.clone()),
+            Cell::from(found.direction.to_owned()),
+            Cell::from(found.span[0]),
+            Cell::from(found.span[1]),
+            Cell::from(found.value),
+            Cell::from(found.x),
+            Cell::from(found.time),
+            found.ratio().map_or(Cell::Empty, Cell::from),
+            Cell::from(kept.to_owned()),
+        ]);
+    }
+    table
+}
