@@ -190,3 +190,9 @@ fn equal_runs_give_equal_bytes() {
     assert!(!manifests[0].is_empty());
     assert_eq!(manifests[0], manifests[1]);
 }
+
+#[test]
+#[ignore = "slow: 45 s of a crane with sixteen wheels, twice"]
+fn bridge_crane_gives_its_expected_numbers() {
+    check("bridge_crane");
+}
