@@ -50,7 +50,7 @@ fn at_rest_both_rows_carry_the_same_flexible_and_rigid() {
     scene["ropes"][0].as_object_mut().expect("a rope").remove("speed");
     scene["stops"] = json!([]);
     scene["end"]["time"] = json!(0.2);
-    scene["output"]["dt"] = json!(0.01);
+    scene["output"]["dt"] = json!(0.002);
     let (histories, summary) = run(&scene);
     let [flexible, rigid] = &histories[..] else { panic!("two runs") };
     for row in ["aisle.north.reaction", "aisle.south.reaction"] {
