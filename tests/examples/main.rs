@@ -158,7 +158,7 @@ fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
         let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
         assert!(
-            ["bogie", "mill_girderway", "ties", "wheel", "yang_yau"].contains(&name.as_str()),
+            ["bogie", "bridge_crane", "mill_girderway", "ties", "wheel", "yang_yau"].contains(&name.as_str()),
             "examples/{name} has no test"
         );
         for file in ["scene.json", "README.md", "expected.json"] {
@@ -189,4 +189,10 @@ fn equal_runs_give_equal_bytes() {
         .map(|folder| std::fs::read(folder.path().join("manifest.json")).expect("a manifest"));
     assert!(!manifests[0].is_empty());
     assert_eq!(manifests[0], manifests[1]);
+}
+
+#[test]
+#[ignore = "slow: 45 s of a crane with sixteen wheels, twice"]
+fn bridge_crane_gives_its_expected_numbers() {
+    check("bridge_crane");
 }

@@ -161,6 +161,12 @@ fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
     if !compare.is_empty() {
         result["compare"] = Value::Object(compare);
     }
+    let runs: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), &outcome.record, &outcome.response)).collect();
+    let comparison = response::comparison(&runs);
+    if !comparison.is_empty() {
+        result["comparison"] = Value::Object(comparison);
+    }
     result
 }
 

@@ -4,6 +4,7 @@
 
 mod bending;
 mod column;
+mod comparison;
 mod deflection;
 mod envelope;
 mod line;
@@ -17,6 +18,7 @@ mod wheel_load;
 
 pub use bending::Bending;
 pub use column::{Column, MOST, names};
+pub use comparison::comparison;
 pub use deflection::Deflection;
 pub use envelope::{Envelope, Extreme};
 pub use line::Lines;
