@@ -55,14 +55,45 @@ fn runway_wheels_carry_the_trolley_and_the_girder_by_their_levers() {
     let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
     let files = [("beam.json", BEAM), ("long.json", &long)];
     let columns = ["time", "base.wheel1.vertical", "base.wheel2.vertical", "cart.wheel1.vertical"];
-    let rows = run(CRANE, &files, &columns);
-    assert_eq!(rows.len(), 9);
-    for row in rows {
-        // Analytic: the girder of 300 kg/m lies evenly, the trolley at -8 + 2 t.
-        let (even, trolley) = (0.5 * 9.80665 * (10_000.0 + 6000.0), 0.5 * 9.80665 * 4000.0);
-        let lever = (-8.0 + 2.0 * row[0]) / 9.0;
-        for (found, wanted) in row[1..3].iter().zip([1.0 - lever, 1.0 + lever].map(|s| even + trolley * s)) {
-            assert!((found - wanted).abs() < 1e-6 * wanted, "{row:?}: {wanted}");
+    for foundation in ["influence", "parts", "auto"] {
+        let rows = run(&crane_on(foundation), &files, &columns);
+        assert_eq!(rows.len(), 9);
+        for row in rows {
+            // Analytic: the girder of 300 kg/m lies evenly, the trolley at -8 + 2 t.
+            let (even, trolley) = (0.5 * 9.80665 * (10_000.0 + 6000.0), 0.5 * 9.80665 * 4000.0);
+            let lever = (-8.0 + 2.0 * row[0]) / 9.0;
+            let wanted = [1.0 - lever, 1.0 + lever].map(|share| even + trolley * share);
+            for (found, wanted) in row[1..3].iter().zip(wanted) {
+                assert!((found - wanted).abs() < 1e-6 * wanted, "{foundation}, {row:?}: {wanted}");
+            }
+        }
+    }
+}
+
+/// The crane with its girder on another foundation.
+fn crane_on(foundation: &str) -> String {
+    let girder = |word: &str| format!(r#""spec": "beam.json", "foundation": "{word}""#);
+    CRANE.replace(&girder("influence"), &girder(foundation))
+}
+
+#[test]
+fn auto_climbs_on_a_carrier_as_on_the_ground() {
+    let long = BEAM.replace("[20]", "[100]").replace("[0, 5, 10, 15, 20]", "[0, 50, 100]");
+    let files = [("beam.json", BEAM), ("long.json", &long)];
+    let moving = |foundation: &str| {
+        crane_on(foundation).replace("quasi-static", "dynamic").replace("\"time\": 8", "\"time\": 1")
+    };
+    let columns = ["trolley.deflection", "cart.wheel1.vertical"];
+    let folder = folder();
+    let found = run_in(&folder, &moving("auto"), &files, &columns);
+    let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+    let rung = &summary["foundation"]["girder"];
+    assert_eq!(rung["foundation"], "modal", "{rung}");
+    assert!(rung["reason"].as_str().is_some_and(|why| why.contains("within the tolerance")), "{rung}");
+    let wanted = run(&moving("full"), &files, &columns);
+    for (found, wanted) in found.iter().zip(&wanted) {
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 0.01 * wanted.abs().max(0.002), "{found} for {wanted}");
         }
     }
 }

@@ -56,6 +56,37 @@ fn a_check_says_what_it_found_and_its_status_whether_that_is_enough() {
 }
 
 #[test]
+fn coulomb_friction_is_a_tanh_of_the_slip_in_every_form() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    fs::copy(scene("floor"), folder.path().join("floor.json")).expect("a copy");
+    let step = fs::read_to_string(scene("crane")).expect("a scene");
+    let coulomb = step.replace(r#""friction": {"law": "step""#, r#""friction": {"law": "coulomb""#);
+    assert_ne!(coulomb, step);
+    let [from, file] = ["scene.json", "crane.adm"].map(|name| folder.path().join(name));
+    fs::write(&from, coulomb).expect("written");
+    for form in ["akispl", "symmetrised", "factored"] {
+        let run = girderway(&[
+            "deck",
+            path(&from),
+            "-o",
+            path(&file),
+            "--form",
+            form,
+            "--check",
+            "--states",
+            "20",
+            "--json",
+        ]);
+        assert_eq!(run.status.code(), Some(0), "{form}: {}", String::from_utf8_lossy(&run.stderr));
+        let report: Value = serde_json::from_slice(&run.stdout).expect("JSON");
+        assert_eq!(report["holds"], true);
+        // Three wheels of the crane have friction.
+        let deck = fs::read_to_string(&file).expect("a data set");
+        assert_eq!(deck.matches("TANH(").count(), 3, "{form}");
+    }
+}
+
+#[test]
 fn foundations_that_a_deck_cannot_have_are_refused_by_name() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let spec = example("bogie").with_file_name("spec.json");

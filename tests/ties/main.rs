@@ -14,6 +14,7 @@ use girderway::spec::{Form, Spec};
 use girderway::track::{Ties, on_ground, on_structure};
 use girderway::units::{Force, Length, Units};
 use nalgebra::DMatrix;
+use sim::{Reason, Rung};
 use splines::{Axis, Compliance, Influence, Probe, Surface};
 
 const E: f64 = 30e6;
@@ -163,6 +164,36 @@ fn run(scene: &str, girder: &str) -> Vec<Outcome> {
         .collect();
     let quiet = Progress::new(Global { quiet: true, ..Global::default() });
     simulate(&document, &known, None, &quiet).expect("runs")
+}
+
+/// A cart over ties whose foundation is left to the program.
+fn on_ties(structure: &str) -> Outcome {
+    let scene = format!(
+        r#"{{"format": "girderway-scene/1", "units": {{"length": "in", "force": "lbf", "time": "s"}}, "gravity": 386.0886,
+ "structures": {{"track": {{{structure}"foundation": "auto", "range": [0, 480],
+   "ties": {{"spacing": 24, "k": 72000, "rail": {{"E": 30e6, "I_vertical": 94.9}}}}}}}},
+ "bodies": {{"cart": {{"weight": 30000, "inertia": [0, 0, 1e5], "dof": ["y", "pitch"], "x0": 200}}}},
+ "wheels": {{"tread": {{"radius": 18, "vertical": {{"k": 1e6}}}}}},
+ "trucks": [{{"name": "cart", "body": "cart", "tree": [-30, 30], "wheel": "tread"}}],
+ "motions": [{{"body": "cart", "dof": "x", "kind": "prescribed", "speed": [[0, 100]]}}],
+ "end": {{"time": 0.1}}, "output": {{"dt": 0.02}}}}"#
+    );
+    run(&scene, GIRDER).swap_remove(0)
+}
+
+/// 480 in, with mass, below the ties.
+const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "in", "force": "lbf", "time": "s"},
+ "girder": {"spans": [480], "E": 30e6, "I_vertical": 20000, "mass_per_length": 0.05}, "stations": [0, 240, 480]}"#;
+
+/// Ties without mass know no error of leaving it out; over a girder with mass `auto` compares its rungs.
+#[test]
+fn auto_on_ties_says_which_rung_and_why() {
+    let choice = |outcome: &Outcome| outcome.choices.first().expect("it chose").clone();
+    let ground = choice(&on_ties(""));
+    assert_eq!((ground.rung, ground.reason), (Rung::Influence, Reason::NoMass), "{ground:?}");
+    let girder = choice(&on_ties(r#""spec": "girder.json", "#));
+    println!("{ground:?}\n{girder:?}");
+    assert!(girder.tried.len() > 1 && girder.reason != Reason::NoMass, "{girder:?}");
 }
 
 /// The largest and smallest amplification of a load of 30,000 lb while it runs at `theta` of the critical speed.
