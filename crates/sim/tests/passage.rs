@@ -92,7 +92,7 @@ fn every_column_and_energy_is_that_of_the_general_stepper() {
     }
 }
 
-/// External: `fea/bogie_reference.py`.
+/// External: `fea/bogie_reference.py`. Energy: identity.
 #[test]
 fn errors_stay_below_the_accuracy_asked() {
     for (speed, end, text) in [
@@ -110,6 +110,8 @@ fn errors_stay_below_the_accuracy_asked() {
             let error =
                 wanted.iter().zip(y).fold(0.0_f64, |max, (row, y)| max.max((y + row[1]).abs())) / peak;
             assert!(error < 1.0 * scene.accuracy, "{speed} ft/s: {error:.1e} at {:.0e}", scene.accuracy);
+            let residual = run.audit.residual();
+            assert!(residual < 0.1 * scene.accuracy, "{speed} ft/s: energy to {residual:.1e}");
             assert!(run.counts.steps < 150 && run.counts.rejected == 0, "{:?}", run.counts);
         }
     }

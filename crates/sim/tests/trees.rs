@@ -169,6 +169,7 @@ fn errors(run: &Run, h: f64) -> [f64; 2] {
     [worst[0] / peak[0], worst[1] / peak[1]]
 }
 
+/// The audit keeps what Radau itself loses, (h omega)^6/3600 a step; no quadrature takes that out.
 #[test]
 fn eight_wheels_under_massive_equalisers_follow_lagrange_multipliers() {
     for (accuracy, bound) in [(1e-3, 1e-3), (1e-7, 1e-8)] {
@@ -183,7 +184,7 @@ fn eight_wheels_under_massive_equalisers_follow_lagrange_multipliers() {
         );
         assert!(z < bound, "z errs by {z}");
         assert!(force < 10.0 * bound, "a wheel force errs by {force}");
-        assert!(run.audit.residual() < 0.1 * bound, "energy residual {}", run.audit.residual());
+        assert!(run.audit.residual() < 0.03 * bound, "energy residual {}", run.audit.residual());
     }
 }
 

@@ -8,8 +8,12 @@ pub(super) type Matrix<const P: usize> = [[f64; P]; P];
 /// Coefficients that the compliance may have: that of a uniform beam is of degree 6 along the rail.
 pub(super) const TERMS: usize = 7;
 
-/// Coefficients of the forces, at most.
+/// Coefficients of the forces that move the freedoms, at most.
 pub(super) const MOST: usize = 24;
+
+/// Coefficients of the forces beyond those: what the law answers to the motion found, so that forces and energy do not
+/// jump where a step ends.
+const MORE: usize = 2;
 
 /// m contacts, padded to P: what is the same everywhere.
 pub(super) struct Contacts<const P: usize> {
@@ -29,8 +33,8 @@ pub(super) struct Contacts<const P: usize> {
 pub(super) struct Series<const P: usize> {
     pub scale: f64,
     pub order: usize,
-    force: [[f64; P]; MOST],
-    approach: [[f64; P]; MOST + 2],
+    force: [[f64; P]; MOST + MORE],
+    approach: [[f64; P]; MOST + MORE + 1],
 }
 
 /// Values at one time, and rates by time.
@@ -43,7 +47,7 @@ pub(super) struct Values<const P: usize> {
 
 impl<const P: usize> Series<P> {
     pub fn new(order: usize) -> Self {
-        Series { scale: 1.0, order, force: [[0.0; P]; MOST], approach: [[0.0; P]; MOST + 2] }
+        Series { scale: 1.0, order, force: [[0.0; P]; MOST + MORE], approach: [[0.0; P]; MOST + MORE + 1] }
     }
 
     /// The series of the step that starts with the approach `start` at the rate `rate`; `compliance` are the coefficients of
@@ -64,22 +68,37 @@ impl<const P: usize> Series<P> {
         self.approach[0] = *start;
         self.approach[1] = rate.map(|rate| rate * scale);
         for (k, second) in SECOND.iter().enumerate().take(self.order) {
-            let by_rate = (k + 1) as f64 / scale;
-            let (w, next) = (&self.approach[k], &self.approach[k + 1]);
-            let mut right: [f64; P] = std::array::from_fn(|i| w[i] + contacts.ratio[i] * by_rate * next[i]);
-            for (matrix, force) in compliance[1..].iter().zip(self.force[..k].iter().rev()) {
-                subtract(matrix, force, &mut right);
-            }
-            let mut force = [0.0; P];
-            subtract(&inverse, &right, &mut force);
-            let force = force.map(|force| -force);
+            let force = self.answer(contacts, compliance, &inverse, k);
             self.force[k] = force;
             let mut fall = if k == 0 { contacts.free } else { [0.0; P] };
             subtract(&contacts.mobile, &force, &mut fall);
             let factor = scale * scale * second;
             self.approach[k + 2] = fall.map(|fall| factor * fall);
         }
+        self.approach[self.order + 2..].fill([0.0; P]);
+        for k in self.order..self.order + MORE {
+            self.force[k] = self.answer(contacts, compliance, &inverse, k);
+        }
         Some(())
+    }
+
+    /// Coefficient `k` of the forces, of those before and of the approaches up to the next.
+    fn answer(
+        &self,
+        contacts: &Contacts<P>,
+        compliance: &[Matrix<P>; TERMS],
+        inverse: &Matrix<P>,
+        k: usize,
+    ) -> [f64; P] {
+        let by_rate = (k + 1) as f64 / self.scale;
+        let (w, next) = (&self.approach[k], &self.approach[k + 1]);
+        let mut right: [f64; P] = std::array::from_fn(|i| w[i] + contacts.ratio[i] * by_rate * next[i]);
+        for (matrix, force) in compliance[1..].iter().zip(self.force[..k].iter().rev()) {
+            subtract(matrix, force, &mut right);
+        }
+        let mut force = [0.0; P];
+        subtract(inverse, &right, &mut force);
+        force.map(|force| -force)
     }
 
     /// The longest step whose last two terms are at most `approach` and `force`, by `scale`.
@@ -95,7 +114,7 @@ impl<const P: usize> Series<P> {
 
     /// Values at each of `places`, time since the start by `scale`.
     pub fn at<const N: usize>(&self, places: [f64; N]) -> [Values<P>; N] {
-        let (force, force_rate) = look(&self.force[..self.order], &places);
+        let (force, force_rate) = look(&self.force[..self.order + MORE], &places);
         let (approach, rate) = look(&self.approach[..self.order + 2], &places);
         let per_time = 1.0 / self.scale;
         std::array::from_fn(|at| Values {
