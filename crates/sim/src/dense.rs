@@ -91,18 +91,18 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
             return false;
         }
         if pivot != j {
-            for k in 0..n {
-                a.swap(pivot * n + k, j * n + k);
-            }
+            let (above, below) = a.split_at_mut(pivot * n);
+            above[j * n + j..(j + 1) * n].swap_with_slice(&mut below[j..n]);
             b.swap(pivot, j);
         }
-        for i in j + 1..n {
-            let factor = a[i * n + j] / a[j * n + j];
+        let (above, below) = a.split_at_mut((j + 1) * n);
+        let row = &above[j * n..];
+        let (head, tail) = b.split_at_mut(j + 1);
+        for (line, b) in below.chunks_exact_mut(n).zip(tail) {
+            let factor = line[j] / row[j];
             if factor != 0.0 {
-                for k in j + 1..n {
-                    a[i * n + k] -= factor * a[j * n + k];
-                }
-                b[i] -= factor * b[j];
+                line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+                *b -= factor * head[j];
             }
         }
     }

@@ -13,6 +13,9 @@ pub(crate) const OVERSHOOT: f64 = 1e-9;
 /// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it.
 const SLACK: f64 = 1e-11;
 
+/// The same for each unit of the error that a step may make, where that is more.
+const SLACK_BY_ERROR: f64 = 1e-4;
+
 impl Stepper<'_, '_> {
     /// Length of the step that ends where a wheel with prescribed motion meets a break of its rail, if the
     /// step of length `h` would pass it.
@@ -46,13 +49,14 @@ impl Stepper<'_, '_> {
     }
 
     /// Share of the step just taken at which a freely rolling wheel meets a break of its rail, if the step passes one:
-    /// the root of the wheel's place on the interpolant, less half of [`SLACK`]. Repeated, the step ends before the
+    /// the root of the wheel's place on the interpolant, less half of the slack. Repeated, the step ends before the
     /// break, where the rail's slope is still that of the cell the wheel comes from.
     pub(crate) fn rolling_break(&mut self) -> Option<f64> {
         let system = self.solver.system;
         if !system.moves_freely {
             return None;
         }
+        let nearness = self.nearness();
         let mut first: Option<f64> = None;
         for (w, wheel) in system.wheels.iter().enumerate() {
             if system.scene.bodies[system.kinematics.root(wheel.body)].motion.is_some() {
@@ -61,7 +65,7 @@ impl Stepper<'_, '_> {
             let contact = &system.scene.contacts[wheel.contact];
             let [x0, x1] = [&self.from, &self.to].map(|at| self.solver.geometry.place(system, w, &at.q));
             for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
-                let slack = SLACK * (1.0 + place.abs());
+                let slack = nearness * (1.0 + place.abs());
                 // Within the slack a step may start before the break and cross it, or end beyond it.
                 if (x0 - place) * (x1 - place) >= 0.0 || (x0 - place).abs().min((x1 - place).abs()) < slack {
                     continue;
@@ -79,6 +83,25 @@ impl Stepper<'_, '_> {
             }
         }
         first
+    }
+
+    /// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it.
+    fn nearness(&self) -> f64 {
+        if self.fixed.is_some() { SLACK } else { SLACK.max(SLACK_BY_ERROR * self.tolerance) }
+    }
+
+    /// Share of a step of length `h` at which a freely rolling wheel meets a break, by the accelerations where the step
+    /// starts: near enough where the accuracy asked lets steps end beside a break. Leaves its guess in `to`.
+    pub(crate) fn predicted_break(&mut self, h: f64) -> Option<f64> {
+        if !self.solver.system.moves_freely || self.nearness() <= SLACK {
+            return None;
+        }
+        let (from, to) = (&self.from, &mut self.to);
+        to.t = from.t + h;
+        to.q.axpy(h, &from.v, 1.0);
+        to.q.axpy(0.5 * h * h, &from.a, 1.0);
+        to.v.axpy(h, &from.a, 1.0);
+        self.rolling_break()
     }
 
     /// The first contact that opens or closes within the step, if one does: the share of the step at which it does,

@@ -25,13 +25,20 @@ pub(crate) struct Problem {
     pub known: Vec<bool>,
     /// Ratio of a row of `y` to the row of `w`, where the rate is that of the penetration.
     pub memory: Vec<Option<f64>>,
+    /// Flanges taken as free, whatever their overlap: the columns of the bodies' mobility are not filled for them.
+    pub asleep: Vec<bool>,
     /// Components whose force keeps the give of their rail at a value, as far as their law lets it.
     pub pinned: Vec<Option<f64>>,
     matrix: Vec<f64>,
     residual: Vec<f64>,
     start: Vec<f64>,
     newton: Vec<f64>,
+    /// Rows of the Jacobian that are not the identity's, and whether each is.
     index: Vec<usize>,
+    listed: Vec<bool>,
+    /// Those rows and columns alone, and their change.
+    compact: Vec<f64>,
+    change: Vec<f64>,
 }
 
 impl Problem {
@@ -44,12 +51,16 @@ impl Problem {
             rate: vec![0.0; m],
             known: vec![false; m],
             memory: vec![None; m],
+            asleep: vec![false; m],
             pinned: vec![None; m],
             matrix: vec![0.0; m * m],
             residual: vec![0.0; m],
             start: vec![0.0; m],
             newton: vec![0.0; m],
             index: Vec::with_capacity(m),
+            listed: vec![false; m],
+            compact: vec![0.0; m * m],
+            change: vec![0.0; m],
         }
     }
 
@@ -134,7 +145,7 @@ impl Problem {
         }
         let mut size = self.evaluate(system, geometry, active, force);
         for _ in 0..ITERATIONS {
-            if !solve_general(&mut self.matrix, &mut self.residual) {
+            if !self.solve_acting() {
                 return false;
             }
             let scale = largest(force);
@@ -153,7 +164,8 @@ impl Problem {
                 }
                 damping *= 0.5;
             }
-            if change <= TOLERANCE * scale.max(f64::MIN_POSITIVE) || size == 0.0 {
+            let done = TOLERANCE * scale.max(f64::MIN_POSITIVE);
+            if change <= done || size <= 0.1 * done {
                 return true;
             }
         }
@@ -161,18 +173,47 @@ impl Problem {
         size <= 1e-9 * largest(force)
     }
 
+    /// Newton's change, in `residual`, from the rows that [`Problem::evaluate`] listed; the others are those of the
+    /// identity and are eliminated beforehand.
+    fn solve_acting(&mut self) -> bool {
+        let (m, count) = (self.residual.len(), self.index.len());
+        for (row, &i) in self.index.iter().enumerate() {
+            let line = &self.matrix[i * m..(i + 1) * m];
+            self.change[row] = self.residual[i];
+            for (j, entry) in line.iter().enumerate().filter(|(j, _)| !self.listed[*j]) {
+                self.change[row] -= entry * self.residual[j];
+            }
+            for (entry, &j) in self.compact[row * count..(row + 1) * count].iter_mut().zip(&self.index) {
+                *entry = line[j];
+            }
+        }
+        let solved = solve_general(&mut self.compact[..count * count], &mut self.change[..count]);
+        for (row, &i) in self.index.iter().enumerate() {
+            self.residual[i] = self.change[row];
+        }
+        solved
+    }
+
+    /// Row `i` of the Jacobian is to be filled: the identity's to begin with.
+    fn list(&mut self, i: usize) {
+        let m = self.residual.len();
+        self.index.push(i);
+        self.listed[i] = true;
+        self.matrix[i * m..(i + 1) * m].fill(0.0);
+        self.matrix[i * m + i] = 1.0;
+    }
+
     /// Fills the residual F - law(F) and its Jacobian; returns the residual's largest entry.
     fn evaluate(&mut self, system: &System, geometry: &Geometry, active: &[bool], force: &[f64]) -> f64 {
         let m = force.len();
-        self.matrix.fill(0.0);
-        for i in 0..m {
-            self.matrix[i * m + i] = 1.0;
-            self.residual[i] = 0.0;
-        }
+        self.index.clear();
+        self.listed.fill(false);
+        self.residual.fill(0.0);
         for (i, normal) in system.normals.iter().enumerate() {
             if self.known[i] || !active[i] {
                 continue;
             }
+            self.list(i);
             let LawPoint { force: law, by_penetration, by_rate } =
                 system.law(i).at(self.penetration(i, force), self.rate(i, force));
             let scale = normal.count() * geometry.share[i][0];
@@ -186,11 +227,12 @@ impl Problem {
             let i = system.lateral(index);
             let kind = &system.scene.wheels[system.wheels[w].kind];
             let Some(flange) = &kind.flange else { continue };
-            let overlap = flange.overlap(self.penetration(i, force));
+            let overlap = if self.asleep[i] { 0.0 } else { flange.overlap(self.penetration(i, force)) };
             if overlap == 0.0 {
                 self.residual[i] = force[i];
                 continue;
             }
+            self.list(i);
             let normal = system.normals_of(w).next().unwrap_or(0);
             let (share, by_height) = flange.share(kind.radius - self.penetration(normal, force));
             self.residual[i] = force[i] - flange.stiffness * share * overlap;
@@ -202,6 +244,7 @@ impl Problem {
         for (index, &w) in system.tractions.iter().enumerate() {
             let i = system.traction(index);
             let Some(friction) = &system.scene.wheels[system.wheels[w].kind].friction else { continue };
+            self.list(i);
             let (share, by_slip) = friction.share(self.rate(i, force));
             let load: f64 = system.normals_of(w).map(|n| force[n] / system.normals[n].count()).sum();
             let bound = friction.coefficient * load;
@@ -227,6 +270,7 @@ impl Problem {
                 self.residual[i] = force[i];
                 continue;
             }
+            self.list(i);
             let wanted = self.wanted(i, force);
             let rate = wanted.map_or_else(|| self.rate(i, force), |wanted| SATURATED.copysign(wanted));
             let (law, by_rate, by_traction) = pull.at(rate, pull.traction(force));
@@ -247,6 +291,7 @@ impl Problem {
                 self.residual[i] = force[i];
                 continue;
             }
+            self.list(i);
             self.residual[i] = force[i] - hold.law(self.penetration(i, force), self.rate(i, force));
             for j in 0..m {
                 self.matrix[i * m + j] +=

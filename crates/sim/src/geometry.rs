@@ -46,7 +46,11 @@ pub(crate) struct Geometry {
     /// Slope of the deflected rail under each component, d u/d x, that of its own shape included.
     pub rail_slope: Vec<f64>,
     influence: Vec<Influence>,
+    /// Way of a wheel, beside its radius, over which the compliance of its rail is carried by its slope.
+    pub near: f64,
+    /// Where the influence of each structure was found, and how far each wheel is from there.
     probes: Vec<Vec<Probe>>,
+    moved: Vec<Vec<f64>>,
     shape: Vec<f64>,
     shape_slope: Vec<f64>,
     /// Slopes of the structures' shapes under each component, over the freedoms, row-major.
@@ -77,6 +81,8 @@ impl Geometry {
             rail_slope: vec![0.0; m],
             influence: system.entries.iter().map(|entries| Influence::zeros(entries.len())).collect(),
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
+            near: 0.0,
+            moved: system.entries.iter().map(|entries| vec![0.0; entries.len()]).collect(),
             shape: vec![0.0; n],
             shape_slope: vec![0.0; n],
             shape_slopes: vec![0.0; m * n],
@@ -105,11 +111,12 @@ impl Geometry {
             self.x[w] = self.place(system, w, q);
         }
         self.update_compliance(system)?;
-        if self.built && system.constant_rows {
+        let rows_stand = self.built && system.constant_rows;
+        self.built = true;
+        if rows_stand {
             return Ok(());
         }
         self.update_rows(system)?;
-        self.built = true;
         for (i, &w) in system.tractions.iter().enumerate() {
             let spin = system.turn(w, t).map_or(0.0, |at| at.v * self.height[w]);
             let travel = self.travel[system.kinematics.root(system.wheels[w].body)].v;
@@ -162,32 +169,62 @@ impl Geometry {
                 }
             }
             let Some(compliance) = &foundation.compliance else { continue };
-            for (probe, entry) in self.probes[s].iter_mut().zip(entries) {
+            let influence = &mut self.influence[s];
+            let (probes, moved) = (&mut self.probes[s], &mut self.moved[s]);
+            let (mut farthest, mut changed) = (0.0_f64, false);
+            for ((moved, probe), entry) in moved.iter_mut().zip(&*probes).zip(entries) {
+                let now = self.x[entry.wheel] - probe.x;
+                changed |= now != *moved;
+                *moved = now;
+                let radius = system.scene.wheels[system.wheels[entry.wheel].kind].radius;
+                farthest = farthest.max(now.abs() / radius);
+            }
+            if self.built && farthest <= if compliance.is_symmetric() { self.near } else { 0.0 } {
+                if changed {
+                    self.carry(system, s);
+                }
+                continue;
+            }
+            moved.fill(0.0);
+            for (probe, entry) in probes.iter_mut().zip(entries) {
                 probe.x = self.x[entry.wheel];
             }
-            let influence = &mut self.influence[s];
             compliance
-                .fill(&self.probes[s], influence)
+                .fill(probes, influence)
                 .map_err(|source| Error::Compliance { structure: s, source })?;
             if system.is_direct[s] {
                 transpose(influence.value.as_slice(), &mut self.compliance, m);
                 transpose(influence.slope.as_slice(), &mut self.slope, m);
                 continue;
             }
-            for row in entries {
-                self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
-                self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
-            }
-            for (i, row) in entries.iter().enumerate() {
-                for (j, column) in entries.iter().enumerate() {
-                    let weight = row.weight * column.weight;
-                    let at = row.component * m + column.component;
-                    self.compliance[at] += weight * influence.value[(i, j)];
-                    self.slope[at] += weight * influence.slope[(i, j)];
-                }
-            }
+            self.carry(system, s);
         }
         Ok(())
+    }
+
+    /// Sums the compliance of structure `s` over its components, with what the wheels moved since it was found:
+    /// G + dG/dx moved.
+    fn carry(&mut self, system: &System, s: usize) {
+        let (m, entries) = (system.components(), &system.entries[s]);
+        let (influence, moved) = (&self.influence[s], &self.moved[s]);
+        for row in entries {
+            self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
+            self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
+        }
+        let count = entries.len();
+        let (values, slopes) = (influence.value.as_slice(), influence.slope.as_slice());
+        for (i, row) in entries.iter().enumerate() {
+            let span = row.component * m..(row.component + 1) * m;
+            let (sums, rates) = (&mut self.compliance[span.clone()], &mut self.slope[span]);
+            // The values are symmetric; their slope by the column's place is that of the mirrored entry.
+            let mirrored = &slopes[i * count..(i + 1) * count];
+            for (j, column) in entries.iter().enumerate() {
+                let weight = row.weight * column.weight;
+                let (value, slope) = (values[i + j * count], slopes[i + j * count]);
+                sums[column.component] += weight * (value + slope * moved[i] + mirrored[j] * moved[j]);
+                rates[column.component] += weight * slope;
+            }
+        }
     }
 
     fn update_rows(&mut self, system: &System) -> Result<(), Error> {

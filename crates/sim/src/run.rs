@@ -202,8 +202,8 @@ fn integrate(
             let due = stepper.due()?;
             active.clone_from(&stepper.solver.active);
             links.clone_from(&stepper.solver.geometry.links);
-            while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
-                let t = next as f64 * scene.output_dt;
+            while output_time(scene, next) <= to {
+                let t = output_time(scene, next);
                 let is_end = t >= to * (1.0 - 1e-14);
                 let after = stepper.solver.geometry.piece.clone();
                 if !is_end {
@@ -234,7 +234,7 @@ fn integrate(
                     }
                 };
                 if ends {
-                    if (next - 1) as f64 * scene.output_dt < to {
+                    if output_time(scene, next - 1) < to {
                         recorder.record(system, &stepper.solver.geometry, &stepper.to)?;
                     }
                     status = ended(scene, &fired);
@@ -255,6 +255,12 @@ fn integrate(
         counts: stepper.counts,
         method: Some(stepping.method),
     })
+}
+
+/// Time of output `k`; the end itself where the product differs from it by rounding.
+pub(crate) fn output_time(scene: &Scene, k: u64) -> f64 {
+    let t = k as f64 * scene.output_dt;
+    if (t - scene.end).abs() <= 1e-12 * scene.end { scene.end } else { t }
 }
 
 /// The status after the first rule that ends the run.

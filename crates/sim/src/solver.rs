@@ -34,6 +34,11 @@ pub(crate) struct Solver<'a> {
     pub keeps_rails: bool,
     inverse: Whole<'a>,
     mobility: Whole<'a>,
+    /// Scales of displacements and rates, where passes may end before rounding does, and how near beside them.
+    pub scales: Option<[DVector<f64>; 2]>,
+    pub settled: f64,
+    /// Components whose columns of `spread` are filled.
+    awake: Vec<usize>,
     /// Z R^T, freedoms x components, column-major.
     spread: Vec<f64>,
     /// R Z R^T, components x components, row-major; and the same with the rows of the rates.
@@ -59,6 +64,9 @@ impl<'a> Solver<'a> {
             active: vec![false; system.normals.len()],
             problem: Problem::new(system),
             keeps_rails: true,
+            scales: None,
+            settled: 0.0,
+            awake: Vec::with_capacity(system.components()),
             mobility: Whole::new(system)?,
             inverse: Whole::new(system)?,
             spread: vec![0.0; n * system.components()],
@@ -135,19 +143,79 @@ impl<'a> Solver<'a> {
             return;
         }
         let (n, m) = (self.system.freedoms, self.system.components());
-        for j in 0..m {
+        self.awake.clear();
+        // Rows that stay serve whatever acts later.
+        let all = self.spread_is_fixed_by_rows();
+        self.awake.extend((0..m).filter(|&j| all || !self.problem.asleep[j]));
+        for &j in &self.awake {
             let row = &self.geometry.force_rows[j * n..(j + 1) * n];
             self.mobility.apply(row, &mut self.spread[j * n..(j + 1) * n]);
         }
         for i in 0..m {
             let (row, rate_row) = (&self.geometry.rows[i * n..], &self.geometry.rate_rows[i * n..]);
-            for j in 0..m {
+            for &j in &self.awake {
                 let column = &self.spread[j * n..(j + 1) * n];
                 self.mobile[i * m + j] = dot(&row[..n], column);
                 self.mobile_rate[i * m + j] = dot(&rate_row[..n], column);
             }
         }
-        self.spread_is_fixed = self.system.constant_rows && self.system.rides.is_empty();
+        self.spread_is_fixed = all;
+    }
+
+    fn spread_is_fixed_by_rows(&self) -> bool {
+        self.system.constant_rows && self.system.rides.is_empty()
+    }
+
+    /// Takes what does not press out of the columns of a stage: open contacts, free flanges, drives and brakes that do
+    /// not act, slack ropes.
+    fn lull(&mut self, force: &[f64]) {
+        let system = self.system;
+        let asleep = &mut self.problem.asleep;
+        for (asleep, active) in asleep.iter_mut().zip(&self.active) {
+            *asleep = !active;
+        }
+        for i in system.lateral(0)..system.traction(0) {
+            asleep[i] = force[i] == 0.0;
+        }
+        for (asleep, acts) in asleep[system.pull(0)..].iter_mut().zip(&self.geometry.pulls) {
+            *asleep = !acts;
+        }
+        for (asleep, hold) in asleep[system.link(0)..].iter_mut().zip(&self.geometry.links) {
+            *asleep = !hold.taut;
+        }
+    }
+
+    /// Wakes flanges that overlap their rail under `force`; returns whether any did.
+    fn wake(&mut self, force: &[f64]) -> bool {
+        let system = self.system;
+        let mut woken = false;
+        for (index, &w) in system.laterals.iter().enumerate() {
+            let i = system.lateral(index);
+            let Some(flange) = &system.scene.wheels[system.wheels[w].kind].flange else { continue };
+            if self.problem.asleep[i] && flange.overlap(self.problem.penetration(i, force)) != 0.0 {
+                self.problem.asleep[i] = false;
+                woken = true;
+            }
+        }
+        woken
+    }
+
+    /// Largest of the changes from `at` to what its accelerations `at.a` give, beside their scales, and puts them there.
+    fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
+        let [mut moved, mut beside] = [0.0_f64; 2];
+        for i in 0..self.system.freedoms {
+            let v = known.v[i] + g * at.a[i];
+            let q = known.q[i] + g * v;
+            let change = (q - at.q[i]).abs();
+            moved = moved.max(change / (1.0 + q.abs()));
+            if let Some([scale, rate_scale]) = &self.scales {
+                beside = beside
+                    .max(change / scale[i].max(q.abs()))
+                    .max((v - at.v[i]).abs() / rate_scale[i].max(v.abs()));
+            }
+            (at.q[i], at.v[i]) = (q, v);
+        }
+        [moved, beside]
     }
 
     /// Solves the stage Q = q* + g V, V = v* + g A at `at.t` with the contacts that are active; `at` brings
@@ -170,6 +238,7 @@ impl<'a> Solver<'a> {
         if hangs {
             self.charts.guess(system, &self.geometry.switches, g, known, at);
         }
+        let mut last = f64::INFINITY;
         for pass in 0..PASSES {
             if hangs {
                 self.charts.flatten(system, &self.geometry.switches, g, known, at);
@@ -178,6 +247,9 @@ impl<'a> Solver<'a> {
                 self.move_freely(g, known, at)?;
             }
             self.geometry.update(system, at.t, &at.q, &at.force)?;
+            if pass == 0 {
+                self.lull(&at.force);
+            }
             self.fill_spread();
             for i in 0..m {
                 let is_normal = i < system.normals.len();
@@ -210,26 +282,32 @@ impl<'a> Solver<'a> {
             if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
                 return Ok(false);
             }
-            let mut moved = 0.0_f64;
+            if self.wake(&at.force) {
+                continue;
+            }
             at.a.copy_from(&self.free_a);
             for (column, force) in self.spread.chunks_exact(n.max(1)).zip(&at.force) {
                 at.a.iter_mut().zip(column).for_each(|(a, spread)| *a -= spread * force);
             }
-            for i in 0..n {
-                at.v[i] = known.v[i] + g * at.a[i];
-                let q = known.q[i] + g * at.v[i];
-                moved = moved.max((q - at.q[i]).abs() / (1.0 + q.abs()));
-                at.q[i] = q;
-            }
+            let [mut moved, beside] = self.follow_accelerations(g, known, at);
             for i in 0..system.normals.len() {
                 at.p[i] = self.problem.penetration(i, &at.force);
                 at.p_rate[i] = (at.p[i] - known.p[i]) / g;
             }
             self.drag_end(g, &known.p, at);
-            moved = moved.max(self.update_heights(at));
-            if moved < 1e-13 || !iterates {
+            let rise = self.update_heights(at);
+            moved = moved.max(rise);
+            // What is left after this pass, from how much less it changed than the one before.
+            let left = beside.max(rise) / (last / beside.max(rise) - 1.0).max(0.0);
+            // A good guess of where the wheels are says little of their speeds.
+            let is_told = pass > 0 || !system.moves_freely;
+            if (moved < 1e-13 && is_told)
+                || !iterates
+                || (self.scales.is_some() && last.is_finite() && left < self.settled)
+            {
                 return Ok(true);
             }
+            last = beside.max(rise);
         }
         Ok(false)
     }
@@ -259,6 +337,7 @@ impl<'a> Solver<'a> {
     pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
+        self.problem.asleep.fill(false);
         for _ in 0..PASSES {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             for i in 0..m {

@@ -38,6 +38,13 @@ const CORNERS: usize = 12;
 /// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
 const CHATTER: usize = 1000;
 
+/// What the passes of a stage may leave of the error a step may make.
+const SETTLED: f64 = 1e-6;
+
+/// Way of a wheel, beside its radius and for each unit of the error a step may make, over which the slope of its rail
+/// stands for its compliance.
+const NEAR: f64 = 1e-3;
+
 /// Why a step could not be taken.
 pub(crate) enum Failure {
     TooSmall,
@@ -62,7 +69,7 @@ pub(crate) struct Stepper<'a, 'b> {
     tableau: &'static Tableau,
     /// In place of the tableau.
     collocation: Option<Collocation>,
-    tolerance: f64,
+    pub(crate) tolerance: f64,
     /// Length of every step that no break or event ends; in place of the tolerance.
     pub fixed: Option<f64>,
     scale: DVector<f64>,
@@ -81,6 +88,7 @@ pub(crate) struct Stepper<'a, 'b> {
     accelerations: Vec<DVector<f64>>,
     rates: Vec<DVector<f64>>,
     p_rates: Vec<Vec<f64>>,
+    forces: Vec<Vec<f64>>,
     powers: Vec<Exchanged>,
     pub(crate) probe: State,
     /// Overlaps of the flanges where the next step starts.
@@ -129,6 +137,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             accelerations: vec![DVector::zeros(n); tableau.stages()],
             rates: vec![DVector::zeros(n); tableau.stages()],
             p_rates: vec![vec![0.0; count]; tableau.stages()],
+            forces: vec![vec![0.0; system.components()]; tableau.stages()],
             powers: vec![Exchanged::default(); tableau.stages()],
             begun: energy.total(),
             solver,
@@ -142,9 +151,26 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self
     }
 
+    /// Lets the passes of a stage end where what is left of them is [`SETTLED`] of the error a step may make.
+    fn relax(&mut self) {
+        if self.fixed.is_some() || self.collocation.is_some() {
+            return;
+        }
+        self.solver.settled = SETTLED * self.tolerance;
+        self.solver.geometry.near = NEAR * self.tolerance;
+        match &mut self.solver.scales {
+            Some([scale, rate_scale]) => {
+                scale.copy_from(&self.scale);
+                rate_scale.copy_from(&self.rate_scale);
+            }
+            none => *none = Some([self.scale.clone(), self.rate_scale.clone()]),
+        }
+    }
+
     /// Takes one accepted step, at most to `limit`; `from` and `to` are its ends.
     pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
         self.limit = limit;
+        self.relax();
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
@@ -155,6 +181,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         let mut ends_at_event = false;
         let (mut refined, mut corners, mut breaks, mut trials) = (0, 0, 0, 0);
+        if let Some(share) = self.predicted_break(h).filter(|share| h * share > 2.0 * smallest) {
+            breaks += 1;
+            ends_at_event = true;
+            h *= share;
+        }
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -268,10 +299,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
             // just before the end: a prescribed motion may jump there
             self.stage.t = (self.from.t + tableau.c[i] * h).min(self.limit.next_down());
+            self.guess(i);
             self.counts.stages += 1;
             if !self.solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
                 return Ok(false);
             }
+            self.forces[i].copy_from_slice(&self.stage.force);
             self.accelerations[i].copy_from(&self.stage.a);
             self.rates[i].copy_from(&self.stage.v);
             let switches = &self.solver.geometry.switches;
@@ -284,6 +317,34 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.to.copy_from(&self.stage);
         self.end_at_limit(h);
         Ok(self.to.q.iter().chain(self.to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    /// Guesses accelerations and forces of stage `i` from the step's start and its stages before.
+    fn guess(&mut self, i: usize) {
+        if i == 0 || !self.solver.system.moves_freely {
+            return;
+        }
+        let c = self.tableau.c;
+        // Lagrange's weights of 0 and the abscissae before.
+        let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[j]);
+        let weight = |j: usize| {
+            let others = (0..=i).filter(|&k| k != j);
+            others.map(|k| (c[i] - node(k)) / (node(j) - node(k))).product::<f64>()
+        };
+        let charts = &self.solver.charts;
+        let guided = |k: &usize| !charts.has(*k);
+        let first = weight(0);
+        for k in (0..self.stage.a.len()).filter(guided) {
+            self.stage.a[k] = first * self.from.a[k];
+        }
+        self.stage.force.iter_mut().zip(&self.from.force).for_each(|(to, from)| *to = first * from);
+        for j in 0..i {
+            let share = weight(j + 1);
+            for k in (0..self.stage.a.len()).filter(guided) {
+                self.stage.a[k] += share * self.accelerations[j][k];
+            }
+            self.stage.force.iter_mut().zip(&self.forces[j]).for_each(|(to, from)| *to += share * from);
+        }
     }
 
     fn end_at_limit(&mut self, h: f64) {

@@ -7,7 +7,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{bogie, girder, reference};
-use sim::{Analysis, Channel, Damper, Freedom, Given, Profile, Run, Scene, Status};
+use sim::{Analysis, Channel, Damper, Freedom, Given, Method, Profile, Run, Scene, Status, run_by};
 
 fn run(scene: &Scene) -> Run {
     sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
@@ -58,6 +58,19 @@ fn crossings_follow_the_scipy_reference_in_displacement_and_wheel_forces() {
             .fold(0.0_f64, |max, y| max.max(-y));
         // Converged: several independent codes, baselines of the paper's bogie.
         assert!((deepest - peak).abs() < 1e-4 * peak, "peak {deepest}");
+    }
+}
+
+#[test]
+fn history_reaches_the_end_where_the_last_output_time_rounds_beyond_it() {
+    for method in [Method::Auto, Method::Sdirk4] {
+        let mut scene = bogie(5.0, 0.3, Damper::Ground);
+        scene.output_dt = 0.1;
+        assert!(3.0 * scene.output_dt > scene.end);
+        let run = run_by(method, &scene, &[girder()], &mut |_| ControlFlow::Continue(()));
+        let times = run.expect("a valid scene").history.column(Channel::Time);
+        assert_eq!(times.len(), 4);
+        assert_eq!(times[3], scene.end);
     }
 }
 

@@ -15,6 +15,7 @@ use crate::energy::{Audit, stored};
 use crate::geometry::Geometry;
 use crate::matter::Mobility;
 use crate::recorder::Recorder;
+use crate::run::output_time;
 use crate::state::State;
 use crate::stepper::Counts;
 use crate::system::System;
@@ -243,8 +244,8 @@ impl<'a, const P: usize> Passage<'a, P> {
                     return Ok(None);
                 }
                 let to = if count == 1.0 { end } else { t + h };
-                while next as f64 * scene.output_dt <= to && next as f64 * scene.output_dt <= scene.end {
-                    let at = next as f64 * scene.output_dt;
+                while output_time(scene, next) <= to {
+                    let at = output_time(scene, next);
                     self.sample(at, (at - t) / scale, &compliance);
                     recorder.record(system, &self.geometry, &self.state)?;
                     next += 1;
