@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use sim::{Foundation, Run};
 
 use crate::exit::Failure;
-use crate::link::{self, Laid, Solved};
+use crate::link::{self, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
 use crate::record::Record;
@@ -96,7 +96,8 @@ pub fn simulate(
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(case) = cases.get(index) else { return own };
             let mut watch = |t: f64| {
-                done[index].store((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+                // runs that are compared start again
+                done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
                 bar.set(done.iter().map(|share| share.load(Ordering::Relaxed)).sum());
                 ControlFlow::Continue(())
             };
@@ -129,29 +130,21 @@ fn one(
     let mut scene = case.scene.clone();
     let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
     let cast = cast(&scene)?;
-    let choices = link::choose(&mut scene, &cast.scene, known, lateral)?;
+    let rows = scene.end / scene.dt;
+    let answers = response::answers(&scene, known);
+    let recorded = |s: usize, foundation: &Foundation| {
+        let freedoms = foundation.freedoms();
+        freedoms > 0 && (answers[s] || freedoms as f64 * rows < RECORDED)
+    };
+    let chosen = link::choose(&mut scene, &cast.scene, known, lateral, &recorded, watch);
+    let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
+    let link::Chosen { choices, run, laid } = chosen.map_err(|trouble| match trouble {
+        link::Trouble::Foundation(failure) => failure,
+        link::Trouble::Run(error) => Failure::Untrusted(format!("{label}: {error}")),
+    })?;
     let solved: Vec<Option<&Solved>> =
         scene.structures.iter().map(|structure| solved_of(known, &structure.origin)).collect();
-    let mut laid = scene
-        .structures
-        .iter()
-        .zip(&solved)
-        .map(|(structure, solved)| link::laid(structure, *solved, lateral))
-        .collect::<Result<Vec<Laid>, Failure>>()?;
     let lines = response::lines(&scene, &laid, &solved)?;
-    let rows = scene.end / scene.dt;
-    for (own, lines) in laid.iter_mut().zip(&lines) {
-        let freedoms = own.foundation.freedoms();
-        own.foundation.recorded = freedoms > 0 && (lines.is_some() || freedoms as f64 * rows < RECORDED);
-    }
-    let foundations: Vec<Foundation> =
-        laid.iter_mut().map(|own| std::mem::take(&mut own.foundation)).collect();
-    let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
-    let run = sim::run_by(scene.stepping, &cast.scene, &foundations, watch)
-        .map_err(|error| Failure::Untrusted(format!("{label}: {error}")))?;
-    for (own, foundation) in laid.iter_mut().zip(foundations) {
-        own.foundation = foundation;
-    }
     let mut record = Record::new(&scene, &run.history);
     let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
     // only the scene itself is drawn

@@ -194,7 +194,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     }
     let mut section = Section::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in warning::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
+        for warning in warning::of_case(&case.scene, outcome) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));
         }
     }

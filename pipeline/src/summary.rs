@@ -1,14 +1,14 @@
 //! `summary.json`: what a run found, in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Rung, Status, Tried};
+use sim::{Predicted, Rung, Status, Tried};
 
 use crate::cases::Outcome;
 use crate::link;
 use crate::record::Record;
 use crate::scene::{Analysis, Event, STEPPERS, Scene};
 use crate::units::Dimension;
-use crate::warning::warnings;
+use crate::warning;
 
 /// Word of a run's status, and what it means for the user where it is not "done".
 #[must_use]
@@ -31,7 +31,7 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
 /// One run as JSON.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
-    let Outcome { cast, run, record, choices, .. } = outcome;
+    let Outcome { run, record, choices, .. } = outcome;
     let (word, why) = status(&run.status);
     let structures: Map<String, Value> = scene
         .structures
@@ -49,6 +49,14 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
                 entry["tolerance"] = json!(structure.tolerance);
                 entry["estimate"] = json!(choice.estimate);
                 entry["tried"] = choice.tried.iter().map(tried).collect();
+                if let Some(own) = &choice.predicted {
+                    entry["predicted"] = predicted(own);
+                }
+                for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
+                    if !rungs.is_empty() {
+                        entry[key] = rungs.iter().map(|rung| link::word(*rung)).collect();
+                    }
+                }
             }
             (structure.name.clone(), entry)
         })
@@ -75,7 +83,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     if let Some(members) = result.as_object_mut() {
         members.extend(outcome.response.json());
     }
-    let warnings = warnings(scene, cast, record, run);
+    let warnings = warning::of_case(scene, outcome);
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
     }
@@ -115,7 +123,7 @@ const fn rung(rung: Rung) -> &'static str {
         Rung::Rigid => "rigid",
         Rung::Influence => "influence",
         Rung::Modal(_) => "modal",
-        Rung::Full => "full",
+        Rung::Half | Rung::Full => "full",
     }
 }
 
@@ -126,6 +134,20 @@ fn tried(tried: &Tried) -> Value {
         "estimate": tried.estimate.is_finite().then_some(tried.estimate),
         "against": link::word(tried.against),
         "stages": tried.stages,
+    })
+}
+
+/// Errors expected without a run.
+fn predicted(own: &Predicted) -> Value {
+    let errors: Map<String, Value> =
+        own.errors.iter().map(|(rung, error)| (link::word(*rung), json!(error))).collect();
+    json!({
+        "give": own.give,
+        "speed": own.speed,
+        "ripple": own.ripple,
+        "step": own.step,
+        "track": own.track,
+        "errors": errors,
     })
 }
 

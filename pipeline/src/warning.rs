@@ -4,6 +4,8 @@ use std::f64::consts::PI;
 
 use sim::Run;
 
+use crate::cases::Outcome;
+use crate::link;
 use crate::motion::Cast;
 use crate::record::Record;
 use crate::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail};
@@ -17,6 +19,17 @@ const BENT: f64 = 0.01;
 
 /// Speed by the critical speed above which a girder without mass says little.
 const FAST: f64 = 0.5;
+
+/// [`warnings`] of a case, and those of the foundations chosen for it.
+#[must_use]
+pub fn of_case(scene: &Scene, outcome: &Outcome) -> Vec<String> {
+    let mut all = warnings(scene, &outcome.cast, &outcome.record, &outcome.run);
+    all.extend(outcome.choices.iter().filter_map(|choice| {
+        let structure = &scene.structures[choice.structure];
+        link::doubt(&structure.name, choice, structure.tolerance)
+    }));
+    all
+}
 
 /// All of them, for the run of one case.
 #[must_use]

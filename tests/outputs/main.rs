@@ -4,7 +4,7 @@
 
 use girderway::cases::{Known, Outcome, simulate, solved_of, specs};
 use girderway::cli::Global;
-use girderway::link::{self, Laid, Motion, solve};
+use girderway::link::{self, Laid, Motion, Spectra, solve};
 use girderway::progress::Progress;
 use girderway::scene::Document;
 use serde_json::{Value, json};
@@ -90,7 +90,8 @@ impl Ran {
     /// The foundation of the one structure of a case, laid again.
     fn laid(&self, case: usize) -> Laid {
         let structure = &self.document.cases[case].scene.structures[0];
-        link::laid(structure, solved_of(&self.known, &structure.origin), false).expect("a foundation")
+        link::laid(&mut Spectra::default(), structure, solved_of(&self.known, &structure.origin), false)
+            .expect("a foundation")
     }
 }
 

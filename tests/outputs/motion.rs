@@ -152,8 +152,9 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
     given["compare"] = json!([]);
     let ran = run(&given, &spec);
     let structure = &ran.document.cases[0].scene.structures[0];
-    let laid = link::laid(structure, solved_of(&ran.known, &structure.origin), true).expect("a foundation");
-    let Some(Motion::Modes(both)) = &laid.motion else { panic!("natural modes") };
+    let laid = link::laid(&mut Spectra::default(), structure, solved_of(&ran.known, &structure.origin), true)
+        .expect("a foundation");
+    let Some(Motion::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
     let record = &ran.outcomes[0].record;
     let history = &ran.outcomes[0].run.history;
     let wheels = |part: &str, sign: f64| -> Vec<f64> {
@@ -169,7 +170,7 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
         let own = record.columns.iter().filter(|c| c.name.starts_with("aisle.") && c.name.ends_with(freedom));
         let mut sum = loads.clone();
         own.for_each(|column| sum.iter_mut().zip(&column.values).for_each(|(sum, value)| *sum += value));
-        for (mode, shape) in both.1.modes.modes.iter().enumerate() {
+        for (mode, shape) in refined.modes.modes.iter().enumerate() {
             let acceleration = history.column(Channel::Acceleration(0, mode));
             sum.iter_mut().zip(acceleration).for_each(|(sum, a)| *sum -= shape.coupling[k] * a);
         }

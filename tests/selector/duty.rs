@@ -65,13 +65,13 @@ pub struct Duty {
     pub numbers: [f64; 3],
 }
 
-/// Scene number `index`.
-pub fn duty(index: u64) -> Duty {
-    let mut dice = Dice(index << 20);
+/// Scene number `index` of a seed.
+pub fn duty(seed: u64, index: u64) -> Duty {
+    let mut dice = Dice((seed << 40) + (index << 20));
     let kind = match dice.share() {
-        share if share < 0.2 => Kind::Soft,
-        share if share < 0.45 => Kind::Slow,
-        share if share < 0.7 => Kind::Quick,
+        share if share < 0.22 => Kind::Soft,
+        share if share < 0.48 => Kind::Slow,
+        share if share < 0.67 => Kind::Quick,
         _ => Kind::Struck,
     };
     let span = dice.decades(20.0, 100.0);
@@ -85,7 +85,7 @@ pub fn duty(index: u64) -> Duty {
         Kind::Soft => tolerance * dice.decades(0.01, 0.5),
         Kind::Slow => dice.decades(0.02, 1.0),
         Kind::Quick => dice.decades(0.1, 30.0),
-        Kind::Struck => 2.0 * mass * dice.decades(50.0, 150.0).powi(2),
+        Kind::Struck => 2.0 * mass * dice.decades(80.0, 200.0).powi(2),
     };
     let frequency = (give / (2.0 * mass)).sqrt();
     let alpha = match kind {

@@ -4,12 +4,19 @@
 
 mod duty;
 
-use std::ops::{ControlFlow, Range};
+use std::ops::ControlFlow;
+use std::time::Instant;
 
-use duty::{Duty, Kind, duty};
-use girderway::exit::Failure;
-use girderway::link::rung_of;
-use sim::{Choice, Foundation, Ladder, Run, Rung, Scene, choose, distance};
+use duty::{Duty, duty};
+use girderway::link::{Spectra, Trouble, modes_of, rung_of};
+use sim::{Choice, Foundation, Ladder, Reason, Run, Rung, Scene, choose, distance};
+
+/// What the rules of the selector were fitted to, and what they were not.
+const FITTED: u64 = 0;
+const HELD_OUT: u64 = 1;
+
+/// Scenes of every kind that are soon run.
+const QUICK: [u64; 12] = [1, 2, 3, 4, 11, 12, 15, 16, 22, 25, 30, 33];
 
 const RUNGS: [Rung; 9] = [
     Rung::Rigid,
@@ -23,17 +30,17 @@ const RUNGS: [Rung; 9] = [
     Rung::Full,
 ];
 
-struct Rungs<'a>(&'a Duty);
+struct Rungs<'a>(&'a Duty, Spectra);
 
 impl Ladder for Rungs<'_> {
-    type Error = Failure;
+    type Error = Trouble;
 
-    fn has_mass(&mut self, _: usize) -> Result<bool, Failure> {
-        Ok(true)
+    fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Trouble> {
+        Ok(modes_of(&self.0.solved, count)?)
     }
 
-    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Failure> {
-        rung_of(&self.0.solved, rung, self.0.damping, 1)
+    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Trouble> {
+        Ok(rung_of(&mut self.1, &self.0.solved, rung, self.0.damping, 1)?)
     }
 }
 
@@ -47,57 +54,91 @@ fn class(rung: Rung) -> usize {
         Rung::Rigid => 0,
         Rung::Influence => 1,
         Rung::Modal(_) => 2,
-        Rung::Full => 3,
+        Rung::Half | Rung::Full => 3,
     }
 }
 
 /// A choice, judged.
 struct Verdict {
-    index: u64,
-    kind: Kind,
-    numbers: [f64; 3],
     tolerance: f64,
     choice: Choice,
     /// Of the choice.
     own: f64,
-    /// Of each of [`RUNGS`] up to the cheapest that suffices.
-    errors: Vec<f64>,
     cheapest: Rung,
-    /// Of the mesh with twice as many elements, on a sample.
+    /// Of the mesh whole, by one with twice as many elements, on a sample.
     mesh: Option<f64>,
+    /// Runs made, and time by that of the chosen rung alone.
+    runs: usize,
+    cost: f64,
 }
 
-fn judge(index: u64, with_mesh: bool) -> Verdict {
-    let duty = duty(index);
+fn judge(seed: u64, index: u64) -> Verdict {
+    let duty = duty(seed, index);
+    // the caches are warm
+    rung_of(&mut Spectra::default(), &duty.solved, Rung::Influence, 0.0, 1).expect("a surface");
     let mut scene = duty.scene.clone();
-    let of = |rung, finer| rung_of(&duty.solved, rung, duty.damping, finer).expect("it has mass");
+    let start = Instant::now();
+    let mut rungs = Rungs(&duty, Spectra::default());
+    let selection =
+        choose(&duty.scene, &[Some(duty.tolerance)], &mut rungs, &mut |_| ControlFlow::Continue(()))
+            .ok()
+            .expect("a valid scene");
+    let taken = start.elapsed().as_secs_f64();
+    let choice = selection.choices[0].clone();
+    scene.accuracy = 0.03 * duty.tolerance;
+    let start = Instant::now();
+    let alone = rung_of(&mut Spectra::default(), &duty.solved, choice.rung, duty.damping, 1);
+    run(&scene, alone.expect("it has mass"));
+    let spent = start.elapsed().as_secs_f64();
+    let cost = taken / spent;
+    let start = Instant::now();
+    assert!(modes_of(&duty.solved, 3).is_ok_and(|modes| modes.is_some()));
+    let modes = start.elapsed().as_secs_f64();
+
+    let mut of =
+        |rung, finer| rung_of(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass");
     scene.accuracy = 3e-3 * duty.tolerance;
     let reference = run(&scene, of(Rung::Full, 1));
+    let with_mesh = class(choice.rung) == 3 && index.is_multiple_of(3);
     let mesh = with_mesh.then(|| distance(&run(&scene, of(Rung::Full, 2)), &reference, &scene));
-    let choice = choose(&duty.scene, &[Some(duty.tolerance)], &mut Rungs(&duty))
-        .map(|mut all| all.remove(0))
-        .unwrap_or_else(|failure| panic!("scene {index}: {failure:?}"));
     scene.accuracy = 0.03 * duty.tolerance;
-    let error = |rung| distance(&run(&scene, of(rung, 1)), &reference, &scene);
     let mut errors = Vec::new();
     let mut cheapest = Rung::Full;
     for rung in RUNGS {
-        errors.push(error(rung));
-        if errors.last().is_some_and(|error| *error <= duty.tolerance) {
+        let error = distance(&run(&scene, of(rung, 1)), &reference, &scene);
+        errors.push(error);
+        if error <= duty.tolerance {
             cheapest = rung;
             break;
         }
     }
-    let chosen = RUNGS.iter().position(|rung| *rung == choice.rung);
-    let own = chosen.and_then(|chosen| errors.get(chosen).copied()).unwrap_or_else(|| error(choice.rung));
-    let Duty { kind, numbers, tolerance, .. } = duty;
-    Verdict { index, kind, numbers, tolerance, choice, own, errors, cheapest, mesh }
+    let own = distance(&selection.run, &reference, &scene);
+    let Duty { kind, tolerance, numbers: [alpha, mass, frequency], .. } = duty;
+    let said: Vec<String> = errors.iter().map(|error| format!("{error:.1e}")).collect();
+    let predicted = choice.predicted.as_ref().map(|predicted| {
+        let all = predicted.errors.iter().map(|(_, error)| format!("{error:.1e}"));
+        all.collect::<Vec<_>>().join(" ")
+    });
+    let runs = selection.runs;
+    println!(
+        "{seed}.{index} {kind:?} alpha {alpha:.3} mass {mass:.2} frequency {frequency:.2} tolerance {tolerance:.0e}: \
+         cheapest {cheapest:?}, chosen {:?} ({:?}), error {own:.1e}, estimate {:?}, mesh {mesh:?}, runs {runs}, cost \
+         {cost:.2} of {:.3} ms, three modes {:.3} ms; {}; predicted {}",
+        choice.rung,
+        choice.reason,
+        choice.estimate,
+        1e3 * spent,
+        1e3 * modes,
+        said.join(" "),
+        predicted.unwrap_or_default(),
+    );
+    Verdict { tolerance, choice, own, cheapest, mesh, runs, cost }
 }
 
-fn judged(range: Range<u64>, every: u64) -> Vec<Verdict> {
+fn judged(seed: u64, scenes: &[u64]) -> Vec<Verdict> {
     let half = |odd: u64| {
-        let own = range.clone().filter(move |index| index % 2 == odd);
-        own.map(|index| judge(index, index / 2 % every == every / 2)).collect::<Vec<_>>()
+        let own = scenes.iter().filter(move |index| *index % 2 == odd);
+        own.map(|index| judge(seed, *index)).collect::<Vec<_>>()
     };
     std::thread::scope(|scope| {
         let other = scope.spawn(|| half(1));
@@ -111,38 +152,56 @@ struct Shares {
     cheapest: [f64; 4],
     within: f64,
     near: f64,
+    /// Largest by the tolerance where the choice is not doubted.
     mesh: f64,
+    /// Of rungs skipped, those that do not suffice.
+    skipped: f64,
+    /// Of choices not known to be allowed, those that are not.
+    silent: usize,
+}
+
+fn median(mut all: Vec<f64>) -> f64 {
+    all.sort_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or_default()
 }
 
 fn shares(verdicts: &[Verdict]) -> Shares {
     let share = |counted: &dyn Fn(&Verdict) -> bool| {
         verdicts.iter().filter(|verdict| counted(verdict)).count() as f64 / verdicts.len() as f64
     };
-    for verdict in verdicts {
-        let Verdict { index, kind, tolerance, choice, errors, cheapest, mesh, .. } = verdict;
-        let [alpha, mass, frequency] = verdict.numbers;
-        let errors: Vec<String> = errors.iter().map(|error| format!("{error:.0e}")).collect();
-        println!(
-            "{index:4} {kind:?} alpha {alpha:.3} mass {mass:.2} frequency {frequency:.2} tolerance {tolerance:.0e}: \
-             cheapest {cheapest:?}, chosen {:?} ({:?}), error {:.1e}, estimate {:?}, mesh {mesh:?}; {}",
-            choice.rung,
-            choice.reason,
-            verdict.own,
-            choice.estimate,
-            errors.join(" ")
-        );
-    }
+    let step = |rung: Rung| RUNGS.iter().position(|other| *other == rung);
+    let skipped: Vec<bool> = verdicts
+        .iter()
+        .flat_map(|v| v.choice.skipped.iter().map(|&rung| step(rung) < step(v.cheapest)))
+        .collect();
+    let doubted = |v: &Verdict| matches!(v.choice.reason, Reason::Top | Reason::Unchecked);
     let found = Shares {
         cheapest: std::array::from_fn(|k| share(&|verdict| class(verdict.cheapest) == k)),
         within: share(&|verdict| verdict.own <= verdict.tolerance),
         near: share(&|verdict| class(verdict.choice.rung) <= class(verdict.cheapest) + 1),
-        mesh: verdicts.iter().filter_map(|v| Some(v.mesh? / v.tolerance)).fold(0.0, f64::max),
+        mesh: verdicts
+            .iter()
+            .filter(|v| !doubted(v))
+            .filter_map(|v| Some(v.mesh? / v.tolerance))
+            .fold(0.0, f64::max),
+        skipped: skipped.iter().filter(|wrong| **wrong).count() as f64 / skipped.len().max(1) as f64,
+        silent: verdicts.iter().filter(|v| v.own > v.tolerance && !doubted(v)).count(),
     };
-    let step = |rung: Rung| RUNGS.iter().position(|other| *other == rung);
     let finely = share(&|verdict| step(verdict.choice.rung) <= step(verdict.cheapest).map(|step| step + 1));
+    println!("cheapest (rows) by chosen: rigid, influence, modal, full");
+    for row in 0..4 {
+        let counts: [usize; 4] = std::array::from_fn(|column| {
+            let is = |v: &&Verdict| class(v.cheapest) == row && class(v.choice.rung) == column;
+            verdicts.iter().filter(is).count()
+        });
+        println!("{counts:?}");
+    }
+    let all = verdicts.iter().map(|v| v.runs).sum::<usize>();
+    let taken = verdicts.iter().filter(|v| v.choice.reason == Reason::Predicted).count();
     println!(
         "{} scenes: cheapest rigid {:.3}, influence {:.3}, modal {:.3}, full {:.3}; within the tolerance {:.3}; at most \
-         one rung above {:.3} (numbers of modes counted as rungs: {finely:.3}); mesh doubled by tolerance {:.3}",
+         one rung above {:.3} (numbers of modes counted as rungs: {finely:.3}); mesh doubled by tolerance {:.3}; {all} runs; \
+         {taken} taken by prediction; {} rungs skipped, {:.4} of them in vain; {} doubted; {} silently wrong; median cost {:.2}",
         verdicts.len(),
         found.cheapest[0],
         found.cheapest[1],
@@ -150,25 +209,44 @@ fn shares(verdicts: &[Verdict]) -> Shares {
         found.cheapest[3],
         found.within,
         found.near,
-        found.mesh
+        found.mesh,
+        skipped.len(),
+        1.0 - found.skipped,
+        verdicts.iter().filter(|v| doubted(v)).count(),
+        found.silent,
+        median(verdicts.iter().map(|v| v.cost).collect()),
     );
+    for class in 0..4 {
+        let own = verdicts.iter().filter(|v| self::class(v.choice.rung) == class);
+        println!("median cost of class {class}: {:.2}", median(own.map(|v| v.cost).collect()));
+    }
     found
 }
 
 /// External to the selector: every rung run and compared with the mesh whole.
 #[test]
-fn three_choices_are_within_their_tolerance_and_near_the_cheapest() {
-    let found = shares(&judged(1..4, u64::MAX));
+fn twelve_choices_are_within_their_tolerance_and_near_the_cheapest() {
+    let found = shares(&judged(HELD_OUT, &QUICK));
     assert_eq!([found.within, found.near], [1.0, 1.0]);
+}
+
+fn holds(seed: u64) {
+    let found = shares(&judged(seed, &(0..200).collect::<Vec<_>>()));
+    assert!(found.cheapest.iter().all(|share| *share >= 0.15), "{:?}", found.cheapest);
+    assert!(found.within >= 0.99, "{}", found.within);
+    assert!(found.near >= 0.9, "{}", found.near);
+    assert!(found.mesh <= 1.0, "{}", found.mesh);
+    assert!(found.skipped >= 0.95, "{}", found.skipped);
 }
 
 #[test]
 #[ignore = "slow: 200 scenes at nine rungs each"]
 fn choices_keep_the_tolerance_in_99_percent_and_lie_one_rung_above_in_90() {
-    let found = shares(&judged(0..200, 20));
-    // full is needed least often, in a tenth
-    assert!(found.cheapest.iter().all(|share| *share >= 0.09), "{:?}", found.cheapest);
-    assert!(found.within >= 0.99, "{}", found.within);
-    assert!(found.near >= 0.9, "{}", found.near);
-    assert!(found.mesh <= 0.1, "{}", found.mesh);
+    holds(FITTED);
+}
+
+#[test]
+#[ignore = "slow: 200 scenes at nine rungs each"]
+fn so_do_choices_for_scenes_that_the_rules_were_not_fitted_to() {
+    holds(HELD_OUT);
 }

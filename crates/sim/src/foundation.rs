@@ -48,6 +48,15 @@ pub enum Dynamics {
 }
 
 impl Dynamics {
+    /// Frequencies of natural modes; empty for freedoms of any kind.
+    #[must_use]
+    pub fn frequencies(&self) -> &[f64] {
+        match self {
+            Dynamics::Matrices { .. } => &[],
+            Dynamics::Modes { omega, .. } => omega,
+        }
+    }
+
     /// Number of freedoms.
     #[must_use]
     pub fn freedoms(&self) -> usize {

@@ -71,7 +71,7 @@ pub use rule::{Action, Compare, Condition, Fired, Rule};
 pub use run::{Run, Status, run, run_by};
 pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Pin, Scene};
 pub use schedule::Schedule;
-pub use selector::{Choice, Ladder, Reason, Rung, Tried, choose, distance};
+pub use selector::{Choice, Ladder, Predicted, Reason, Rung, Selection, Tried, choose, distance};
 pub use step::step;
 pub use stepper::Counts;
 pub use turn::Turn;

@@ -1,14 +1,22 @@
-//! Which foundation a scene needs: the lowest rung whose error, measured against a higher one, is allowed.
+//! Which foundation a scene needs: the lowest rung whose error, predicted or measured against a higher one, is allowed.
+
+mod climb;
+mod distance;
+mod joint;
+mod predict;
 
 use std::ops::ControlFlow;
 
-use crate::foundation::Dynamics;
-use crate::{Analysis, Channel, Error, Foundation, Freedom, Run, Scene, Status, run};
+use crate::{Analysis, Error, Foundation, Run, Scene, Structure, run};
+use climb::{Candidate, Climb, Outcome};
+
+pub use distance::distance;
+pub use predict::Predicted;
 
 /// Numbers of modes that are tried, and check what lies below them.
 const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
-/// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
-const ABOVE_CONTACT: f64 = 3.0;
+/// Modes that are looked at where no more are needed to tell rigid, influence and two modes.
+const FEW: usize = 3;
 /// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
 /// thirty times what they are asked.
 const STEPPING: f64 = 0.03;
@@ -24,6 +32,8 @@ pub enum Rung {
     Influence,
     /// This many modes, and the static give of the others.
     Modal(usize),
+    /// All modes of a mesh with half as many elements a member as the one at the top, which it checks.
+    Half,
     /// All modes of a mesh.
     Full,
 }
@@ -33,17 +43,31 @@ pub trait Ladder {
     /// What can go wrong.
     type Error: From<Error>;
 
-    /// Whether the mass of `structure` is known.
+    /// About the lowest `count` modes that vertical forces on the rails of `structure` excite, from the lowest, where it has
+    /// so many: frequencies to a few parts in a hundred will do. `None`: its mass is not known.
     ///
     /// # Errors
-    /// A structure that cannot be asked.
-    fn has_mass(&mut self, structure: usize) -> Result<bool, Self::Error>;
+    /// A structure whose modes cannot be found.
+    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<Structure>, Self::Error>;
 
     /// `structure` at `rung`; a structure whose foundation is given ignores `rung`.
     ///
     /// # Errors
     /// A rung that cannot be built.
     fn foundation(&mut self, structure: usize, rung: Rung) -> Result<Foundation, Self::Error>;
+
+    /// Runs the scene: [`run()`], unless it is to be integrated in another way.
+    ///
+    /// # Errors
+    /// A scene that cannot be set up.
+    fn run(
+        &mut self,
+        scene: &Scene,
+        foundations: &[Foundation],
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Run, Error> {
+        run(scene, foundations, watch)
+    }
 }
 
 /// Why a rung was chosen.
@@ -53,9 +77,12 @@ pub enum Reason {
     NoMass,
     /// A sequence of equilibria has no inertia.
     QuasiStatic,
+    /// What it leaves out is predicted to be far below the tolerance: no higher rung was run.
+    Predicted,
     /// The estimate is within 0.8 of the tolerance.
     Sufficient,
-    /// Nothing lower was sufficient; the error of this rung itself is not estimated.
+    /// Nothing lower was sufficient. The estimate is that of the mesh with half as many elements: above the tolerance,
+    /// or, where that mesh could not be run, none.
     Top,
     /// No higher rung could be built or run to check it: its error is not known, or exceeds the tolerance.
     Unchecked,
@@ -85,44 +112,88 @@ pub struct Choice {
     pub reason: Reason,
     /// Its error, where that is known.
     pub estimate: Option<f64>,
-    /// All that were tried, in order.
+    /// What was expected of the rungs; `None` where nothing was.
+    pub predicted: Option<Predicted>,
+    /// Rungs left out, as they were expected to err by far more than is allowed.
+    pub skipped: Vec<Rung>,
+    /// All that were compared, in order.
     pub tried: Vec<Tried>,
+    /// Rungs that could not be built, started or run to the end, in order.
+    pub failed: Vec<Rung>,
+}
+
+/// Foundations chosen, and the run on them.
+pub struct Selection {
+    /// One a structure whose foundation was to be chosen, in their order.
+    pub choices: Vec<Choice>,
+    /// The run on the foundations chosen: of the scene's accuracy, or of 0.03 of the tolerance where that is finer.
+    pub run: Run,
+    /// Number of runs that were made, this one among them.
+    pub runs: usize,
 }
 
 /// Chooses a rung for every structure with a tolerance (`None`: its foundation is given), in their order, the
-/// others held at theirs (influence before their turn).
+/// others held at theirs (influence before their turn), and runs the scene. `watch` sees the time that every run reaches,
+/// and may stop the choice.
 ///
-/// Rigid and influence are checked against the first [`Rung::Modal`] whose highest frequency exceeds three times
-/// that of the bodies on their contacts, a number of modes against the next of 2, 4, 6, 8, 12, 16 and full. Not
-/// controlled: pitch, roll, lateral motion and forces, gauges, what lies between output times, and the effect on
-/// one structure of what a later one is given.
+/// First the errors of the rungs are predicted, see [`Predicted`]: rungs expected to err by much more than the tolerance are
+/// skipped; one expected to err by much less is taken without a higher one to check it. What is left is compared: rigid and
+/// influence with the first [`Rung::Modal`] whose highest frequency exceeds three times that of the bodies on their contacts,
+/// a number of modes with the next of 2, 4, 6, 8, 12, 16 and full, full with half its mesh. The run of the rung chosen is
+/// kept. Where several structures climbed, all are checked together and raised together until the sum of their tolerances
+/// holds. Not controlled: pitch, roll, lateral motion and forces, gauges and what lies between output times.
 ///
 /// # Errors
-/// A scene that cannot start on a given foundation, or on influence.
+/// A foundation that is given or influence that cannot be built; a scene that starts on no foundation.
 pub fn choose<L: Ladder>(
     scene: &Scene,
     tolerances: &[Option<f64>],
     ladder: &mut L,
-) -> Result<Vec<Choice>, L::Error> {
-    let mut rungs = vec![Rung::Influence; tolerances.len()];
-    let mut choices = Vec::new();
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Selection, L::Error> {
+    let mut foundations = (0..tolerances.len())
+        .map(|structure| ladder.foundation(structure, Rung::Influence))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut choices: Vec<Choice> = Vec::new();
+    let (mut last, mut runs) = (None, 0);
     for (structure, tolerance) in tolerances.iter().enumerate() {
         let Some(tolerance) = *tolerance else { continue };
-        let settled =
-            |reason| Choice { structure, rung: Rung::Influence, reason, estimate: None, tried: Vec::new() };
-        let choice = if scene.analysis == Analysis::QuasiStatic {
-            settled(Reason::QuasiStatic)
-        } else if !ladder.has_mass(structure)? {
-            settled(Reason::NoMass)
-        } else {
-            let mut finer = scene.clone();
-            finer.accuracy = finer.accuracy.min(STEPPING * tolerance);
-            climb(&finer, tolerance, structure, &mut rungs, ladder)?
+        if scene.analysis == Analysis::QuasiStatic {
+            choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
+            continue;
+        }
+        let few = match ladder.modes(structure, FEW) {
+            Ok(None) => {
+                choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
+                continue;
+            }
+            // where they cannot be found, the rungs say why
+            few => few.ok().flatten(),
         };
-        rungs[structure] = choice.rung;
+        let climb = Climb::new(scene, tolerance, structure, &mut foundations, ladder, watch);
+        let Outcome { choice, found, runs: own } = climb.climb(few)?;
+        let Candidate { foundation, run, .. } = found;
+        foundations[structure] = foundation;
+        runs += own;
         choices.push(choice);
+        last = Some(run);
     }
-    Ok(choices)
+    let run = match last {
+        Some(run) => run,
+        None => {
+            runs += 1;
+            ladder.run(scene, &foundations, watch)?
+        }
+    };
+    let selection = Selection { choices, run, runs };
+    Ok(joint::settle(scene, tolerances, foundations, ladder, watch, selection))
+}
+
+impl Choice {
+    fn new(structure: usize, rung: Rung, reason: Reason) -> Choice {
+        let (skipped, tried, failed) = (Vec::new(), Vec::new(), Vec::new());
+        Choice { structure, rung, reason, estimate: None, predicted: None, skipped, tried, failed }
+    }
 }
 
 /// Frequency of the stiffest body on its contacts at rest, the rail rigid: sqrt(sum k' / m).
@@ -142,92 +213,4 @@ fn contact_frequency(scene: &Scene, structure: usize) -> f64 {
         (stiffness / body.mass).sqrt()
     };
     (0..scene.bodies.len()).map(of).fold(0.0, f64::max)
-}
-
-fn climb<L: Ladder>(
-    scene: &Scene,
-    tolerance: f64,
-    structure: usize,
-    rungs: &mut [Rung],
-    ladder: &mut L,
-) -> Result<Choice, L::Error> {
-    let mut attempt = |rung: Rung, ladder: &mut L| -> Result<(Run, f64), L::Error> {
-        rungs[structure] = rung;
-        let foundations = rungs
-            .iter()
-            .enumerate()
-            .map(|(s, rung)| ladder.foundation(s, *rung))
-            .collect::<Result<Vec<_>, _>>()?;
-        let highest = match &foundations[structure].structure {
-            Some(structure) => match &structure.dynamics {
-                Dynamics::Modes { omega, .. } => omega.iter().copied().fold(0.0, f64::max),
-                Dynamics::Matrices { .. } => 0.0,
-            },
-            None => 0.0,
-        };
-        Ok((run(scene, &foundations, &mut |_| ControlFlow::Continue(()))?, highest))
-    };
-    let needed = ABOVE_CONTACT * contact_frequency(scene, structure);
-    let influence = attempt(Rung::Influence, ladder)?.0;
-    let mut lower: Vec<(Rung, Run)> = Vec::new();
-    // A rail that the wheels could not leave rigid may still be refused by the scene: it is only left out.
-    if let Ok((rigid, _)) = attempt(Rung::Rigid, ladder) {
-        lower.push((Rung::Rigid, rigid));
-    }
-    lower.push((Rung::Influence, influence));
-    let mut tried = Vec::new();
-    let none = lower.iter().all(|(_, run)| !run.status.is_complete());
-    for against in MODES.map(Rung::Modal).into_iter().chain([Rung::Full]).filter(|_| !none) {
-        let higher = match attempt(against, ladder) {
-            Ok((higher, highest)) if higher.status.is_complete() => {
-                if highest <= needed && against != Rung::Full {
-                    continue;
-                }
-                higher
-            }
-            // A higher one may still follow the motion.
-            _ => continue,
-        };
-        for (rung, found) in lower.drain(..) {
-            let estimate = distance(&found, &higher, scene);
-            tried.push(Tried { rung, estimate, against, stages: found.counts.stages as u64 });
-            if estimate <= SAFE * tolerance {
-                let (reason, estimate) = (Reason::Sufficient, Some(estimate));
-                return Ok(Choice { structure, rung, reason, estimate, tried });
-            }
-        }
-        if against == Rung::Full {
-            return Ok(Choice { structure, rung: against, reason: Reason::Top, estimate: None, tried });
-        }
-        lower.push((against, higher));
-    }
-    let best = lower.pop().map_or(Rung::Influence, |(rung, _)| rung);
-    Ok(Choice { structure, rung: best, reason: Reason::Unchecked, estimate: None, tried })
-}
-
-/// How far `a` is from `b`, two runs of `scene`: the larger of max |y_a - y_b| / max |y_b| over each body's height
-/// and max |F_a - F_b| / max |F_b| over the vertical wheel forces, at the output times. Infinite where one did not
-/// reach its end.
-#[must_use]
-pub fn distance(a: &Run, b: &Run, scene: &Scene) -> f64 {
-    let by_rule = matches!((&a.status, &b.status), (Status::Ended(_), Status::Ended(_)));
-    let reached = a.status.is_complete() && b.status.is_complete();
-    if !reached || (a.history.len() != b.history.len() && !by_rule) {
-        return f64::INFINITY;
-    }
-    let part = |channels: &[Channel]| {
-        let (mut apart, mut peak) = (0.0_f64, 0.0_f64);
-        for channel in channels {
-            for (a, b) in a.history.column(*channel).iter().zip(b.history.column(*channel)) {
-                apart = apart.max((a - b).abs());
-                peak = peak.max(b.abs());
-            }
-        }
-        if apart == 0.0 { 0.0 } else { apart / peak }
-    };
-    let forces: Vec<Channel> =
-        b.history.channels().iter().copied().filter(|c| matches!(c, Channel::Vertical(_))).collect();
-    (0..scene.bodies.len())
-        .map(|body| part(&[Channel::Displacement(body, Freedom::Y)]))
-        .fold(part(&forces), f64::max)
 }

@@ -104,7 +104,7 @@ fn finish(
             let name = &scene.structures[choice.structure].name;
             progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
         }
-        for warning in warning::warnings(&case.scene, &outcome.cast, &outcome.record, &outcome.run) {
+        for warning in warning::of_case(&case.scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
     }

@@ -5,6 +5,8 @@ mod modal;
 mod mount;
 mod parts;
 
+use std::sync::Arc;
+
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
@@ -16,7 +18,8 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{choose, reason, rung_of, word};
+pub use ladder::{Chosen, Trouble, choose, doubt, modes_of, reason, rung_of, word};
+pub use modal::Spectra;
 pub use parts::{RigidParts, roll_inertia};
 
 /// A structure's FE model, solved.
@@ -89,7 +92,7 @@ pub fn foundation(
     solved: Option<&Solved>,
     lateral: bool,
 ) -> Result<Foundation, Failure> {
-    Ok(laid(structure, solved, lateral)?.foundation)
+    Ok(laid(&mut Spectra::default(), structure, solved, lateral)?.foundation)
 }
 
 /// A foundation, with the model behind its freedoms.
@@ -109,20 +112,30 @@ impl From<Foundation> for Laid {
 /// The model whose motions are the freedoms of a foundation, in their order.
 pub enum Motion {
     /// Natural modes of a frame, with its members cut, as far as wheels can excite them.
-    Modes(Box<(Frame, fea::Refined)>),
+    Modes {
+        /// The frame.
+        frame: Arc<Frame>,
+        /// Its modes.
+        refined: Box<fea::Refined>,
+    },
     /// Rigid parts of a straight girder.
     Parts(RigidParts),
 }
 
-/// As [`foundation`], with the model behind it.
+/// As [`foundation`], with the model behind it; modes that are known already stand in `spectra`.
 ///
 /// # Errors
 /// As [`foundation`].
-pub fn laid(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
+pub fn laid(
+    spectra: &mut Spectra,
+    structure: &Structure,
+    solved: Option<&Solved>,
+    lateral: bool,
+) -> Result<Laid, Failure> {
     let irregularities = structure.irregularities.clone();
     let mut on = mount::mount(structure)?;
     let is_dragged = structure.longitudinal;
-    let Laid { mut foundation, motion } = grounded(structure, solved, lateral)?;
+    let Laid { mut foundation, motion } = grounded(spectra, structure, solved, lateral)?;
     if let (Some(on), Some(own)) = (&mut on, foundation.on.take()) {
         (on.mass, on.coupling) = (own.mass, own.coupling);
     }
@@ -141,7 +154,12 @@ pub fn laid(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
 }
 
 /// The same, without what carries it.
-fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Result<Laid, Failure> {
+fn grounded(
+    spectra: &mut Spectra,
+    structure: &Structure,
+    solved: Option<&Solved>,
+    lateral: bool,
+) -> Result<Laid, Failure> {
     let extents = || {
         let extent = |rail: &crate::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
@@ -157,10 +175,10 @@ fn grounded(structure: &Structure, solved: Option<&Solved>, lateral: bool) -> Re
             parts::foundation(girder, count, handover, push)
         }
         scene::Foundation::Modal { modes, damping } => {
-            modal::lowest(&structure.name, needed(structure, solved)?, modes, damping, push)
+            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, push)
         }
         scene::Foundation::Full { elements, damping } => {
-            modal::full(&structure.name, needed(structure, solved)?, elements, damping, push)
+            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, push)
         }
         scene::Foundation::Ties { moves: false, .. } => Ok(influence(structure, solved)?.into()),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -259,7 +277,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    Ok(modal::full("structure", solved, elements, 0.0, false.into())?.foundation)
+    Ok(Spectra::default().full("structure", solved, elements, 0.0, false.into())?.foundation)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use fea::{Frame, Modes, Refined};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
-use splines::{Compliance, Line, Probe};
+use splines::{Compliance, Line, Probe, Surface};
 
 use super::mount::{self, Push};
 use super::{Laid, Motion, Solved};
@@ -14,20 +14,123 @@ use crate::track::Pad;
 
 /// Error of a frequency that the cutting of members may leave.
 const ACCURACY: f64 = 1e-6;
+/// The same where modes only say what is to be left out.
+const COARSE: f64 = 1e-2;
 /// Motion of the rails where wheels push, by that of the whole mass moving alike, below which wheels cannot excite it.
 const STILL: f64 = 1e-6;
 /// Relative difference of two frequencies that are one.
 const EQUAL: f64 = 1e-6;
 
-/// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
-pub(super) fn lowest(
-    name: &str,
+/// Modes of one mesh that wheels can excite, and what is needed to leave some of them out.
+pub(super) struct Spectrum {
+    refined: Refined,
+    felt: Vec<fea::Mode>,
+    frame: Arc<Frame>,
+    surface: Surface,
+    /// Whether there are no others.
+    is_whole: bool,
+}
+
+impl Spectrum {
+    /// At least the lowest `count` modes, where there are so many.
+    pub fn lowest(name: &str, solved: &Solved, count: usize, push: Push) -> Result<Spectrum, Failure> {
+        let (refined, felt, is_whole) =
+            search(solved, count, ACCURACY, push).map_err(|e| refused(name, &e))?;
+        Spectrum::new(name, refined, felt, is_whole)
+    }
+
+    /// All modes of a mesh of `parts` elements a member.
+    pub fn whole(name: &str, solved: &Solved, parts: usize, push: Push) -> Result<Spectrum, Failure> {
+        let refined =
+            fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
+        let felt = felt(&refined.modes, solved, push);
+        Spectrum::new(name, refined, felt, true)
+    }
+
+    fn new(name: &str, refined: Refined, felt: Vec<fea::Mode>, is_whole: bool) -> Result<Spectrum, Failure> {
+        let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+        let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
+        let surface = frame.surface().map_err(untrusted)?.surface;
+        Ok(Spectrum { refined, felt, frame: Arc::new(frame), surface, is_whole })
+    }
+
+    /// Whether `count` modes are there, or all that exist.
+    pub fn has(&self, count: usize) -> bool {
+        self.is_whole || self.felt.len() >= count
+    }
+
+    /// The lowest `count` modes, `ratio` of critical damping each.
+    pub fn foundation(
+        &self,
+        name: &str,
+        count: usize,
+        ratio: f64,
+        dampers: Dampers<'_>,
+        push: Push,
+    ) -> Result<Laid, Failure> {
+        let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+        let mut refined = self.refined.clone();
+        refined.modes.modes = self.felt.iter().take(count).cloned().collect();
+        let kept = &refined.modes;
+        let rest = kept.residual(&self.surface).map_err(untrusted)?;
+        let shapes = Box::new(ModeShapes::new(Arc::clone(self.surface.line()), &kept.modes));
+        let rails = (0..refined.rails.len())
+            .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
+            .collect();
+        let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
+        let dynamics = if dampers.c > 0.0 {
+            damped(&kept.modes, &omega, ratio, dampers)
+        } else {
+            Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
+        };
+        let foundation = Foundation {
+            compliance: Some(Box::new(rest)),
+            structure: Some(sim::Structure { dynamics, shapes }),
+            rails,
+            on: push.on.map(|on| mount::inertia(kept, on)),
+            ..Foundation::default()
+        };
+        let motion = Motion::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
+        Ok(Laid { foundation, motion: Some(motion) })
+    }
+}
+
+/// At least the lowest `count` modes that wheels can excite, and whether these are all; frequencies within `accuracy`.
+fn search(
     solved: &Solved,
     count: usize,
-    ratio: f64,
+    accuracy: f64,
     push: Push,
-) -> Result<Laid, Failure> {
-    lowest_with(name, solved, count, ratio, Dampers::default(), push)
+) -> Result<(Refined, Vec<fea::Mode>, bool), fea::Error> {
+    let mut asked = count;
+    loop {
+        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)?;
+        let felt = felt(&refined.modes, solved, push);
+        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
+        let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
+        // Some of the modes of one frequency are not enough to turn them.
+        let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
+        if is_whole || (felt.len() >= count && !torn) {
+            return Ok((refined, felt, is_whole));
+        }
+        asked = (2 * asked).max(asked + 8);
+    }
+}
+
+/// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
+pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Failure> {
+    let (refined, mut felt, _) = match search(solved, count, COARSE, false.into()) {
+        Ok(found) => found,
+        Err(fea::Error::NoMass) => return Ok(None),
+        Err(error) => return Err(refused(name, &error)),
+    };
+    felt.truncate(count);
+    let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
+    let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
+    let shapes = Box::new(ModeShapes::new(Arc::clone(frame.line().map_err(untrusted)?), &felt));
+    let omega: Vec<f64> = felt.iter().map(|mode| mode.omega).collect();
+    let dynamics = Dynamics::Modes { ratio: vec![0.0; omega.len()], omega };
+    Ok(Some(sim::Structure { dynamics, shapes }))
 }
 
 /// Dampers of one size under the ties of a rail.
@@ -48,60 +151,57 @@ pub(super) fn on_ties(
     dampers: Dampers<'_>,
     push: Push,
 ) -> Result<Laid, Failure> {
-    match count {
-        Some(count) => lowest_with(name, solved, count, ratio, dampers, push),
-        None => full_with(name, solved, 1, ratio, dampers, push),
+    let spectrum = match count {
+        Some(count) => Spectrum::lowest(name, solved, count, push)?,
+        None => Spectrum::whole(name, solved, 1, push)?,
+    };
+    spectrum.foundation(name, count.unwrap_or(usize::MAX), ratio, dampers, push)
+}
+
+/// Modes of one structure that were found already.
+#[derive(Default)]
+pub struct Spectra {
+    lowest: Option<Spectrum>,
+    /// By elements a member.
+    whole: Vec<(usize, Spectrum)>,
+}
+
+impl Spectra {
+    /// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
+    pub(super) fn lowest(
+        &mut self,
+        name: &str,
+        solved: &Solved,
+        count: usize,
+        ratio: f64,
+        push: Push,
+    ) -> Result<Laid, Failure> {
+        let known = self.lowest.take().filter(|spectrum| spectrum.has(count));
+        let spectrum = match known {
+            Some(known) => known,
+            None => Spectrum::lowest(name, solved, count, push)?,
+        };
+        self.lowest.insert(spectrum).foundation(name, count, ratio, Dampers::default(), push)
     }
-}
 
-fn lowest_with(
-    name: &str,
-    solved: &Solved,
-    count: usize,
-    ratio: f64,
-    dampers: Dampers<'_>,
-    push: Push,
-) -> Result<Laid, Failure> {
-    let mut asked = count;
-    loop {
-        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, ACCURACY)
-            .map_err(|error| refused(name, &error))?;
-        let felt = felt(&refined.modes, solved, push);
-        let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
-        let all = refined.modes.modes.len() < asked || refined.modes.next.is_none();
-        // Some of the modes of one frequency are not enough to turn them.
-        let torn = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
-        if all || (felt.len() >= count && !torn) {
-            let lowest = felt.into_iter().take(count).collect();
-            return foundation(name, refined, lowest, ratio, dampers, push);
-        }
-        asked = (2 * asked).max(asked + 8);
+    /// Every mode that wheels can excite of a mesh of `parts` elements a member.
+    pub(super) fn full(
+        &mut self,
+        name: &str,
+        solved: &Solved,
+        parts: usize,
+        ratio: f64,
+        push: Push,
+    ) -> Result<Laid, Failure> {
+        let at = match self.whole.iter().position(|(own, _)| *own == parts) {
+            Some(at) => at,
+            None => {
+                self.whole.push((parts, Spectrum::whole(name, solved, parts, push)?));
+                self.whole.len() - 1
+            }
+        };
+        self.whole[at].1.foundation(name, usize::MAX, ratio, Dampers::default(), push)
     }
-}
-
-/// Every mode that wheels can excite of a mesh of `parts` elements a member.
-pub(super) fn full(
-    name: &str,
-    solved: &Solved,
-    parts: usize,
-    ratio: f64,
-    push: Push,
-) -> Result<Laid, Failure> {
-    full_with(name, solved, parts, ratio, Dampers::default(), push)
-}
-
-fn full_with(
-    name: &str,
-    solved: &Solved,
-    parts: usize,
-    ratio: f64,
-    dampers: Dampers<'_>,
-    push: Push,
-) -> Result<Laid, Failure> {
-    let refined =
-        fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
-    let felt = felt(&refined.modes, solved, push);
-    foundation(name, refined, felt, ratio, dampers, push)
 }
 
 fn refused(name: &str, error: &fea::Error) -> Failure {
@@ -146,7 +246,6 @@ fn felt(modes: &Modes, solved: &Solved, push: Push) -> Vec<fea::Mode> {
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
 fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
-    let axes = push.axes();
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {
@@ -154,7 +253,7 @@ fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
             None => given.stations.clone(),
         };
         for x in places {
-            for &axis in &axes {
+            for axis in push.axes() {
                 // a direction that nothing resists moves no mode
                 if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
                     rows.extend(shapes.into_iter().map(|[value, _]| value));
@@ -193,43 +292,6 @@ fn places(line: &Line, rail: usize) -> Vec<f64> {
         .collect()
 }
 
-fn foundation(
-    name: &str,
-    mut refined: Refined,
-    felt: Vec<fea::Mode>,
-    ratio: f64,
-    dampers: Dampers<'_>,
-    push: Push,
-) -> Result<Laid, Failure> {
-    let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
-    let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
-    let surface = frame.surface().map_err(untrusted)?.surface;
-    refined.modes.modes = felt;
-    let kept = &refined.modes;
-    let rest = kept.residual(&surface).map_err(untrusted)?;
-    let line = Arc::clone(surface.line());
-    let states =
-        DMatrix::from_fn(6 * line.states(), kept.modes.len(), |k, r| kept.modes[r].states[k / 6][k % 6]);
-    let rails = (0..refined.rails.len())
-        .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
-        .collect();
-    let omega: Vec<f64> = kept.modes.iter().map(|mode| mode.omega).collect();
-    let dynamics = if dampers.c > 0.0 {
-        damped(&kept.modes, &omega, ratio, dampers)
-    } else {
-        Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
-    };
-    let shapes = Box::new(ModeShapes { line, states });
-    let foundation = Foundation {
-        compliance: Some(Box::new(rest)),
-        structure: Some(sim::Structure { dynamics, shapes }),
-        rails,
-        on: push.on.map(|on| mount::inertia(kept, on)),
-        ..Foundation::default()
-    };
-    Ok(Laid { foundation, motion: Some(Motion::Modes(Box::new((frame, refined)))) })
-}
-
 /// M = 1, K = omega^2, C = 2 zeta omega + c D^T D; D: by how much each mode stretches each damper.
 fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) -> Dynamics {
     let up = |pad: &Pad, point: usize, arm: [f64; 3], mode: &fea::Mode| {
@@ -254,6 +316,13 @@ struct ModeShapes {
     line: Arc<Line>,
     /// Freedoms of the states x modes.
     states: DMatrix<f64>,
+}
+
+impl ModeShapes {
+    fn new(line: Arc<Line>, modes: &[fea::Mode]) -> ModeShapes {
+        let states = DMatrix::from_fn(6 * line.states(), modes.len(), |k, r| modes[r].states[k / 6][k % 6]);
+        ModeShapes { line, states }
+    }
 }
 
 impl Shapes for ModeShapes {

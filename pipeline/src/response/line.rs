@@ -261,8 +261,7 @@ impl Lines {
 fn inertia(effects: &[Effect], laid: &Laid, solved: &Solved) -> Result<DMatrix<f64>, fea::Error> {
     match &laid.motion {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
-        Some(Motion::Modes(both)) => {
-            let (frame, refined) = both.as_ref();
+        Some(Motion::Modes { frame, refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
             Ok(frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
         }

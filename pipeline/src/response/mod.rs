@@ -30,11 +30,12 @@ pub use wheel_load::{WheelLoad, WheelLoads};
 use serde_json::{Map, Value, json};
 use sim::{Channel, History};
 
+use crate::cases::{Known, solved_of};
 use crate::exit::Failure;
 use crate::link::{Laid, Solved};
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Origin, Scene};
+use crate::scene::{Origin, Pick, Scene};
 
 /// What a run's structures answered.
 #[derive(Clone, Debug, Default)]
@@ -55,6 +56,15 @@ pub struct Response {
     pub sways: Vec<Sway>,
     /// What is left out, and why.
     pub notes: Vec<String>,
+}
+
+/// Whether each structure of `scene` may have columns that its freedoms are needed for.
+#[must_use]
+pub fn answers(scene: &Scene, known: &[Known]) -> Vec<bool> {
+    let few = column::few(scene);
+    let some = |pick: &Pick, few: bool| !matches!(pick, Pick::None) && (few || !matches!(pick, Pick::Few));
+    let asked = some(&scene.output.reactions, few[0]) || some(&scene.output.sections, few[1]);
+    scene.structures.iter().map(|structure| asked && solved_of(known, &structure.origin).is_some()).collect()
 }
 
 /// Influence lines of every structure of `scene` for the columns it asks for; `None` where it asks for none.

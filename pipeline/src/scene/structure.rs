@@ -185,6 +185,8 @@ impl Foundation {
 
 /// Relative error allowed to the choice of a foundation where the scene gives none.
 pub const TOLERANCE: f64 = 1e-3;
+/// Least tolerance that runs can be compared to.
+const FINEST: f64 = 1e-7;
 
 /// Modes where the scene gives no number of them.
 pub const MODES: usize = 5;
@@ -228,9 +230,7 @@ pub(super) fn read(
         Some(word) => check.faults.word(word, &at.key("reading"), &Reading::WORDS).unwrap_or(Reading::Exact),
         None => Reading::Exact,
     };
-    let tolerance = raw.tolerance.unwrap_or(TOLERANCE);
-    let tolerance =
-        check.positive(tolerance, &at.key("tolerance"), Dimension::NUMBER, "a relative error, such as 1e-3");
+    let tolerance = read_tolerance(raw, at, check);
     let ties = ties::read(raw, matches!(word, Word::Ties), at, check);
     let origin = match (&raw.spec, &raw.tables) {
         (None, None) if ties.is_some() || matches!(word, Word::Ties) => {
@@ -333,6 +333,17 @@ fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) ->
         ("auto", Word::Auto),
     ];
     check.faults.word(word, &place, &words).unwrap_or(Word::Auto)
+}
+
+/// Relative error allowed to the choice of a foundation.
+fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    let (place, given) = (at.key("tolerance"), raw.tolerance.unwrap_or(TOLERANCE));
+    let tolerance = check.positive(given, &place, Dimension::NUMBER, "a relative error, such as 1e-3");
+    if given > 0.0 && !(FINEST..1.0).contains(&given) {
+        let fault = Fault::new(&place, "must be at least 1e-7 and below 1").got(given);
+        check.faults.add(fault.hint("a relative error, such as 1e-3"));
+    }
+    tolerance
 }
 
 /// Share of critical damping; modes and elements must be some.
