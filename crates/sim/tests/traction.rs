@@ -131,6 +131,31 @@ fn braked_wheel_on_a_massless_rail_slides_on_what_the_rail_moves() {
 }
 
 #[test]
+fn heavy_brake_grips_a_rail_that_hardly_gives_and_comes_to_a_stand() {
+    // A crane of 1600 kip: in short steps the brake turns from end to end of its force within 1e-6 of that force.
+    let (mass, gxx, end) = (5e4, 1e-6, 1.0);
+    let kernel = Kernel(move |p: Probe, q: Probe| match (p.axis, q.axis) {
+        (Axis::Vertical, Axis::Vertical) => [1e-8, 0.0],
+        (Axis::Longitudinal, Axis::Longitudinal) => [gxx, 0.0],
+        _ => [0.0; 2],
+    });
+    let foundation = Foundation { is_dragged: true, ..Foundation::influence(Box::new(kernel), 1) };
+    let mut scene = braked(end);
+    (scene.bodies[0].mass, scene.bodies[0].inertia) = (mass, [mass; 3]);
+    scene.wheels[0].normal.stiffness = 1e8;
+    scene.actuators.brakes[0].speed = 0.002;
+    scene.accuracy = 1e-5;
+    let found = run(&scene, foundation);
+    // Analytic: it stands after v / (mu g), within v^2 / (2 mu g) and the give of the rail; then it swings on the rail by
+    // at most the give under the brake.
+    let (path, give) = (SPEED * SPEED / (2.0 * MU * GRAVITY), gxx * MU * mass * GRAVITY);
+    assert!(SPEED / (MU * GRAVITY) < 0.5 * end, "it stands for half the time");
+    close("path", last(&found, X), path, 2.0 * give);
+    assert!(last(&found, V).abs() < give * (gxx * mass).powf(-0.5), "{}", last(&found, V));
+    assert!(found.audit.residual() < 1e-4, "{:e}", found.audit.residual());
+}
+
+#[test]
 fn slip_is_measured_against_the_rail_and_not_along_the_path_of_the_wheel() {
     // G(x, z) = a + b x z along the rail: under a force that stays, a wheel that moves on sees u change by its place alone.
     let (a, b, end, speed, slip) = (1.0 / K, 4.0 / K, 0.8, 1.0, 0.5);
