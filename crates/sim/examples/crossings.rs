@@ -39,7 +39,8 @@ fn clock() -> f64 {
 }
 
 fn solve(scene: &Scene, foundations: &[Foundation]) -> Result<Run, Error> {
-    run_by(Method::Auto, scene, foundations, &mut |_| ControlFlow::Continue(()))
+    let method = if foundations.iter().any(|f| f.structure.is_some()) { Method::Radau } else { Method::Auto };
+    run_by(method, scene, foundations, &mut |_| ControlFlow::Continue(()))
 }
 
 /// The span of Yang and Yau's bridge, m, and its bending stiffness, N m^2.

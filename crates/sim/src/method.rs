@@ -7,7 +7,8 @@ use crate::{Dynamics, Error, Foundation, Scene};
 /// A method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// The first of series, Radau and SDIRK that suits the scene.
+    /// Series or Radau where they suit the scene and no structure has mass, SDIRK elsewhere: the error that Radau estimates
+    /// says too little of many high modes.
     #[default]
     Auto,
     /// SDIRK of order 4, L-stable: every scene.
@@ -52,7 +53,7 @@ impl Method {
     pub(crate) fn chosen(self, system: &System) -> Method {
         match self {
             Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
-            Method::Auto if Method::Radau.check(system).is_ok() => Method::Radau,
+            Method::Auto if Method::Radau.check(system).is_ok() && !system.has_structures() => Method::Radau,
             Method::Auto => Method::Sdirk4,
             method => method,
         }
