@@ -162,60 +162,15 @@ def plain(x, s):
 
 
 def by_exudyn(case, steps):
-    import exudyn as exu
-    import exudyn.itemInterface as item
-
     arms = np.array([[1.0, a] for a in bogie.ARMS])
-    container = exu.SystemContainer()
-    mbs = container.AddSystem()
-    start = case.start
-    node = mbs.AddNode(
-        item.NodeGenericODE2(
-            referenceCoordinates=[0.0, 0.0],
-            initialCoordinates=list(start[:2]),
-            initialCoordinates_t=[0.0, 0.0],
-            numberOfODE2Coordinates=2,
-        )
-    )
-    mass = np.diag([bogie.MASS, bogie.INERTIA])
+
     # Matrices at the start fix the first acceleration; before a step, t is the step's end.
-    first = arms.T @ np.linalg.solve(bogie.compliance(0.0), arms)
-    body = mbs.AddObject(
-        item.ObjectGenericODE2(
-            nodeNumbers=[node],
-            massMatrix=mass,
-            stiffnessMatrix=first,
-            dampingMatrix=bogie.DAMPING / bogie.STIFFNESS * first,
-            forceVector=[bogie.MASS * bogie.GRAVITY, 0.0],
-        )
-    )
-    out = np.full(SAMPLES, np.nan)
-    out[0] = start[0]
-    every, h = steps // 100, case.end / steps
+    def matrices(t):
+        k = arms.T @ np.linalg.solve(bogie.compliance(case.speed * t), arms)
+        return k, bogie.DAMPING / bogie.STIFFNESS * k
 
-    def before(system, t):
-        stiffness = arms.T @ np.linalg.solve(bogie.compliance(case.speed * t), arms)
-        system.SetObjectParameter(body, "stiffnessMatrix", stiffness)
-        system.SetObjectParameter(body, "dampingMatrix", bogie.DAMPING / bogie.STIFFNESS * stiffness)
-        return True
-
-    def after(system, t):
-        n = round(t / h)
-        if n % every == 0 and n // every < SAMPLES:
-            out[n // every] = system.GetNodeOutput(node, exu.OutputVariableType.Coordinates)[0]
-        return True
-
-    mbs.SetPreStepUserFunction(before)
-    mbs.SetPostStepUserFunction(after)
-    mbs.Assemble()
-    settings = exu.SimulationSettings()
-    settings.timeIntegration.numberOfSteps = steps
-    settings.timeIntegration.endTime = case.end
-    settings.timeIntegration.verboseMode = 0
-    settings.timeIntegration.newton.useModifiedNewton = False
-    settings.solutionSettings.writeSolutionToFile = False
-    mbs.SolveDynamic(settings, solverType=exu.DynamicSolverType.TrapezoidalIndex2)
-    return out
+    mass, load = np.diag([bogie.MASS, bogie.INERTIA]), [bogie.MASS * bogie.GRAVITY, 0.0]
+    return peers.exudyn(case.start[:2], mass, load, matrices, steps, case.end)
 
 
 def train_by_hand(case, steps):

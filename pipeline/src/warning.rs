@@ -20,7 +20,7 @@ const BENT: f64 = 0.01;
 /// Speed by the critical speed above which a girder without mass says little.
 const FAST: f64 = 0.5;
 
-/// [`warnings`] of a case, and those of the foundations chosen for it.
+/// Those of a case's run, and of the foundations chosen for it.
 #[must_use]
 pub fn of_case(scene: &Scene, outcome: &Outcome) -> Vec<String> {
     let mut all = warnings(scene, &outcome.cast, &outcome.record, &outcome.run);
@@ -31,9 +31,7 @@ pub fn of_case(scene: &Scene, outcome: &Outcome) -> Vec<String> {
     all
 }
 
-/// All of them, for the run of one case.
-#[must_use]
-pub fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<String> {
+fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<String> {
     let mut all = Vec::new();
     let residual = run.audit.residual();
     if residual > RESIDUAL {

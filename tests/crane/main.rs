@@ -8,7 +8,11 @@ use std::process::Command;
 use serde_json::{Value, json};
 
 mod event;
+#[path = "../history.rs"]
+mod history;
 mod parts;
+
+use history::History;
 
 const GRAVITY: f64 = 32.174;
 
@@ -28,15 +32,7 @@ fn scene(name: &str) -> Value {
     scene
 }
 
-/// Columns of a history by name.
-struct History(Vec<(String, Vec<f64>)>);
-
 impl History {
-    fn column(&self, name: &str) -> &[f64] {
-        let found = self.0.iter().find(|(known, _)| known == name);
-        &found.unwrap_or_else(|| panic!("no column {name}")).1
-    }
-
     /// Columns whose names begin and end so.
     fn all(&self, begin: &str, end: &str) -> Vec<&[f64]> {
         let fits = |name: &str| name.starts_with(begin) && name.ends_with(end);
@@ -69,19 +65,7 @@ fn run(scene: &Value) -> (Vec<History>, Value) {
     files.extend(
         labels.map(|case| out.join(format!("history-{}.csv", case["label"].as_str().unwrap_or_default()))),
     );
-    (files.iter().map(|file| history(file)).collect(), read(&out.join("summary.json")))
-}
-
-fn history(file: &Path) -> History {
-    let mut reader = csv::Reader::from_path(file).expect("the history is there");
-    let mut columns: Vec<(String, Vec<f64>)> =
-        reader.headers().expect("a header").iter().map(|name| (name.to_owned(), Vec::new())).collect();
-    for row in reader.records() {
-        for (column, value) in columns.iter_mut().zip(row.expect("a row").iter()) {
-            column.1.push(value.parse().expect("a number"));
-        }
-    }
-    History(columns)
+    (files.iter().map(|file| History::read(file)).collect(), read(&out.join("summary.json")))
 }
 
 /// Times at which a history passes zero upwards, by lines between rows.

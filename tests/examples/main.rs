@@ -5,6 +5,11 @@ use std::process::Command;
 
 use serde_json::Value;
 
+#[path = "../history.rs"]
+mod history;
+
+use history::History;
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
@@ -12,28 +17,6 @@ fn root() -> PathBuf {
 fn json(path: &Path) -> Value {
     let text = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     serde_json::from_str(&text).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// Columns of a history file by name.
-struct History(Vec<(String, Vec<f64>)>);
-
-impl History {
-    fn read(path: &Path) -> History {
-        let mut reader = csv::Reader::from_path(path).expect("the history is there");
-        let mut columns: Vec<(String, Vec<f64>)> =
-            reader.headers().expect("a header").iter().map(|name| (name.to_owned(), Vec::new())).collect();
-        for row in reader.records() {
-            for (column, value) in columns.iter_mut().zip(row.expect("a row").iter()) {
-                column.1.push(value.parse().expect("a number"));
-            }
-        }
-        History(columns)
-    }
-
-    fn column(&self, name: &str) -> &[f64] {
-        let found = self.0.iter().find(|(known, _)| known == name);
-        &found.unwrap_or_else(|| panic!("no column {name}")).1
-    }
 }
 
 fn number(value: &Value) -> f64 {

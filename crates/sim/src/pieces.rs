@@ -79,8 +79,7 @@ impl Solver<'_> {
                 (ramp_integral(law.depth, to.max(0.0)) - ramp_integral(law.depth, from.max(0.0))).max(0.0)
             };
             let impulse = system.normals[i].count() * self.geometry.share[i][0] * law.damping * grown;
-            let row = self.geometry.force_rows[i * n..(i + 1) * n].to_vec();
-            self.spread_row(&row, &mut spread);
+            self.spread_row(&self.geometry.force_rows[i * n..(i + 1) * n], &mut spread);
             at.v.iter_mut().zip(&spread).for_each(|(v, by)| *v -= by * impulse);
         }
         self.follow(at);

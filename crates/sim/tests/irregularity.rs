@@ -6,12 +6,13 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use common::kutta::Kernel;
 use common::{GRAVITY, bogie};
 use sim::{
     Channel, Damper, Error, Flange, Foundation, Freedom, Given, Irregularity, Method, Profile, Run, Scene,
     Status, Wave,
 };
-use splines::{Axis, Compliance, Influence, Probe};
+use splines::Axis;
 
 const MASS: f64 = 2.0;
 const K: f64 = 800.0;
@@ -214,29 +215,6 @@ fn drive_lifts_the_weight_slowly_over_a_profile() {
     assert!(found.audit.residual() < 1e-8);
 }
 
-/// A rail on a spring under each place: G = `0` where deflection and load are at one place or not.
-struct Spring(f64);
-
-impl Compliance for Spring {
-    fn fill(&self, _: &[Probe], out: &mut Influence) -> Result<(), splines::Error> {
-        out.value.fill(self.0);
-        out.slope.fill(0.0);
-        Ok(())
-    }
-
-    fn breaks(&self, _: usize) -> Vec<f64> {
-        Vec::new()
-    }
-
-    fn range(&self, _: usize) -> Option<[f64; 2]> {
-        None
-    }
-
-    fn is_symmetric(&self) -> bool {
-        true
-    }
-}
-
 /// A bump of 1 - cos, as a polyline of `pieces`.
 fn bump(height: f64, length: f64, pieces: u32) -> Vec<[f64; 2]> {
     let at = |i: u32| std::f64::consts::TAU * f64::from(i) / f64::from(pieces);
@@ -292,7 +270,7 @@ fn bump_and_step_on_a_rail_that_gives_follow_an_independent_integration() {
     scene.accuracy = 1e-8;
     let foundation = Foundation {
         irregularities: vec![Irregularity::new(&rows, &[]).expect("rows")],
-        ..Foundation::influence(Box::new(Spring(give)), 1)
+        ..Foundation::influence(Box::new(Kernel(move |_, _| [give, 0.0])), 1)
     };
     let found = run(&scene, foundation);
     let (coarse, fine) = (independent(c, give, &rows, end, 400), independent(c, give, &rows, end, 800));

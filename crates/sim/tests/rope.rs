@@ -1,49 +1,20 @@
 //! Bodies in space on ropes: pendulums, hoisting, slack.
 
+mod common;
+
 use std::ops::ControlFlow;
 
-use sim::{
-    Actuators, Analysis, Body, Channel, Freedom, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run,
-};
+use common::space::{self, G, floor, scene};
+use sim::{Actuators, Body, Channel, Freedom, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run};
 
-const G: f64 = 9.80665;
-
+/// A point mass that is free in space.
 fn body(mass: f64, start: [f64; 3], speed: [f64; 3]) -> Body {
-    Body {
-        mass,
-        inertia: [0.0; 3],
-        cg: [0.0; 3],
-        free: [true, true, true, false, false, false],
-        start: [start[0], start[1], start[2], 0.0, 0.0, 0.0],
-        start_speed: [speed[0], speed[1], speed[2], 0.0, 0.0, 0.0],
-        motion: None,
-        pinned: None,
-    }
+    space::body(mass, [true; 3], start, speed)
 }
 
-fn still() -> Schedule {
-    Schedule::new(&[[0.0, 0.0]]).expect("one row")
-}
-
+/// A rope from the origin of space.
 fn rope(stiffness: f64, length: f64, to: usize) -> Rope {
-    let from = RopeEnd { body: None, at: [0.0; 3] };
-    let to = RopeEnd { body: Some(to), at: [0.0; 3] };
-    Rope { from, to, stiffness, damping: 0.0, length, speed: still() }
-}
-
-fn scene(bodies: Vec<Body>, actuators: Actuators, end: f64, accuracy: f64) -> Scene {
-    Scene {
-        gravity: G,
-        bodies,
-        wheels: Vec::new(),
-        contacts: Vec::new(),
-        gauges: Vec::new(),
-        actuators,
-        analysis: Analysis::Dynamic,
-        end,
-        output_dt: end / 1000.0,
-        accuracy,
-    }
+    space::rope(stiffness, length, [None, Some(to)])
 }
 
 fn go(scene: &Scene) -> Run {
@@ -143,16 +114,7 @@ fn hoisting_off_the_floor_at_speed_peaks_at_weight_and_v_root_k_m() {
     let mut line = rope(ea, l, 0);
     line.speed = Schedule::new(&[[0.0, v]]).expect("one row");
     let k_floor = 1e9;
-    let floor = Stop {
-        body: 0,
-        against: None,
-        at: [0.0; 3],
-        axis: 1,
-        place: -l,
-        side: -1.0,
-        stiffness: k_floor,
-        damping: 0.0,
-    };
+    let floor = floor(-l, k_floor);
     let start = [0.0, -l - m * G / k_floor, 0.0];
     let actuators = Actuators { ropes: vec![line], stops: vec![floor], ..Actuators::default() };
     let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, 0.3, 1e-7));

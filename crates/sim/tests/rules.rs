@@ -2,31 +2,20 @@
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
+mod common;
+
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use common::single;
+use common::space::{G, body, floor, rope, scene as space};
 use sim::{
-    Action, Actuators, Analysis, Body, Brake, Channel, Compare, Condition, Contact, Damper, Drive, Error,
-    Fired, Foundation, Freedom, Friction, FrictionLaw, NormalLaw, Rope, RopeEnd, Rule, Run, Scene, Schedule,
-    Status, Stop, Wheel, run,
+    Action, Actuators, Body, Brake, Channel, Compare, Condition, Damper, Drive, Error, Fired, Foundation,
+    Freedom, Friction, FrictionLaw, NormalLaw, Rule, Run, Scene, Schedule, Status, Wheel, run,
 };
 
-const G: f64 = 9.80665;
 const X: Channel = Channel::Displacement(0, Freedom::X);
 const SPEED: Channel = Channel::Speed(0, Freedom::X);
-
-fn body(mass: f64, free: [bool; 3], start: [f64; 3], speed: [f64; 3]) -> Body {
-    Body {
-        mass,
-        inertia: [0.0; 3],
-        cg: [0.0; 3],
-        free: [free[0], free[1], free[2], false, false, false],
-        start: [start[0], start[1], start[2], 0.0, 0.0, 0.0],
-        start_speed: [speed[0], speed[1], speed[2], 0.0, 0.0, 0.0],
-        motion: None,
-        pinned: None,
-    }
-}
 
 fn schedule(table: &[[f64; 2]]) -> Schedule {
     Schedule::new(table).expect("a valid table")
@@ -34,28 +23,6 @@ fn schedule(table: &[[f64; 2]]) -> Schedule {
 
 fn rule(channel: Channel, compare: Compare, level: f64, actions: &[Action]) -> Rule {
     Rule { when: Condition { terms: vec![(channel, 1.0)], compare, level }, actions: actions.to_vec() }
-}
-
-/// A rope between points of body 0 and body 1, or from the origin of space to body 0 where there is no body 1.
-fn rope(stiffness: f64, length: f64, ends: [Option<usize>; 2]) -> Rope {
-    let [from, to] = ends.map(|body| RopeEnd { body, at: [0.0; 3] });
-    Rope { from, to, stiffness, damping: 0.0, length, speed: schedule(&[[0.0, 0.0]]) }
-}
-
-/// Bodies in space.
-fn space(bodies: Vec<Body>, actuators: Actuators, end: f64, accuracy: f64) -> Scene {
-    Scene {
-        gravity: G,
-        bodies,
-        wheels: Vec::new(),
-        contacts: Vec::new(),
-        gauges: Vec::new(),
-        actuators,
-        analysis: Analysis::Dynamic,
-        end,
-        output_dt: end / 1000.0,
-        accuracy,
-    }
 }
 
 /// Body 0 on one wheel of stiffness `k` and friction `mu`, free along the rail; other bodies in space.
@@ -69,14 +36,7 @@ fn trolley(bodies: Vec<Body>, [k, mu]: [f64; 2], actuators: Actuators, end: f64,
             friction: Some(friction),
             spin_inertia: None,
         }],
-        contacts: vec![Contact {
-            body: 0,
-            structure: 0,
-            rail: 0,
-            at: [0.0; 3],
-            offsets: vec![0.0],
-            wheel: 0,
-        }],
+        contacts: vec![single()],
         ..space(bodies, actuators, end, accuracy)
     }
 }
@@ -155,16 +115,7 @@ fn a_load_let_go_leaves_its_carrier_at_its_own_frequency() {
 #[test]
 fn a_load_hoisted_off_the_ground_peaks_at_weight_and_v_root_k_m() {
     let (m, l, ea, v, ground) = (1000.0, 1e3, 1e9, 0.2, 1e10);
-    let floor = Stop {
-        body: 0,
-        against: None,
-        at: [0.0; 3],
-        axis: 1,
-        place: -l,
-        side: -1.0,
-        stiffness: ground,
-        damping: 0.0,
-    };
+    let floor = floor(-l, ground);
     let rules = vec![
         rule(Channel::Time, Compare::AtLeast, 0.1, &[Action::Hoist { rope: 0, speed: v }]),
         rule(Channel::Stop(0), Compare::AtMost, 0.0, &[]),

@@ -3,12 +3,15 @@
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
+mod common;
+
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
+use common::single;
 use sim::{
-    Actuators, Analysis, Body, Channel, Contact, Damper, Dynamics, Extent, Foundation, Gauge, Given,
-    NormalLaw, Profile, Scene, Shapes, Status, Structure, Wheel, run,
+    Actuators, Analysis, Body, Channel, Damper, Dynamics, Extent, Foundation, Gauge, Given, NormalLaw,
+    Profile, Scene, Shapes, Status, Structure, Wheel, run,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
@@ -131,14 +134,7 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
             friction: None,
             spin_inertia: None,
         }],
-        contacts: vec![Contact {
-            body: 0,
-            structure: 0,
-            rail: 0,
-            at: [0.0; 3],
-            offsets: vec![0.0],
-            wheel: 0,
-        }],
+        contacts: vec![single()],
         gauges: vec![Gauge { structure: 0, probe: Probe { rail: 0, x: start + 1.0, axis: Axis::Vertical } }],
         actuators: Actuators::default(),
         analysis: Analysis::Dynamic,

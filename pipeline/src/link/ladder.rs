@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
 use splines::Compliance;
 
-use super::{Laid, Solved, Spectra, laid, modal};
+use super::modal::{self, Dampers};
+use super::mount::Push;
+use super::{Laid, Solved, Spectra, laid};
 use crate::cases::{Known, solved_of};
 use crate::exit::Failure;
 use crate::scene::{Foundation, Scene, Structure};
@@ -81,8 +83,8 @@ fn elements(solved: Option<&Solved>) -> usize {
     (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
 }
 
-/// A solved structure at `rung`, by modes known in `spectra` (of this structure), for vertical wheel forces; `damping` of its modes by critical, `finer` times as many
-/// elements a member at the top as `"auto"` takes.
+/// A solved structure at `rung`, by modes known in `spectra` (of this structure), for vertical wheel forces; `damping` of
+/// its modes by critical, `finer` times as many elements a member at the top as `"auto"` takes.
 ///
 /// # Errors
 /// A structure without mass where modes are asked for; too many unknowns.
@@ -97,9 +99,15 @@ pub fn rung_of(
     let rails = solved.rails.iter().enumerate();
     let elements = finer * elements(Some(solved));
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => Ok(spectra.lowest(name, solved, modes, damping, false.into())?.foundation),
-        (Rung::Half, _) => Ok(spectra.full(name, solved, elements / 2, damping, false.into())?.foundation),
-        (Rung::Full, _) => Ok(spectra.full(name, solved, elements, damping, false.into())?.foundation),
+        (Rung::Modal(modes), _) => {
+            Ok(spectra.lowest(name, solved, modes, damping, Dampers::NONE, Push::DOWN)?.foundation)
+        }
+        (Rung::Half, _) => {
+            Ok(spectra.full(name, solved, elements / 2, damping, Dampers::NONE, Push::DOWN)?.foundation)
+        }
+        (Rung::Full, _) => {
+            Ok(spectra.full(name, solved, elements, damping, Dampers::NONE, Push::DOWN)?.foundation)
+        }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
         }

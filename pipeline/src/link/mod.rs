@@ -12,6 +12,7 @@ use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
 use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
 
+use self::modal::Dampers;
 use self::mount::Push;
 use crate::exit::Failure;
 use crate::grid::{Grid, axes};
@@ -83,18 +84,6 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solved, fea::
     Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
-/// The foundation of one structure of a scene; `lateral`: whether wheels push sideways.
-///
-/// # Errors
-/// What the tables or the FE model refuse.
-pub fn foundation(
-    structure: &Structure,
-    solved: Option<&Solved>,
-    lateral: bool,
-) -> Result<Foundation, Failure> {
-    Ok(laid(&mut Spectra::default(), structure, solved, lateral)?.foundation)
-}
-
 /// A foundation, with the model behind its freedoms.
 pub struct Laid {
     /// What carries the rails.
@@ -122,10 +111,11 @@ pub enum Motion {
     Parts(RigidParts),
 }
 
-/// As [`foundation`], with the model behind it; modes that are known already stand in `spectra`.
+/// What carries the rails of one structure of a scene, and the model behind it; modes that are known already stand in
+/// `spectra`, `lateral`: whether wheels push sideways.
 ///
 /// # Errors
-/// As [`foundation`].
+/// What the tables or the FE model refuse.
 pub fn laid(
     spectra: &mut Spectra,
     structure: &Structure,
@@ -175,10 +165,10 @@ fn grounded(
             parts::foundation(girder, count, handover, push)
         }
         scene::Foundation::Modal { modes, damping } => {
-            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, push)
+            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, Dampers::NONE, push)
         }
         scene::Foundation::Full { elements, damping } => {
-            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, push)
+            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, Dampers::NONE, push)
         }
         scene::Foundation::Ties { moves: false, .. } => Ok(influence(structure, solved)?.into()),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
@@ -186,8 +176,13 @@ fn grounded(
                 Origin::Spec { spec, .. } => spec.pads(),
                 Origin::Tables { .. } => &[],
             };
-            let dampers = modal::Dampers { pads, c };
-            modal::on_ties(&structure.name, needed(structure, solved)?, modes, damping, dampers, push)
+            let (name, dampers) = (&structure.name, Dampers { pads, c });
+            let solved = needed(structure, solved)?;
+            match modes {
+                Some(count) => spectra.lowest(name, solved, count, damping, dampers, push),
+                // the mesh as it is
+                None => spectra.full(name, solved, 1, damping, dampers, push),
+            }
         }
     }
 }
@@ -269,7 +264,7 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 /// # Errors
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
-    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, false.into())?.foundation)
+    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, Push::DOWN)?.foundation)
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
@@ -277,7 +272,7 @@ pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Resu
 /// # Errors
 /// A structure without mass; too many unknowns.
 pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Failure> {
-    Ok(Spectra::default().full("structure", solved, elements, 0.0, false.into())?.foundation)
+    Ok(Spectra::default().full("structure", solved, elements, 0.0, Dampers::NONE, Push::DOWN)?.foundation)
 }
 
 fn failure(name: &str, error: &splines::Error) -> Failure {

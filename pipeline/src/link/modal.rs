@@ -119,7 +119,7 @@ fn search(
 
 /// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
 pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Failure> {
-    let (refined, mut felt, _) = match search(solved, count, COARSE, false.into()) {
+    let (refined, mut felt, _) = match search(solved, count, COARSE, Push::DOWN) {
         Ok(found) => found,
         Err(fea::Error::NoMass) => return Ok(None),
         Err(error) => return Err(refused(name, &error)),
@@ -134,7 +134,7 @@ pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option
 }
 
 /// Dampers of one size under the ties of a rail.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(super) struct Dampers<'p> {
     /// Where they are.
     pub pads: &'p [Pad],
@@ -142,20 +142,8 @@ pub(super) struct Dampers<'p> {
     pub c: f64,
 }
 
-/// Modes of a rail on ties: the lowest `count`, or all of the mesh as it is.
-pub(super) fn on_ties(
-    name: &str,
-    solved: &Solved,
-    count: Option<usize>,
-    ratio: f64,
-    dampers: Dampers<'_>,
-    push: Push,
-) -> Result<Laid, Failure> {
-    let spectrum = match count {
-        Some(count) => Spectrum::lowest(name, solved, count, push)?,
-        None => Spectrum::whole(name, solved, 1, push)?,
-    };
-    spectrum.foundation(name, count.unwrap_or(usize::MAX), ratio, dampers, push)
+impl Dampers<'_> {
+    pub const NONE: Dampers<'static> = Dampers { pads: &[], c: 0.0 };
 }
 
 /// Modes of one structure that were found already.
@@ -174,6 +162,7 @@ impl Spectra {
         solved: &Solved,
         count: usize,
         ratio: f64,
+        dampers: Dampers<'_>,
         push: Push,
     ) -> Result<Laid, Failure> {
         let known = self.lowest.take().filter(|spectrum| spectrum.has(count));
@@ -181,7 +170,7 @@ impl Spectra {
             Some(known) => known,
             None => Spectrum::lowest(name, solved, count, push)?,
         };
-        self.lowest.insert(spectrum).foundation(name, count, ratio, Dampers::default(), push)
+        self.lowest.insert(spectrum).foundation(name, count, ratio, dampers, push)
     }
 
     /// Every mode that wheels can excite of a mesh of `parts` elements a member.
@@ -191,6 +180,7 @@ impl Spectra {
         solved: &Solved,
         parts: usize,
         ratio: f64,
+        dampers: Dampers<'_>,
         push: Push,
     ) -> Result<Laid, Failure> {
         let at = match self.whole.iter().position(|(own, _)| *own == parts) {
@@ -200,7 +190,7 @@ impl Spectra {
                 self.whole.len() - 1
             }
         };
-        self.whole[at].1.foundation(name, usize::MAX, ratio, Dampers::default(), push)
+        self.whole[at].1.foundation(name, usize::MAX, ratio, dampers, push)
     }
 }
 

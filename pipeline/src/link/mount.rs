@@ -44,18 +44,14 @@ pub(super) struct Push {
 }
 
 impl Push {
+    /// Vertical wheel forces on a structure on the ground.
+    pub const DOWN: Push = Push { lateral: false, longitudinal: false, on: None };
+
     /// Directions in which wheels push.
     pub fn axes(self) -> Vec<Axis> {
         let pushes =
             [(Axis::Vertical, true), (Axis::Lateral, self.lateral), (Axis::Longitudinal, self.longitudinal)];
         pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect()
-    }
-}
-
-impl From<bool> for Push {
-    /// Wheels on the ground's structures.
-    fn from(lateral: bool) -> Push {
-        Push { lateral, longitudinal: false, on: None }
     }
 }
 

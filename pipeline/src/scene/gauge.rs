@@ -26,6 +26,22 @@ pub struct Gauge {
 const DIRECTIONS: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
 
+/// Index of the rail named at `at` among those of its structure; the only one where none is named.
+pub(super) fn rail_among(
+    given: Option<&String>,
+    rails: &[RailOutline],
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<usize> {
+    let words: Vec<(&str, usize)> =
+        rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
+    match (given, rails.len()) {
+        (Some(rail), _) => check.faults.word(rail, &at.key("rail"), &words),
+        (None, 1) => Some(0),
+        (None, _) => check.faults.need(&given, at, "rail").map(|_| 0),
+    }
+}
+
 pub(super) fn read(
     raw: &Entries<RawGauge>,
     rails: &[RailOutline],
@@ -36,13 +52,7 @@ pub(super) fn read(
     for (name, raw) in &raw.0 {
         let at = at.key(name);
         super::name(name, &at, check.faults);
-        let words: Vec<(&str, usize)> =
-            rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
-        let rail = match (&raw.rail, rails.len()) {
-            (Some(rail), _) => check.faults.word(rail, &at.key("rail"), &words),
-            (None, 1) => Some(0),
-            (None, _) => check.faults.need(&raw.rail, &at, "rail").map(|_| 0),
-        };
+        let rail = rail_among(raw.rail.as_ref(), rails, &at, check);
         let x = check.faults.need(&raw.x, &at, "x").copied();
         let axis = match &raw.direction {
             Some(word) => check.faults.word(word, &at.key("direction"), &DIRECTIONS),

@@ -5,6 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use sim::{Irregularity, Wave};
 use splines::Axis;
 
+use super::gauge::rail_among;
 use super::raw::RawIrregularity;
 use super::survey::profile;
 use crate::check::Check;
@@ -61,13 +62,7 @@ pub(super) fn read(
     let mut sums = vec![Irregularity::default(); rails.len()];
     for (index, raw) in raw.iter().enumerate() {
         let at = at.index(index);
-        let words: Vec<(&str, usize)> =
-            rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
-        let rail = match (&raw.rail, rails.len()) {
-            (Some(rail), _) => check.faults.word(rail, &at.key("rail"), &words),
-            (None, 1) => Some(0),
-            (None, _) => check.faults.need(&raw.rail, &at, "rail").map(|_| 0),
-        };
+        let rail = rail_among(raw.rail.as_ref(), rails, &at, check);
         let axis = match &raw.direction {
             Some(word) => check.faults.word(word, &at.key("direction"), &DIRECTIONS),
             None => Some(Axis::Vertical),

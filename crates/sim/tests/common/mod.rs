@@ -6,6 +6,7 @@ pub mod crane;
 pub mod kutta;
 pub mod modes;
 pub mod parts;
+pub mod space;
 
 use std::sync::Arc;
 
@@ -70,6 +71,11 @@ impl Compliance for ClosedForm {
 
 pub fn girder() -> Foundation {
     Foundation::influence(Box::new(ClosedForm), 1)
+}
+
+/// One wheel of kind 0 under the origin of body 0, on the first rail of structure 0.
+pub fn single() -> Contact {
+    Contact { body: 0, structure: 0, rail: 0, at: [0.0; 3], offsets: vec![0.0], wheel: 0 }
 }
 
 /// The paper's two-wheel bogie at constant `speed`.

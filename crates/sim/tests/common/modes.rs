@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 
 use sim::{
-    Analysis, Body, Contact, Damper, Dynamics, Extent, Foundation, Gauge, Given, NormalLaw, Profile, Scene,
-    Shapes, Structure, Wheel,
+    Analysis, Body, Damper, Dynamics, Extent, Foundation, Gauge, Given, NormalLaw, Profile, Scene, Shapes,
+    Structure, Wheel,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
-use super::{EI, SPAN, give};
+use super::{EI, SPAN, give, single};
 
 /// Mass per length, slug/ft.
 pub const MASS: f64 = 15.2;
@@ -110,14 +110,7 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
             friction: None,
             spin_inertia: None,
         }],
-        contacts: vec![Contact {
-            body: 0,
-            structure: 0,
-            rail: 0,
-            at: [0.0; 3],
-            offsets: vec![0.0],
-            wheel: 0,
-        }],
+        contacts: vec![single()],
         gauges: vec![Gauge { structure: 0, probe: Probe { rail: 0, x: SPAN / 2.0, axis: Axis::Vertical } }],
         actuators: sim::Actuators::default(),
         analysis: Analysis::Dynamic,
