@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use sim::{Foundation, Run};
 
+use crate::codes::Codes;
 use crate::exit::Failure;
 use crate::link::{self, Solved};
 use crate::motion::{Cast, cast};
@@ -31,6 +32,8 @@ pub struct Outcome {
     pub lines: Vec<Option<Lines>>,
     /// What the structures answered.
     pub response: Response,
+    /// The run beside codes, where the scene asks for that.
+    pub codes: Option<Codes>,
 }
 
 /// A spec that was solved, and what came of it.
@@ -151,7 +154,8 @@ fn one(
     if case.label.is_none() {
         response.bend(&scene, &cast, &run.history, &laid, &solved)?;
     }
-    Ok(Outcome { label, cast, run, record, choices, lines, response })
+    let codes = Codes::new(&scene, &cast, &record)?;
+    Ok(Outcome { label, cast, run, record, choices, lines, response, codes })
 }
 
 /// The scene's own run is labelled by what carries it.

@@ -82,6 +82,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     }
     if let Some(members) = result.as_object_mut() {
         members.extend(outcome.response.json());
+        members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));
     }
     let warnings = warning::of_case(scene, outcome);
     if !warnings.is_empty() {

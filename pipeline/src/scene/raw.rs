@@ -66,6 +66,7 @@ pub(crate) struct RawScene {
     pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
+    pub practice: Option<super::practice::RawPractice>,
     pub accuracy: Option<f64>,
     pub stepper: Option<String>,
     pub step: Option<f64>,
