@@ -8,6 +8,7 @@ use sim::{Foundation, Run};
 
 use crate::codes::Codes;
 use crate::exit::Failure;
+use crate::fatigue::{self, Verdict};
 use crate::link::{self, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
@@ -34,6 +35,8 @@ pub struct Outcome {
     pub response: Response,
     /// The run beside codes, where the scene asks for that.
     pub codes: Option<Codes>,
+    /// Damage at the points whose stresses it has.
+    pub fatigue: Vec<Verdict>,
 }
 
 /// A spec that was solved, and what came of it.
@@ -155,7 +158,8 @@ fn one(
         response.bend(&scene, &cast, &run.history, &laid, &solved)?;
     }
     let codes = Codes::new(&scene, &cast, &record)?;
-    Ok(Outcome { label, cast, run, record, choices, lines, response, codes })
+    let fatigue = fatigue::verdicts(&scene, &record)?;
+    Ok(Outcome { label, cast, run, record, choices, lines, response, codes, fatigue })
 }
 
 /// The scene's own run is labelled by what carries it.

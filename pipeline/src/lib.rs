@@ -19,6 +19,7 @@ pub mod effect;
 mod effect_file;
 pub mod entries;
 pub mod exit;
+pub mod fatigue;
 pub mod fault;
 pub mod grid;
 pub mod grid_file;

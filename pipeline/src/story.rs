@@ -38,6 +38,9 @@ pub fn report(
     let codes: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
     sections.extend(crate::codes::section(scene, &codes));
+    let fatigue: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
+    sections.extend(crate::fatigue::section(scene, &fatigue));
     sections.push(audit(document, outcomes));
     Report {
         title: scene.name.clone(),

@@ -29,7 +29,7 @@ pub use compare::{Case, Document};
 pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
-pub use output::{Output, Pick};
+pub use output::{Fatigue, Output, Pick};
 pub use practice::Practice;
 pub(crate) use practice::across;
 pub use rope::Rope;
