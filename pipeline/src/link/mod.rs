@@ -21,6 +21,7 @@ use crate::spec::Spec;
 
 pub use ladder::{Chosen, Trouble, choose, doubt, modes_of, reason, rung_of, word};
 pub use modal::Spectra;
+pub use mount::mount;
 pub use parts::{RigidParts, roll_inertia};
 
 /// A structure's FE model, solved.
