@@ -372,6 +372,30 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
     }
 
+    /// Sets `probe` to the interpolant of the step just tried, at its share `share`.
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub(crate) fn look_inside(&mut self, share: f64) -> Result<(), Error> {
+        self.solver.interpolate([&self.from, &self.to], share, &mut self.probe)?;
+        if let Some(collocation) = &self.collocation {
+            collocation.interpolate(&self.from, share, &mut self.probe);
+        }
+        Ok(())
+    }
+
+    /// Sets `at` to the interpolant of the step just taken, at its share `share`.
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub fn sample(&mut self, share: f64, at: &mut State) -> Result<(), Error> {
+        self.solver.interpolate([&self.from, &self.arrived], share, at)?;
+        if let Some(collocation) = &self.collocation {
+            collocation.interpolate(&self.from, share, at);
+        }
+        Ok(())
+    }
+
     /// Embedded error relative to the tolerance.
     fn error(&self) -> f64 {
         let h = self.to.t - self.from.t;

@@ -46,10 +46,10 @@ fn an_undamped_wheel_bounces_for_ever_to_the_same_height() {
     assert!(run.audit.residual() < 1e-5, "{:e}", run.audit.residual());
 }
 
-/// Analytic: whatever the damping, the rail and the accuracy, bounces that die out leave the mass at rest with its weight on
-/// the wheel.
+/// Analytic: whatever the damping and the accuracy, bounces on a rail that does not give die out and leave the mass at rest with
+/// its weight on the wheel. A girder in series with the wheel takes most of the stroke, undamped: there they go on.
 #[test]
-fn bounces_die_out_and_leave_the_weight_at_rest() {
+fn bounces_on_a_rigid_rail_die_out_and_leave_the_weight_at_rest() {
     for (name, flexible) in [("rigid", false), ("flexible", true)] {
         for c in [1e5, 4e5, 1e6] {
             for accuracy in [1e-3, 1e-5] {
@@ -65,7 +65,7 @@ fn bounces_die_out_and_leave_the_weight_at_rest() {
                     run.audit.residual()
                 );
                 assert!(off > 0, "it never left the rail");
-                assert!((last - 1.0).abs() < 0.05, "{name}, c {c:e}, {accuracy:e}: {last}");
+                assert!(flexible || (last - 1.0).abs() < 1e-6, "{name}, c {c:e}, {accuracy:e}: {last}");
                 assert!(run.audit.residual() < 10.0 * accuracy, "{:e}", run.audit.residual());
             }
         }

@@ -21,6 +21,7 @@ use crate::spec::Spec;
 
 pub use ladder::{Chosen, Trouble, choose, doubt, modes_of, reason, rung_of, word};
 pub use modal::Spectra;
+pub use mount::mount;
 pub use parts::{RigidParts, roll_inertia};
 
 /// A structure's FE model, solved.
@@ -158,11 +159,11 @@ fn grounded(
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
-        scene::Foundation::Parts { count, handover } => {
+        scene::Foundation::Parts { count, handover, damping } => {
             let girder = solved.and_then(|solved| solved.girder.as_ref()).ok_or_else(|| {
                 Failure::Untrusted(format!("{}: parts need a beam spec of a straight girder", structure.name))
             })?;
-            parts::foundation(girder, count, handover, push)
+            parts::foundation(girder, count, handover, damping, push)
         }
         scene::Foundation::Modal { modes, damping } => {
             spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, Dampers::NONE, push)
@@ -272,7 +273,7 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 /// # Errors
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
-    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, Push::DOWN)?.foundation)
+    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Push::DOWN)?.foundation)
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.

@@ -77,7 +77,7 @@ fn figures(record: &Record, column: &str) -> Option<Value> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::response::Column;
+    use crate::response::{Column, Kind};
     use crate::units::Dimension;
 
     /// A record with a damped wave of `hz` about `mean`, and its response.
@@ -89,7 +89,7 @@ mod tests {
         record.push("time", Dimension::NUMBER, times);
         record.push("a", Dimension::NUMBER, values);
         let column =
-            Column { name: "a".into(), dimension: Dimension::NUMBER, is_reaction: true, direction: None };
+            Column { name: "a".into(), dimension: Dimension::NUMBER, kind: Kind::Reaction, direction: None };
         (record, Response { columns: vec![column], ..Response::default() })
     }
 

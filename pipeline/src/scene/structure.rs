@@ -98,6 +98,8 @@ pub enum Foundation {
         count: usize,
         /// How a wheel passes from one to the next.
         handover: Handover,
+        /// Share of critical damping of each natural mode of parts with mass.
+        damping: f64,
     },
     /// By its influence coefficients, without mass.
     Influence,
@@ -264,7 +266,7 @@ pub(super) fn read(
     };
     let foundation = match word {
         Word::Rigid => Foundation::Rigid,
-        Word::Parts => Foundation::Parts { count, handover },
+        Word::Parts => Foundation::Parts { count, handover, damping },
         Word::Influence | Word::Auto => Foundation::Influence,
         Word::Modal => Foundation::Modal { modes: raw.modes.unwrap_or(MODES), damping },
         Word::Ties => ties::foundation(raw, ties.as_ref(), damping, at, check),
