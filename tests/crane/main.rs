@@ -10,10 +10,12 @@ use serde_json::{Value, json};
 mod codes;
 mod couplings;
 mod cranes;
+mod damping;
 mod drop;
 mod event;
 #[path = "../history.rs"]
 mod history;
+mod inertia;
 mod parts;
 mod skew;
 

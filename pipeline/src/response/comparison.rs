@@ -1,9 +1,9 @@
 //! Histories of forces, run beside run, in the few numbers that engineers compare.
 
-use practice::{View, dominant, resample, response};
+use practice::{Tone, View, dominant, resample, response};
 use serde_json::{Map, Value, json};
 
-use super::Response;
+use super::{Natural, Response};
 use crate::record::Record;
 
 /// Share of the run, at its end, that counts as settled.
@@ -11,6 +11,11 @@ const SETTLED: f64 = 0.25;
 
 /// Half width of the band about the settled mean that an excursion leaves, as a share of the mean.
 const BAND: f64 = 0.05;
+
+/// Most waves that are told, the share of the first below which none is, and how far apart two of them are as a ratio.
+const WAVES: usize = 3;
+const FAINT: f64 = 0.1;
+const APART: f64 = 1.15;
 
 /// Fewest samples of which a dominant frequency is worth its name.
 const FEWEST: usize = 64;
@@ -30,7 +35,7 @@ pub fn comparison(runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
     for name in rails.chain(first.columns.iter().map(|column| &column.name)) {
         let each: Option<Map<String, Value>> = runs
             .iter()
-            .map(|(label, record, _)| Some(((*label).to_owned(), figures(record, name)?)))
+            .map(|(label, record, response)| Some(((*label).to_owned(), figures(record, response, name)?)))
             .collect();
         let is_zero = |record: &Record| record.values(name).iter().all(|value| *value == 0.0);
         if let Some(each) = each
@@ -43,7 +48,7 @@ pub fn comparison(runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
 }
 
 /// The numbers of one column, `None` where it has too few rows or the run has not got it.
-fn figures(record: &Record, column: &str) -> Option<Value> {
+fn figures(record: &Record, answers: &Response, column: &str) -> Option<Value> {
     let (times, values) = (record.values("time"), record.values(column));
     let (first, last) = (*times.first()?, *times.last()?);
     if values.len() != times.len() || times.len() < FEWEST || last <= first {
@@ -64,14 +69,41 @@ fn figures(record: &Record, column: &str) -> Option<Value> {
     // slower than two waves is the way of the crane, no vibration
     let band = [2.0 / (SETTLED * length), 0.5 / step];
     let late = resample(times, values, view.settled, step).ok()?;
-    let tone = dominant(&late, step, band).ok()?;
+    let tones = tones(&late, step, band);
+    let waves: Vec<Value> = tones
+        .iter()
+        .map(|tone| {
+            let mode = Natural::of(&answers.modes, tone.frequency).map(|mode| mode.name.as_str());
+            json!({"hz": tone.frequency, "amplitude": tone.amplitude, "mode": mode})
+        })
+        .collect();
     Some(json!({
         "settled_mean": found.mean + 0.0,
         "peak": {"value": found.peak.value + 0.0, "time": found.peak.time},
         "least": {"value": found.least.value + 0.0, "time": found.least.time},
         "excursions": found.excursions.total(),
-        "dominant_hz": tone.map(|tone| tone.frequency),
+        "dominant_hz": tones.first().map(|tone| tone.frequency),
+        "waves": waves,
     }))
+}
+
+/// The strongest waves of a history in `band`, strongest first, each apart from those before by [`APART`].
+fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
+    let (mut found, mut rest) = (Vec::<Tone>::new(), vec![band]);
+    let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
+    while found.len() < WAVES {
+        let all = rest.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
+        let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
+        let Some((k, tone)) = best else { break };
+        if found.first().is_some_and(|first| tone.amplitude < FAINT * first.amplitude) {
+            break;
+        }
+        let [low, high] = rest.swap_remove(k);
+        let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
+        rest.extend(sides.into_iter().filter(|[low, high]| low < high));
+        found.push(tone);
+    }
+    found
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ mod comparison;
 mod deflection;
 mod envelope;
 mod line;
+mod natural;
 mod part_inertia;
 mod picture;
 mod spans;
@@ -22,6 +23,7 @@ pub use comparison::comparison;
 pub use deflection::Deflection;
 pub use envelope::{Envelope, Extreme};
 pub use line::Lines;
+pub use natural::Natural;
 pub use picture::pictures;
 pub use spans::spans;
 pub use story::section;
@@ -56,6 +58,8 @@ pub struct Response {
     pub uplifts: Vec<Uplift>,
     /// Where bodies in space have been.
     pub sways: Vec<Sway>,
+    /// Natural modes of the scene towards its end.
+    pub modes: Vec<Natural>,
     /// What is left out, and why.
     pub notes: Vec<String>,
 }
@@ -195,6 +199,9 @@ impl Response {
         if !self.sways.is_empty() {
             let all = self.sways.iter().map(|sway| (sway.body.clone(), sway.json()));
             out.insert("sway".into(), Value::Object(all.collect()));
+        }
+        if !self.modes.is_empty() {
+            out.insert("natural_modes".into(), self.modes.iter().map(Natural::json).collect());
         }
         out
     }
