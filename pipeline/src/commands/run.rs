@@ -189,7 +189,15 @@ fn plates(
             record: &outcome.record,
         })
         .collect();
-    let mut plates = pictures::paths(&labelled);
+    let fired: Vec<(f64, &str)> = outcomes[0]
+        .run
+        .fired
+        .iter()
+        .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
+        .collect();
+    let mut plates = pictures::travel(&labelled[0], &fired);
+    plates.extend(response::rails(&labelled));
+    plates.extend(pictures::paths(&labelled));
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
     plates.extend(response::pictures(&labelled, &responses, &outcomes[0].lines));
