@@ -78,15 +78,15 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 
 /// Whether the references tell what they were asked to.
 fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
-    let worst = study.references.iter().max_by(|a, b| a.resolution().total_cmp(&b.resolution()));
-    match worst.filter(|worst| worst.resolution() > depth.resolution) {
+    let worst = study.references.iter().max_by(|a, b| a.asked().total_cmp(&b.asked()));
+    match worst.filter(|worst| worst.asked() > depth.resolution) {
         None => Ok(Exit::Done),
         Some(worst) => Err(Failure::Untrusted(format!(
-            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors below {:.1e} cannot \
-             be told; asked for: {:.1e}  hint: raise --limit or --resolution",
+            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
+             wheel forces below {:.1e} cannot be told; asked for: {:.1e}  hint: raise --limit or --resolution",
             worst.against.word(),
-            worst.resolution() / study::MARGIN,
-            worst.resolution(),
+            worst.asked() / study::MARGIN,
+            worst.asked(),
             depth.resolution
         ))),
     }

@@ -17,13 +17,13 @@ pub struct Depth {
     pub parts: Vec<usize>,
     /// Stations a rail.
     pub stations: Vec<usize>,
-    /// Accuracies of references, one after the other until two runs agree.
-    pub references: Vec<f64>,
+    /// Accuracies of references and, where structures have mass, their modes: one after the other until two runs agree.
+    pub references: Vec<(f64, usize)>,
     /// Most repetitions of a run.
     pub repetitions: usize,
     /// Seconds that a run may take, and all repetitions of a setting.
     pub limit: f64,
-    /// Error down to which the study must tell: the references must agree ten times better.
+    /// Error of deflections and wheel forces down to which the study must tell: the references must agree ten times better.
     pub resolution: f64,
 }
 
@@ -39,7 +39,7 @@ impl Depth {
             elements: vec![1, 2, 4, 8],
             parts: vec![2, 4, 8, 16, 32, 64],
             stations: vec![5, 7, 13, 19, 37, 73],
-            references: vec![1e-6, 1e-7, 1e-8, 1e-9],
+            references: vec![(1e-6, 16), (1e-7, 32), (1e-8, 48), (1e-9, 64)],
             repetitions: 9,
             limit: 20.0,
             resolution: 1e-4,
@@ -57,7 +57,7 @@ impl Depth {
             elements: vec![1, 2],
             parts: vec![2, 8, 32],
             stations: vec![7, 13, 37],
-            references: vec![1e-5, 1e-6],
+            references: vec![(1e-5, 8), (1e-6, 16)],
             repetitions: 3,
             limit: 5.0,
             resolution: 1e-2,

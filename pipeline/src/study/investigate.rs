@@ -9,6 +9,7 @@ use super::depth::Depth;
 use super::ladder::{self, Kinds, varies};
 use super::misfit::misfits;
 use super::point::{Measured, Outcome, Point};
+use super::quantity::Quantity;
 use super::reference::{Reference, reference};
 use super::rig::{Rig, Workshop};
 use super::setting::{Against, Family, Setting};
@@ -75,31 +76,31 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
 
     progress.say("running references");
     let mut references: Vec<Reference> = Vec::new();
-    let whole = [1.0, 0.5].map(|finer| ladder::whole(&own, known, kinds, finer));
-    let mut seen: Vec<[Scene; 2]> = Vec::new();
-    let mut add = |against: Against, pair: [&Scene; 2], workshop: &mut Workshop<'_>| {
-        let of = |scene: &Scene| Scene { accuracy: 0.0, stepping: Stepping::default(), ..scene.clone() };
-        let plain = pair.map(of);
+    let mut seen: Vec<Scene> = Vec::new();
+    let mut add = |against: Against, make: &dyn Fn(usize) -> Scene, workshop: &mut Workshop<'_>| {
+        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(2) };
         let found = match seen.iter().position(|own| *own == plain) {
             Some(at) => Reference { against, ..Reference::clone(&references[at]) },
-            None => reference(workshop, against, pair, depth)?,
+            None => reference(workshop, against, make, depth)?,
         };
         seen.push(plain);
+        let told = Quantity::ALL.iter().filter(|own| found.resolves(**own).is_finite());
+        let told: Vec<String> =
+            told.map(|own| format!("{} from {:.1e}", own.name(), found.resolves(*own))).collect();
         progress.say(&format!(
-            "reference \"{}\" tells errors from {:.1e} on: {}",
+            "reference \"{}\" tells errors of {} on: {}",
             against.word(),
-            found.resolution(),
+            told.join(", "),
             found.words[0]
         ));
         references.push(found);
         Ok::<(), Failure>(())
     };
     if kinds.varies {
-        add(Against::Whole, [&whole[0], &whole[1]], &mut workshop)?;
-        let massless = ladder::massless(&own);
-        add(Against::Massless, [&massless, &massless], &mut workshop)?;
+        add(Against::Whole, &|modes| ladder::whole(&own, kinds, modes), &mut workshop)?;
+        add(Against::Massless, &|_| ladder::massless(&own), &mut workshop)?;
     }
-    add(Against::Own, [&own, &own], &mut workshop)?;
+    add(Against::Own, &|_| own.clone(), &mut workshop)?;
 
     let mut settings = ladder::settings(&own, known, kinds, depth);
     let (family, knob) = (Family::Written, "accuracy");

@@ -58,21 +58,22 @@ pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
     out
 }
 
-/// The structure with all that is known of it: `finer` by how much the mesh is finer than the one that "auto" takes as
-/// the top; without mass, the exact surface.
+/// The mesh that "auto" takes as the top.
+fn mesh(scene: &Scene, known: &[Known]) -> Scene {
+    with(scene, |structure| {
+        let elements = link::elements(solved_of(known, &structure.origin));
+        Foundation::Full { elements, damping: structure.damping }
+    })
+}
+
+/// The structure with all that is known of it: so many modes and the static give of the others; without mass, the exact
+/// surface.
 #[must_use]
-pub fn whole(scene: &Scene, known: &[Known], kinds: Kinds, finer: f64) -> Scene {
-    let mut out = with(scene, |structure| {
-        let elements = link::elements(solved_of(known, &structure.origin)) as f64 * finer;
-        match kinds.has_mass {
-            true => Foundation::Full { elements: (elements as usize).max(1), damping: structure.damping },
-            false => Foundation::Influence,
-        }
-    });
-    for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
-        structure.reading = Reading::Exact;
+pub fn whole(scene: &Scene, kinds: Kinds, modes: usize) -> Scene {
+    match kinds.has_mass && scene.analysis == Analysis::Dynamic {
+        true => with(scene, |structure| Foundation::Modal { modes, damping: structure.damping }),
+        false => massless(scene),
     }
-    out
 }
 
 /// The structure without mass, exactly.
@@ -141,7 +142,7 @@ impl List<'_> {
                 let scene = with(&fine, |own| Foundation::Full { elements, damping: own.damping });
                 self.add(Family::Mesh, "elements", elements as f64, scene);
             }
-            self.by_accuracy(Family::Full, &whole(scene, known, kinds, 1.0));
+            self.by_accuracy(Family::Full, &mesh(scene, known));
         }
     }
 

@@ -11,6 +11,20 @@ pub struct Trace {
     pub columns: Vec<(String, Quantity, Vec<f64>)>,
 }
 
+/// Moments below this share of the largest force times the longest rail are rounding.
+const NOTHING: f64 = 1e-6;
+
+impl Trace {
+    /// Leaves out moments that nothing in the scene causes: they are rounding. `length`: that of the longest rail.
+    pub(super) fn prune(&mut self, length: f64) {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let forces = self.columns.iter().filter(|(_, quantity, _)| *quantity == Quantity::WheelForce);
+        let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
+        let least = NOTHING * force * length;
+        self.columns.retain(|(_, quantity, values)| *quantity != Quantity::Moment || largest(values) > least);
+    }
+}
+
 /// Errors of the columns of one group, relative to the largest value that the reference has in the group.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Misfit {

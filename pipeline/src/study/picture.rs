@@ -18,6 +18,9 @@ pub struct Picture {
     pub varies: bool,
 }
 
+/// A reference that tells nothing below this is not drawn.
+const UNTOLD: f64 = 0.1;
+
 /// What is along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cost {
@@ -100,7 +103,7 @@ fn chart(
     let against = shown().next()?.setting.family.against();
     let reference = study.reference(against)?;
     let least = reference.resolves(quantity);
-    if !least.is_finite() {
+    if least > UNTOLD {
         return None;
     }
     // errors below what the reference can tell stand at that line
@@ -144,7 +147,8 @@ fn chart(
         all.extend(points);
         chart.series.push(series);
     }
-    if all.is_empty() {
+    // nothing but points that the reference cannot tell from it
+    if all.iter().all(|own| own[1] <= least) {
         return None;
     }
     if cost != Cost::Knob {
