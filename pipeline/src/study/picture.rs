@@ -122,7 +122,9 @@ fn chart(
         Cost::Stages => "work",
         Cost::Knob => knob,
     };
-    title += &format!(", {what}");
+    if cost != Cost::Knob || what != knob {
+        title += &format!(", {what}");
+    }
     let mut chart = Chart::new(title, x.log(), Axis::new("largest error / largest value", "").log());
     let mut families: Vec<Family> = Vec::new();
     for point in shown() {
@@ -153,7 +155,8 @@ fn chart(
     }
     if cost != Cost::Knob {
         marks(study, &mut chart, &mut all, cost, against, &place);
-        chart.series.push(Series::new("Pareto front", Style::Step, front(&all)));
+        // first: under the points, and in the darkest ink
+        chart.series.insert(0, Series::new("Pareto front", Style::Step, front(&all)));
     }
     let low = all.iter().map(|own| own[0]).fold(f64::INFINITY, f64::min);
     let high = all.iter().map(|own| own[0]).fold(0.0, f64::max);

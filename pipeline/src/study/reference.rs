@@ -126,6 +126,9 @@ fn pair(
     }
 }
 
+/// A run with its method and its setting in words; `None` where no method integrates it; or why it did not reach its end.
+type Tried = Result<Option<(Trace, Option<Method>, String)>, String>;
+
 /// One run; `None` where the method does not suit the scene.
 fn one(
     workshop: &mut Workshop<'_>,
@@ -133,7 +136,7 @@ fn one(
     accuracy: f64,
     method: Method,
     limit: f64,
-) -> Result<Result<Option<(Trace, Option<Method>, String)>, String>, Failure> {
+) -> Result<Tried, Failure> {
     let stepping = Stepping { method, step: None };
     let scene = Scene { accuracy, stepping, ..scene.clone() };
     let setting =
@@ -159,7 +162,7 @@ fn one(
     match setting.scene.analysis {
         Analysis::Dynamic => {
             let method = by.map_or("", |(word, _)| *word);
-            words.push(format!("{method} at accuracy {accuracy:e}, {} steps", run.counts.steps));
+            words.push(format!("{method} at accuracy {accuracy:.0e}, {} steps", run.counts.steps));
         }
         Analysis::QuasiStatic => words.push("equilibrium at every output time".to_owned()),
     }
