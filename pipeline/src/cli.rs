@@ -84,6 +84,9 @@ pub struct Study {
     /// Fewer settings, coarser references, fewer repetitions
     #[arg(long)]
     pub quick: bool,
+    /// Map where methods fail for the first straight girder of the scene and its wheels, in place of the charts
+    #[arg(long)]
+    pub stability: bool,
     /// Seconds that one run may take, and all repetitions of a setting; references may take ten times as long
     /// [default: 20, with --quick 5]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]

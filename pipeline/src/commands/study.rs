@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::run::solve_all;
-use crate::cases::specs;
+use crate::cases::{Known, specs};
 use crate::cli::{Global, Study as Arguments};
 use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
@@ -13,6 +13,7 @@ use crate::manifest::Manifest;
 use crate::output::{self, Folder};
 use crate::progress::Progress;
 use crate::scene::{Case, Document};
+use crate::study::stability::{self, Subject, Verdict};
 use crate::study::{self, Depth, Study};
 
 /// Runs a scene on a ladder of settings, measures errors and times, and draws them.
@@ -33,6 +34,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     depth.resolution = args.resolution.unwrap_or(depth.resolution);
 
     let known = solve_all(&document, &specs(&document), &progress)?;
+    if args.stability {
+        return stability(args, &document, &known, folder, global);
+    }
     let study = study::study(&scene, &known, &depth, &progress)?;
 
     let result = study::json(&study, &scene, &depth);
@@ -54,6 +58,49 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         output::print(&output::json(&all))?;
     }
     judge(&study, &depth)
+}
+
+/// Maps of where methods fail.
+fn stability(
+    args: &Arguments,
+    document: &Document,
+    known: &[Known],
+    mut folder: Folder,
+    global: Global,
+) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let subject = Subject::of(document.scene(), known).map_err(Failure::Untrusted)?;
+    let (maps, absent) = stability::maps(&subject, args.quick, &progress);
+    let result = stability::json(&maps, &absent);
+    folder.add("stability.json", output::json(&result));
+    folder.add("stability.csv", stability::csv(&maps).map_err(Failure::untrusted)?);
+    for map in &maps {
+        if let Some(svg) = stability::picture(map).map_err(Failure::untrusted)? {
+            folder.add(&format!("plots/stability-{}.svg", map.name), svg);
+        }
+    }
+    let settings = json!({ "case": args.case, "quick": args.quick, "stability": true });
+    let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
+    for map in &maps {
+        for layer in map.layers.iter().filter(|layer| layer.is_ours) {
+            let counts = Verdict::WORDS.iter().zip(layer.counts()).filter(|(_, count)| *count > 0);
+            let told: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
+            progress.say(&format!("{}: {}: {}", map.name, layer.method, told.join(", ")));
+        }
+    }
+    progress.say(&format!("wrote {}", written.display()));
+    if global.json {
+        let all = json!({ "output": written.display().to_string(), "stability": result });
+        output::print(&output::json(&all))?;
+    }
+    match maps.iter().find(|map| map.silent() > 0) {
+        None => Ok(Exit::Done),
+        Some(map) => Err(Failure::Untrusted(format!(
+            "girderway itself is silently wrong at {} points of the map \"{}\": see stability.csv",
+            map.silent(),
+            map.name
+        ))),
+    }
 }
 
 /// The scene itself, or the comparison asked for.

@@ -14,6 +14,7 @@ mod reference;
 mod rig;
 mod setting;
 mod spread;
+pub mod stability;
 
 pub use data::{csv, json, timing_csv, timing_json};
 pub use depth::Depth;
