@@ -10,7 +10,7 @@ use std::sync::Arc;
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
+use splines::{Axis, Couplings, Influence, Kind, Parted, Probe, Reading, Sheet, Surface, Table};
 
 use self::modal::Dampers;
 use self::mount::Push;
@@ -197,7 +197,11 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
     let rails = structure.rails.len();
     let exact = structure.reading == scene::Reading::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
-        return Ok(Foundation::influence(Box::new(surface.clone()), rails));
+        let surface = surface.clone();
+        return Ok(match structure.couplings {
+            Couplings::All => Foundation::influence(Box::new(surface), rails),
+            some => Foundation::influence(Box::new(Parted::new(surface, some)), rails),
+        });
     }
     let sheets = sheets(structure, solved)?;
     let kind = match structure.reading {
@@ -210,13 +214,17 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
     Ok(Foundation::influence(Box::new(reading), rails))
 }
 
-/// The tables of a structure: its direct and coupling grids, station by station.
+/// The tables of a structure: its direct grids and the couplings that count, station by station.
 ///
 /// # Errors
 /// A spec that has not been solved; what a table refuses.
 pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Sheet>, Failure> {
     let mut sheets = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
+        let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
+        if !structure.couplings.keep(&probe(row), &probe(column)) {
+            return Ok(());
+        }
         let [at, loads] = stations.map(<[f64]>::to_vec);
         let table = Table::new(loads, at, values).map_err(|error| failure(&structure.name, &error))?;
         sheets.push(Sheet { deflection: row, load: column, table });
