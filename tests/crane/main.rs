@@ -9,10 +9,13 @@ use serde_json::{Value, json};
 
 mod codes;
 mod couplings;
+mod cranes;
+mod drop;
 mod event;
 #[path = "../history.rs"]
 mod history;
 mod parts;
+mod skew;
 
 use history::History;
 
