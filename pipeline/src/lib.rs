@@ -45,6 +45,7 @@ pub mod source;
 pub mod spec;
 pub mod stations;
 pub mod story;
+pub mod study;
 pub mod summary;
 pub mod surface_file;
 pub mod tables;

@@ -8,6 +8,7 @@ use std::process::Command;
 use serde_json::{Value, json};
 
 mod codes;
+mod couplings;
 mod event;
 mod film;
 #[path = "../history.rs"]

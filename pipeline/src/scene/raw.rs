@@ -82,6 +82,7 @@ pub(crate) struct RawStructure {
     pub tables: Option<RawTables>,
     pub foundation: Option<String>,
     pub reading: Option<String>,
+    pub couplings: Option<String>,
     pub tolerance: Option<f64>,
     pub count: Option<usize>,
     pub handover: Option<String>,

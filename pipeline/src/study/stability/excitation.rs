@@ -1,0 +1,168 @@
+//! Tables that are not symmetric: bogies that shake themselves.
+
+use nalgebra::{DMatrix, Matrix2, Matrix4};
+use splines::check::{Strip, work};
+use splines::{Axis, Compliance, Kind, Reading};
+
+use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::steps::spread;
+use super::subject::Subject;
+use crate::link::sheets;
+use crate::units::Dimension;
+
+/// Growth, 1/time by the frequency of the wheels on their springs, that is none.
+const NONE: f64 = 1e-9;
+
+/// A body on two wheels at rest.
+#[derive(Clone, Copy)]
+struct Bogie {
+    /// Place of the middle between the wheels.
+    x: f64,
+    /// How far the centre of mass is from there.
+    offset: f64,
+    /// Radius of gyration.
+    gyration: f64,
+    /// Half the distance of the wheels.
+    half: f64,
+    /// Stiffness and damper to the ground of a wheel.
+    law: [f64; 2],
+    mass: f64,
+}
+
+impl Bogie {
+    /// Largest real part of the eigenvalues of M q'' + C q' + B^T (G + I/k)^-1 B q = 0.
+    fn growth(&self, give: &DMatrix<f64>) -> Option<f64> {
+        let [k, c] = self.law;
+        let contact =
+            Matrix2::new(give[(0, 0)] + 1.0 / k, give[(0, 1)], give[(1, 0)], give[(1, 1)] + 1.0 / k);
+        let stiffness = contact.try_inverse()?;
+        // displacement of each wheel by that of the centre of mass and the pitch
+        let arms = Matrix2::new(1.0, -self.half - self.offset, 1.0, self.half - self.offset);
+        let mass = [self.mass, self.mass * self.gyration * self.gyration];
+        let by_mass = |of: Matrix2<f64>| Matrix2::from_fn(|i, j| -of[(i, j)] / mass[i]);
+        let spring = by_mass(arms.transpose() * stiffness * arms);
+        let damper = by_mass(arms.transpose() * arms * c);
+        let mut system = Matrix4::zeros();
+        for i in 0..2 {
+            system[(i, i + 2)] = 1.0;
+            for j in 0..2 {
+                system[(i + 2, j)] = spring[(i, j)];
+                system[(i + 2, j + 2)] = damper[(i, j)];
+            }
+        }
+        Some(system.complex_eigenvalues().iter().map(|own| own.re).fold(f64::MIN, f64::max))
+    }
+}
+
+/// The map; why there is none.
+///
+/// # Errors
+/// A truck of one wheel; a table that no reading takes.
+pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
+    let (Some(first), Some(last)) = (subject.offsets.first(), subject.offsets.last()) else {
+        return Err("a truck without wheels".to_owned());
+    };
+    let half = 0.5 * (last - first);
+    if half <= 0.0 {
+        return Err("a truck of one wheel cannot pitch".to_owned());
+    }
+    let axes = [
+        Scale::new("place of the bogie", &subject.unit(Dimension::LENGTH), false),
+        Scale::new("damper of a wheel to the ground", &subject.unit(Dimension::DAMPING), true),
+    ];
+    let mut map = Map::new(
+        "excitation",
+        "A bogie at rest on tables: does it shake itself?",
+        axes,
+        "Two wheels under a body whose centre of mass is where growth is largest; wrong where the motion grows: structures \
+         only take energy, a table that is not symmetric gives some.",
+    );
+    let tables = sheets(subject.structure, Some(subject.solved)).map_err(|failure| failure.words())?;
+    let read = |kind: Kind| Reading::new(kind, &tables).map_err(|error| error.to_string());
+    let (akispl, cubspl, natural) = (read(Kind::Akispl)?, read(Kind::Cubspl)?, read(Kind::Natural)?);
+    let readings: [(&str, &dyn Compliance, bool); 4] = [
+        ("akispl", &akispl, false),
+        ("cubspl", &cubspl, false),
+        ("natural splines", &natural, true),
+        ("girderway, exact", subject.surface, true),
+    ];
+    let omega = (subject.stiffness / subject.mass()).sqrt();
+    let bogie = |x: f64, offset: f64, gyration: f64, c: f64| Bogie {
+        x,
+        offset,
+        gyration,
+        half,
+        law: [subject.stiffness, c],
+        mass: 2.0 * subject.mass(),
+    };
+    let inner = subject.length() - 2.0 * half;
+    let place = |i: usize, count: usize| subject.span[0] + half + inner * (i as f64 + 0.5) / count as f64;
+    let growth = |of: &dyn Compliance, own: Bogie| {
+        let give = subject.give(of, &[own.x - half, own.x + half])?;
+        own.growth(&give)
+    };
+    // where it is worst without dampers
+    let mut worst = (f64::MIN, bogie(place(0, 1), 0.0, half, 0.0));
+    for i in 0..240 {
+        let x = place(i, 240);
+        let Some(give) = subject.give(&akispl, &[x - half, x + half]) else { continue };
+        for j in 0..40 {
+            let offset = half * (f64::from(j) - 20.0) / 20.0;
+            for gyration in spread(0.3 * half, 10.0 * half, 60) {
+                let own = bogie(x, offset, gyration, 0.0);
+                if let Some(found) = own.growth(&give).filter(|found| *found > worst.0) {
+                    worst = (found, own);
+                }
+            }
+        }
+    }
+    let (largest, at) = worst;
+    map.find("akispl: largest growth without dampers, 1/s", largest);
+    map.find("akispl: where", at.x);
+    map.find("akispl: distance of the centre of mass from the middle", at.offset);
+    map.find("akispl: radius of gyration", at.gyration);
+    let needed = {
+        let (mut low, mut high) = (0.0, 100.0 * subject.stiffness / omega);
+        for _ in 0..80 {
+            let middle = 0.5 * (low + high);
+            let found = growth(&akispl, Bogie { law: [subject.stiffness, middle], ..at });
+            if found.is_some_and(|found| found > NONE * omega) { low = middle } else { high = middle }
+        }
+        high
+    };
+    map.find("akispl: damper of each wheel to the ground that stops it", needed);
+    for (name, compliance, _) in &readings {
+        let strip = Strip::direct(*compliance, (0, Axis::Vertical));
+        let places: Vec<f64> =
+            (0..=600).map(|i| subject.span[0] + subject.length() * f64::from(i) / 600.0).collect();
+        let found = work(&strip, 2.0 * half, &places).map_err(|error| error.to_string())?;
+        map.find(
+            format!("{name}: work of a closed loop of two wheels' forces"),
+            found.work * subject.load * subject.load,
+        );
+        if found.stored > 0.0 {
+            map.find(format!("{name}: the same by the energy stored"), found.work / found.stored);
+        }
+    }
+    let dampers = spread(1e-3 * needed, 10.0 * needed, points);
+    for (name, compliance, is_ours) in readings {
+        let mut cells = Vec::new();
+        for i in 0..points {
+            let x = place(i, points);
+            for &c in &dampers {
+                let Some(value) = growth(compliance, Bogie { x, law: [subject.stiffness, c], ..at }) else {
+                    continue;
+                };
+                let verdict = if value <= NONE * omega { Verdict::Right } else { Verdict::Wrong };
+                cells.push(Cell { at: [x, c], value, verdict });
+            }
+        }
+        let method = if is_ours && !name.starts_with("girderway") {
+            format!("girderway, {name}")
+        } else {
+            name.to_owned()
+        };
+        map.layers.push(Layer { method, is_ours, cells });
+    }
+    Ok(map)
+}
