@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 
 mod codes;
 mod couplings;
+mod drift;
 mod event;
 mod film;
 #[path = "../history.rs"]

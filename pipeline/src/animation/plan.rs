@@ -74,15 +74,18 @@ pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
             let [y0, y1] = hull(&mut own.iter().map(|(_, at)| at[1]));
             let carries: Vec<_> = view.layout.carried(body).flat_map(|mount| &mount.rails).collect();
             if own.is_empty() {
-            } else if carries.is_empty() {
+            } else if carries.is_empty() && y1 - y0 < 0.5 * (high - low) * scale {
                 drawing.rectangle([x0 - 4.0, y0 - 3.0, x1 - x0 + 8.0, y1 - y0 + 6.0], DARK);
             } else {
                 // end trucks along both rails, girders between them
                 for y in [y0, y1] {
                     drawing.rectangle([x0 - 5.0, y - 4.0, x1 - x0 + 10.0, 8.0], STEEL);
                 }
-                for axle in carries {
-                    let x = axle.origin[0] * scale;
+                let mut girders: Vec<f64> = carries.iter().map(|axle| axle.origin[0] * scale).collect();
+                if girders.is_empty() {
+                    girders = vec![0.25 * (3.0 * x0 + x1), 0.25 * (x0 + 3.0 * x1)];
+                }
+                for x in girders {
                     drawing.rectangle([x - 4.0, y0, 8.0, y1 - y0], STEEL);
                 }
             }
