@@ -101,22 +101,47 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         let give = subject.give(of, &[own.x - half, own.x + half])?;
         own.growth(&give)
     };
-    // where it is worst without dampers
-    let mut worst = (f64::MIN, bogie(place(0, 1), 0.0, half, 0.0));
-    for i in 0..240 {
-        let x = place(i, 240);
-        let Some(give) = subject.give(&akispl, &[x - half, x + half]) else { continue };
-        for j in 0..40 {
-            let offset = half * (f64::from(j) - 20.0) / 20.0;
-            for gyration in spread(0.3 * half, 10.0 * half, 60) {
-                let own = bogie(x, offset, gyration, 0.0);
-                if let Some(found) = own.growth(&give).filter(|found| *found > worst.0) {
-                    worst = (found, own);
-                }
+    // where it is worst without dampers: a coarse search, then finer ones about the best
+    let mut worst = (f64::MIN, [0.5, 0.0, 0.5]);
+    let at = |[place, offset, gyration]: [f64; 3]| {
+        let x = subject.span[0] + half + inner * place;
+        bogie(x, half * offset, half * 0.3 * 30.0_f64.powf(gyration), 0.0)
+    };
+    let mut look = |share: [f64; 3]| {
+        if let Some(found) = growth(&akispl, at(share)).filter(|found| *found > worst.0) {
+            worst = (found, share);
+        }
+        worst.1
+    };
+    let mut best = [0.5, 0.0, 0.5];
+    for i in 0..120 {
+        for j in 0..16 {
+            for k in 0..16 {
+                let [j, k] = [j, k].map(|own: i32| (f64::from(own) + 0.5) / 16.0);
+                best = look([(f64::from(i) + 0.5) / 120.0, 2.0 * j - 1.0, k]);
             }
         }
     }
-    let (largest, at) = worst;
+    let mut reach = [1.0 / 120.0, 1.0 / 8.0, 1.0 / 16.0];
+    for _ in 0..12 {
+        let centre = best;
+        for i in -2..=2 {
+            for j in -2..=2 {
+                for k in -2..=2 {
+                    let moved = |axis: usize, by: i32| centre[axis] + reach[axis] * f64::from(by) / 2.0;
+                    let share = [moved(0, i), moved(1, j), moved(2, k)];
+                    let inside = (0.0..=1.0).contains(&share[0])
+                        && (-1.0..=1.0).contains(&share[1])
+                        && (0.0..=1.0).contains(&share[2]);
+                    if inside {
+                        best = look(share);
+                    }
+                }
+            }
+        }
+        reach = reach.map(|own| 0.6 * own);
+    }
+    let (largest, at) = (worst.0, at(worst.1));
     map.find("akispl: largest growth without dampers, 1/s", largest);
     map.find("akispl: where", at.x);
     map.find("akispl: distance of the centre of mass from the middle", at.offset);
@@ -162,7 +187,7 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         } else {
             name.to_owned()
         };
-        map.layers.push(Layer { method, is_ours, cells });
+        map.layers.push(Layer::new(method, is_ours).with(cells));
     }
     Ok(map)
 }
