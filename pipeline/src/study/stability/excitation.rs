@@ -1,8 +1,11 @@
 //! Tables that are not symmetric: bogies that shake themselves.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{DMatrix, Matrix2, Matrix4};
+use sim::{Channel, Foundation, Freedom};
 use splines::check::{Strip, work};
-use splines::{Axis, Compliance, Kind, Reading};
+use splines::{Axis, Compliance, Kind, Reading, Sheet};
 
 use super::map::{Cell, Layer, Map, Scale, Verdict};
 use super::steps::spread;
@@ -12,6 +15,13 @@ use crate::units::Dimension;
 
 /// Growth, 1/time by the frequency of the wheels on their springs, that is none.
 const NONE: f64 = 1e-9;
+
+/// Time of a run by that of growth by e.
+const EFOLDINGS: f64 = 6.0;
+/// Speed that a bogie is struck with, by gravity and the frequency of its wheels.
+const STRUCK: f64 = 1e-2;
+/// Energy residual from which the program warns.
+const WARNED: f64 = 1e-3;
 
 /// A body on two wheels at rest.
 #[derive(Clone, Copy)]
@@ -114,16 +124,16 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         worst.1
     };
     let mut best = [0.5, 0.0, 0.5];
-    for i in 0..120 {
-        for j in 0..16 {
-            for k in 0..16 {
-                let [j, k] = [j, k].map(|own: i32| (f64::from(own) + 0.5) / 16.0);
-                best = look([(f64::from(i) + 0.5) / 120.0, 2.0 * j - 1.0, k]);
+    for i in 0..80 {
+        for j in 0..8 {
+            for k in 0..10 {
+                let middle = |own: i32, count: i32| (f64::from(own) + 0.5) / f64::from(count);
+                best = look([middle(i, 80), 2.0 * middle(j, 8) - 1.0, middle(k, 10)]);
             }
         }
     }
-    let mut reach = [1.0 / 120.0, 1.0 / 8.0, 1.0 / 16.0];
-    for _ in 0..12 {
+    let mut reach = [1.0 / 80.0, 1.0 / 4.0, 1.0 / 10.0];
+    for _ in 0..10 {
         let centre = best;
         for i in -2..=2 {
             for j in -2..=2 {
@@ -189,5 +199,47 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         };
         map.layers.push(Layer::new(method, is_ours).with(cells));
     }
+    let mut cells = Vec::new();
+    for &c in &dampers {
+        let own = Bogie { law: [subject.stiffness, c], ..at };
+        let growth = growth(&akispl, own).unwrap_or_default();
+        let (value, verdict) = match told(subject, &tables, own, growth) {
+            Ok((_, residual)) if residual > WARNED => (residual, Verdict::Warned),
+            Ok((grown, residual)) => (residual, if grown { Verdict::Wrong } else { Verdict::Right }),
+            Err(why) => (0.0, Verdict::Refused(why)),
+        };
+        cells.push(Cell { at: [at.x, c], value, verdict });
+    }
+    map.layers.push(Layer::new("girderway told to read by akispl, worst place", true).with(cells));
     Ok(map)
+}
+
+/// Whether the motion has grown in a run of the program on AKISPL for `EFOLDINGS` times the time in which it grows by e,
+/// or, where it does not, for as many periods; and the energy residual of the run, from which on the program warns.
+fn told(subject: &Subject<'_>, tables: &[Sheet], own: Bogie, growth: f64) -> Result<(bool, f64), String> {
+    let reading = Reading::new(Kind::Akispl, tables).map_err(|error| error.to_string())?;
+    let [k, c] = own.law;
+    let omega = (2.0 * k / own.mass).sqrt();
+    let end = EFOLDINGS / growth.max(0.01 * omega);
+    let at = [-own.half - own.offset, own.half - own.offset];
+    let scene = subject.crossing(own.mass, &at, subject.linear(k, c), [own.x + own.offset, 0.0, end]);
+    let mut scene = scene.map_err(|error| error.to_string())?;
+    let body = &mut scene.bodies[0];
+    body.motion = None;
+    body.free[5] = true;
+    body.inertia[2] = own.mass * own.gyration * own.gyration;
+    body.start_speed[1] = STRUCK * subject.gravity / omega;
+    scene.accuracy = 1e-8;
+    scene.output_dt = end / 2000.0;
+    let foundation = Foundation::influence(Box::new(reading), 1);
+    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()));
+    let run = run.map_err(|error| error.to_string())?;
+    if !run.status.is_complete() {
+        return Err(crate::summary::status(&run.status).1.unwrap_or_default());
+    }
+    let speed = run.history.column(Channel::Speed(0, Freedom::Y));
+    let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+    let tenth = (speed.len() / 10).max(1);
+    let grown = largest(&speed[speed.len() - tenth..]) > 2.0 * largest(&speed[..tenth]);
+    Ok((grown, run.audit.residual()))
 }

@@ -39,7 +39,7 @@ pub fn pictures(map: &Map) -> Result<Vec<String>, Error> {
     let ranges = [range(0), range(1)];
     let mut charts = Vec::new();
     for layer in &map.layers {
-        let title = format!("{}: {}", map.title, layer.method);
+        let title = format!("{} ({})", map.title, layer.method);
         let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
         let mut chart = Chart::new(title, x, y);
         for word in Verdict::WORDS {
