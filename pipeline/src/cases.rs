@@ -6,7 +6,9 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use sim::{Foundation, Run};
 
+use crate::codes::Codes;
 use crate::exit::Failure;
+use crate::fatigue::{self, Verdict};
 use crate::link::{self, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
@@ -31,6 +33,10 @@ pub struct Outcome {
     pub lines: Vec<Option<Lines>>,
     /// What the structures answered.
     pub response: Response,
+    /// The run beside codes, where the scene asks for that.
+    pub codes: Option<Codes>,
+    /// Damage at the points whose stresses it has.
+    pub fatigue: Vec<Verdict>,
 }
 
 /// A spec that was solved, and what came of it.
@@ -151,7 +157,9 @@ fn one(
     if case.label.is_none() {
         response.bend(&scene, &cast, &run.history, &laid, &solved)?;
     }
-    Ok(Outcome { label, cast, run, record, choices, lines, response })
+    let codes = Codes::new(&scene, &cast, &record)?;
+    let fatigue = fatigue::verdicts(&scene, &record)?;
+    Ok(Outcome { label, cast, run, record, choices, lines, response, codes, fatigue })
 }
 
 /// The scene's own run is labelled by what carries it.

@@ -7,6 +7,8 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
+mod codes;
+mod couplings;
 mod event;
 #[path = "../history.rs"]
 mod history;

@@ -149,7 +149,7 @@ impl Stepper<'_, '_> {
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
         while high - low > 1e-12 {
             let middle = 0.5 * (low + high);
-            self.solver.interpolate([&self.from, &self.to], middle, &mut self.probe)?;
+            self.look_inside(middle)?;
             if !self.solver.instant(&mut self.probe)? {
                 break;
             }

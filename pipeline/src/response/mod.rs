@@ -10,6 +10,7 @@ mod envelope;
 mod line;
 mod part_inertia;
 mod picture;
+mod rail_picture;
 mod spans;
 mod story;
 mod sway;
@@ -17,14 +18,15 @@ mod uplift;
 mod wheel_load;
 
 pub use bending::Bending;
-pub use column::{Column, MOST, names};
-pub use comparison::comparison;
+pub use column::{Column, Kind, MOST, names, stresses};
+pub use comparison::{Figures, comparison};
 pub use deflection::Deflection;
 pub use envelope::{Envelope, Extreme};
 pub use line::Lines;
 pub use picture::pictures;
+pub use rail_picture::rails;
 pub use spans::spans;
-pub use story::section;
+pub use story::{beside, section};
 pub use sway::Sway;
 pub use uplift::Uplift;
 pub use wheel_load::{WheelLoad, WheelLoads};
@@ -65,7 +67,9 @@ pub struct Response {
 pub fn answers(scene: &Scene, known: &[Known]) -> Vec<bool> {
     let few = column::few(scene);
     let some = |pick: &Pick, few: bool| !matches!(pick, Pick::None) && (few || !matches!(pick, Pick::Few));
-    let asked = some(&scene.output.reactions, few[0]) || some(&scene.output.sections, few[1]);
+    let output = &scene.output;
+    let asked =
+        some(&output.reactions, few[0]) || some(&output.sections, few[1]) || some(&output.stresses, few[2]);
     scene.structures.iter().map(|structure| asked && solved_of(known, &structure.origin).is_some()).collect()
 }
 
@@ -81,9 +85,13 @@ pub fn lines(
     let few = column::few(scene);
     let each = scene.structures.iter().zip(laid).zip(solved).map(|((structure, laid), solved)| {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else { return Ok(None) };
-        let wanted = |kind: usize, name: &str| {
-            let pick = if kind == 0 { &scene.output.reactions } else { &scene.output.sections };
-            pick.takes(name, few[kind])
+        let wanted = |kind: Kind, name: &str| {
+            let (pick, few) = match kind {
+                Kind::Reaction => (&scene.output.reactions, few[0]),
+                Kind::Section => (&scene.output.sections, few[1]),
+                Kind::Stress => (&scene.output.stresses, few[2]),
+            };
+            pick.takes(name, few)
         };
         Lines::new(&structure.name, spec, solved, laid, scene.gravity, &wanted)
             .map_err(|error| Failure::Untrusted(format!("{}: {error}", structure.name)))

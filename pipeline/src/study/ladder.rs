@@ -126,7 +126,7 @@ impl List<'_> {
         if kinds.is_girder {
             for &count in &self.depth.parts {
                 let handover = Handover::Blend { length: None };
-                let scene = with(&fine, |_| Foundation::Parts { count, handover });
+                let scene = with(&fine, |_| Foundation::Parts { count, handover, damping: 0.0 });
                 self.add(Family::Parts, "parts", count as f64, scene);
             }
         }

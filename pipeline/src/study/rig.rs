@@ -88,7 +88,7 @@ impl<'k> Workshop<'k> {
         let own = quantities(scene).len();
         let mut trace = Trace { time: record.values("time").to_vec(), columns: Vec::new() };
         for (index, column) in record.columns.into_iter().enumerate() {
-            let is_reaction = index >= own && response.columns[index - own].is_reaction;
+            let is_reaction = index >= own && response.columns[index - own].kind == response::Kind::Reaction;
             if let Some(quantity) = Quantity::of(&column, scene, index < own, is_reaction) {
                 trace.columns.push((column.name, quantity, column.values));
             }
