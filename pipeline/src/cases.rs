@@ -126,7 +126,7 @@ pub fn simulate(
 }
 
 /// Values of structures' freedoms that a history holds where no reaction asks for them.
-const RECORDED: f64 = 1e7;
+pub(crate) const RECORDED: f64 = 1e7;
 
 fn one(
     case: &Case,

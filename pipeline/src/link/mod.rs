@@ -20,7 +20,7 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{Chosen, Trouble, choose, doubt, modes_of, reason, rung_of, word};
+pub use ladder::{Chosen, Trouble, choose, doubt, elements, modes_of, reason, rung_of, word};
 pub use modal::Spectra;
 pub use mount::mount;
 pub use parts::{RigidParts, roll_inertia};

@@ -1,6 +1,8 @@
 //! What the report says of reactions, internal forces, sag and uplift.
 
 use super::Response;
+use super::comparison::{Figures, comparison};
+use crate::record::Record;
 use crate::report::{Cell, Column, Section, Table};
 use crate::scene::Scene;
 use crate::units::Dimension;
@@ -24,6 +26,9 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
     }
     if !response.deflections.is_empty() {
         section = section.table(deflections(scene, label, response));
+    }
+    if !response.drifts.is_empty() {
+        section = section.table(drifts(scene, label, response));
     }
     if !response.uplifts.is_empty() {
         let mut table = Table {
@@ -50,6 +55,52 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
         section = section.say(format!("{note}."));
     }
     section
+}
+
+/// Runs beside each other in numbers; `None`: there is one alone, or nothing to compare.
+#[must_use]
+pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Section> {
+    let all = comparison(runs);
+    if all.is_empty() {
+        return None;
+    }
+    let more = all.len().saturating_sub(ROWS);
+    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let (_, record, _) = runs.first()?;
+    let mut rows = Vec::new();
+    for name in all.keys().take(ROWS) {
+        let column = record.columns.iter().find(|column| column.name == *name);
+        let unit = column.map_or_else(String::new, |column| scene.units.label(column.dimension));
+        let mut head = vec![Cell::from(name.clone()), Cell::from(unit)];
+        for (label, record, _) in runs {
+            let Some(found) = Figures::new(record, name) else { continue };
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
+            row.push(Cell::from(*label));
+            row.extend([found.settled, found.peak.value, found.peak.time].map(Cell::from));
+            row.extend([found.least.value, found.least.time].map(Cell::from));
+            row.push(Cell::from(found.excursions));
+            row.push(found.hertz().map_or(Cell::Empty, Cell::from));
+            rows.push(row);
+        }
+    }
+    let columns = [
+        ("quantity", ""),
+        ("unit", ""),
+        ("run", ""),
+        ("settled mean", ""),
+        ("peak", ""),
+        ("at time", "s"),
+        ("least", ""),
+        ("at time", "s"),
+        ("excursions", ""),
+        ("frequency", "Hz"),
+    ];
+    let caption = format!(
+        "Settled mean over the last quarter of each run, extremes, how often 5 % about the mean are left, and the strongest \
+         frequency in that quarter.{rest}"
+    );
+    let columns = columns.map(|(name, unit)| Column::new(name, unit)).into();
+    Some(Section::new("Run against run").table(Table { caption, columns, rows }))
 }
 
 fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
@@ -92,6 +143,48 @@ fn places(extreme: &super::Extreme) -> String {
         format!("{name} {}", at.join(", "))
     });
     all.collect::<Vec<_>>().join("; ")
+}
+
+fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let columns = [
+        "rail",
+        "column at",
+        "height",
+        "displacement",
+        "at time",
+        "height over it",
+        "code",
+        "accepts",
+        "keeps",
+    ];
+    let unit_of = |name: &str| match name {
+        "column at" | "height" | "displacement" | "accepts" => unit.as_str(),
+        "at time" => "s",
+        _ => "",
+    };
+    let mut rows = Vec::new();
+    for found in response.drifts.iter().take(ROWS) {
+        let mut head = vec![
+            Cell::from(found.rail.clone()),
+            Cell::from(found.x),
+            Cell::from(found.height),
+            Cell::from(found.value),
+            Cell::from(found.time),
+            found.ratio().map_or(Cell::Empty, Cell::from),
+        ];
+        for (code, clause, most) in &found.limits {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 6]);
+            row.extend([Cell::from(format!("{code}, {clause}")), Cell::from(*most)]);
+            row.push(Cell::from(if found.value <= *most { "yes" } else { "no" }));
+            rows.push(row);
+        }
+    }
+    Table {
+        caption: format!("Largest displacement sideways of each rail over a column in the run \"{label}\"."),
+        columns: columns.map(|name| Column::new(name, unit_of(name))).into(),
+        rows,
+    }
 }
 
 fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {
