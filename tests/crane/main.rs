@@ -9,12 +9,15 @@ use serde_json::{Value, json};
 
 mod codes;
 mod couplings;
+mod cranes;
 mod drift;
+mod drop;
 mod event;
 mod film;
 #[path = "../history.rs"]
 mod history;
 mod parts;
+mod skew;
 
 use history::History;
 

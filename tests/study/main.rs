@@ -3,6 +3,7 @@
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
 mod command;
+mod stability;
 
 use girderway::cases::{Known, specs};
 use girderway::cli::Global;

@@ -75,8 +75,11 @@ fn stability(
     folder.add("stability.json", output::json(&result));
     folder.add("stability.csv", stability::csv(&maps).map_err(Failure::untrusted)?);
     for map in &maps {
-        if let Some(svg) = stability::picture(map).map_err(Failure::untrusted)? {
-            folder.add(&format!("plots/stability-{}.svg", map.name), svg);
+        let pictures = stability::pictures(map).map_err(Failure::untrusted)?;
+        let is_one = pictures.len() == 1;
+        for (index, svg) in pictures.into_iter().enumerate() {
+            let number = if is_one { String::new() } else { format!("-{}", index + 1) };
+            folder.add(&format!("plots/stability-{}{number}.svg", map.name), svg);
         }
     }
     let settings = json!({ "case": args.case, "quick": args.quick, "stability": true });

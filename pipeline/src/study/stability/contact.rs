@@ -110,11 +110,7 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
         let methods = ["fixed point", "staggered", "lag of one step", "girderway, direct"];
         let mut layers: Vec<Layer> = methods
             .iter()
-            .map(|name| Layer {
-                method: format!("{name}, {who}"),
-                is_ours: name.starts_with("girderway"),
-                cells: Vec::new(),
-            })
+            .map(|name| Layer::new(format!("{name}, {who}"), name.starts_with("girderway")))
             .collect();
         let mut line = Vec::new();
         for &x in &places {
@@ -146,8 +142,9 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
                 }
             }
         }
+        let line = Series::new("k G = 1", Style::Line, inside(line, &stiffnesses));
+        layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
         map.layers.extend(layers);
-        map.lines.push(Series::new(format!("k G = 1, {who}"), Style::Line, inside(line, &stiffnesses)));
     }
     map
 }

@@ -127,11 +127,8 @@ pub fn maps(subject: &Subject<'_>, most: u32) -> Vec<Map> {
 }
 
 fn fill(map: &mut Map, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
-    let mut layers = ["doubles, banded Cholesky", "girderway"].map(|method| Layer {
-        method: method.to_owned(),
-        is_ours: method == "girderway",
-        cells: Vec::new(),
-    });
+    let mut layers = [("doubles, banded Cholesky", false), ("girderway", true)]
+        .map(|(method, ours)| Layer::new(method, ours));
     let mut bounds = Vec::new();
     for (x, lengths, node) in meshes {
         let place: f64 = lengths.iter().take(node).sum();
@@ -162,8 +159,8 @@ fn fill(map: &mut Map, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
         };
         layers[1].cells.push(Cell { at: [x, value], value, verdict });
     }
+    layers[1].lines.push(Series::new("girderway's certified bound", Style::Line, bounds));
     map.layers.extend(layers);
-    map.lines.push(Series::new("girderway's certified bound", Style::Line, bounds));
 }
 
 #[cfg(test)]

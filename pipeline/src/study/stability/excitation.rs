@@ -1,8 +1,11 @@
 //! Tables that are not symmetric: bogies that shake themselves.
 
+use std::ops::ControlFlow;
+
 use nalgebra::{DMatrix, Matrix2, Matrix4};
+use sim::{Channel, Foundation, Freedom};
 use splines::check::{Strip, work};
-use splines::{Axis, Compliance, Kind, Reading};
+use splines::{Axis, Compliance, Kind, Reading, Sheet};
 
 use super::map::{Cell, Layer, Map, Scale, Verdict};
 use super::steps::spread;
@@ -12,6 +15,13 @@ use crate::units::Dimension;
 
 /// Growth, 1/time by the frequency of the wheels on their springs, that is none.
 const NONE: f64 = 1e-9;
+
+/// Time of a run by that of growth by e.
+const EFOLDINGS: f64 = 6.0;
+/// Speed that a bogie is struck with, by gravity and the frequency of its wheels.
+const STRUCK: f64 = 1e-2;
+/// Energy residual from which the program warns.
+const WARNED: f64 = 1e-3;
 
 /// A body on two wheels at rest.
 #[derive(Clone, Copy)]
@@ -101,22 +111,47 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         let give = subject.give(of, &[own.x - half, own.x + half])?;
         own.growth(&give)
     };
-    // where it is worst without dampers
-    let mut worst = (f64::MIN, bogie(place(0, 1), 0.0, half, 0.0));
-    for i in 0..240 {
-        let x = place(i, 240);
-        let Some(give) = subject.give(&akispl, &[x - half, x + half]) else { continue };
-        for j in 0..40 {
-            let offset = half * (f64::from(j) - 20.0) / 20.0;
-            for gyration in spread(0.3 * half, 10.0 * half, 60) {
-                let own = bogie(x, offset, gyration, 0.0);
-                if let Some(found) = own.growth(&give).filter(|found| *found > worst.0) {
-                    worst = (found, own);
-                }
+    // where it is worst without dampers: a coarse search, then finer ones about the best
+    let mut worst = (f64::MIN, [0.5, 0.0, 0.5]);
+    let at = |[place, offset, gyration]: [f64; 3]| {
+        let x = subject.span[0] + half + inner * place;
+        bogie(x, half * offset, half * 0.3 * 30.0_f64.powf(gyration), 0.0)
+    };
+    let mut look = |share: [f64; 3]| {
+        if let Some(found) = growth(&akispl, at(share)).filter(|found| *found > worst.0) {
+            worst = (found, share);
+        }
+        worst.1
+    };
+    let mut best = [0.5, 0.0, 0.5];
+    for i in 0..80 {
+        for j in 0..8 {
+            for k in 0..10 {
+                let middle = |own: i32, count: i32| (f64::from(own) + 0.5) / f64::from(count);
+                best = look([middle(i, 80), 2.0 * middle(j, 8) - 1.0, middle(k, 10)]);
             }
         }
     }
-    let (largest, at) = worst;
+    let mut reach = [1.0 / 80.0, 1.0 / 4.0, 1.0 / 10.0];
+    for _ in 0..10 {
+        let centre = best;
+        for i in -2..=2 {
+            for j in -2..=2 {
+                for k in -2..=2 {
+                    let moved = |axis: usize, by: i32| centre[axis] + reach[axis] * f64::from(by) / 2.0;
+                    let share = [moved(0, i), moved(1, j), moved(2, k)];
+                    let inside = (0.0..=1.0).contains(&share[0])
+                        && (-1.0..=1.0).contains(&share[1])
+                        && (0.0..=1.0).contains(&share[2]);
+                    if inside {
+                        best = look(share);
+                    }
+                }
+            }
+        }
+        reach = reach.map(|own| 0.6 * own);
+    }
+    let (largest, at) = (worst.0, at(worst.1));
     map.find("akispl: largest growth without dampers, 1/s", largest);
     map.find("akispl: where", at.x);
     map.find("akispl: distance of the centre of mass from the middle", at.offset);
@@ -162,7 +197,49 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         } else {
             name.to_owned()
         };
-        map.layers.push(Layer { method, is_ours, cells });
+        map.layers.push(Layer::new(method, is_ours).with(cells));
     }
+    let mut cells = Vec::new();
+    for &c in &dampers {
+        let own = Bogie { law: [subject.stiffness, c], ..at };
+        let growth = growth(&akispl, own).unwrap_or_default();
+        let (value, verdict) = match told(subject, &tables, own, growth) {
+            Ok((_, residual)) if residual > WARNED => (residual, Verdict::Warned),
+            Ok((grown, residual)) => (residual, if grown { Verdict::Wrong } else { Verdict::Right }),
+            Err(why) => (0.0, Verdict::Refused(why)),
+        };
+        cells.push(Cell { at: [at.x, c], value, verdict });
+    }
+    map.layers.push(Layer::new("girderway told to read by akispl, worst place", true).with(cells));
     Ok(map)
+}
+
+/// Whether the motion has grown in a run of the program on AKISPL for `EFOLDINGS` times the time in which it grows by e,
+/// or, where it does not, for as many periods; and the energy residual of the run, from which on the program warns.
+fn told(subject: &Subject<'_>, tables: &[Sheet], own: Bogie, growth: f64) -> Result<(bool, f64), String> {
+    let reading = Reading::new(Kind::Akispl, tables).map_err(|error| error.to_string())?;
+    let [k, c] = own.law;
+    let omega = (2.0 * k / own.mass).sqrt();
+    let end = EFOLDINGS / growth.max(0.01 * omega);
+    let at = [-own.half - own.offset, own.half - own.offset];
+    let scene = subject.crossing(own.mass, &at, subject.linear(k, c), [own.x + own.offset, 0.0, end]);
+    let mut scene = scene.map_err(|error| error.to_string())?;
+    let body = &mut scene.bodies[0];
+    body.motion = None;
+    body.free[5] = true;
+    body.inertia[2] = own.mass * own.gyration * own.gyration;
+    body.start_speed[1] = STRUCK * subject.gravity / omega;
+    scene.accuracy = 1e-8;
+    scene.output_dt = end / 2000.0;
+    let foundation = Foundation::influence(Box::new(reading), 1);
+    let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()));
+    let run = run.map_err(|error| error.to_string())?;
+    if !run.status.is_complete() {
+        return Err(crate::summary::status(&run.status).1.unwrap_or_default());
+    }
+    let speed = run.history.column(Channel::Speed(0, Freedom::Y));
+    let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
+    let tenth = (speed.len() / 10).max(1);
+    let grown = largest(&speed[speed.len() - tenth..]) > 2.0 * largest(&speed[..tenth]);
+    Ok((grown, run.audit.residual()))
 }

@@ -69,9 +69,23 @@ pub struct Layer {
     pub is_ours: bool,
     /// Its points.
     pub cells: Vec<Cell>,
+    /// Lines over them.
+    pub lines: Vec<Series>,
 }
 
 impl Layer {
+    /// A method without points.
+    #[must_use]
+    pub fn new(method: impl Into<String>, is_ours: bool) -> Layer {
+        Layer { method: method.into(), is_ours, cells: Vec::new(), lines: Vec::new() }
+    }
+
+    /// The same with its points.
+    #[must_use]
+    pub fn with(self, cells: Vec<Cell>) -> Layer {
+        Layer { cells, ..self }
+    }
+
     /// How many points have each verdict, in the order of [`Verdict::WORDS`].
     #[must_use]
     pub fn counts(&self) -> [usize; 5] {
@@ -118,8 +132,6 @@ pub struct Map {
     pub axes: [Scale; 2],
     /// Methods.
     pub layers: Vec<Layer>,
-    /// Lines over every layer.
-    pub lines: Vec<Series>,
     /// Numbers found on the way.
     pub findings: Vec<Finding>,
     /// What the verdicts mean here.
@@ -130,8 +142,8 @@ impl Map {
     /// A map without layers.
     #[must_use]
     pub fn new(name: &'static str, title: &str, axes: [Scale; 2], note: &str) -> Map {
-        let (layers, lines, findings) = (Vec::new(), Vec::new(), Vec::new());
-        Map { name, title: title.to_owned(), axes, layers, lines, findings, note: note.to_owned() }
+        let (layers, findings) = (Vec::new(), Vec::new());
+        Map { name, title: title.to_owned(), axes, layers, findings, note: note.to_owned() }
     }
 
     /// Notes a number.

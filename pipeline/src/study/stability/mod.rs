@@ -8,6 +8,7 @@ mod elements;
 mod excitation;
 mod liftoff;
 mod map;
+mod penalty;
 mod picture;
 mod steppers;
 mod steps;
@@ -15,7 +16,7 @@ mod subject;
 
 pub use data::{csv, json};
 pub use map::{Cell, Finding, Layer, Map, Scale, Verdict};
-pub use picture::picture;
+pub use picture::pictures;
 pub use subject::Subject;
 
 use crate::progress::Progress;
@@ -37,9 +38,10 @@ pub fn maps(subject: &Subject<'_>, quick: bool, progress: &Progress) -> Maps {
     }
     progress.say("mapping elements");
     maps.extend(elements::maps(subject, if quick { 11 } else { 15 }));
+    maps.push(penalty::map(subject, points(48)));
     progress.say("mapping lift-off");
     maps.push(liftoff::map(subject, points(48)));
     progress.say("mapping steps");
-    maps.push(steps::map(subject, points(30)));
+    maps.extend(steps::maps(subject, points(30)));
     (maps, absent)
 }

@@ -1,4 +1,4 @@
-//! Maps drawn: a chart a method, below each other.
+//! Maps drawn: a chart a method, a few below each other.
 
 use super::map::{Map, Scale, Verdict};
 use crate::chart::{Axis, Chart, Error, Series, Style, stack};
@@ -15,11 +15,14 @@ fn axis(scale: &Scale, range: [f64; 2]) -> Axis {
     }
 }
 
-/// The picture of a map; `None` where it has no point.
+/// Charts a picture.
+const A_PICTURE: usize = 4;
+
+/// The pictures of a map, as many methods each as fit a page.
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
-pub fn picture(map: &Map) -> Result<Option<String>, Error> {
+pub fn pictures(map: &Map) -> Result<Vec<String>, Error> {
     let drawn = |at: &[f64; 2]| {
         let fits = |k: usize| at[k].is_finite() && (!map.axes[k].log || at[k] > 0.0);
         fits(0) && fits(1)
@@ -31,19 +34,19 @@ pub fn picture(map: &Map) -> Result<Option<String>, Error> {
         [low, points().map(|at| at[k]).fold(f64::MIN, f64::max)]
     };
     if points().next().is_none() {
-        return Ok(None);
+        return Ok(Vec::new());
     }
     let ranges = [range(0), range(1)];
     let mut charts = Vec::new();
     for layer in &map.layers {
-        let title = format!("{}: {}", map.title, layer.method);
+        let title = format!("{} ({})", map.title, layer.method);
         let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
         let mut chart = Chart::new(title, x, y);
         for word in Verdict::WORDS {
             let own = layer.cells.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
             chart.series.push(Series::new(word, Style::Points, own.filter(|at| drawn(at)).collect()));
         }
-        for line in &map.lines {
+        for line in &layer.lines {
             let points = line.points.iter().copied().filter(|at| drawn(at)).collect();
             chart.series.push(Series { points, ..line.clone() });
         }
@@ -59,5 +62,5 @@ pub fn picture(map: &Map) -> Result<Option<String>, Error> {
             charts.push(chart.svg()?);
         }
     }
-    Ok(Some(stack(&charts)))
+    Ok(charts.chunks(A_PICTURE).map(stack).collect())
 }

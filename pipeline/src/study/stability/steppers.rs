@@ -1,9 +1,9 @@
-//! Steppers that others use, on one oscillator whose stiffness depends on time.
+//! Steppers that others use, on one oscillator whose stiffness and damping depend on time.
 
-/// z'' + 2 d z' + s(t) z = 0.
+/// z'' + d(t) z' + s(t) z = 0.
 pub struct Oscillator<'a> {
-    /// 2 d, 1/time.
-    pub damping: f64,
+    /// d(t), 1/time.
+    pub damping: &'a dyn Fn(f64) -> f64,
     /// s(t), 1/time^2.
     pub stiffness: &'a dyn Fn(f64) -> f64,
 }
@@ -28,13 +28,13 @@ pub const STEPPERS: [(&str, usize, Step); 8] = [
 
 impl Oscillator<'_> {
     fn slope(&self, t: f64, [z, v]: [f64; 2]) -> [f64; 2] {
-        [v, -self.damping * v - (self.stiffness)(t) * z]
+        [v, -(self.damping)(t) * v - (self.stiffness)(t) * z]
     }
 
     /// Solves y = right + share A(t) y, A the matrix of the first-order system.
     fn implicit(&self, t: f64, share: f64, [z, v]: [f64; 2]) -> [f64; 2] {
         let s = (self.stiffness)(t);
-        let new = (v - share * s * z) / (1.0 + share * self.damping + share * share * s);
+        let new = (v - share * s * z) / (1.0 + share * (self.damping)(t) + share * share * s);
         [z + share * new, new]
     }
 }
@@ -106,10 +106,11 @@ fn alpha(of: &Oscillator<'_>, t: f64, h: f64, [z, v, a, _]: State, radius: f64) 
     let gamma = 0.5 + af - am;
     let beta = 0.25 * (1.0 + af - am) * (1.0 + af - am);
     let [s0, s1] = [(of.stiffness)(t), (of.stiffness)(t + h)];
+    let [d0, d1] = [(of.damping)(t), (of.damping)(t + h)];
     let z0 = z + h * v + h * h * (0.5 - beta) * a;
     let v0 = v + h * (1.0 - gamma) * a;
-    let load = am * a + of.damping * ((1.0 - af) * v0 + af * v) + (1.0 - af) * s1 * z0 + af * s0 * z;
-    let mass = (1.0 - am) + (1.0 - af) * (of.damping * gamma * h + s1 * beta * h * h);
+    let load = am * a + (1.0 - af) * (d1 * v0 + s1 * z0) + af * (d0 * v + s0 * z);
+    let mass = (1.0 - am) + (1.0 - af) * (d1 * gamma * h + s1 * beta * h * h);
     let new = -load / mass;
     [z0 + beta * h * h * new, v0 + gamma * h * new, new, 0.0]
 }
@@ -131,10 +132,10 @@ fn bdf2(of: &Oscillator<'_>, t: f64, h: f64, [z, v, z0, v0]: State) -> State {
 mod tests {
     use super::*;
 
-    /// Error of z after unit time of z'' + 0.2 z' + 4 (1 + t) z = 0 by `steps` steps.
+    /// Error of z after unit time of z'' + (0.2 + 0.3 t) z' + 4 (1 + t) z = 0 by `steps` steps.
     fn error(name: &str, step: Step, steps: u32) -> f64 {
         let stiffness = |t: f64| 4.0 * (1.0 + t);
-        let of = Oscillator { damping: 0.2, stiffness: &stiffness };
+        let of = Oscillator { damping: &|t| 0.2 + 0.3 * t, stiffness: &stiffness };
         let run = |name: &str, step: Step, steps: u32| {
             let h = 1.0 / f64::from(steps);
             // what multistep methods remember: an earlier state, an acceleration

@@ -16,6 +16,10 @@ use crate::units::Dimension;
 const FINE: f64 = 4000.0;
 /// Excess of a spectral radius that is growth.
 const GROWTH: f64 = 1e-6;
+/// Relative error of the spectral radius of the motion.
+const KNOWN: f64 = 1e-6;
+/// How much more a motion that grows may grow.
+const ALIKE: f64 = 1.02;
 /// Growth a span that nobody overlooks.
 const OBVIOUS: f64 = 100.0;
 /// Energy residual from which the program warns.
@@ -59,26 +63,38 @@ struct Crossing<'s, 'a> {
 }
 
 impl Crossing<'_, '_> {
-    /// Stiffness by mass at a share of the span.
-    fn stiffness(&self, share: f64) -> f64 {
+    /// By how much the rail's give softens the wheel at a share of the span.
+    fn softened(&self, share: f64) -> f64 {
         let at = share.clamp(0.0, 1.0) * (self.give.len() - 1) as f64;
         let low = (at as usize).min(self.give.len() - 2);
         let part = at - low as f64;
         let give = self.give[low] * (1.0 - part) + self.give[low + 1] * part;
-        self.omega * self.omega / (1.0 + give)
+        1.0 / (1.0 + give)
     }
 
     /// Spectral radius by a stepper, `count` steps a span.
     fn radius(&self, (size, step): (usize, Step), period: f64, count: usize) -> f64 {
-        let stiffness = |t: f64| self.stiffness(t / period);
-        let of = Oscillator { damping: self.damping, stiffness: &stiffness };
+        let stiffness = |t: f64| self.omega * self.omega * self.softened(t / period);
+        let damping = |t: f64| self.damping * self.softened(t / period);
+        let of = Oscillator { damping: &damping, stiffness: &stiffness };
         monodromy(&of, step, size, period, count)
+    }
+
+    /// That of the motion where the damper's force goes past the rail.
+    fn beside(&self, period: f64) -> f64 {
+        let stiffness = |t: f64| self.omega * self.omega * self.softened(t / period);
+        let of = Oscillator { damping: &|_| self.damping, stiffness: &stiffness };
+        monodromy(&of, STEPPERS[2].2, 2, period, self.fine(period))
+    }
+
+    /// Steps a span by which the motion is known.
+    fn fine(&self, period: f64) -> usize {
+        FINE.max(60.0 * period * self.omega / (2.0 * PI)).ceil() as usize
     }
 
     /// That of the motion itself.
     fn physical(&self, period: f64) -> f64 {
-        let count = FINE.max(60.0 * period * self.omega / (2.0 * PI)).ceil() as usize;
-        self.radius((2, STEPPERS[2].2), period, count)
+        self.radius((2, STEPPERS[2].2), period, self.fine(period))
     }
 
     /// By the program itself, with its energy residual; the message where it refuses.
@@ -122,11 +138,11 @@ impl Crossing<'_, '_> {
     }
 }
 
-/// The map.
+/// The maps: steps of one length, and those by accuracy.
 #[must_use]
-pub fn map(subject: &Subject<'_>, points: usize) -> Map {
+pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
     let omega = (subject.stiffness / subject.mass()).sqrt();
-    let count = 2000;
+    let count = 8000;
     let place = |i: usize| subject.span[0] + subject.length() * i as f64 / f64::from(count);
     let give = (0..=count as usize).map(|i| subject.stiffness * subject.at(place(i))).collect();
     let crossing = Crossing { subject, omega, damping: subject.damping / subject.mass(), give };
@@ -138,8 +154,8 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
         "steps",
         "Steps that keep a wheel on equal spans stable",
         axes,
-        "A wheel on its spring with its damper to the ground crosses the longest span again and again. Wrong where the spectral \
-         radius of a span's steps exceeds that of the motion and 1.",
+        "A wheel on spring and damper, whose force the rail carries, crosses the longest span again and again. Wrong where the \
+         spectral radius of a span's steps exceeds 1 and that of the motion (by 2 % where that itself grows).",
     );
     map.find("frequency of the wheel on its spring, radian/s", omega);
     map.find("share of critical damping", 0.5 * crossing.damping / omega);
@@ -149,6 +165,8 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
     let speeds: Vec<f64> = spread(fastest / 300.0, fastest, points);
     let steps: Vec<f64> = spread(0.2, most, points);
     let physical: Vec<f64> = speeds.iter().map(|speed| crossing.physical(subject.length() / speed)).collect();
+    let beside = crossing.beside(subject.length() / fastest);
+    map.find("growth a span at the highest speed, the damper's force past the rail", beside);
     for (speed, physical) in speeds.iter().zip(&physical) {
         if *physical > 1.0 + GROWTH {
             map.find(
@@ -158,8 +176,9 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
         }
     }
     let judge = |found: f64, physical: f64| {
-        let allowed = physical.max(1.0) + GROWTH;
-        if found <= allowed { Verdict::Right } else { Verdict::of(found, allowed, OBVIOUS * allowed) }
+        // a motion that grows is to grow alike; one that does not is not to
+        let allowed = if physical > 1.0 { ALIKE * physical } else { 1.0 + GROWTH };
+        Verdict::of(found, allowed, OBVIOUS * allowed)
     };
     let counted = |speed: f64, step: f64| {
         let period = subject.length() / speed;
@@ -187,7 +206,7 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
         if first.is_finite() {
             map.find(format!("{name}: first unstable step x frequency"), first);
         }
-        map.layers.push(Layer { method: name.to_owned(), is_ours: false, cells });
+        map.layers.push(Layer::new(name, false).with(cells));
     }
     for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
         let mut cells = Vec::new();
@@ -210,25 +229,37 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
             }
         }
         let word = OURS.iter().find(|(_, own)| *own == method).map_or("", |(word, _)| *word);
-        map.layers.push(Layer { method: format!("girderway, {word}, equal steps"), is_ours: true, cells });
+        map.layers.push(Layer::new(format!("girderway, {word}, equal steps"), true).with(cells));
     }
+    vec![map, by_accuracy(&crossing, &speeds, &physical, points)]
+}
+
+/// Steps that the program chooses itself, by the accuracy it is asked for.
+fn by_accuracy(crossing: &Crossing<'_, '_>, speeds: &[f64], physical: &[f64], points: usize) -> Map {
+    let axes = [
+        Scale::new("speed", &crossing.subject.unit(Dimension::SPEED), true),
+        Scale::new("accuracy asked for", "", true),
+    ];
+    let mut map = Map::new(
+        "accuracies",
+        "Accuracies that keep a wheel on equal spans stable",
+        axes,
+        "The same crossing by steps that follow the accuracy; wrong where the spectral radius of a span exceeds 1 and that of the motion \
+         by more than the accuracy, relatively.",
+    );
     let mut cells = Vec::new();
-    for (speed, physical) in speeds.iter().zip(&physical) {
-        for accuracy in [1e-2, 1e-4, 1e-6] {
+    for (speed, physical) in speeds.iter().zip(physical) {
+        for accuracy in spread(1e-7, 1e-1, points.min(13)) {
             let (value, verdict) = match crossing.ours(Stepping::default(), *speed, accuracy) {
-                // a hundredth of the accuracy asked for is nothing to a spectral radius
-                Ok((value, _)) => (value, Verdict::of(value - physical.max(1.0), accuracy, OBVIOUS)),
+                Ok((value, _)) => {
+                    (value, Verdict::of(value / physical.max(1.0) - 1.0, accuracy + KNOWN, OBVIOUS))
+                }
                 Err(why) => (0.0, Verdict::Refused(why)),
             };
-            // the steps are its own: by how they are asked for
             cells.push(Cell { at: [*speed, accuracy], value: finite(value), verdict });
         }
     }
-    map.layers.push(Layer {
-        method: "girderway, steps by accuracy (up: accuracy)".into(),
-        is_ours: true,
-        cells,
-    });
+    map.layers.push(Layer::new("girderway", true).with(cells));
     map
 }
 
