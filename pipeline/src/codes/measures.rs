@@ -6,7 +6,7 @@ use crate::exit::Failure;
 use crate::layout::Layout;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Along, Practice, Scene, across};
+use crate::scene::{Along, Practice, Scene, across, seat};
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
 /// A crane on two rails, in the units of its scene.
@@ -57,8 +57,14 @@ impl Measures {
     ) -> Result<Measures, Failure> {
         let layout = Layout::new(scene)?;
         let g = scene.gravity;
-        let bridge = &scene.bodies[practice.crane];
-        let mut fixed = vec![[bridge.cg[2], bridge.mass * g]];
+        let all: Vec<(usize, [f64; 3])> = (0..scene.bodies.len()).map(|body| seat(scene, body)).collect();
+        let mut fixed: Vec<[f64; 2]> = scene
+            .bodies
+            .iter()
+            .zip(&all)
+            .filter(|(_, (root, _))| *root == practice.crane)
+            .map(|(body, (_, arm))| [body.cg[2] + arm[2], body.mass * g])
+            .collect();
         for mount in layout.carried(practice.crane) {
             let mass = mount.mass[1][1];
             if mass > 0.0 {
@@ -66,7 +72,9 @@ impl Measures {
                 fixed.push([0.0 - mount.mass[1][3] / mass, mass * g]);
             }
         }
-        let weight = |bodies: &[usize]| bodies.iter().map(|b| scene.bodies[*b].mass * g).sum::<f64>();
+        let weight = |counts: &dyn Fn(usize) -> bool| -> f64 {
+            (0..all.len()).filter(|body| counts(*body)).map(|body| scene.bodies[body].mass * g).sum()
+        };
         let across = practice.rails.map(|rail| across(scene, practice.crane, rail));
         let line = practice.trolley.and_then(|trolley| {
             let (_, axle) = layout.track(trolley)?;
@@ -74,8 +82,8 @@ impl Measures {
             Some([axle.origin[2] + off, axle.along[2]])
         });
         let wheels = practice.rails.map(|rail| {
-            let all = cast.wheels.iter().enumerate();
-            let own = all.filter(|(_, wheel)| wheel.body == practice.crane && wheel.rail == rail);
+            let wheels = cast.wheels.iter().enumerate();
+            let own = wheels.filter(|(_, wheel)| all[wheel.body].0 == practice.crane && wheel.rail == rail);
             own.map(|(index, _)| index).collect::<Vec<usize>>()
         });
         let kinds = wheels
@@ -91,8 +99,10 @@ impl Measures {
         let trucks = scene
             .trucks
             .iter()
-            .filter(|truck| truck.body == practice.crane && truck.rail == practice.rails[0]);
-        let mut places: Vec<f64> = trucks.flat_map(crate::scene::Truck::wheel_offsets).collect();
+            .filter(|truck| all[truck.body].0 == practice.crane && truck.rail == practice.rails[0]);
+        let mut places: Vec<f64> = trucks
+            .flat_map(|truck| truck.wheel_offsets().into_iter().map(|x| x + all[truck.body].1[0]))
+            .collect();
         places.sort_by(|a, b| b.total_cmp(a));
         let pairs = places.iter().map(|x| places[0] - x).collect();
         let nearest = practice.trolley.zip(line).map(|(trolley, [origin, slope])| {
@@ -101,8 +111,8 @@ impl Measures {
         });
         let span = (across[0] - across[1]).abs();
         let crane = practice::Crane {
-            lifted: weight(&practice.loads),
-            trolley: practice.trolley.map_or(0.0, |trolley| weight(&[trolley])),
+            lifted: weight(&|body| practice.loads.contains(&body)),
+            trolley: weight(&|body| practice.trolley == Some(all[body].0)),
             bridge: fixed.iter().map(|[_, weight]| weight).sum(),
             span,
             approach: practice.approach.or(nearest).unwrap_or(0.5 * span).min(span),

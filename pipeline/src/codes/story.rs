@@ -42,7 +42,25 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         }
     }
     let caption = "Found, and by the codes.".to_owned();
-    Some(section.table(Table { caption, columns, rows }))
+    let table = Table { caption, columns, rows };
+    let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("of", "")];
+    let givens = first.givens.iter().map(|given| {
+        let value = &given.value;
+        vec![
+            Cell::from(given.name.replace('_', " ")),
+            Cell::from(rounded(value.value)),
+            Cell::from(scene.units.label(given.dimension)),
+            Cell::from(value.code),
+            Cell::from(value.clause),
+            Cell::from(value.formula.clone()),
+        ]
+    });
+    let factors = Table {
+        caption: "Factors of the codes, and loads of one wheel by them.".to_owned(),
+        columns: heads.map(|(name, unit)| Column::new(name, unit)).into(),
+        rows: givens.collect(),
+    };
+    Some(section.table(table).table(factors))
 }
 
 /// To five digits: codes have no more.
