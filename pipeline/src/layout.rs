@@ -60,7 +60,7 @@ impl<'s> Layout<'s> {
             let arm = self.turned(to, pin);
             return [0, 1, 2].map(|k| base[k] + arm[k]);
         }
-        let moved = [at("x"), 0.0 - at("deflection"), at("z")];
+        let moved = [at("x"), self.radius(body) - at("deflection"), at("z")];
         let Some((carrier, axle)) = self.track(body) else { return moved };
         let base = self.origin(record, carrier, row);
         let own = self.turned(body, [0.0, moved[1], moved[2]]);
@@ -75,6 +75,16 @@ impl<'s> Layout<'s> {
             Some((_, Axle { along: [a, _, c], .. })) => [a * x - c * z, y, c * x + a * z],
             None => [x, y, z],
         }
+    }
+
+    /// Height of a body's origin over its rails where the wheels just touch: the radius of its wheels.
+    fn radius(&self, body: usize) -> f64 {
+        let carries = |truck: &&Truck| {
+            let own = &self.scene.bodies[truck.body];
+            truck.body == body || own.pinned.is_some_and(|(to, _)| to == body)
+        };
+        let truck = self.scene.trucks.iter().find(carries);
+        truck.map_or(0.0, |truck| self.scene.wheels[truck.wheel].radius - truck.at[1])
     }
 
     /// From a body's origin to each wheel of one of its trucks, along its own x, y and z.

@@ -3,6 +3,7 @@
 //! [`spec`] and [`scene`] read and check input files; [`commands`] do the work; every number that reaches them is
 //! finite, checked and in the units asked for.
 
+pub mod animation;
 pub mod appraisal;
 pub mod cases;
 pub mod chart;

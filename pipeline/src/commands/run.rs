@@ -19,7 +19,7 @@ use crate::record::peak;
 use crate::response::{self, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
-use crate::{fatigue, grid_file, story, summary, tables, warning};
+use crate::{animation, fatigue, grid_file, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -195,7 +195,8 @@ fn plates(
         .iter()
         .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
         .collect();
-    let mut plates = pictures::travel(&labelled[0], &fired);
+    let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].cast)?.into_iter().collect();
+    plates.extend(pictures::travel(&labelled[0], &fired));
     plates.extend(response::rails(&labelled));
     plates.extend(pictures::paths(&labelled));
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));

@@ -19,12 +19,11 @@ pub fn section(scene: &Scene, runs: &[(&str, &[Verdict])]) -> Option<Section> {
          1993-1-9 (N/mm2), letters those of AISC 360 (ksi). A history whose ranges all lie within the limit does no damage.",
         fatigue.loads, fatigue.material
     ));
-    let columns = ["point", "run", "category", "cycles", "largest range", "limit", "unit"];
+    let columns = ["point", "run", "detail", "cycles", "range", "limit", "unit"];
     let mut columns: Vec<Column> = columns.map(|name| Column::new(name, "")).into();
-    columns
-        .extend(["damage of a run", "equivalent range", "runs to failure"].map(|name| Column::new(name, "")));
+    columns.extend(["damage", "equivalent", "runs"].map(|name| Column::new(name, "")));
     if fatigue.crossings.is_some() {
-        columns.push(Column::new("damage of the life", ""));
+        columns.push(Column::new("life", ""));
     }
     let mut rows = Vec::new();
     let names = runs.iter().map(|(_, verdicts)| verdicts.iter().map(|verdict| &verdict.column));
@@ -58,7 +57,7 @@ pub fn section(scene: &Scene, runs: &[(&str, &[Verdict])]) -> Option<Section> {
             rows.push(row);
         }
     }
-    let caption = "Damage at the stress points; cycles.csv has every cycle.".to_owned();
+    let caption = "Stress points: cycles, largest range and limit, damage of the run, range of one cycle that does it, runs to failure, damage of the crossings of a life. Every cycle is in cycles.csv.".to_owned();
     section = section.table(Table { caption, columns, rows });
     Some(section)
 }

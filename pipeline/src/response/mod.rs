@@ -6,6 +6,7 @@ mod bending;
 mod column;
 mod comparison;
 mod deflection;
+mod drift;
 mod envelope;
 mod line;
 mod part_inertia;
@@ -21,6 +22,7 @@ pub use bending::Bending;
 pub use column::{Column, Kind, MOST, names, stresses};
 pub use comparison::{Figures, comparison};
 pub use deflection::Deflection;
+pub use drift::Drift;
 pub use envelope::{Envelope, Extreme};
 pub use line::Lines;
 pub use picture::pictures;
@@ -54,6 +56,8 @@ pub struct Response {
     pub bending: Vec<Bending>,
     /// Sag of the spans.
     pub deflections: Vec<Deflection>,
+    /// Frames at the level of the crane.
+    pub drifts: Vec<Drift>,
     /// Wheels that left their rails.
     pub uplifts: Vec<Uplift>,
     /// Where bodies in space have been.
@@ -149,6 +153,8 @@ impl Response {
             let failed = |error: splines::Error| Failure::Untrusted(format!("{}: {error}", structure.name));
             let found = deflection::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
             response.deflections.extend(found);
+            let found = drift::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
+            response.drifts.extend(found);
         }
         response.uplifts = uplift::all(cast, record);
         response.sways = sway::all(scene, record);
@@ -190,6 +196,9 @@ impl Response {
         }
         if !self.deflections.is_empty() {
             out.insert("deflection_ratios".into(), self.deflections.iter().map(Deflection::json).collect());
+        }
+        if !self.drifts.is_empty() {
+            out.insert("drift".into(), self.drifts.iter().map(Drift::json).collect());
         }
         if !self.uplifts.is_empty() {
             out.insert("uplift".into(), self.uplifts.iter().map(Uplift::json).collect());

@@ -27,6 +27,9 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
     if !response.deflections.is_empty() {
         section = section.table(deflections(scene, label, response));
     }
+    if !response.drifts.is_empty() {
+        section = section.table(drifts(scene, label, response));
+    }
     if !response.uplifts.is_empty() {
         let mut table = Table {
             caption: format!("Wheels off their rails in the run \"{label}\"."),
@@ -140,6 +143,48 @@ fn places(extreme: &super::Extreme) -> String {
         format!("{name} {}", at.join(", "))
     });
     all.collect::<Vec<_>>().join("; ")
+}
+
+fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let columns = [
+        "rail",
+        "column at",
+        "height",
+        "displacement",
+        "at time",
+        "height over it",
+        "code",
+        "accepts",
+        "keeps",
+    ];
+    let unit_of = |name: &str| match name {
+        "column at" | "height" | "displacement" | "accepts" => unit.as_str(),
+        "at time" => "s",
+        _ => "",
+    };
+    let mut rows = Vec::new();
+    for found in response.drifts.iter().take(ROWS) {
+        let mut head = vec![
+            Cell::from(found.rail.clone()),
+            Cell::from(found.x),
+            Cell::from(found.height),
+            Cell::from(found.value),
+            Cell::from(found.time),
+            found.ratio().map_or(Cell::Empty, Cell::from),
+        ];
+        for (code, clause, most) in &found.limits {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 6]);
+            row.extend([Cell::from(format!("{code}, {clause}")), Cell::from(*most)]);
+            row.push(Cell::from(if found.value <= *most { "yes" } else { "no" }));
+            rows.push(row);
+        }
+    }
+    Table {
+        caption: format!("Largest displacement sideways of each rail over a column in the run \"{label}\"."),
+        columns: columns.map(|name| Column::new(name, unit_of(name))).into(),
+        rows,
+    }
 }
 
 fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {
