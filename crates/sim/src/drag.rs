@@ -27,7 +27,7 @@ impl Solver<'_> {
         let (first, m) = (self.system.normals.len(), self.system.components());
         for (k, i) in self.system.drags().enumerate() {
             self.problem.pinned[i] = None;
-            let speed = path_speed(self.system, i, at);
+            let speed = path_speed(self.system, k, at);
             self.problem.rate[i] += known[first + k] / g;
             for j in i * m..(i + 1) * m {
                 self.problem.y[j] += self.geometry.compliance[j] / g - speed * self.geometry.slope[j];
@@ -43,7 +43,7 @@ impl Solver<'_> {
             let stiffness = self.system.stiffest;
             let gives = self.geometry.compliance[i * m + i] * stiffness > RIGID;
             self.problem.pinned[i] = Some(at.p[first + k]).filter(|_| gives && self.keeps_rails);
-            let speed = path_speed(self.system, i, at);
+            let speed = path_speed(self.system, k, at);
             self.problem.rate[i] -= at.p_rate[first + k];
             for j in i * m..(i + 1) * m {
                 self.problem.y[j] = -speed * self.geometry.slope[j];
@@ -69,12 +69,13 @@ pub(crate) fn slip(system: &System, geometry: &Geometry, state: &State, i: usize
         return own;
     }
     let k = system.normals.len() + i - system.traction(0);
-    own - state.p_rate[k] + path_speed(system, i, state) * along(&geometry.slope, i, &state.force)
+    own - state.p_rate[k]
+        + path_speed(system, i - system.traction(0), state) * along(&geometry.slope, i, &state.force)
 }
 
-/// Speed along the rail of the first wheel of component `i`.
-fn path_speed(system: &System, i: usize, at: &State) -> f64 {
-    let Some(&w) = system.treads(i).first() else { return 0.0 };
+/// Speed along the rail of the first wheel of drag `k`.
+fn path_speed(system: &System, k: usize, at: &State) -> f64 {
+    let Some(w) = system.leads[k] else { return 0.0 };
     let wheel = &system.wheels[w];
     let (_, speed) = system.body(wheel.body, at.t, &at.q, &at.v);
     arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()

@@ -4,6 +4,7 @@ use crate::Error;
 use crate::actuator::Pull;
 use crate::dense::dot;
 use crate::drag::slip;
+use crate::root::narrow;
 use crate::state::State;
 use crate::stepper::Stepper;
 
@@ -145,17 +146,27 @@ impl Stepper<'_, '_> {
 
     /// Share of the step at which the event function of contact `i` reaches `aim` on the interpolant.
     fn root_on_interpolant(&mut self, i: usize, aim: f64) -> Result<f64, Error> {
-        self.probe.copy_from(&self.to);
-        let (mut low, mut high) = (0.0_f64, 1.0_f64);
-        while high - low > 1e-12 {
-            let middle = 0.5 * (low + high);
-            self.solver.interpolate([&self.from, &self.to], middle, &mut self.probe)?;
-            if !self.solver.instant(&mut self.probe)? {
-                break;
-            }
-            if self.event(i, &self.probe) > aim { high = middle } else { low = middle }
+        // The geometry is that of the end: the value at the start is a guess.
+        let [start, end] = [&self.from, &self.to].map(|at| self.event(i, at) - aim);
+        if end <= 0.0 {
+            return Ok(1.0);
         }
-        Ok(high)
+        let mut failure = None;
+        let [_, share] = narrow([start.min(-aim), end], 1e-12, |share| {
+            let value = self.solved_at(share).map(|solved| solved.then(|| self.event(i, &self.probe) - aim));
+            value.unwrap_or_else(|error| {
+                failure = Some(error);
+                None
+            })
+        });
+        failure.map_or(Ok(share), Err)
+    }
+
+    /// Brings `probe` to the share `share` of the step just tried, with its forces; returns whether they converged.
+    pub(crate) fn solved_at(&mut self, share: f64) -> Result<bool, Error> {
+        self.probe.copy_from(&self.to);
+        self.solver.interpolate([&self.from, &self.to], share, &mut self.probe)?;
+        self.solver.instant(&mut self.probe)
     }
 
     /// Share of the step at which a drive reaches or leaves a limit, if one does by more than [`OVERSHOOT`]: the
@@ -210,16 +221,8 @@ impl Stepper<'_, '_> {
     }
 }
 
-/// Root in (0, 1) of a function with opposite signs at the ends, by bisection, from the side of 0.
+/// Root in (0, 1) of a function with opposite signs at the ends, from the side of 0.
 fn root(mut f: impl FnMut(f64) -> f64) -> f64 {
-    let sign = f(0.0).signum();
-    let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    while high - low > 1e-15 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if f(middle).signum() == sign { low = middle } else { high = middle }
-    }
-    low
+    let ends = [f(0.0), f(1.0)];
+    narrow(ends, 1e-15, |at| Some(f(at)))[0]
 }

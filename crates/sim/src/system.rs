@@ -61,6 +61,10 @@ pub(crate) struct System<'a> {
     pub foundations: &'a [Foundation],
     pub wheels: Vec<WheelPoint<'a>>,
     pub normals: Vec<Normal>,
+    /// Vertical components of each contact.
+    bearing: Vec<Range<usize>>,
+    /// The first wheel of each component along the rails that a massless structure feels ([`System::drags`]).
+    pub leads: Vec<Option<usize>>,
     /// Wheels with a flange; component `normals.len() + i`.
     pub laterals: Vec<usize>,
     /// Wheels with friction; component `normals.len() + laterals.len() + i`.
@@ -128,7 +132,7 @@ impl<'a> System<'a> {
                 numbers
             })
             .collect();
-        let (mut wheels, mut normals) = (Vec::new(), Vec::new());
+        let (mut wheels, mut normals, mut bearing) = (Vec::new(), Vec::new(), Vec::new());
         for (index, contact) in scene.contacts.iter().enumerate() {
             let first = wheels.len();
             let kind = &scene.wheels[contact.wheel];
@@ -148,7 +152,7 @@ impl<'a> System<'a> {
                     turn,
                 });
             }
-            let parts = match &foundations[contact.structure].parts {
+            let parts: Vec<Option<usize>> = match &foundations[contact.structure].parts {
                 Some(chains) => {
                     let chain = chains
                         .get(contact.rail)
@@ -157,6 +161,7 @@ impl<'a> System<'a> {
                 }
                 None => vec![None],
             };
+            bearing.push(normals.len()..normals.len() + parts.len());
             for part in parts {
                 normals.push(Normal {
                     wheels: first..wheels.len(),
@@ -187,6 +192,8 @@ impl<'a> System<'a> {
             foundations,
             wheels,
             normals,
+            bearing,
+            leads: Vec::new(),
             laterals,
             tractions,
             pulls: Vec::new(),
@@ -212,6 +219,7 @@ impl<'a> System<'a> {
         system.fill_matrices()?;
         system.pulls = Pull::all(&system);
         system.links = Link::all(&system);
+        system.leads = system.drags().map(|i| system.treads(i).first().copied()).collect();
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
         system.is_direct = system
             .entries
@@ -291,7 +299,7 @@ impl<'a> System<'a> {
     }
 
     /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
-    pub fn treads(&self, i: usize) -> Vec<usize> {
+    fn treads(&self, i: usize) -> Vec<usize> {
         match i.checked_sub(self.pull(0)) {
             None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
             Some(index) => {
@@ -311,9 +319,9 @@ impl<'a> System<'a> {
         self.freedom[load.body][load.freedom as usize]
     }
 
-    /// The vertical contact that `wheel` belongs to; of its parts' contacts, the first.
-    pub fn normals_of(&self, wheel: usize) -> impl Iterator<Item = usize> + '_ {
-        (0..self.normals.len()).filter(move |&n| self.normals[n].wheels.contains(&wheel))
+    /// The vertical components that `wheel` belongs to: one, or one a part.
+    pub fn normals_of(&self, wheel: usize) -> Range<usize> {
+        self.bearing[self.wheels[wheel].contact].clone()
     }
 
     /// Displacements and speeds of body `b` in all six freedoms at time `t`.
