@@ -10,7 +10,7 @@ use crate::scene::arm_rows;
 use crate::settle::RIGID;
 use crate::solver::Solver;
 use crate::state::State;
-use crate::system::System;
+use crate::system::{System, Tread};
 
 impl Solver<'_> {
     /// Sets the displacements of massless rails along x to those under the forces of `at`, at rest.
@@ -27,11 +27,11 @@ impl Solver<'_> {
         let (first, m) = (self.system.normals.len(), self.system.components());
         for (k, i) in self.system.drags().enumerate() {
             self.problem.pinned[i] = None;
-            let speed = path_speed(self.system, k, at);
             self.problem.rate[i] += known[first + k] / g;
             for j in i * m..(i + 1) * m {
-                self.problem.y[j] += self.geometry.compliance[j] / g - speed * self.geometry.slope[j];
+                self.problem.y[j] += self.geometry.compliance[j] / g;
             }
+            self.pass_by(i, at);
         }
     }
 
@@ -43,10 +43,19 @@ impl Solver<'_> {
             let stiffness = self.system.stiffest;
             let gives = self.geometry.compliance[i * m + i] * stiffness > RIGID;
             self.problem.pinned[i] = Some(at.p[first + k]).filter(|_| gives && self.keeps_rails);
-            let speed = path_speed(self.system, k, at);
             self.problem.rate[i] -= at.p_rate[first + k];
-            for j in i * m..(i + 1) * m {
-                self.problem.y[j] = -speed * self.geometry.slope[j];
+            self.problem.y[i * m..(i + 1) * m].fill(0.0);
+            self.pass_by(i, at);
+        }
+    }
+
+    /// Takes the wheels' own way over the deflected rail, x' dG/dx F, from the rate of component `i`.
+    fn pass_by(&mut self, i: usize, at: &State) {
+        let m = self.system.components();
+        for (tread, speed) in own_treads(self.system, i, at) {
+            let slopes = &self.geometry.by_tread[tread * m..(tread + 1) * m];
+            for (y, slope) in self.problem.y[i * m..(i + 1) * m].iter_mut().zip(slopes) {
+                *y -= speed * slope;
             }
         }
     }
@@ -69,14 +78,18 @@ pub(crate) fn slip(system: &System, geometry: &Geometry, state: &State, i: usize
         return own;
     }
     let k = system.normals.len() + i - system.traction(0);
-    own - state.p_rate[k]
-        + path_speed(system, i - system.traction(0), state) * along(&geometry.slope, i, &state.force)
+    let way: f64 = own_treads(system, i, state)
+        .map(|(tread, speed)| speed * along(&geometry.by_tread, tread, &state.force))
+        .sum();
+    own - state.p_rate[k] + way
 }
 
-/// Speed along the rail of the first wheel of drag `k`.
-fn path_speed(system: &System, k: usize, at: &State) -> f64 {
-    let Some(w) = system.leads[k] else { return 0.0 };
-    let wheel = &system.wheels[w];
-    let (_, speed) = system.body(wheel.body, at.t, &at.q, &at.v);
-    arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
+/// The treads of component `i` with their speeds along the rail.
+fn own_treads<'s>(system: &'s System, i: usize, at: &'s State) -> impl Iterator<Item = (usize, f64)> + 's {
+    let own = system.treads.iter().enumerate().filter(move |(_, tread)| tread.component == i);
+    own.map(|(tread, Tread { wheel, .. })| {
+        let wheel = &system.wheels[*wheel];
+        let (_, speed) = system.body(wheel.body, at.t, &at.q, &at.v);
+        (tread, arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum())
+    })
 }

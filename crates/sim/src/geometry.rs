@@ -39,6 +39,8 @@ pub(crate) struct Geometry {
     pub compliance: Vec<f64>,
     /// d G(i, j)/d x_i over components, row-major.
     pub slope: Vec<f64>,
+    /// d G(i, j)/d x by the place of each tread of component i, over components j, row-major.
+    pub by_tread: Vec<f64>,
     /// Approach e = `held` + `rows` q, before the give of G.
     pub rows: Vec<f64>,
     pub held: Vec<f64>,
@@ -88,6 +90,7 @@ impl Geometry {
             share: vec![[1.0, 0.0]; system.normals.len()],
             compliance: vec![0.0; m * m],
             slope: vec![0.0; m * m],
+            by_tread: vec![0.0; m * system.treads.len()],
             rows: vec![0.0; m * n],
             held: vec![0.0; m],
             force_rows: vec![0.0; m * n],
@@ -200,7 +203,7 @@ impl Geometry {
             if let Some(way) = &mut self.ways[s]
                 && way.follow(&self.x, self.reach)
             {
-                way.put(m, &mut self.compliance, &mut self.slope);
+                way.put(m, [&mut self.compliance, &mut self.slope, &mut self.by_tread]);
                 self.is_on_way[s] = true;
                 continue;
             }
@@ -280,6 +283,9 @@ impl Geometry {
         for row in entries {
             self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
             self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
+            if let Some(tread) = row.tread {
+                self.by_tread[tread * m..(tread + 1) * m].fill(0.0);
+            }
         }
         let count = entries.len();
         let (values, slopes) = (influence.value.as_slice(), influence.slope.as_slice());
@@ -293,6 +299,9 @@ impl Geometry {
                 let (value, slope) = (values[i + j * count], slopes[i + j * count]);
                 sums[column.component] += weight * (value + slope * moved[i] + mirrored[j] * moved[j]);
                 rates[column.component] += weight * slope;
+                if let Some(tread) = row.tread {
+                    self.by_tread[tread * m + column.component] += weight * slope;
+                }
             }
         }
     }

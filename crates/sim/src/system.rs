@@ -53,6 +53,15 @@ pub(crate) struct Entry {
     pub weight: f64,
     pub wheel: usize,
     pub probe: Probe,
+    /// Which of [`System::treads`] it belongs to.
+    pub tread: Option<usize>,
+}
+
+/// Wheels of one contact under a component along a rail that gives: they move alike.
+pub(crate) struct Tread {
+    pub component: usize,
+    /// The first of them.
+    pub wheel: usize,
 }
 
 /// The numbered scene.
@@ -63,8 +72,8 @@ pub(crate) struct System<'a> {
     pub normals: Vec<Normal>,
     /// Vertical components of each contact.
     bearing: Vec<Range<usize>>,
-    /// The first wheel of each component along the rails that a massless structure feels ([`System::drags`]).
-    pub leads: Vec<Option<usize>>,
+    /// Where components along the rails load structures that feel it.
+    pub treads: Vec<Tread>,
     /// Wheels with a flange; component `normals.len() + i`.
     pub laterals: Vec<usize>,
     /// Wheels with friction; component `normals.len() + laterals.len() + i`.
@@ -193,7 +202,7 @@ impl<'a> System<'a> {
             wheels,
             normals,
             bearing,
-            leads: Vec::new(),
+            treads: Vec::new(),
             laterals,
             tractions,
             pulls: Vec::new(),
@@ -219,7 +228,7 @@ impl<'a> System<'a> {
         system.fill_matrices()?;
         system.pulls = Pull::all(&system);
         system.links = Link::all(&system);
-        system.leads = system.drags().map(|i| system.treads(i).first().copied()).collect();
+        system.treads = system.all_treads();
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
         system.is_direct = system
             .entries
@@ -298,8 +307,25 @@ impl<'a> System<'a> {
         if self.is_dragged { self.traction(0)..self.link(0) } else { 0..0 }
     }
 
+    fn all_treads(&self) -> Vec<Tread> {
+        let mut treads: Vec<Tread> = Vec::new();
+        for component in self.drags() {
+            for wheel in self.wheels_of(component) {
+                let contact = self.wheels[wheel].contact;
+                let is_dragged = self.foundations[self.scene.contacts[contact].structure].is_dragged;
+                let is_known = |tread: &Tread| {
+                    tread.component == component && self.wheels[tread.wheel].contact == contact
+                };
+                if is_dragged && !treads.iter().any(is_known) {
+                    treads.push(Tread { component, wheel });
+                }
+            }
+        }
+        treads
+    }
+
     /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
-    fn treads(&self, i: usize) -> Vec<usize> {
+    fn wheels_of(&self, i: usize) -> Vec<usize> {
         match i.checked_sub(self.pull(0)) {
             None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
             Some(index) => {
@@ -422,23 +448,27 @@ impl<'a> System<'a> {
             for wheel in normal.wheels.clone() {
                 let probe =
                     Probe { rail: rail_of(normal.contact, normal.part), x: 0.0, axis: Axis::Vertical };
-                entries.push(Entry { component, weight: -1.0 / normal.count(), wheel, probe });
+                entries.push(Entry { component, weight: -1.0 / normal.count(), wheel, probe, tread: None });
             }
         }
         for (i, &wheel) in self.laterals.iter().enumerate() {
             let contact = self.wheels[wheel].contact;
             if self.scene.contacts[contact].structure == s && self.foundations[s].parts.is_none() {
                 let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Lateral };
-                entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe });
+                entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe, tread: None });
             }
         }
         for component in self.drags().filter(|_| self.foundations[s].is_dragged) {
-            let wheels = self.treads(component);
+            let wheels = self.wheels_of(component);
             for &wheel in &wheels {
                 let contact = self.wheels[wheel].contact;
                 if self.scene.contacts[contact].structure == s {
                     let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Longitudinal };
-                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe });
+                    let is_own = |tread: &Tread| {
+                        tread.component == component && self.wheels[tread.wheel].contact == contact
+                    };
+                    let tread = self.treads.iter().position(is_own);
+                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe, tread });
                 }
             }
         }

@@ -21,6 +21,7 @@ struct Strand {
     component: usize,
     /// A wheel of it.
     wheel: usize,
+    tread: Option<usize>,
 }
 
 /// The compliance over the strands at one place of each.
@@ -75,7 +76,8 @@ impl Way {
             };
             strand.push(strands.iter().position(same).unwrap_or(strands.len()));
             if strand.last() == Some(&strands.len()) {
-                strands.push(Strand { component: entry.component, wheel: entry.wheel });
+                let Entry { component, wheel, tread, .. } = *entry;
+                strands.push(Strand { component, wheel, tread });
             }
         }
         let count = strands.len();
@@ -248,8 +250,8 @@ impl Way {
         true
     }
 
-    /// Puts the last values and slopes into matrices over `m` components.
-    pub fn put(&self, m: usize, compliance: &mut [f64], slopes: &mut [f64]) {
+    /// Puts the last values and slopes into the matrices of values, slopes and slopes by treads over `m` components.
+    pub fn put(&self, m: usize, [compliance, slopes, by_tread]: [&mut [f64]; 3]) {
         for strand in &self.strands {
             let row = strand.component * m..(strand.component + 1) * m;
             compliance[row.clone()].fill(0.0);
@@ -263,6 +265,13 @@ impl Way {
             for (column, (value, slope)) in self.strands.iter().zip(value.iter().zip(slope)) {
                 sums[column.component] += value;
                 rates[column.component] += slope;
+            }
+            if let Some(tread) = row.tread {
+                let rates = &mut by_tread[tread * m..(tread + 1) * m];
+                rates.fill(0.0);
+                for (column, slope) in self.strands.iter().zip(slope) {
+                    rates[column.component] += slope;
+                }
             }
         }
     }
