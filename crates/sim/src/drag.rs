@@ -4,12 +4,16 @@
 //! mass, u = G F, so that s depends on how fast the forces change. u is a state, as a penetration is: in a stage
 //! du/dt = (G F - u*)/g along the wheel's path, less x' dG/dx F for the path itself. Freedoms with mass give Phi v.
 
+use crate::Error;
 use crate::dense::along;
+use crate::energy::stored;
+use crate::events::PASSED;
 use crate::geometry::Geometry;
 use crate::scene::arm_rows;
 use crate::settle::RIGID;
 use crate::solver::Solver;
 use crate::state::State;
+use crate::stepper::Stepper;
 use crate::system::{System, Tread};
 
 impl Solver<'_> {
@@ -68,6 +72,42 @@ impl Solver<'_> {
             at.p_rate[first + k] = (moved - known[first + k]) / g;
             at.p[first + k] = moved;
         }
+    }
+}
+
+impl Stepper<'_, '_> {
+    /// Where the step has ended at a joint of a rail, the wheel there goes over to another part, which the same forces
+    /// have displaced along x by another way: the displacement jumps, and slides nowhere. What pushes along x then pushes
+    /// that part, so that the rail below all wheels jumps as well, by Maxwell's theorem with as much work: penetrations
+    /// follow. Returns the energy put in.
+    pub(crate) fn pass_joint(&mut self) -> Result<f64, Error> {
+        let system = self.solver.system;
+        let Some(w) = self.meets.take().filter(|_| system.is_dragged) else { return Ok(0.0) };
+        let (x, speed) =
+            (self.solver.geometry.place(system, w, &self.to.q), self.solver.speed_of(w, &self.to));
+        let near = PASSED * self.nearness() * (1.0 + x.abs());
+        let contact = &system.scene.contacts[system.wheels[w].contact];
+        let foundation = &system.foundations[contact.structure];
+        let is_there = foundation.breaks_between(contact.rail, x - near, x + near).next().is_some();
+        if !is_there || speed == 0.0 {
+            return Ok(0.0);
+        }
+        let before = stored(system, &self.solver.geometry, &self.to);
+        let felt: Vec<usize> = (0..system.normals.len()).filter(|&i| self.solver.remembers(i)).collect();
+        for &i in &felt {
+            self.to.p[i] += along(&self.solver.geometry.compliance, i, &self.to.force);
+        }
+        self.probe.q.copy_from(&self.to.q);
+        self.probe.q.axpy(near / speed.abs(), &self.to.v, 1.0);
+        self.solver.geometry.leave();
+        self.solver.geometry.update(system, self.to.t, &self.probe.q, &self.to.force)?;
+        for i in felt {
+            self.to.p[i] -= along(&self.solver.geometry.compliance, i, &self.to.force);
+        }
+        for (k, i) in system.drags().enumerate() {
+            self.to.p[system.normals.len() + k] = along(&self.solver.geometry.compliance, i, &self.to.force);
+        }
+        Ok(stored(system, &self.solver.geometry, &self.to).total() - before.total())
     }
 }
 

@@ -17,6 +17,10 @@ const SLACK: f64 = 1e-11;
 /// The same for each unit of the error that a step may make, where that is more.
 const SLACK_BY_ERROR: f64 = 1e-4;
 
+/// Times as far before a break a step may start and cross it: what ends there has passed all breaks that near, and every
+/// stage is beyond them.
+pub(crate) const PASSED: f64 = 8.0;
+
 impl Stepper<'_, '_> {
     /// Length of the step that ends where a wheel with prescribed motion meets a break of its rail, if the
     /// step of length `h` would pass it.
@@ -68,7 +72,8 @@ impl Stepper<'_, '_> {
             for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
                 let slack = nearness * (1.0 + place.abs());
                 // Within the slack a step may start before the break and cross it, or end beyond it.
-                if (x0 - place) * (x1 - place) >= 0.0 || (x0 - place).abs().min((x1 - place).abs()) < slack {
+                let is_there = (x0 - place).abs() < PASSED * slack || (x1 - place).abs() < slack;
+                if (x0 - place) * (x1 - place) >= 0.0 || is_there {
                     continue;
                 }
                 let aim = place - 0.5 * slack * (x1 - x0).signum();
@@ -79,7 +84,7 @@ impl Stepper<'_, '_> {
                     geometry.place(system, w, &probe.q) - aim
                 });
                 if first.is_none_or(|known| share < known) {
-                    first = Some(share);
+                    (first, self.meets) = (Some(share), Some(w));
                 }
             }
         }
@@ -87,7 +92,7 @@ impl Stepper<'_, '_> {
     }
 
     /// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it.
-    fn nearness(&self) -> f64 {
+    pub(crate) fn nearness(&self) -> f64 {
         if self.fixed.is_some() { SLACK } else { SLACK.max(SLACK_BY_ERROR * self.tolerance) }
     }
 

@@ -258,21 +258,32 @@ impl Geometry {
             if way.leads_to(from, self.reach) && way.leads_to(to, self.reach) {
                 continue;
             }
-            let is_free = |end: &[f64]| {
+            let is_free = |start: &[f64], end: &[f64]| {
                 !entries.iter().any(|Entry { wheel, probe, .. }| {
-                    let [start, end] = within([from[*wheel], end[*wheel]], self.reach);
-                    foundation.breaks_between(probe.rail, start, end).next().is_some()
+                    foundation.breaks_between(probe.rail, start[*wheel], end[*wheel]).next().is_some()
                 })
             };
+            let inner = |end: &[f64]| -> [Vec<f64>; 2] {
+                let of =
+                    |k: usize| (0..from.len()).map(|w| within([from[w], end[w]], self.reach)[k]).collect();
+                [of(0), of(1)]
+            };
             // What the rail refuses, it refuses the step itself.
-            let end = [beyond, to].into_iter().find(|end| is_free(end));
-            let laid = end.zip(foundation.compliance.as_ref()).is_some_and(|(end, compliance)| {
-                way.lay(compliance.as_ref(), entries, [from, end], self.reach).is_ok()
+            let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
+            let laid = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
+                let goes_on = is_free(way.end(), &ends[0]);
+                way.lay(compliance.as_ref(), entries, ends.each_ref().map(Vec::as_slice), self.reach, goes_on)
+                    .is_ok()
             });
             if !laid {
                 way.leave();
             }
         }
+    }
+
+    /// Forgets the ways.
+    pub fn leave(&mut self) {
+        self.ways.iter_mut().flatten().for_each(Way::leave);
     }
 
     /// Sums the compliance of structure `s` over its components, with what the wheels moved since it was found:
@@ -462,7 +473,7 @@ impl Geometry {
 }
 
 /// A stretch of the rail without its ends, which may lie at a break: a quarter of `reach` less, or of itself.
-pub(crate) fn within([from, to]: [f64; 2], reach: f64) -> [f64; 2] {
+fn within([from, to]: [f64; 2], reach: f64) -> [f64; 2] {
     let off = 0.25 * (to - from).clamp(-reach, reach);
     [from + off, to - off]
 }

@@ -103,6 +103,8 @@ pub(crate) struct Stepper<'a, 'b> {
     pub(crate) overlaps: Vec<f64>,
     pub(crate) triggers: Triggers,
     begun: f64,
+    /// The wheel that meets a break of its rail where the step ends.
+    pub(crate) meets: Option<usize>,
     /// Boundary term of the grounded dampers where the next step starts.
     pub(crate) boundary: f64,
 }
@@ -149,6 +151,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             forces: vec![vec![0.0; system.components()]; tableau.stages()],
             powers: vec![Exchanged::default(); tableau.stages()],
             begun: energy.total(),
+            meets: None,
             solver,
         })
     }
@@ -191,6 +194,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             h = limit - start;
         }
         let mut ends_at_event = false;
+        self.meets = None;
         let (mut refined, mut corners, mut breaks, mut trials) = (0, 0, 0, 0);
         if let Some(share) = self.predicted_break(h).filter(|share| h * share > 2.0 * smallest) {
             breaks += 1;
@@ -436,6 +440,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if self.to.t >= self.limit {
             self.turn()?;
         }
+        self.audit.exchanged.steps += self.pass_joint()?;
         let before = stored(system, &self.solver.geometry, &self.to);
         let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
         let due = crosses

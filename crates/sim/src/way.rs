@@ -9,7 +9,6 @@
 use splines::{Compliance, Influence, Probe};
 
 use crate::Foundation;
-use crate::geometry::within;
 use crate::system::{Entry, System};
 
 /// Number of probes from which it pays.
@@ -43,6 +42,8 @@ pub(crate) struct Way {
     probes: Vec<Probe>,
     influence: Influence,
     ends: [Node; 2],
+    /// Rail coordinates of all wheels at the end.
+    last: Vec<f64>,
     /// Of each strand from end to end, and how far it is from there at the share of now.
     length: Vec<f64>,
     aside: Vec<f64>,
@@ -88,6 +89,7 @@ impl Way {
             probes: entries.iter().map(|entry| entry.probe).collect(),
             influence: Influence::zeros(entries.len()),
             ends: [node(), node()],
+            last: vec![0.0; system.wheels.len()],
             length: vec![0.0; count],
             aside: vec![0.0; count],
             value: std::array::from_fn(|_| square()),
@@ -98,8 +100,8 @@ impl Way {
         })
     }
 
-    /// Lays the way between two places of all wheels, `from` and `to`; no cell of a rail ends [`within`] them. An end that
-    /// the wheels have passed within `reach` is kept.
+    /// Lays the way between two places of all wheels, `from` and `to`; no cell of a rail ends between them. The end of
+    /// the way before is where this one begins, if `goes_on` and that is within `reach`.
     ///
     /// # Errors
     /// What the compliance refuses.
@@ -109,17 +111,18 @@ impl Way {
         entries: &[Entry],
         [from, to]: [&[f64]; 2],
         reach: f64,
+        goes_on: bool,
     ) -> Result<(), splines::Error> {
-        let is_near = self.is_laid
+        let is_near = goes_on
+            && self.is_laid
             && self.strands.iter().zip(&self.ends[1].x).all(|(s, x)| (from[s.wheel] - x).abs() <= reach);
         self.is_laid = false;
         self.ends.swap(0, 1);
-        let ends = |(from, to): (&f64, &f64)| within([*from, *to], reach);
-        let (from, to): (Vec<f64>, Vec<f64>) = from.iter().zip(to).map(ends).map(|[a, b]| (a, b)).unzip();
         if !is_near {
-            self.find(0, compliance, entries, &from)?;
+            self.find(0, compliance, entries, from)?;
         }
-        self.find(1, compliance, entries, &to)?;
+        self.find(1, compliance, entries, to)?;
+        self.last.copy_from_slice(to);
         self.fit();
         self.is_laid = true;
         Ok(())
@@ -128,6 +131,11 @@ impl Way {
     /// Whether the way goes on to `places`, within `reach`.
     pub fn leads_to(&mut self, places: &[f64], reach: f64) -> bool {
         self.is_laid && self.share(places).1 <= reach
+    }
+
+    /// Rail coordinates of all wheels where it ends.
+    pub fn end(&self) -> &[f64] {
+        &self.last
     }
 
     /// Forgets the way.
