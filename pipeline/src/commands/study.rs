@@ -128,6 +128,9 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 
 /// Whether the references tell what they were asked to.
 fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
+    if let Some((against, why)) = study.lost.first() {
+        return Err(Failure::Untrusted(format!("\"{}\": {why}  hint: raise --limit", against.word())));
+    }
     let worst = study.references.iter().max_by(|a, b| a.asked().total_cmp(&b.asked()));
     match worst.filter(|worst| worst.asked() > depth.resolution) {
         None => Ok(Exit::Done),

@@ -83,7 +83,7 @@ pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Sect
                 .map(|value| short(cleared(value, range)));
             row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
             row.push(Cell::from(found.excursions));
-            row.push(found.hertz.map_or(Cell::Empty, short));
+            row.push(found.hertz().map_or(Cell::Empty, short));
             rows.push(row);
         }
     }

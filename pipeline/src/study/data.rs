@@ -21,6 +21,7 @@ pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
         "resolution": depth.resolution,
         "limit": depth.limit,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
+        "lost": study.lost.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
         "auto": match &study.auto {
             Ok(auto) => {
                 let all = auto.reasons.iter().map(|(name, why)| (name.clone(), json!(why)));
