@@ -268,6 +268,19 @@ impl<'c> Case<'c> {
             )
     }
 
+    /// Two cranes that run into each other.
+    pub fn collision(&self) -> Values {
+        let energy = self.measures.between.zip(self.measures.speeds[0]).and_then(|(other, speed)| {
+            let crane = &self.measures.crane;
+            let own = (crane.bridge + crane.trolley) / self.gravity;
+            cmaa::collision_energy([own, other.weight / self.gravity], [speed, other.speed]).ok()
+        });
+        let force = energy.zip(self.measures.between);
+        let force = force.map(|(energy, other)| (2.0 * energy * other.stiffness).sqrt());
+        let formula = "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
+        Values::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
+    }
+
     pub fn way(&self, body: usize) -> Values {
         let limit =
             self.found.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());

@@ -41,6 +41,8 @@ pub struct Found {
     pub along: Option<Mark>,
     /// Force of the end stops together: largest.
     pub buffer: Option<Mark>,
+    /// Force of the buffer between two cranes: largest.
+    pub collision: Option<Mark>,
     /// Speed at which they are met.
     pub meeting: Option<f64>,
     /// Largest change of the trolley's speed over half a second, by time.
@@ -102,10 +104,16 @@ impl Found {
             }
         }
         found.stops(scene, practice, record);
+        if let Some(between) = measures.between {
+            let force = record.part(&scene.stops[between.stop].name, "force");
+            time.iter().zip(force).for_each(|(t, force)| raise(&mut found.collision, *force, *t));
+        }
         let bodies = [Some(practice.crane), practice.trolley];
         found.brakes = bodies.map(|body| brakes(record, &scene.bodies[body?].name));
         found.acceleration = practice.trolley.and_then(|body| acceleration(record, &scene.bodies[body].name));
-        for mark in [&mut found.across, &mut found.flange, &mut found.along, &mut found.buffer] {
+        for mark in
+            [&mut found.across, &mut found.flange, &mut found.along, &mut found.buffer, &mut found.collision]
+        {
             *mark = mark.filter(|mark| mark.value > 0.0);
         }
         found

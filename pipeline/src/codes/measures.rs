@@ -32,10 +32,25 @@ pub struct Measures {
     pub speeds: [Option<f64>; 3],
     /// Stiffness of the end stops that it meets, together.
     pub buffers: f64,
+    /// The first buffer between it and another crane.
+    pub between: Option<Between>,
     /// Weights that stand where they are on the bridge: place across the track, weight.
     pub fixed: Vec<[f64; 2]>,
     /// The trolley's line on the bridge: place across the track of its coordinate 0, and its slope.
     pub line: Option<[f64; 2]>,
+}
+
+/// A buffer between two cranes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Between {
+    /// Index of the stop.
+    pub stop: usize,
+    /// Its stiffness.
+    pub stiffness: f64,
+    /// Weight of the other crane without loads on ropes.
+    pub weight: f64,
+    /// Largest speed that the other is commanded.
+    pub speed: f64,
 }
 
 /// To metres and newtons.
@@ -133,6 +148,7 @@ impl Measures {
             play,
             speeds: speeds(scene, practice),
             buffers: stops.map(|stop| stop.stiffness).sum(),
+            between: between(scene, practice, &layout),
             fixed,
             line,
         })
@@ -158,12 +174,30 @@ impl Measures {
     }
 }
 
+/// The first buffer between the crane and another body.
+fn between(scene: &Scene, practice: &Practice, layout: &Layout) -> Option<Between> {
+    let met = scene.stops.iter().enumerate().find_map(|(index, stop)| {
+        let meeting = stop.meetings.first()?;
+        let pair = [stop.against?, meeting.body];
+        let other = pair.into_iter().find(|body| *body != practice.crane)?;
+        pair.contains(&practice.crane).then_some((index, stop.stiffness, other))
+    });
+    let (stop, stiffness, other) = met?;
+    let own = scene.bodies.iter().enumerate().filter(|(body, _)| seat(scene, *body).0 == other);
+    let mass: f64 = own.map(|(_, body)| body.mass).sum();
+    let carried: f64 = layout.carried(other).map(|mount| mount.mass[1][1]).sum();
+    let speed = driven(scene, other).unwrap_or_default();
+    Some(Between { stop, stiffness, weight: (mass + carried) * scene.gravity, speed })
+}
+
+/// The largest speed that a body's drive is commanded.
+fn driven(scene: &Scene, body: usize) -> Option<f64> {
+    let Along::Driven(drive) = &scene.bodies[body].motion else { return None };
+    drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
+}
+
 /// Rated speeds, else the largest that drives and hoists are commanded.
 fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
-    let driven = |body: usize| {
-        let Along::Driven(drive) = &scene.bodies[body].motion else { return None };
-        drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
-    };
     let switched =
         scene.events.iter().flat_map(|event| &event.rule.actions).filter_map(|action| match action {
             Action::Hoist { speed, .. } => Some(speed.abs()),
@@ -171,7 +205,8 @@ fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
         });
     let tables = scene.ropes.iter().flat_map(|rope| rope.speed.breaks().map(|t| rope.speed.at(t).abs()));
     let hoist = tables.chain(switched).fold(0.0, f64::max);
-    let found = [driven(practice.crane), practice.trolley.and_then(driven), Some(hoist)];
+    let found =
+        [driven(scene, practice.crane), practice.trolley.and_then(|body| driven(scene, body)), Some(hoist)];
     let each =
         practice.speeds.iter().zip(found).map(|(given, found)| given.or(found.filter(|speed| *speed > 0.0)));
     let mut out = [None; 3];

@@ -99,6 +99,13 @@ pub fn rows(scene: &Scene, practice: &Practice, measures: &Measures, found: &Fou
         ),
         ("buffer", "force of the end stops together", Dimension::FORCE, found.buffer, case.buffer()),
         (
+            "collision",
+            "force of the buffer between two cranes",
+            Dimension::FORCE,
+            found.collision,
+            case.collision(),
+        ),
+        (
             "bridge_brake_way",
             "way in which the bridge is braked to a stand",
             Dimension::LENGTH,

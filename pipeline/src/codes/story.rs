@@ -19,7 +19,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
     }
     if first.measures.approach_is_found {
-        section = section.say("The hook's approach is the least that the run has; the member `practice.approach` gives another.");
+        section = section.say("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
     }
     let mut columns = vec![Column::new("quantity", ""), Column::new("unit", "")];
     columns.extend(all.iter().map(|(label, _)| Column::new(*label, "")));

@@ -78,8 +78,10 @@ pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Sect
             let Some(found) = Figures::new(record, name) else { continue };
             let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
             row.push(Cell::from(*label));
-            row.extend([found.settled, found.peak.value, found.peak.time].map(short));
-            row.extend([found.least.value, found.least.time].map(short));
+            let range = found.peak.value - found.least.value;
+            let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
+                .map(|value| short(cleared(value, range)));
+            row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
             row.push(Cell::from(found.excursions));
             row.push(found.hertz().map_or(Cell::Empty, short));
             rows.push(row);
@@ -123,9 +125,8 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
         let mut weight = Cell::from(*dead);
         for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
             let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
-            // what rounding leaves is zero
-            let value = if extreme.value.abs() < ROUNDING * range { 0.0 } else { extreme.value };
-            row.extend([Cell::from(word), Cell::from(value), Cell::from(extreme.time)]);
+            let value = Cell::from(cleared(extreme.value, range));
+            row.extend([Cell::from(word), value, Cell::from(extreme.time)]);
             row.extend(extreme.bodies.iter().map(|(_, at)| Cell::from(place(at))));
             row.push(std::mem::take(&mut weight));
             rows.push(row);
@@ -135,6 +136,11 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
         "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
     );
     Table { caption, columns, rows }
+}
+
+/// The value, or zero where it is what rounding leaves of a range.
+fn cleared(value: f64, range: f64) -> f64 {
+    if value.abs() < ROUNDING * range { 0.0 } else { value }
 }
 
 /// A number to five digits.
