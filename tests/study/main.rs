@@ -153,6 +153,50 @@ fn residual_flexibility_spares_modes() {
 }
 
 #[test]
+fn errors_by_modes_are_those_found_elsewhere() {
+    // a sprung mass of half the girder's, half its frequency, a tenth of its critical speed: errors that a prototype of
+    // other code gave, rounded
+    let (length, bending, mass) = (20.0_f64, 1e9_f64, 1000.0_f64);
+    let wave = std::f64::consts::PI / length;
+    let omega = wave * wave * (bending / mass).sqrt();
+    let speed = 0.1 * wave * (bending / mass).sqrt();
+    let sprung = 0.5 * mass * length;
+    let mut spec = girder(Some(mass));
+    spec["girder"]["spans"] = json!([length]);
+    spec["girder"]["overhangs"] = json!([0, 0]);
+    spec["girder"]["E"] = json!(bending);
+    spec["girder"]["I_vertical"] = json!(1);
+    spec["stations"] = json!([0, 5, 10, 15, 20]);
+    spec["effects"] = json!([{"name": "mid", "x": 10}]);
+    let mut scene = scene(0.0, speed, length / speed);
+    scene["bodies"]["car"]["weight"] = json!(sprung * 32.174);
+    scene["wheels"]["wheel"]["vertical"]["k"] = json!(sprung * 0.25 * omega * omega);
+    scene["output"]["dt"] = json!(length / speed / 400.0);
+    let depth = Depth {
+        modes: vec![1, 3],
+        accuracies: vec![1e-6],
+        references: vec![(1e-7, 24)],
+        fine: 1e-7,
+        resolution: 1e-4,
+        ..nothing()
+    };
+    let study = conduct(&scene, &spec, &depth);
+    for (family, quantity, wanted) in [
+        (Family::Modal, Quantity::WheelForce, [8.9e-4, 3.4e-5]),
+        (Family::Modal, Quantity::Moment, [3.4e-3, 8.9e-4]),
+        (Family::Pure, Quantity::WheelForce, [2.5e-2, f64::NAN]),
+        (Family::Influence, Quantity::WheelForce, [3.3e-2, f64::NAN]),
+        (Family::Influence, Quantity::Moment, [8.4e-2, f64::NAN]),
+    ] {
+        let curve = curve(&study, family, quantity);
+        println!("{} {}: {curve:?}, elsewhere {wanted:?}", family.name(), quantity.name());
+        for (own, wanted) in curve.iter().zip(wanted).filter(|(_, wanted)| wanted.is_finite()) {
+            assert!((own[1] / wanted - 1.0).abs() < 0.2, "{} {}: {own:?}", family.name(), quantity.name());
+        }
+    }
+}
+
+#[test]
 fn a_run_beyond_its_limit_is_stopped_and_says_so() {
     let depth = Depth { steps: vec![16, 4_000_000], limit: 0.05, ..nothing() };
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);

@@ -14,7 +14,7 @@ use crate::output::{self, Folder};
 use crate::progress::Progress;
 use crate::scene::{Case, Document};
 use crate::study::stability::{self, Subject, Verdict};
-use crate::study::{self, Depth, Study};
+use crate::study::{self, Depth, Family, Point, Study};
 
 /// Runs a scene on a ladder of settings, measures errors and times, and draws them.
 ///
@@ -52,6 +52,19 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         "case": args.case, "quick": args.quick, "limit": depth.limit, "resolution": depth.resolution,
     });
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
+    for (family, who) in [(Family::Written, "as written"), (Family::Auto, "auto's choice")] {
+        let dearer = |cost: &dyn Fn(&Point) -> Option<f64>| {
+            let all = study::excesses(&study, family, cost).into_iter();
+            let told: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
+            told.join(", ")
+        };
+        let [time, work] = [dearer(&Point::seconds), dearer(&study::stages)];
+        if !work.is_empty() {
+            progress.say(&format!(
+                "{who}, by the cheapest setting that errs no more: time {time}; contact solutions {work}"
+            ));
+        }
+    }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
         let all = json!({ "output": written.display().to_string(), "study": result });
@@ -128,6 +141,9 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 
 /// Whether the references tell what they were asked to.
 fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
+    if let Some((against, why)) = study.lost.first() {
+        return Err(Failure::Untrusted(format!("\"{}\": {why}  hint: raise --limit", against.word())));
+    }
     let worst = study.references.iter().max_by(|a, b| a.asked().total_cmp(&b.asked()));
     match worst.filter(|worst| worst.asked() > depth.resolution) {
         None => Ok(Exit::Done),

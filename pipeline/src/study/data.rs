@@ -3,17 +3,18 @@
 use serde_json::{Map, Value, json};
 
 use super::depth::Depth;
-use super::front::on_front;
+use super::front::{excess, on_front};
 use super::investigate::Study;
 use super::point::{Outcome, Point};
 use super::quantity::Quantity;
 use super::reference::{MARGIN, Reference, foundation};
+use super::setting::Family;
 use crate::scene::Scene;
 
 /// `study.json`: everything but times.
 #[must_use]
 pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
-    let fronts = fronts(study, &|point| Some(point.measured()?.counts.stages as f64));
+    let fronts = fronts(study, &stages);
     let points = study.points.iter().enumerate();
     json!({
         "format": "girderway-study/1",
@@ -21,6 +22,7 @@ pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
         "resolution": depth.resolution,
         "limit": depth.limit,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
+        "lost": study.lost.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
         "auto": match &study.auto {
             Ok(auto) => {
                 let all = auto.reasons.iter().map(|(name, why)| (name.clone(), json!(why)));
@@ -28,6 +30,7 @@ pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
             }
             Err(why) => json!({ "why": why }),
         },
+        "dearer_by_stages": dearer(study, &stages),
         "settings": points.map(|(k, own)| setting(own, &on(&fronts, k))).collect::<Vec<_>>(),
     })
 }
@@ -84,6 +87,38 @@ fn setting(point: &Point, fronts: &[&'static str]) -> Value {
     out
 }
 
+/// By how much the points of `family` are dearer than the cheapest that errs no more, by quantity: 1 on the front.
+#[must_use]
+pub fn excesses(study: &Study, family: Family, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<(Quantity, f64)> {
+    let Some(reference) = study.reference(family.against()) else { return Vec::new() };
+    let of = |quantity: Quantity| {
+        let least = reference.resolves(quantity);
+        let place = |point: &Point| Some([cost(point)?, point.error(quantity)?.max(least)]);
+        let all = study.points.iter().filter(|point| point.setting.family.against() == reference.against);
+        let all: Vec<(Family, [f64; 2])> =
+            all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
+        let own = all.iter().find(|(known, _)| *known == family)?.1;
+        let others: Vec<[f64; 2]> = all.into_iter().map(|(_, place)| place).collect();
+        Some((quantity, excess(own, &others)))
+    };
+    Quantity::ALL.into_iter().filter_map(of).collect()
+}
+
+/// The same as JSON, for the scene as written and for what "auto" chose.
+fn dearer(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Value {
+    let of = |family: Family| {
+        let all = excesses(study, family, cost).into_iter();
+        Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
+    };
+    json!({ "as written": of(Family::Written), "auto": of(Family::Auto) })
+}
+
+/// Contact solutions of a point.
+#[must_use]
+pub fn stages(point: &Point) -> Option<f64> {
+    Some(point.measured()?.counts.stages as f64)
+}
+
 /// Which points are on the front of each quantity by `cost`, among those of one reference.
 fn fronts(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<Vec<usize>> {
     let of = |quantity: Quantity| {
@@ -129,6 +164,7 @@ pub fn timing_json(study: &Study) -> Value {
     let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
     json!({
         "clock": if cfg!(unix) { "time that the thread worked, s" } else { "time, s" },
+        "dearer": dearer(study, &Point::seconds),
         "settings": points.collect::<Vec<_>>(),
         "auto_with_its_trials": trials.map(|own| json!({
             "median": own.median, "least": own.least, "most": own.most, "repetitions": own.count,

@@ -35,6 +35,8 @@ const STEPPING: f64 = 0.03;
 pub struct Study {
     /// What errors are measured against.
     pub references: Vec<Reference>,
+    /// References that could not be run, and why.
+    pub lost: Vec<(Against, String)>,
     /// The settings, in order.
     pub points: Vec<Point>,
     /// What "auto" chose, or why it did not.
@@ -76,12 +78,21 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
 
     progress.say("running references");
     let mut references: Vec<Reference> = Vec::new();
+    let mut lost: Vec<(Against, String)> = Vec::new();
     let mut seen: Vec<Scene> = Vec::new();
     let mut add = |against: Against, make: &dyn Fn(usize) -> Scene, workshop: &mut Workshop<'_>| {
         let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(2) };
         let found = match seen.iter().position(|own| *own == plain) {
             Some(at) => Reference { against, ..Reference::clone(&references[at]) },
-            None => reference(workshop, against, make, depth)?,
+            None => match reference(workshop, against, make, depth) {
+                Ok(found) => found,
+                Err(Failure::Untrusted(why)) => {
+                    progress.say(&format!("reference \"{}\": {why}", against.word()));
+                    lost.push((against, why));
+                    return Ok(());
+                }
+                Err(other) => return Err(other),
+            },
         };
         seen.push(plain);
         let told = Quantity::ALL.iter().filter(|own| found.resolves(**own).is_finite());
@@ -102,6 +113,10 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
     }
     add(Against::Own, &|_| own.clone(), &mut workshop)?;
 
+    if references.is_empty() {
+        let first = lost.into_iter().next().map(|(_, why)| why);
+        return Err(Failure::Untrusted(first.unwrap_or_default()));
+    }
     let mut settings = ladder::settings(&own, known, kinds, depth);
     let (family, knob) = (Family::Written, "accuracy");
     settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
@@ -122,14 +137,17 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
         let reference = references.iter().find(|own| own.against == against);
         let (rig, outcome) = match reference {
             Some(reference) => measure(&mut workshop, &setting, reference, depth),
-            None => (None, Outcome::Refused("there is no reference".to_owned())),
+            None => {
+                let why = lost.iter().find(|(own, _)| *own == against).map_or("", |(_, why)| why.as_str());
+                (None, Outcome::Refused(why.to_owned()))
+            }
         };
         rigs.push(rig);
         points.push(Point { setting, outcome });
         bar.set(index as u64 + 1);
     }
     drop(bar);
-    let mut study = Study { references, points, auto };
+    let mut study = Study { references, lost, points, auto };
     time(&mut study, &rigs, scene, known, depth, progress);
     Ok(study)
 }

@@ -16,7 +16,7 @@ mod setting;
 mod spread;
 pub mod stability;
 
-pub use data::{csv, json, timing_csv, timing_json};
+pub use data::{csv, excesses, json, stages, timing_csv, timing_json};
 pub use depth::Depth;
 pub use front::{excess, front, on_front};
 pub use investigate::{Auto, Study, study};

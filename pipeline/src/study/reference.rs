@@ -57,10 +57,8 @@ impl Reference {
 }
 
 /// Runs two settings that differ in everything that can err, ever finer, until they agree: the scene that `make` gives for a
-/// number of modes at some accuracy, beside that of half the modes at ten times the accuracy, where no structure has mass by
-/// another method and at the same accuracy.
-///
-/// Structures with mass are integrated by SDIRK both times: collocation excites their highest modes, which reactions feel.
+/// number of modes by the method that "auto" takes, beside that of half the modes by SDIRK, at the same accuracy; a scene
+/// that only SDIRK integrates, at ten times the accuracy.
 ///
 /// # Errors
 /// A scene that cannot start; no pair that ran to its end.

@@ -13,6 +13,7 @@ mod picture;
 mod steppers;
 mod steps;
 mod subject;
+mod ties;
 
 pub use data::{csv, json};
 pub use map::{Cell, Finding, Layer, Map, Scale, Verdict};
@@ -43,5 +44,10 @@ pub fn maps(subject: &Subject<'_>, quick: bool, progress: &Progress) -> Maps {
     maps.push(liftoff::map(subject, points(48)));
     progress.say("mapping steps");
     maps.extend(steps::maps(subject, points(30)));
+    progress.say("mapping ties");
+    match if quick { Err("--quick leaves it out".to_owned()) } else { ties::map(points(27)) } {
+        Ok(map) => maps.push(map),
+        Err(why) => absent.push(("ties".to_owned(), why)),
+    }
     (maps, absent)
 }

@@ -18,6 +18,8 @@ const FINE: f64 = 4000.0;
 const GROWTH: f64 = 1e-6;
 /// Relative error of the spectral radius of the motion.
 const KNOWN: f64 = 1e-6;
+/// Growth a span of a motion that plainly decays.
+const DECAYS: f64 = 0.95;
 /// How much more a motion that grows may grow.
 const ALIKE: f64 = 1.02;
 /// Growth a span that nobody overlooks.
@@ -197,14 +199,14 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
                 }
                 let value = crossing.radius((size, step), period, count);
                 let verdict = judge(value, *physical);
-                if verdict != Verdict::Right {
+                if verdict != Verdict::Right && *physical < DECAYS {
                     first = first.min(real);
                 }
                 cells.push(Cell { at: [*speed, real], value: finite(value), verdict });
             }
         }
         if first.is_finite() {
-            map.find(format!("{name}: first unstable step x frequency"), first);
+            map.find(format!("{name}: first unstable step x frequency of a motion that decays"), first);
         }
         map.layers.push(Layer::new(name, false).with(cells));
     }
