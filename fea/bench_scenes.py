@@ -210,6 +210,14 @@ def settings(case, quick):
     return [("numba", by_hand, many), ("scipy", by_scipy, pairs), ("Exudyn", by_exudyn, coarse)]
 
 
+def case(name):
+    """A scene of GOALS with its reference."""
+    fine = {"S1 beam": 12000, "S2 beam": 4000, "S4 beam": 4000}
+    if name == "S3":
+        return Train()
+    return Heavy(name, fine[name]) if name in fine else Crossing(name)
+
+
 def ours(profile, cases):
     """Rows of the example of the crate sim."""
     command = ["cargo", "run", "-q", "--profile", profile, "-p", "sim", "--example", "crossings"]
@@ -283,9 +291,7 @@ def main():
     parser.add_argument("--scenes", nargs="*", default=list(GOALS), help="scenes to run")
     parser.add_argument("--profile", default="release", help="profile of cargo in which ours is built")
     options = parser.parse_args()
-    fine = {"S1 beam": 12000, "S2 beam": 4000, "S4 beam": 4000}
-    make = lambda name: Train() if name == "S3" else Heavy(name, fine[name]) if name in fine else Crossing(name)  # noqa: E731
-    cases = [make(name) for name in options.scenes]
+    cases = [case(name) for name in options.scenes]
     rows = list(ours(options.profile, cases)) + list(measure(cases, options.skip, options.quick))
     print("scene    code       setting                  error     least    median      most, ms")
     for scene, code, setting, error, *times in sorted(rows, key=lambda row: (row[0], row[1], row[5])):

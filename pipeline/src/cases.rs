@@ -6,12 +6,14 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 
 use sim::{Foundation, Run};
 
+use crate::codes::Codes;
 use crate::exit::Failure;
-use crate::link::{self, Solved};
+use crate::fatigue::{self, Verdict};
+use crate::link::{self, Laid, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
 use crate::record::Record;
-use crate::response::{self, Lines, Response};
+use crate::response::{self, Lines, Natural, Response};
 use crate::scene::{Case, Document, Origin, Scene};
 use crate::spec::Spec;
 
@@ -31,6 +33,10 @@ pub struct Outcome {
     pub lines: Vec<Option<Lines>>,
     /// What the structures answered.
     pub response: Response,
+    /// The run beside codes, where the scene asks for that.
+    pub codes: Option<Codes>,
+    /// Damage at the points whose stresses it has.
+    pub fatigue: Vec<Verdict>,
 }
 
 /// A spec that was solved, and what came of it.
@@ -120,7 +126,7 @@ pub fn simulate(
 }
 
 /// Values of structures' freedoms that a history holds where no reaction asks for them.
-const RECORDED: f64 = 1e7;
+pub(crate) const RECORDED: f64 = 1e7;
 
 fn one(
     case: &Case,
@@ -147,11 +153,18 @@ fn one(
     let lines = response::lines(&scene, &laid, &solved)?;
     let mut record = Record::new(&scene, &run.history);
     let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
+    let (foundations, motions): (Vec<Foundation>, Vec<_>) =
+        laid.into_iter().map(|laid| (laid.foundation, laid.motion)).unzip();
+    response.modes = Natural::all(&scene, &cast, &foundations, &run);
+    let with = |(foundation, motion)| Laid { foundation, motion };
+    let laid: Vec<Laid> = foundations.into_iter().zip(motions).map(with).collect();
     // only the scene itself is drawn
     if case.label.is_none() {
         response.bend(&scene, &cast, &run.history, &laid, &solved)?;
     }
-    Ok(Outcome { label, cast, run, record, choices, lines, response })
+    let codes = Codes::new(&scene, &cast, &record)?;
+    let fatigue = fatigue::verdicts(&scene, &record)?;
+    Ok(Outcome { label, cast, run, record, choices, lines, response, codes, fatigue })
 }
 
 /// The scene's own run is labelled by what carries it.

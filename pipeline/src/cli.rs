@@ -65,6 +65,35 @@ pub enum Command {
     /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(Crosscheck),
+    /// Chart accuracy against cost: a scene on a ladder of settings, beside a converged reference that is made first
+    #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
+    Study(Study),
+}
+
+/// Arguments of `study`.
+#[derive(Clone, Debug, Args)]
+pub struct Study {
+    /// Scene file
+    pub scene: PathBuf,
+    /// Output folder [default: girderway-out/NAME, the scene's name]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// The comparison of the scene to study [default: the scene itself]
+    #[arg(long, value_name = "LABEL")]
+    pub case: Option<String>,
+    /// Fewer settings, coarser references, fewer repetitions
+    #[arg(long)]
+    pub quick: bool,
+    /// Map where methods fail for the first straight girder of the scene and its wheels, in place of the charts
+    #[arg(long)]
+    pub stability: bool,
+    /// Seconds that one run may take, and all repetitions of a setting; references may take ten times as long
+    /// [default: 20, with --quick 5]
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub limit: Option<f64>,
+    /// Error, of the largest value, from which on references must tell; status 3 where they do not [default: 1e-4, with --quick 1e-2]
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub resolution: Option<f64>,
 }
 
 /// Arguments of `crosscheck`.

@@ -63,6 +63,17 @@ impl Failure {
         Failure::Untrusted(error.to_string())
     }
 
+    /// What went wrong, in one line.
+    #[must_use]
+    pub(crate) fn words(&self) -> String {
+        match self {
+            Failure::Input(diagnostics) => {
+                diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+            }
+            Failure::Differs(message) | Failure::Untrusted(message) => message.clone(),
+        }
+    }
+
     /// What standard error shows: a line for each error, or one JSON object.
     #[must_use]
     pub fn report(&self, json: bool) -> String {

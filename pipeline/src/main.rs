@@ -37,6 +37,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Deck(args) => commands::deck::run(&args, cli.global),
         Command::Import(args) => commands::import::run(&args, cli.global),
         Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),
+        Command::Study(args) => commands::study::run(&args, cli.global),
     }
 }
 

@@ -8,7 +8,7 @@ use crate::link::Solved;
 use crate::motion::{Cast, CastWheel};
 use crate::record::{Record, peak};
 use crate::report::Picture;
-use crate::scene::Scene;
+use crate::scene::{Body, Scene};
 use crate::units::{Dimension, Units};
 
 /// Points along a rail at which smooth pictures are sampled.
@@ -41,6 +41,7 @@ impl Plate {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),
+            Picture::Film(film) => Ok(film.svg.clone()),
         }
     }
 }
@@ -77,6 +78,43 @@ pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
         plates.push(Plate::chart(format!("path-{}", body.name), caption, chart));
     }
     plates
+}
+
+/// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free; `events`: what
+/// happened, and when.
+#[must_use]
+pub fn travel(run: &Labelled, events: &[(f64, &str)]) -> Vec<Plate> {
+    let (scene, record) = (run.scene, run.record);
+    if !scene.bodies.iter().any(|body| !body.in_space && body.motion.is_free()) {
+        return Vec::new();
+    }
+    let moves = |body: &&Body| {
+        let x = record.part(&body.name, "x");
+        !body.in_space && body.pinned.is_none() && x.iter().any(|other| *other != x[0])
+    };
+    let moving: Vec<&Body> = scene.bodies.iter().filter(moves).collect();
+    let each = [
+        ("positions", "x", "place along its rails", Dimension::LENGTH),
+        ("speeds", "speed", "speed", Dimension::SPEED),
+    ];
+    let plate = |(name, part, label, dimension): (&str, &str, &str, Dimension)| {
+        let mut chart = Chart::new(
+            format!("{}{} over time", name[..1].to_uppercase(), &name[1..]),
+            Axis::new("time", "s"),
+            Axis::new(label, scene.units.label(dimension)),
+        );
+        for (index, body) in moving.iter().enumerate() {
+            let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+            let points = record.points("time", &format!("{}.{part}", body.name));
+            chart = chart.with(Series::new(&body.name, style, points));
+        }
+        for (time, what) in events {
+            chart = chart.mark(*time, *what);
+        }
+        let caption = format!("{} of the bodies along their rails ({}).", chart.title, run.label);
+        Plate::chart(name, caption, chart)
+    };
+    if moving.is_empty() { Vec::new() } else { each.into_iter().map(plate).collect() }
 }
 
 /// Vertical forces of all wheels, sliding and rolling where wheels spin.

@@ -3,8 +3,8 @@
 use sim::{Channel, Freedom};
 use splines::Axis;
 
-use crate::motion::wheels;
-use crate::scene::{Along, Body, FREEDOMS, Scene};
+use crate::motion::{CastWheel, wheels};
+use crate::scene::{Along, Body, FREEDOMS, Scene, Wheel};
 use crate::units::Dimension;
 
 /// A sum of channels with a name.
@@ -19,7 +19,7 @@ pub struct Quantity {
 }
 
 /// Everything that a run of `scene` records, `time` first: bodies, wheels, ropes, stops, gauges, then the sums of the
-/// vertical forces on each rail.
+/// vertical, lateral and longitudinal forces on each rail.
 #[must_use]
 pub fn quantities(scene: &Scene) -> Vec<Quantity> {
     let mut list = List(Vec::new());
@@ -72,6 +72,17 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
         if !forces.is_empty() {
             list.sum(format!("{}.reaction", rail.name), Dimension::FORCE, forces);
         }
+        let kind = |wheel: &CastWheel| &scene.wheels[wheel.kind];
+        let mut sum = |part: &str, counts: &dyn Fn(&Wheel) -> bool, channel: fn(usize) -> Channel| {
+            let on_rail =
+                wheels.iter().enumerate().filter(|(_, wheel)| wheel.rail == r && counts(kind(wheel)));
+            let forces: Vec<_> = on_rail.map(|(w, _)| (channel(w), 1.0)).collect();
+            if !forces.is_empty() {
+                list.sum(format!("{}.{part}", rail.name), Dimension::FORCE, forces);
+            }
+        };
+        sum("lateral", &|wheel| wheel.lateral.is_some(), Channel::Lateral);
+        sum("traction", &|wheel| wheel.driven || wheel.braked || wheel.friction.is_some(), Channel::Traction);
     }
     list.0
 }

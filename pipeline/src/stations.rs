@@ -96,17 +96,17 @@ fn attempt(grid: &Grid, surface: &Surface, goal: &Goal) -> Result<Choice, Error>
         };
         rails.push(Chosen { rail: given.name.clone(), stations: splines::stations(&search)? });
     }
-    let grid = at(grid, surface, &rails)?;
+    let named = |rail: &Chosen| GridRail { name: rail.rail.clone(), stations: rail.stations.at.clone() };
+    let grid = at(grid, surface, rails.iter().map(named).collect())?;
     let others = others(&grid, surface, goal)?;
     Ok(Choice { grid, rails, others })
 }
 
 /// The same blocks at other stations.
-fn at(grid: &Grid, surface: &Surface, rails: &[Chosen]) -> Result<Grid, Error> {
-    let rails: Vec<GridRail> = rails
-        .iter()
-        .map(|rail| GridRail { name: rail.rail.clone(), stations: rail.stations.at.clone() })
-        .collect();
+///
+/// # Errors
+/// A station beyond its rail.
+pub fn at(grid: &Grid, surface: &Surface, rails: Vec<GridRail>) -> Result<Grid, Error> {
     let mut out = Grid { rails, effects: None, ..grid.clone() };
     for (quantity, block) in &mut out.blocks {
         let (deflection, load) = axes(*quantity);

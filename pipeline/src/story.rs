@@ -35,6 +35,15 @@ pub fn report(
     sections.push(influence);
     sections.push(forces(scene, outcomes));
     sections.push(crate::response::section(scene, &outcomes[0].label, &outcomes[0].response));
+    let runs: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), &outcome.record, &outcome.response)).collect();
+    sections.extend(crate::response::beside(scene, &runs));
+    let codes: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
+    sections.extend(crate::codes::section(scene, &codes));
+    let fatigue: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
+    sections.extend(crate::fatigue::section(scene, &fatigue));
     sections.push(audit(document, outcomes));
     Report {
         title: scene.name.clone(),

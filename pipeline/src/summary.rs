@@ -4,6 +4,7 @@ use serde_json::{Map, Value, json};
 use sim::{Predicted, Rung, Status, Tried};
 
 use crate::cases::Outcome;
+use crate::fatigue;
 use crate::link;
 use crate::record::Record;
 use crate::scene::{Analysis, Event, STEPPERS, Scene};
@@ -82,6 +83,8 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     }
     if let Some(members) = result.as_object_mut() {
         members.extend(outcome.response.json());
+        members.extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
+        members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));
     }
     let warnings = warning::of_case(scene, outcome);
     if !warnings.is_empty() {

@@ -1,5 +1,7 @@
 //! What a user should know before believing a run: where the limits of its method are near.
 
+mod taut;
+
 use std::f64::consts::PI;
 
 use sim::Run;
@@ -16,6 +18,9 @@ const RESIDUAL: f64 = 1e-3;
 
 /// Deflection of a rail by its span above which structures are hardly linear.
 const BENT: f64 = 0.01;
+
+/// Growth of the stiffness by the pull of ends that are held lengthwise above which it should not be left out.
+const TAUT: f64 = 0.01;
 
 /// Speed by the critical speed above which a girder without mass says little.
 const FAST: f64 = 0.5;
@@ -44,6 +49,7 @@ fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<Strin
     let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));
     for (rail, wheels) in each {
         all.extend(bent(scene, rail, &wheels));
+        all.extend(taut(scene, rail, &wheels));
         all.extend(fast(scene, rail, &wheels));
         all.extend(held(scene, rail, &wheels));
         all.extend(unsymmetric(scene, rail, &wheels));
@@ -64,6 +70,11 @@ impl<'a> Wheels<'a> {
         let (record, rail) = (self.record, self.rail);
         self.cast.wheels.iter().filter(move |w| w.rail == rail).map(move |w| record.part(&w.name, part))
     }
+
+    /// Largest vertical displacement of the rail under them.
+    fn deepest(&self) -> f64 {
+        self.histories("rail_deflection").flatten().fold(0.0, |most, give| most.max(give.abs()))
+    }
 }
 
 /// The longest span of a girder; the whole rail where nobody says what its spans are.
@@ -79,8 +90,7 @@ fn span(scene: &Scene, rail: &SceneRail) -> f64 {
 }
 
 fn bent(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
-    let deepest =
-        wheels.histories("rail_deflection").flatten().fold(0.0_f64, |most, give| most.max(give.abs()));
+    let deepest = wheels.deepest();
     let span = span(scene, rail);
     let share = deepest / span;
     let what = if span < rail.range[1] - rail.range[0] { "span" } else { "length" };
@@ -92,11 +102,24 @@ fn bent(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     })
 }
 
+/// Rails that cannot draw in where they bend.
+fn taut(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
+    let Form::Frame(frame) = &spec.form else { return None };
+    let (_, carried) = frame.rails.get(rail.rail)?;
+    let share = taut::growth(&frame.model, carried, wheels.deepest()).filter(|share| *share > TAUT)?;
+    Some(format!(
+        "{} lies between supports that hold it lengthwise: the pull of its members would stiffen them by about \
+         {share:.2}, which is left out; let one end slide if it can",
+        rail.name
+    ))
+}
+
 /// Speed v against v_cr = (pi / L) sqrt(E I / m), 2 L f_1 of the longest span L of a girder that has mass and is
 /// taken without it.
 fn fast(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
-    let light = matches!(structure.foundation, Foundation::Influence | Foundation::Parts { .. });
+    let light = structure.foundation == Foundation::Influence;
     let Origin::Spec { spec, .. } = &structure.origin else { return None };
     let Form::Girder(girder) = &spec.form else { return None };
     let mass = girder.mass_per_length.filter(|mass| *mass > 0.0)?;

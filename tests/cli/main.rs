@@ -2,6 +2,7 @@
 
 mod drives;
 mod events;
+mod fatigue;
 mod grids;
 mod modes;
 mod rides;

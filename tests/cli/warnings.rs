@@ -8,6 +8,15 @@ const GIRDER: &str = r#"{"format": "girderway-beam/1", "theory": "euler-bernoull
  "units": {"length": "ft", "force": "lbf", "time": "s"},
  "girder": {"spans": [60, 60], "E": 4.32e9, "I_vertical": 9.528, "mass_per_length": 15.2}, "stations": [0, 30, 60, 90, 120]}"#;
 
+/// Both ends hold the length.
+const TAUT: &str = r#"{"format": "girderway-beam/1", "theory": "euler-bernoulli",
+ "units": {"length": "ft", "force": "lbf", "time": "s"},
+ "points": [[0, 0, 0], [60, 0, 0]], "cells": [{"type": "line", "data": [[0, 1]]}],
+ "materials": [{"name": "steel", "E": 4.32e9, "G": 1.6e9}],
+ "sections": [{"name": "girder", "material": "steel", "A": 4, "Iy": 1, "Iz": 9.528, "J": 1}],
+ "supports": [{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}, {"point": 1, "fix": ["ux", "uy", "uz", "rx"]}],
+ "rails": {"rail": {"axis": [1, 0, 0], "segments": [{"cell": [0, 0]}], "stations": [0, 30, 60]}}}"#;
+
 /// Zero at both ends.
 const HELD: &str = "UNITS/, FORCE = POUND_FORCE, MASS = SLUG, LENGTH = FOOT, TIME = SECOND\n\
     SPLINE/6, X = 0, 15, 30, 45, 60\n, Y = 0, 0, 0, 0, 0, 0\n, Y = 15, 0, 6.15E-8, 7.51E-8, 4.78E-8, 0\n\
@@ -24,6 +33,7 @@ fn warned_with(structure: &str, weight: f64, x0: f64, speed: f64, free: bool, mo
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     write("girder.json", GIRDER);
     write("held.adm", HELD);
+    write("taut.json", TAUT);
     fs::copy(example("bogie").join("printed.adm"), folder.path().join("printed.adm")).expect("a copy");
     let (dof, motion) = if free {
         (r#"["x", "y"]"#, String::new())
@@ -73,6 +83,15 @@ fn rails_that_give_by_a_hundredth_of_their_span_warn() {
     assert_eq!(warned(influence, 7.5e6, 30.0, 0.0, false), Vec::<String>::new());
     let bent = warned(influence, 7.8e6, 30.0, 0.0, false);
     assert!(bent.len() == 1 && bent[0].contains("bridge.rail gives by 0.010 of its span"), "{bent:?}");
+}
+
+/// Analytic: A delta^2 / (4 I) = 0.01 at delta = 0.3087 ft, under 48 E I delta / L^3 = 2.824e6 lb.
+#[test]
+fn rails_held_lengthwise_at_both_ends_warn_where_that_would_stiffen_them() {
+    let influence = r#"{"spec": "taut.json", "foundation": "influence"}"#;
+    assert_eq!(warned(influence, 2.8e6, 30.0, 0.0, false), Vec::<String>::new());
+    let taut = warned(influence, 2.85e6, 30.0, 0.0, false);
+    assert!(taut.len() == 1 && taut[0].contains("hold it lengthwise"), "{taut:?}");
 }
 
 #[test]

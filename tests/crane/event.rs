@@ -21,12 +21,8 @@ fn columns_carry_what_the_wheels_press() {
     assert_eq!((up.len(), wheels(".vertical").len()), (13, 16));
     let pairs = [
         ("up", up, wheels(".vertical"), 1.0),
-        (
-            "along",
-            history.all("aisle.", ".ux"),
-            [wheels(".traction"), vec![history.column("bridge.drive")]].concat(),
-            1.0,
-        ),
+        ("along", history.all("aisle.", ".ux"), wheels(".traction"), -1.0),
+        ("by the drive", history.all("aisle.", ".ux"), vec![history.column("bridge.drive")], 1.0),
         ("sideways", history.all("aisle.", ".uz"), wheels(".lateral"), -1.0),
     ];
     let sum = |of: &[&[f64]], i: usize| of.iter().map(|values| values[i]).sum::<f64>();

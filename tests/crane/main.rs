@@ -7,10 +7,19 @@ use std::process::Command;
 
 use serde_json::{Value, json};
 
+mod codes;
+mod couplings;
+mod cranes;
+mod damping;
+mod drift;
+mod drop;
 mod event;
+mod film;
 #[path = "../history.rs"]
 mod history;
+mod inertia;
 mod parts;
+mod skew;
 
 use history::History;
 
@@ -46,6 +55,12 @@ impl History {
 
 /// Runs `scene` beside the example's specs: histories, the scene's own first, and the summary.
 fn run(scene: &Value) -> (Vec<History>, Value) {
+    let (histories, summary, _) = run_whole(scene);
+    (histories, summary)
+}
+
+/// The same with the report.
+fn run_whole(scene: &Value) -> (Vec<History>, Value, String) {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for spec in ["aisle.json", "girders.json"] {
         std::fs::copy(example().join(spec), folder.path().join(spec)).expect("a copy");
@@ -65,7 +80,8 @@ fn run(scene: &Value) -> (Vec<History>, Value) {
     files.extend(
         labels.map(|case| out.join(format!("history-{}.csv", case["label"].as_str().unwrap_or_default()))),
     );
-    (files.iter().map(|file| History::read(file)).collect(), read(&out.join("summary.json")))
+    let report = std::fs::read_to_string(out.join("report.html")).expect("a report");
+    (files.iter().map(|file| History::read(file)).collect(), read(&out.join("summary.json")), report)
 }
 
 /// Times at which a history passes zero upwards, by lines between rows.

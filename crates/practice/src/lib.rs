@@ -6,6 +6,7 @@
 //! Where a comment says *not confirmed*, the value could not be compared with the text of its standard or with
 //! a source that quotes it. `docs/theory/practice.md` has the list.
 
+pub mod aisc;
 pub mod aist;
 pub mod buffer;
 pub mod cmaa;

@@ -239,3 +239,18 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     assert!(direct(&section, Point { y: 0.0, z: 0.0 }, [f64::NAN; 6]).is_err());
     Ok(())
 }
+
+/// Published: AISC 360, Appendix 3: the line 1000 (C_f/n)^(1/3) of category C meets its threshold of 10 ksi at 4.4 million cycles, of
+/// category A 24 ksi at 1.8 million.
+#[test]
+fn categories_of_aisc_meet_their_thresholds_where_they_are_known_to() {
+    use practice::aisc::{Category, Curve};
+    for (category, cycles) in [(Category::C, 4.4e6), (Category::A, 25e9 / 13824.0)] {
+        let curve = Curve::new(category, 6.894_757).expect("a unit");
+        let damage = curve.damage(curve.limit()).expect("a range");
+        assert!((damage * cycles - 1.0).abs() < 1e-12, "{category:?}: {damage:e}");
+        let reference = curve.damage(curve.reference()).expect("a range");
+        assert!((reference * 2e6 - 1.0).abs() < 1e-12);
+        assert!((curve.equivalent(0.125).expect("a sum") / curve.reference() - 0.5).abs() < 1e-12);
+    }
+}

@@ -39,8 +39,7 @@ fn clock() -> f64 {
 }
 
 fn solve(scene: &Scene, foundations: &[Foundation]) -> Result<Run, Error> {
-    let method = if foundations.iter().any(|f| f.structure.is_some()) { Method::Radau } else { Method::Auto };
-    run_by(method, scene, foundations, &mut |_| ControlFlow::Continue(()))
+    run_by(Method::Auto, scene, foundations, &mut |_| ControlFlow::Continue(()))
 }
 
 /// The span of Yang and Yau's bridge, m, and its bending stiffness, N m^2.

@@ -382,6 +382,26 @@ impl Collocation {
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
 
+    /// Modes of `at`, the share `share` of the step just taken from `from`: exact for the polynomials of time that the
+    /// loads are taken to be, since no polynomial follows a mode of many periods a step.
+    pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
+        let (s, h) = (self.count(), self.answers[0].h);
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
+            let mode = Propagator::new(omega, zeta, h);
+            let [qq, qv, vq, vv] = mode.free(share);
+            let powers = mode.forced(share);
+            let (q0, v0) = (from.q[r], from.v[r]);
+            let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
+            for (b, load) in self.load.iter().enumerate().take(s) {
+                q += load[r] * self.nodes.load(b, &powers, 0);
+                v += load[r] * self.nodes.load(b, &powers, 1);
+                now += load[r] * self.nodes.value(b, share);
+            }
+            (at.q[r], at.v[r]) = (q, v);
+            at.a[r] = now - omega * (2.0 * zeta * v + omega * q);
+        }
+    }
+
     /// Error of q and v of freedom `r`: what the loads of the last node add to those of a degree less.
     pub fn error(&self, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());

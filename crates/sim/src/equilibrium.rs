@@ -33,6 +33,8 @@ impl Solver<'_> {
         at.force[..system.link(0)].fill(0.0);
         let flanges = system.lateral(0)..system.traction(0);
         let mut relaxation = Relaxation::default();
+        // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
+        let links = at.force[system.link(0)..].to_vec();
         for _ in 0..FLANGES {
             self.balance(at)?;
             if flanges.is_empty() {
@@ -42,6 +44,7 @@ impl Solver<'_> {
             if !self.instant(at)? {
                 return Err(none);
             }
+            at.force[system.link(0)..].copy_from_slice(&links);
             let largest = at.force.iter().fold(self.system.gravity.amax(), |max, force| max.max(force.abs()));
             if relaxation.step(&taken, &mut at.force[flanges.clone()]) <= 1e-12 * largest {
                 return Ok(());

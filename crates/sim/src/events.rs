@@ -170,7 +170,7 @@ impl Stepper<'_, '_> {
     /// Brings `probe` to the share `share` of the step just tried, with its forces; returns whether they converged.
     pub(crate) fn solved_at(&mut self, share: f64) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
-        self.solver.interpolate([&self.from, &self.to], share, &mut self.probe)?;
+        self.look_inside(share)?;
         self.solver.instant(&mut self.probe)
     }
 

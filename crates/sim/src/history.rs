@@ -21,7 +21,7 @@ pub enum Channel {
     Vertical(usize),
     /// Lateral force of a wheel on the rail, +z.
     Lateral(usize),
-    /// Force of a wheel on the rail along +x, by friction.
+    /// Force of a wheel on the rail along +x: its friction, and its shares of its body's drive and brake.
     Traction(usize),
     /// Penetration of a wheel into the rail, negative where it is off the rail.
     Penetration(usize),

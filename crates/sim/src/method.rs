@@ -7,8 +7,7 @@ use crate::{Dynamics, Error, Foundation, Scene};
 /// A method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Series or Radau where they suit the scene and no structure has mass, SDIRK elsewhere: the error that Radau estimates
-    /// says too little of many high modes.
+    /// Series or Radau where they suit the scene, SDIRK elsewhere.
     #[default]
     Auto,
     /// SDIRK of order 4, L-stable: every scene.
@@ -53,7 +52,7 @@ impl Method {
     pub(crate) fn chosen(self, system: &System) -> Method {
         match self {
             Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
-            Method::Auto if Method::Radau.check(system).is_ok() && !system.has_structures() => Method::Radau,
+            Method::Auto if Method::Radau.check(system).is_ok() => Method::Radau,
             Method::Auto => Method::Sdirk4,
             method => method,
         }

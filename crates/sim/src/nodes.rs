@@ -71,6 +71,12 @@ impl Nodes {
         (0..s).map(|k| self.lagrange[b * s + k] * powers[k][part]).sum()
     }
 
+    /// Lagrange polynomial of node `b` at `share`.
+    pub fn value(&self, b: usize, share: f64) -> f64 {
+        let s = self.count();
+        self.lagrange[b * s..(b + 1) * s].iter().rev().fold(0.0, |sum, factor| sum * share + factor)
+    }
+
     /// Number of nodes.
     pub fn count(&self) -> usize {
         self.c.len() - 1

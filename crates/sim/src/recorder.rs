@@ -25,6 +25,10 @@ pub(crate) struct Recorder {
     /// Scratch of the gauges.
     probes: Vec<Probe>,
     shape: Vec<f64>,
+    /// Wheels that each drive and each braked contact acts under, evenly.
+    treads: Vec<Vec<usize>>,
+    /// Scratch: force of each wheel on the rail along +x.
+    along: Vec<f64>,
 }
 
 impl Recorder {
@@ -60,7 +64,9 @@ impl Recorder {
             channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
         }
         let history = History { channels, values: Vec::new() };
-        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms] }
+        let treads = (0..system.pulls.len()).map(|index| system.treads(system.pull(index))).collect();
+        let along = vec![0.0; system.wheels.len()];
+        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms], treads, along }
     }
 
     /// Numbers of a sample.
@@ -91,6 +97,7 @@ impl Recorder {
             values.extend(speed);
             values.extend([drive_force(system, geometry, at, b), brake_force(system, at, b)]);
         }
+        self.pull_along(system, at);
         for (w, wheel) in system.wheels.iter().enumerate() {
             let mut vertical = 0.0;
             let mut deepest = f64::NEG_INFINITY;
@@ -102,8 +109,6 @@ impl Recorder {
             }
             let lateral =
                 system.laterals.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.lateral(i)]);
-            let traction =
-                system.tractions.iter().position(|&l| l == w).map_or(0.0, |i| at.force[system.traction(i)]);
             let (displacement, _) = system.body(wheel.body, at.t, &at.q, &at.v);
             let own = system
                 .irregularity(w)
@@ -118,7 +123,7 @@ impl Recorder {
                 geometry.x[w],
                 vertical,
                 lateral,
-                traction,
+                self.along[w],
                 deepest,
                 down - deepest,
                 angle,
@@ -143,6 +148,18 @@ impl Recorder {
             values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
         }
         Ok(())
+    }
+
+    /// What every wheel does to the rail along +x: its friction, its shares of the drive and of its brake.
+    fn pull_along(&mut self, system: &System, at: &State) {
+        self.along.fill(0.0);
+        for (index, &w) in system.tractions.iter().enumerate() {
+            self.along[w] += at.force[system.traction(index)];
+        }
+        for (index, wheels) in self.treads.iter().enumerate() {
+            let share = at.force[system.pull(index)] / wheels.len() as f64;
+            wheels.iter().for_each(|&w| self.along[w] += share);
+        }
     }
 
     /// G F + Phi q at a gauge.

@@ -213,7 +213,7 @@ fn integrate(
                     sample.copy_from(&stepper.to);
                 } else {
                     let share = (t - from) / (to - from);
-                    stepper.solver.interpolate([&stepper.from, &stepper.arrived], share, &mut sample)?;
+                    stepper.sample(share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, &stepper.solver.geometry, &sample)?;

@@ -8,6 +8,9 @@ use crate::state::State;
 /// Give of a rail, relative to the wheel's, below which it counts as rigid.
 pub(crate) const RIGID: f64 = 1e-9;
 
+/// Relative rounding of a penetration.
+const ROUNDING: f64 = 1e-12;
+
 impl Solver<'_> {
     /// Finds which vertical contacts act at (t, q, v), and the forces: the complementarity problem, by sweeps
     /// of the active set. Returns whether it settled.
@@ -27,6 +30,7 @@ impl Solver<'_> {
                 .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
             if let Some(i) = weakest {
                 self.active[i] = false;
+                self.keep(i, at);
                 continue;
             }
             let deepest = (0..count)
@@ -40,14 +44,15 @@ impl Solver<'_> {
     }
 
     /// Rate of penetration of a contact that closes now. Where the rail gives, its penetration and so its force go
-    /// on without a jump: the force starts at zero. A rigid rail takes the wheel's own rate.
+    /// on without a jump: the force starts at zero, on the side where the contact presses. A rigid rail takes the wheel's
+    /// own rate.
     fn closing_rate(&self, i: usize, at: &State) -> f64 {
         let system = self.system;
         let law = system.law(i);
         let give = self.geometry.compliance[i * system.components() + i];
         if give * law.stiffness > RIGID {
             let point = law.at(at.p[i], 0.0);
-            if point.by_rate > 0.0 { -point.force / point.by_rate } else { 0.0 }
+            if point.by_rate > 0.0 { (ROUNDING - 1.0) * point.force / point.by_rate } else { 0.0 }
         } else {
             self.approach_rate(i, at)
         }
@@ -94,6 +99,19 @@ impl Solver<'_> {
         share == 0.0 || (at.force[i] < 0.0 && !self.bilateral(i))
     }
 
+    /// Remembers the penetration at which contact `i` opens at `at`.
+    pub fn keep(&mut self, i: usize, at: &State) {
+        self.kept[i] = Some([at.p[i].max(0.0) * (1.0 + ROUNDING), at.t]);
+    }
+
+    /// Penetration that spring and damper of open contact `i` still have at `t`: free of force they relax from the one at
+    /// which it opened by k p + c p' = 0, and wheel and rail are apart until they meet there. `None` where that is not known.
+    fn left(&self, i: usize, t: f64) -> Option<f64> {
+        let law = self.system.law(i);
+        let [p, since] = self.kept[i].filter(|_| law.has_memory() && law.is_linear())?;
+        Some(p * (-(t - since) * law.stiffness / law.damping).exp())
+    }
+
     /// Force that an open contact would have if it closed now, per wheel; positive: it must close.
     pub fn closing(&self, i: usize, at: &State) -> f64 {
         let law = self.system.law(i);
@@ -103,6 +121,9 @@ impl Solver<'_> {
         }
         if law.bilateral {
             return 1.0;
+        }
+        if let Some(left) = self.left(i, at.t) {
+            return law.spring(at.p[i] - left);
         }
         let rate = if law.has_memory() { at.p_rate[i] } else { self.geometry.rate(i, &at.v) };
         let spring = law.spring(at.p[i]);

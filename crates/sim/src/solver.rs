@@ -38,6 +38,8 @@ pub(crate) struct Solver<'a> {
     pub charts: Charts,
     /// Which vertical contacts act.
     pub active: Vec<bool>,
+    /// Penetration that the damper of each contact kept as it opened, and when; `None`: not opened on the way.
+    pub kept: Vec<Option<[f64; 2]>>,
     pub problem: Problem,
     /// Whether the displacements of massless rails along x are known at an instant.
     pub keeps_rails: bool,
@@ -77,6 +79,7 @@ impl<'a> Solver<'a> {
             geometry: Geometry::new(system),
             charts: Charts::default(),
             active: vec![false; system.normals.len()],
+            kept: vec![None; system.normals.len()],
             problem: Problem::new(system),
             keeps_rails: true,
             scales: None,

@@ -32,8 +32,15 @@ pub struct Counts {
 /// How often a step is taken again to end at an event.
 const REFINEMENTS: usize = 40;
 
+/// How many of these end where the event is guessed to be.
+const GUESSES: usize = 20;
+
 /// How often a step is taken again to end at a corner of a drive.
 const CORNERS: usize = 12;
+
+/// Share of the step planned below which what happens is taken to happen where it starts: shorter steps have rounding
+/// for rates.
+const NOW: f64 = 1e-6;
 
 /// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
 const CHATTER: usize = 1000;
@@ -120,6 +127,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let tableau = &SDIRK4;
         let energy = stored(system, &solver.geometry, &start);
         let (scale, rate_scale) = floors(solver, &start);
+        for i in 0..system.normals.len() {
+            if !solver.active[i] && solver.kept[i].is_none() {
+                solver.keep(i, &start);
+            }
+        }
         Ok(Stepper {
             triggers: Triggers::new(system)?,
             to: start.clone(),
@@ -188,7 +200,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let mut h = self.fixed.unwrap_or(self.h).min(limit - start);
+        let planned = self.fixed.unwrap_or(self.h);
+        let shortest = (NOW * planned).max(2.0 * smallest);
+        let mut h = planned.min(limit - start);
         // Do not leave a sliver before the limit.
         if limit - start - h < if self.fixed.is_some() { 1e-9 } else { 0.1 } * h {
             h = limit - start;
@@ -226,10 +240,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
             // A flange that touches or lets go within a step matters where the step errs by more than it may.
             let locates = error.is_finite() && (error > 1.0 || self.fixed.is_some()) && corners < CORNERS;
-            if locates && let Some(share) = self.first_touch()? {
+            if locates
+                && h > shortest
+                && let Some(share) = self.first_touch()?
+            {
                 corners += 1;
                 ends_at_event = true;
-                h = (h * share).max(2.0 * smallest);
+                h = (h * share).max(shortest);
                 continue;
             }
             if error > 1.0 {
@@ -241,9 +258,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
             if let Some((share, excess)) = self.first_event()? {
                 ends_at_event = true;
-                if excess > OVERSHOOT * self.largest_force() && refined < REFINEMENTS {
+                let is_beyond = excess > OVERSHOOT * self.largest_force();
+                if is_beyond && h > shortest && refined < REFINEMENTS {
                     refined += 1;
-                    h = if refined < REFINEMENTS { (h * share).max(2.0 * smallest) } else { 2.0 * smallest };
+                    // Where guesses do not come nearer, half of the step does.
+                    h *= if refined < GUESSES { share } else { 0.5 };
+                    h = h.max(shortest);
                     continue;
                 }
             }
@@ -255,10 +275,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 h = shorter.max(2.0 * smallest);
                 continue;
             }
-            if let Some(share) = self.first_corner().filter(|_| corners < CORNERS) {
+            if let Some(share) = self.first_corner().filter(|_| corners < CORNERS && h > shortest) {
                 corners += 1;
                 ends_at_event = true;
-                h = (h * share).max(2.0 * smallest);
+                h = (h * share).max(shortest);
                 continue;
             }
             let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
@@ -386,6 +406,30 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if self.limit - self.to.t < 1e-14 * self.limit {
             self.to.t = self.limit;
         }
+    }
+
+    /// Sets `probe` to the interpolant of the step just tried, at its share `share`.
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub(crate) fn look_inside(&mut self, share: f64) -> Result<(), Error> {
+        self.solver.interpolate([&self.from, &self.to], share, &mut self.probe)?;
+        if let Some(collocation) = &self.collocation {
+            collocation.interpolate(&self.from, share, &mut self.probe);
+        }
+        Ok(())
+    }
+
+    /// Sets `at` to the interpolant of the step just taken, at its share `share`.
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub fn sample(&mut self, share: f64, at: &mut State) -> Result<(), Error> {
+        self.solver.interpolate([&self.from, &self.arrived], share, at)?;
+        if let Some(collocation) = &self.collocation {
+            collocation.interpolate(&self.from, share, at);
+        }
+        Ok(())
     }
 
     /// Embedded error relative to the tolerance.

@@ -82,7 +82,7 @@ impl Stepper<'_, '_> {
         while (high - low) * h > 0.25 * slack {
             let middle = 0.5 * (low + high);
             self.probe.copy_from(&self.to);
-            self.solver.interpolate([&self.from, &self.to], middle, &mut self.probe)?;
+            self.look_inside(middle)?;
             if !self.solver.instant(&mut self.probe)? {
                 break;
             }

@@ -4,19 +4,20 @@
 
 mod common;
 
+use std::f64::consts::PI;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use common::modes::{beam, oscillator};
+use common::modes::{self, beam, oscillator};
 use common::{bogie, girder};
-use sim::{Channel, Damper, Error, Foundation, Method, Run, Scene, Status, run_by};
+use sim::{Channel, Damper, Error, Foundation, Method, Run, Scene, Status, Stepping, run_by};
 
-fn solved(method: Method, scene: &Scene, foundation: Foundation) -> Run {
-    let begun = Instant::now();
+fn solved(stepping: impl Into<Stepping>, scene: &Scene, foundation: Foundation) -> Run {
+    let (begun, stepping) = (Instant::now(), stepping.into());
     let run =
-        run_by(method, scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+        run_by(stepping, scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     println!(
-        "{method:?}: {:?}, {} steps, {} rejected, {:.0?}, audit {:.1e}",
+        "{stepping:?}: {:?}, {} steps, {} rejected, {:.0?}, audit {:.1e}",
         run.status,
         run.counts.steps,
         run.counts.rejected,
@@ -63,6 +64,22 @@ fn radau_meets_sdirk_on_modes() {
     let off = apart(&found, &reference, Channel::Vertical(0));
     println!("{off:.1e}");
     assert!(off < 1e-4, "{off}");
+}
+
+/// Independent: short fixed steps, at the end of one of which every sample lies. The steps compared are a thousand periods of
+/// the highest mode long: a polynomial through their ends errs by 6e-2 here.
+#[test]
+fn samples_inside_a_step_have_the_modes_where_they_are() {
+    let mut scene = oscillator(1.0, 1.0, 0.01);
+    scene.output_dt = scene.end / 1000.0;
+    let fine = Stepping { method: Method::Radau, step: Some(scene.output_dt / 10.0) };
+    let reference = solved(fine, &scene, beam(120, false));
+    scene.accuracy = 1e-3;
+    let found = solved(Method::Radau, &scene, beam(120, false));
+    let periods = modes::omega(120) / (2.0 * PI) * scene.end / found.counts.steps as f64;
+    let off = apart(&found, &reference, Channel::Vertical(0));
+    println!("{periods:.1} periods of the highest mode a step: {off:.1e}");
+    assert!(periods > 1000.0 && off < 1e-3, "{periods} {off}");
 }
 
 #[test]

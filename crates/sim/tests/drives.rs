@@ -183,6 +183,11 @@ fn drive_stays_within_the_traction_of_its_wheels() {
     for (force, vertical) in force.iter().zip(vertical).skip(1) {
         assert!((force / (mu * vertical) - 1.0).abs() < 1e-9);
     }
+    // the rear wheel alone pushes the rail back
+    let along = [0, 1].map(|w| rear.history.column(Channel::Traction(w)));
+    for (k, force) in force.iter().enumerate() {
+        assert_eq!([along[0][k], along[1][k]], [-force, 0.0]);
+    }
 }
 
 #[test]
@@ -253,6 +258,13 @@ fn brake_stops_in_the_distance_of_its_friction() {
     assert!(run.audit.residual() < 1e-6, "{}", run.audit.residual());
     let most = run.history.column(Channel::Brake(0)).iter().fold(0.0_f64, |max, force| max.min(*force));
     assert!((most / (mu * WEIGHT) + 1.0).abs() < 1e-9, "{most}");
+    // each wheel pushes the rail by the friction of its own load, and together by the whole brake
+    let brake = run.history.column(Channel::Brake(0));
+    let along = [0, 1].map(|w| run.history.column(Channel::Traction(w)));
+    for (k, brake) in brake.iter().enumerate() {
+        assert!((along[0][k] + along[1][k] + brake).abs() < 1e-9 * WEIGHT);
+        assert!((along[0][k] - along[1][k]).abs() < 1e-9 * WEIGHT, "the bogie is even");
+    }
 }
 
 #[test]

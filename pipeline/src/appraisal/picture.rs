@@ -34,6 +34,7 @@ impl Plate {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),
+            Picture::Film(film) => Ok(film.svg.clone()),
         }
     }
 }

@@ -154,7 +154,7 @@ impl Chart {
     /// Scales of both axes, and the height of the frame.
     fn scales(&self) -> Result<(Scale, Scale, f64), Error> {
         let points = || self.series.iter().flat_map(|s| &s.points);
-        let loose = self.series.iter().any(|s| s.style == Style::Points) && !self.equal_aspect;
+        let loose = self.series.iter().any(Series::has_symbols) && !self.equal_aspect;
         let x = Scale::new(&self.x_axis, points().map(|p| p[0]), loose)?;
         let y = Scale::new(&self.y_axis, points().map(|p| p[1]), true)?;
         let mut found = (x, y, HEIGHT);
@@ -173,7 +173,7 @@ impl Chart {
 
     /// More than two curves: symbols tell them apart in grey.
     fn crowded(&self) -> bool {
-        self.series.iter().filter(|s| s.style != Style::Points).count() > 2
+        self.series.iter().filter(|s| !s.has_symbols()).count() > 2
     }
 
     fn inside<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = &'a Marker> {
@@ -208,16 +208,26 @@ impl Chart {
         let margin = if self.x_axis.range.or(self.y_axis.range).is_some() { 1.5 } else { 8.0 };
         let attributes = format!("class=\"series\" data-series=\"{index}\"{}", dashes(series.style));
         sheet.clipped(&attributes, frame.around(margin), |pen| {
+            for ([low, high], [_, y]) in series.spread.iter().zip(&series.points) {
+                let ends = [*low, *high].map(|x| frame.place([x, *y]));
+                if ends.iter().flatten().all(|own| own.is_finite()) && ends[0] != ends[1] {
+                    pen.line(&ends, colour(index), 1.0)?;
+                }
+            }
             if series.style == Style::Points {
                 return path.iter().try_for_each(|p| symbol(pen, index, *p, 3.6));
             }
             match path.len() {
                 0 => Ok(()),
                 1 => symbol(pen, index, path[0], 3.6),
+                _ if series.style == Style::Marked => {
+                    pen.line(&path, colour(index), 1.0)?;
+                    path.iter().try_for_each(|p| symbol(pen, index, *p, 3.6))
+                }
                 _ => pen.line(&path, colour(index), 2.0),
             }
         })?;
-        if self.crowded() && series.style != Style::Points {
+        if self.crowded() && !series.has_symbols() {
             let attributes = format!("class=\"series\" data-series=\"{index}\"");
             let first = 20.0 + 120.0 * (index as f64 + 0.5) / self.series.len() as f64;
             sheet.clipped(&attributes, frame.around(margin), |pen| {

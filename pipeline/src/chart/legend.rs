@@ -55,7 +55,7 @@ impl Legend {
                 Style::Points => Ok(()),
                 _ => pen.line(&line, colour(index), 2.0),
             })?;
-            if self.symbols || one.style == Style::Points {
+            if self.symbols || one.has_symbols() {
                 sheet.group(&format!("class=\"key\" data-series=\"{index}\""), |pen| {
                     symbol(pen, index, [at[0] + 0.5 * SWATCH, at[1]], 3.6)
                 })?;

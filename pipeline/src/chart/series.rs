@@ -10,6 +10,8 @@ pub enum Style {
     Dashed,
     /// A symbol at each point.
     Points,
+    /// A thin line from point to point, and a symbol at each.
+    Marked,
     /// Each value held until the next point.
     Step,
 }
@@ -23,12 +25,24 @@ pub struct Series {
     pub style: Style,
     /// (x, y), in the units of the axes, in the order in which they are joined.
     pub points: Vec<[f64; 2]>,
+    /// From where to where each point spreads along x, in the units of the axis; empty: no spread is drawn.
+    pub spread: Vec<[f64; 2]>,
 }
 
 impl Series {
     /// A series of the given style.
     pub fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
-        Series { label: label.into(), style, points }
+        Series { label: label.into(), style, points, spread: Vec::new() }
+    }
+
+    /// The same with the spread of each point along x.
+    pub fn spread(self, spread: Vec<[f64; 2]>) -> Self {
+        Series { spread, ..self }
+    }
+
+    /// Whether a symbol stands at every point.
+    pub(super) fn has_symbols(&self) -> bool {
+        matches!(self.style, Style::Points | Style::Marked)
     }
 
     /// Corners of the curve: those of the stairs for [`Style::Step`], the points otherwise.

@@ -10,3 +10,4 @@ pub mod import;
 pub mod run;
 pub mod sim;
 pub mod splines;
+pub mod study;

@@ -19,7 +19,7 @@ use crate::record::peak;
 use crate::response::{self, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
-use crate::{grid_file, story, summary, tables, warning};
+use crate::{animation, fatigue, grid_file, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -61,6 +61,9 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
             .as_ref()
             .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
         folder.add(&name, outcome.record.csv().map_err(trouble)?);
+        if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.record).map_err(trouble)? {
+            folder.add(&name.replacen("history", "cycles", 1), cycles);
+        }
     }
     let summary = summary_of(&document, &outcomes);
     folder.add("summary.json", output::json(&summary));
@@ -186,7 +189,16 @@ fn plates(
             record: &outcome.record,
         })
         .collect();
-    let mut plates = pictures::paths(&labelled);
+    let fired: Vec<(f64, &str)> = outcomes[0]
+        .run
+        .fired
+        .iter()
+        .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
+        .collect();
+    let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].cast)?.into_iter().collect();
+    plates.extend(pictures::travel(&labelled[0], &fired));
+    plates.extend(response::rails(&labelled));
+    plates.extend(pictures::paths(&labelled));
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
     plates.extend(response::pictures(&labelled, &responses, &outcomes[0].lines));

@@ -78,7 +78,8 @@ pub fn choose(
 }
 
 /// Elements a member of the mesh at the top.
-fn elements(solved: Option<&Solved>) -> usize {
+#[must_use]
+pub fn elements(solved: Option<&Solved>) -> usize {
     let members = solved.map_or(1, |solved| solved.model.members.len());
     (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
 }

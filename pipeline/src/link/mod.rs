@@ -4,13 +4,14 @@ mod ladder;
 mod modal;
 mod mount;
 mod parts;
+mod rest;
 
 use std::sync::Arc;
 
 use fea::Frame;
 use nalgebra::DMatrix;
 use sim::{Extent, Foundation};
-use splines::{Axis, Influence, Kind, Probe, Reading, Sheet, Surface, Table};
+use splines::{Axis, Couplings, Influence, Kind, Parted, Probe, Reading, Sheet, Surface, Table};
 
 use self::modal::Dampers;
 use self::mount::Push;
@@ -19,8 +20,9 @@ use crate::grid::{Grid, axes};
 use crate::scene::{self, Handover, Origin, Structure};
 use crate::spec::Spec;
 
-pub use ladder::{Chosen, Trouble, choose, doubt, modes_of, reason, rung_of, word};
+pub use ladder::{Chosen, Trouble, choose, doubt, elements, modes_of, reason, rung_of, word};
 pub use modal::Spectra;
+pub use mount::mount;
 pub use parts::{RigidParts, roll_inertia};
 
 /// A structure's FE model, solved.
@@ -158,11 +160,11 @@ fn grounded(
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
-        scene::Foundation::Parts { count, handover } => {
+        scene::Foundation::Parts { count, handover, damping } => {
             let girder = solved.and_then(|solved| solved.girder.as_ref()).ok_or_else(|| {
                 Failure::Untrusted(format!("{}: parts need a beam spec of a straight girder", structure.name))
             })?;
-            parts::foundation(girder, count, handover, push)
+            parts::foundation(girder, count, handover, damping, push)
         }
         scene::Foundation::Modal { modes, damping } => {
             spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, Dampers::NONE, push)
@@ -196,7 +198,11 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
     let rails = structure.rails.len();
     let exact = structure.reading == scene::Reading::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
-        return Ok(Foundation::influence(Box::new(surface.clone()), rails));
+        let surface = surface.clone();
+        return Ok(match structure.couplings {
+            Couplings::All => Foundation::influence(Box::new(surface), rails),
+            some => Foundation::influence(Box::new(Parted::new(surface, some)), rails),
+        });
     }
     let sheets = sheets(structure, solved)?;
     let kind = match structure.reading {
@@ -209,13 +215,17 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
     Ok(Foundation::influence(Box::new(reading), rails))
 }
 
-/// The tables of a structure: its direct and coupling grids, station by station.
+/// The tables of a structure: its direct grids and the couplings that count, station by station.
 ///
 /// # Errors
 /// A spec that has not been solved; what a table refuses.
 pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Sheet>, Failure> {
     let mut sheets = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
+        let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
+        if !structure.couplings.keep(&probe(row), &probe(column)) {
+            return Ok(());
+        }
         let [at, loads] = stations.map(<[f64]>::to_vec);
         let table = Table::new(loads, at, values).map_err(|error| failure(&structure.name, &error))?;
         sheets.push(Sheet { deflection: row, load: column, table });
@@ -264,7 +274,7 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 /// # Errors
 /// A girder that does not stand; windows that overlap.
 pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Failure> {
-    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, Push::DOWN)?.foundation)
+    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Push::DOWN)?.foundation)
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.

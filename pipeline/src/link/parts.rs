@@ -16,12 +16,18 @@ use crate::scene::{Handover, On};
 const RIGID: f64 = 1e-13;
 
 /// `count` rigid parts of equal length, beams between their centres, supports on the parts above them; where
-/// the girder has mass, each part has its share. Where wheels do not push sideways, parts with mass move in the vertical
-/// plane alone.
+/// the girder has mass, each part has its share, and the chain's natural modes are damped by the share `damping` of
+/// critical. Where wheels do not push sideways, parts with mass move in the vertical plane alone.
 ///
 /// # Errors
 /// What the FE model refuses.
-pub fn foundation(girder: &Girder, count: usize, handover: Handover, push: Push) -> Result<Laid, Failure> {
+pub fn foundation(
+    girder: &Girder,
+    count: usize,
+    handover: Handover,
+    damping: f64,
+    push: Push,
+) -> Result<Laid, Failure> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or_else(|| {
         Failure::Untrusted("the hand-over windows of neighbouring parts overlap: shorten `blend`".to_owned())
@@ -45,12 +51,8 @@ pub fn foundation(girder: &Girder, count: usize, handover: Handover, push: Push)
         foundation.on = push.on.map(|on| motion.mount(&centres, on));
         let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
         parts = Some(super::Motion::Parts(chain_of));
-        foundation.structure = Some(motion.structure(PartShapes {
-            line,
-            basis: motion.basis.clone(),
-            chains: vec![chain],
-            separate,
-        }));
+        let shapes = PartShapes { line, basis: motion.basis.clone(), chains: vec![chain], separate };
+        foundation.structure = Some(motion.structure(shapes, damping));
     } else {
         let surface = Surface::new(line, nodal).map_err(Failure::untrusted)?;
         foundation.compliance = Some(if separate {
@@ -135,7 +137,8 @@ struct Motion {
     /// Masses and inertias of the states.
     lumped: DVector<f64>,
     mass: DMatrix<f64>,
-    stiffness: DMatrix<f64>,
+    /// Diagonal of K.
+    stiffness: DVector<f64>,
 }
 
 impl Motion {
@@ -167,12 +170,7 @@ impl Motion {
         let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));
         let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
         let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
-        Motion {
-            mass: basis.transpose() * weighted,
-            stiffness: DMatrix::from_diagonal(&stiffness),
-            basis,
-            lumped,
-        }
+        Motion { mass: basis.transpose() * weighted, stiffness, basis, lumped }
     }
 
     /// Mass of the parts as one, and the momentum of their freedoms: R^T M R and basis^T M R, R the motion of the parts
@@ -198,16 +196,66 @@ impl Motion {
         }
     }
 
-    /// As a structure of the simulation; undamped.
-    fn structure(&self, shapes: PartShapes) -> Structure {
+    /// C that damps every natural mode by the share `zeta` of critical: 2 zeta K^1/2 (K^-1/2 M K^-1/2)^1/2 K^1/2.
+    fn damping(&self, zeta: f64) -> DMatrix<f64> {
         let size = self.mass.nrows();
+        if zeta == 0.0 {
+            return DMatrix::zeros(size, size);
+        }
+        let root = self.stiffness.map(f64::sqrt);
+        let scaled = DMatrix::from_fn(size, size, |r, c| self.mass[(r, c)] / (root[r] * root[c]));
+        let eigen = scaled.symmetric_eigen();
+        let periods = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
+        let middle = &eigen.eigenvectors * DMatrix::from_diagonal(&periods) * eigen.eigenvectors.transpose();
+        DMatrix::from_fn(size, size, |r, c| zeta * root[r] * (middle[(r, c)] + middle[(c, r)]) * root[c])
+    }
+
+    /// As a structure of the simulation, every mode damped by the share `damping` of critical.
+    fn structure(&self, shapes: PartShapes, damping: f64) -> Structure {
         Structure {
             dynamics: Dynamics::Matrices {
                 mass: self.mass.clone(),
-                damping: DMatrix::zeros(size, size),
-                stiffness: self.stiffness.clone(),
+                damping: self.damping(damping),
+                stiffness: DMatrix::from_diagonal(&self.stiffness),
             },
             shapes: Box::new(shapes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Analytic: natural modes phi of M and K, scaled to phi^T M phi = 1, have phi^T C phi = 2 zeta omega.
+    #[test]
+    fn every_natural_mode_of_the_parts_has_the_damping_asked_for() {
+        let girder = Girder {
+            spans: vec![30.0, 50.0],
+            e: 4.32e9,
+            i_vertical: 10.0,
+            mass_per_length: Some(20.0),
+            ..Girder::default()
+        };
+        let ends = part_ends(&girder, 7);
+        let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+        let nodal = nodal_compliance(&girder, &ends, &centres).expect("it stands");
+        let motion = Motion::new(&girder, 20.0, &ends, &nodal, false);
+        let zeta = 0.03;
+        let damping = motion.damping(zeta);
+
+        let lower = motion.mass.clone().cholesky().expect("masses are positive").l();
+        let inverse = lower.try_inverse().expect("masses are positive");
+        let whitened = &inverse * DMatrix::from_diagonal(&motion.stiffness) * inverse.transpose();
+        let eigen = whitened.symmetric_eigen();
+        let modes = inverse.transpose() * &eigen.eigenvectors;
+        let modal = modes.transpose() * damping * &modes;
+        let highest = eigen.eigenvalues.max().sqrt();
+        for r in 0..modal.nrows() {
+            for c in 0..modal.ncols() {
+                let wanted = if r == c { 2.0 * zeta * eigen.eigenvalues[r].sqrt() } else { 0.0 };
+                assert!((modal[(r, c)] - wanted).abs() < 1e-9 * zeta * highest, "{r} {c}: {}", modal[(r, c)]);
+            }
         }
     }
 }

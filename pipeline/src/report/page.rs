@@ -9,6 +9,7 @@ use serde_json::json;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
+const FILM: &str = include_str!("film.js");
 /// Significant digits of shown numbers.
 const DIGITS: usize = 7;
 
@@ -40,6 +41,8 @@ impl Report {
         let mut count = Count::default();
         let sections = self.sections.iter().enumerate();
         let bodies: Result<Vec<Markup>, Error> = sections.map(|(i, s)| section(i, s, &mut count)).collect();
+        let figures = self.sections.iter().flat_map(|section| &section.figures);
+        let moves = figures.into_iter().any(|figure| matches!(figure.picture, Picture::Film(_)));
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -64,6 +67,7 @@ impl Report {
                     main { @for body in bodies? { (body) } }
                     footer { "girderway " (env!("CARGO_PKG_VERSION")) }
                     script { (PreEscaped(SCRIPT)) }
+                    @if moves { script { (PreEscaped(FILM)) } }
                 }
             }
         };
@@ -150,12 +154,18 @@ fn table(section: usize, index: usize, table: &Table, running: usize) -> Result<
 }
 
 fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Result<Markup, Error> {
-    let (svg, data) = match &figure.picture {
-        Picture::Svg(svg) => (svg.clone(), None),
+    let mut still = None;
+    let (svg, class, data) = match &figure.picture {
+        Picture::Svg(svg) => (svg.clone(), "picture", None),
+        Picture::Film(film) => {
+            let data = film.data().ok_or(Error::Picture { section, figure: index })?;
+            still = Some(film.still);
+            (film.svg.clone(), "picture film", Some(data))
+        }
         Picture::Chart(chart) => {
             let drawing = chart.draw().map_err(|source| Error::Chart { section, figure: index, source })?;
             let data = data(chart, &drawing);
-            (drawing.svg, Some(data))
+            (drawing.svg, "picture chart", Some(data))
         }
     };
     // An SVG element inside HTML needs no name space.
@@ -165,9 +175,11 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
     }
     Ok(html! {
         figure {
-            div.picture {
+            div class=(class) {
                 (PreEscaped(svg))
-                @if let Some(data) = data { script type="application/json" { (PreEscaped(data)) } }
+                @if let Some(data) = data {
+                    script type="application/json" data-still=[still] { (PreEscaped(data)) }
+                }
             }
             figcaption { b { "Figure " (running) ". " } (figure.caption) }
         }

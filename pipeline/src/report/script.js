@@ -1,6 +1,6 @@
 "use strict";
 // Read-out under the pointer, and series switched on and off by their legend. Without scripts the charts stay as they are.
-for (const source of document.querySelectorAll('.picture script[type="application/json"]')) {
+for (const source of document.querySelectorAll('.chart > script')) {
   const box = source.parentElement;
   const svg = box.querySelector("svg");
   const chart = JSON.parse(source.textContent);

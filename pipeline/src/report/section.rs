@@ -1,5 +1,6 @@
 //! Parts of a report.
 
+use crate::animation::Film;
 use crate::chart::Chart;
 
 /// A chapter of a report: shown in this order, empty parts left out.
@@ -129,6 +130,8 @@ pub enum Picture {
     Chart(Box<Chart>),
     /// A finished SVG file; it is trusted and taken in as it is.
     Svg(String),
+    /// A picture that moves where scripts run.
+    Film(Box<Film>),
 }
 
 impl From<Chart> for Picture {

@@ -4,8 +4,8 @@ use fea::{Component, Effect, Frame, Model};
 use nalgebra::Vector3;
 use sim::{Channel, History};
 
-use super::column::Column;
-use super::line::Lines;
+use super::column::{Column, Kind};
+use super::line::{Lines, Part};
 use super::wheel_load::{WheelLoad, WheelLoads};
 use crate::link::{Laid, Solved};
 use crate::scene::Scene;
@@ -61,8 +61,8 @@ pub(super) fn of(
         }
     }
     let column =
-        Column { name: String::new(), dimension: Dimension::MOMENT, is_reaction: false, direction: None };
-    let owner: Vec<usize> = (0..effects.len()).collect();
+        Column { name: String::new(), dimension: Dimension::MOMENT, kind: Kind::Section, direction: None };
+    let owner: Vec<Part> = (0..effects.len()).map(|column| Part { column, weight: 1.0 }).collect();
     let columns = vec![column; effects.len()];
     let lines = Lines::of(&frame, solved, laid, scene.gravity, columns, &effects, owner)?;
     let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));

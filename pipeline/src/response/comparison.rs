@@ -1,9 +1,9 @@
 //! Histories of forces, run beside run, in the few numbers that engineers compare.
 
-use practice::{View, dominant, resample, response};
+use practice::{Mark, Tone, View, dominant, resample, response};
 use serde_json::{Map, Value, json};
 
-use super::Response;
+use super::{Natural, Response};
 use crate::record::Record;
 
 /// Share of the run, at its end, that counts as settled.
@@ -12,11 +12,31 @@ const SETTLED: f64 = 0.25;
 /// Half width of the band about the settled mean that an excursion leaves, as a share of the mean.
 const BAND: f64 = 0.05;
 
+/// Most waves that are told, the share of the first below which none is, and how far apart two of them are as a ratio.
+const WAVES: usize = 3;
+const FAINT: f64 = 0.1;
+const APART: f64 = 1.15;
+
 /// Fewest samples of which a dominant frequency is worth its name.
 const FEWEST: usize = 64;
 
-/// Every reaction and internal force, and the sum of each rail's wheel forces, that all runs have, by column and by the label of the run: settled mean, peak, least
-/// value, excursions and dominant frequency.
+/// A history in the few numbers that engineers compare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Mean over the last quarter of the run.
+    pub settled: f64,
+    /// Largest value.
+    pub peak: Mark,
+    /// Smallest value.
+    pub least: Mark,
+    /// How often it leaves 5 % about the settled mean.
+    pub excursions: usize,
+    /// Strongest waves in the last quarter, of two periods at least, strongest first.
+    pub waves: Vec<Tone>,
+}
+
+/// Every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel forces, that all runs have, by
+/// column and by the label of the run: settled mean, peak, least value, excursions and dominant frequency.
 ///
 /// A column that is zero in every run is left out. Empty where there is one run alone.
 #[must_use]
@@ -26,58 +46,114 @@ pub fn comparison(runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
     if rest.is_empty() {
         return all;
     }
-    let rails = record.columns.iter().map(|column| &column.name).filter(|name| name.ends_with(".reaction"));
-    for name in rails.chain(first.columns.iter().map(|column| &column.name)) {
+    let own = first.columns.iter().map(|column| column.name.clone());
+    for name in rail_sums(record).into_iter().flatten().chain(own) {
         let each: Option<Map<String, Value>> = runs
             .iter()
-            .map(|(label, record, _)| Some(((*label).to_owned(), figures(record, name)?)))
+            .map(|(label, record, response)| {
+                Some(((*label).to_owned(), Figures::new(record, &name)?.json(&response.modes)))
+            })
             .collect();
-        let is_zero = |record: &Record| record.values(name).iter().all(|value| *value == 0.0);
+        let is_zero = |record: &Record| record.values(&name).iter().all(|value| *value == 0.0);
         if let Some(each) = each
             && !runs.iter().all(|(_, record, _)| is_zero(record))
         {
-            all.insert(name.clone(), Value::Object(each));
+            all.insert(name, Value::Object(each));
         }
     }
     all
 }
 
-/// The numbers of one column, `None` where it has too few rows or the run has not got it.
-fn figures(record: &Record, column: &str) -> Option<Value> {
-    let (times, values) = (record.values("time"), record.values(column));
-    let (first, last) = (*times.first()?, *times.last()?);
-    if values.len() != times.len() || times.len() < FEWEST || last <= first {
-        return None;
-    }
-    let length = last - first;
-    let step = length / (times.len() - 1) as f64;
-    let view = View {
-        from: first,
-        settled: last - SETTLED * length,
-        step,
-        cut: None,
-        share: BAND,
-        band: [0.0, 0.5 / step],
-        floor: BAND,
+/// Columns of the sums of wheel forces on each rail, vertical, then lateral if there are any.
+pub(super) fn rail_sums(record: &Record) -> Vec<Vec<String>> {
+    let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
+    let of = |rail: &str| {
+        let lateral = format!("{rail}.lateral");
+        let mut names = vec![format!("{rail}.reaction")];
+        names.extend(Some(lateral).filter(|name| !record.values(name).is_empty()));
+        names
     };
-    let found = response(times, values, &view).ok()?;
-    // slower than two waves is the way of the crane, no vibration
-    let band = [2.0 / (SETTLED * length), 0.5 / step];
-    let late = resample(times, values, view.settled, step).ok()?;
-    let tone = dominant(&late, step, band).ok()?;
-    Some(json!({
-        "settled_mean": found.mean + 0.0,
-        "peak": {"value": found.peak.value + 0.0, "time": found.peak.time},
-        "least": {"value": found.least.value + 0.0, "time": found.least.time},
-        "excursions": found.excursions.total(),
-        "dominant_hz": tone.map(|tone| tone.frequency),
-    }))
+    rails.map(of).collect()
+}
+
+impl Figures {
+    /// The numbers of one column, `None` where it has too few rows or the run has not got it.
+    #[must_use]
+    pub fn new(record: &Record, column: &str) -> Option<Figures> {
+        let (times, values) = (record.values("time"), record.values(column));
+        let (first, last) = (*times.first()?, *times.last()?);
+        if values.len() != times.len() || times.len() < FEWEST || last <= first {
+            return None;
+        }
+        let length = last - first;
+        let step = length / (times.len() - 1) as f64;
+        let view = View {
+            from: first,
+            settled: last - SETTLED * length,
+            step,
+            cut: None,
+            share: BAND,
+            band: [0.0, 0.5 / step],
+            floor: BAND,
+        };
+        let found = response(times, values, &view).ok()?;
+        // slower than two waves is the way of the crane, no vibration
+        let band = [2.0 / (SETTLED * length), 0.5 / step];
+        let late = resample(times, values, view.settled, step).ok()?;
+        Some(Figures {
+            settled: found.mean,
+            peak: found.peak,
+            least: found.least,
+            excursions: found.excursions.total(),
+            waves: tones(&late, step, band),
+        })
+    }
+
+    /// Frequency of the strongest wave.
+    #[must_use]
+    pub fn hertz(&self) -> Option<f64> {
+        self.waves.first().map(|tone| tone.frequency)
+    }
+
+    fn json(&self, modes: &[Natural]) -> Value {
+        let wave = |tone: &Tone| {
+            let mode = Natural::of(modes, tone.frequency).map(|mode| mode.name.as_str());
+            json!({"hz": tone.frequency, "amplitude": tone.amplitude, "mode": mode})
+        };
+        json!({
+            "settled_mean": self.settled + 0.0,
+            "peak": {"value": self.peak.value + 0.0, "time": self.peak.time},
+            "least": {"value": self.least.value + 0.0, "time": self.least.time},
+            "excursions": self.excursions,
+            "dominant_hz": self.hertz(),
+            "waves": self.waves.iter().map(wave).collect::<Vec<Value>>(),
+        })
+    }
+}
+
+/// The strongest waves of a history in `band`, strongest first, each apart from those before by [`APART`].
+fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
+    let (mut found, mut rest) = (Vec::<Tone>::new(), vec![band]);
+    let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
+    while found.len() < WAVES {
+        let all = rest.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
+        let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
+        let Some((k, tone)) = best else { break };
+        if found.first().is_some_and(|first| tone.amplitude < FAINT * first.amplitude) {
+            break;
+        }
+        let [low, high] = rest.swap_remove(k);
+        let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
+        rest.extend(sides.into_iter().filter(|[low, high]| low < high));
+        found.push(tone);
+    }
+    found
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::response::Column;
+    use crate::response::{Column, Kind};
     use crate::units::Dimension;
 
     /// A record with a damped wave of `hz` about `mean`, and its response.
@@ -89,7 +165,7 @@ mod tests {
         record.push("time", Dimension::NUMBER, times);
         record.push("a", Dimension::NUMBER, values);
         let column =
-            Column { name: "a".into(), dimension: Dimension::NUMBER, is_reaction: true, direction: None };
+            Column { name: "a".into(), dimension: Dimension::NUMBER, kind: Kind::Reaction, direction: None };
         (record, Response { columns: vec![column], ..Response::default() })
     }
 

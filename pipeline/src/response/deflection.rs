@@ -146,7 +146,7 @@ pub(super) fn of(
 }
 
 /// G F + Phi q at the probes.
-fn displacements(
+pub(super) fn displacements(
     foundation: &Foundation,
     probes: &[Probe],
     loads: &[WheelLoad],

@@ -2,16 +2,16 @@
 
 use std::sync::Arc;
 
-use fea::{Effect, Frame, Freedom, Model};
+use fea::{Effect, Frame, Freedom, Model, Section};
 use nalgebra::{DMatrix, Vector3};
 use splines::{Axis, Effects, Probe};
 
-use super::column::{Column, Direction};
+use super::column::{Column, Direction, Kind};
 use super::part_inertia::part_inertia;
 use super::wheel_load::WheelLoad;
 use crate::effect::COMPONENTS;
 use crate::link::{Laid, Motion, Solved};
-use crate::spec::Spec;
+use crate::spec::{Spec, StressPoint};
 use crate::units::Dimension;
 
 /// Share of the largest of a kind below which a column is rounding.
@@ -27,14 +27,23 @@ const ROUNDING: f64 = 1e-12;
 pub struct Lines {
     columns: Vec<Column>,
     effects: Effects,
-    /// Column of each effect: springs and supports of one freedom of a point are one column.
-    owner: Vec<usize>,
+    /// What each effect is part of: springs and supports of one freedom of a point are one column, stresses sum forces.
+    owner: Vec<Part>,
     inertia: DMatrix<f64>,
     dead: Vec<f64>,
 }
 
+/// The part of an effect in a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Part {
+    /// Index of the column.
+    pub column: usize,
+    /// What the effect counts there.
+    pub weight: f64,
+}
+
 impl Lines {
-    /// Those of the columns that are `wanted` (0: reactions, 1: internal forces; by name); `None` where none is.
+    /// Those of the columns that are `wanted` (by kind and name); `None` where none is.
     ///
     /// # Errors
     /// What the frame refuses.
@@ -44,11 +53,13 @@ impl Lines {
         solved: &Solved,
         laid: &Laid,
         gravity: f64,
-        wanted: &dyn Fn(usize, &str) -> bool,
+        wanted: &dyn Fn(Kind, &str) -> bool,
     ) -> Result<Option<Lines>, fea::Error> {
         let (model, rails) = (&solved.model, &solved.rails);
         let [reactions, sections] = super::names(name, spec);
-        if !reactions.iter().any(|own| wanted(0, own)) && !sections.iter().any(|own| wanted(1, own)) {
+        let stresses = super::stresses(name, spec);
+        let lists = [(Kind::Reaction, &reactions), (Kind::Section, &sections), (Kind::Stress, &stresses)];
+        if !lists.iter().any(|(kind, names)| names.iter().any(|own| wanted(*kind, own))) {
             return Ok(None);
         }
         let frame = Frame::new(model, rails)?;
@@ -60,13 +71,13 @@ impl Lines {
                 let own = format!("{name}.{}.{}", ground.name, spec.freedom_word(freedom));
                 let of = |hold: &&fea::Hold| hold.point == ground.point && hold.freedom == freedom;
                 let all: Vec<Effect> = holds.iter().filter(of).copied().map(Effect::Reaction).collect();
-                if wanted(0, &own) && !all.is_empty() {
-                    owner.extend(all.iter().map(|_| columns.len()));
+                if wanted(Kind::Reaction, &own) && !all.is_empty() {
+                    owner.extend(all.iter().map(|_| Part { column: columns.len(), weight: 1.0 }));
                     effects.extend(all);
                     columns.push(Column {
                         name: own,
                         dimension: dimension(freedom >= Freedom::Rx),
-                        is_reaction: true,
+                        kind: Kind::Reaction,
                         direction: direction(model, rails, freedom),
                     });
                 }
@@ -75,16 +86,35 @@ impl Lines {
         for cut in &spec.effects {
             for (index, (word, component)) in COMPONENTS.into_iter().enumerate() {
                 let own = format!("{name}.{}.{word}", cut.name);
-                if wanted(1, &own) {
-                    owner.push(columns.len());
+                if wanted(Kind::Section, &own) {
+                    owner.push(Part { column: columns.len(), weight: 1.0 });
                     effects.push(Effect::Force { member: cut.member, place: cut.place, component });
                     columns.push(Column {
                         name: own,
                         dimension: dimension(index >= 3),
-                        is_reaction: false,
+                        kind: Kind::Section,
                         direction: None,
                     });
                 }
+            }
+        }
+        for cut in &spec.effects {
+            let section = model.members.get(cut.member).and_then(|member| model.sections.get(member.section));
+            for (point, section) in cut.points.iter().zip(std::iter::repeat(section)) {
+                let own = format!("{name}.{}.{}", cut.name, point.name);
+                let Some(section) = section.filter(|_| wanted(Kind::Stress, &own)) else { continue };
+                for ((_, component), weight) in COMPONENTS.into_iter().zip(weights(section, point)) {
+                    if weight != 0.0 {
+                        owner.push(Part { column: columns.len(), weight });
+                        effects.push(Effect::Force { member: cut.member, place: cut.place, component });
+                    }
+                }
+                columns.push(Column {
+                    name: own,
+                    dimension: Dimension::STRESS,
+                    kind: Kind::Stress,
+                    direction: None,
+                });
             }
         }
         let out = Lines::of(&frame, solved, laid, gravity, columns, &effects, owner)?;
@@ -106,7 +136,7 @@ impl Lines {
         gravity: f64,
         columns: Vec<Column>,
         effects: &[Effect],
-        owner: Vec<usize>,
+        owner: Vec<Part>,
     ) -> Result<Lines, fea::Error> {
         let model = &solved.model;
         let inertia = inertia(effects, laid, solved)?;
@@ -123,10 +153,10 @@ impl Lines {
             effects: lines,
             owner,
         };
-        for (e, &column) in out.owner.iter().enumerate() {
-            out.dead[column] += dead[e];
+        for (e, &Part { column, weight }) in out.owner.iter().enumerate() {
+            out.dead[column] += weight * dead[e];
             for k in 0..inertia.ncols() {
-                out.inertia[(column, k)] += inertia[(e, k)];
+                out.inertia[(column, k)] += weight * inertia[(e, k)];
             }
         }
         Ok(out)
@@ -154,9 +184,11 @@ impl Lines {
                 let own = self.columns.iter().zip(&sizes).filter(|(column, _)| column.dimension == dimension);
                 own.fold(0.0_f64, |most, (_, size)| most.max(*size))
             };
-            let largest = [most(Dimension::FORCE), most(Dimension::MOMENT)];
+            let kinds = [Dimension::FORCE, Dimension::MOMENT, Dimension::STRESS];
+            let largest = kinds.map(most);
             for ((felt, size), column) in felt.iter_mut().zip(&sizes).zip(&self.columns) {
-                *felt |= *size > ROUNDING * largest[usize::from(column.dimension == Dimension::MOMENT)];
+                let own = kinds.iter().position(|kind| *kind == column.dimension);
+                *felt |= own.is_some_and(|own| *size > ROUNDING * largest[own]);
             }
         }
         felt
@@ -175,9 +207,10 @@ impl Lines {
         }
         let number = |column: usize| kept[..column].iter().filter(|kept| **kept).count();
         let rows: Vec<usize> = (0..kept.len()).filter(|column| kept[*column]).collect();
-        let of = |(_, column): &(&Effect, &usize)| kept[**column];
-        let (effects, owner): (Vec<Effect>, Vec<usize>) =
-            effects.iter().zip(&self.owner).filter(of).map(|(e, column)| (*e, number(*column))).unzip();
+        let of = |(_, part): &(&Effect, &Part)| kept[part.column];
+        let moved = |part: &Part| Part { column: number(part.column), ..*part };
+        let (effects, owner): (Vec<Effect>, Vec<Part>) =
+            effects.iter().zip(&self.owner).filter(of).map(|(e, part)| (*e, moved(part))).unzip();
         Ok(Lines {
             effects: frame.influence_lines(model, &effects)?,
             owner,
@@ -233,8 +266,8 @@ impl Lines {
                     whole = false;
                     continue;
                 }
-                for (value, &column) in unit.iter().zip(&self.owner) {
-                    out[column] += force * value;
+                for (value, part) in unit.iter().zip(&self.owner) {
+                    out[part.column] += force * part.weight * value;
                 }
             }
         }
@@ -252,7 +285,7 @@ impl Lines {
         let mut unit = vec![0.0; self.effects.len()];
         self.effects.fill(at, &mut unit).ok()?;
         let mut out = vec![0.0; self.columns.len()];
-        unit.iter().zip(&self.owner).for_each(|(value, &column)| out[column] += value);
+        unit.iter().zip(&self.owner).for_each(|(value, part)| out[part.column] += part.weight * value);
         Some(out)
     }
 }
@@ -270,6 +303,13 @@ fn inertia(effects: &[Effect], laid: &Laid, solved: &Solved) -> Result<DMatrix<f
             None => Ok(DMatrix::zeros(effects.len(), parts.basis.ncols())),
         },
     }
+}
+
+/// Stress at a point per unit of each component of the internal force, as of [`practice::stress::weights`]; what a section
+/// does not resist makes none.
+fn weights(section: &Section, point: &StressPoint) -> [f64; 6] {
+    let over = |lever: f64, property: f64| if property > 0.0 { lever / property } else { 0.0 };
+    [over(1.0, section.area), 0.0, 0.0, 0.0, over(point.z, section.iy), over(0.0 - point.y, section.iz)]
 }
 
 const fn dimension(is_moment: bool) -> Dimension {

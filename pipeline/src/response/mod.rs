@@ -6,10 +6,13 @@ mod bending;
 mod column;
 mod comparison;
 mod deflection;
+mod drift;
 mod envelope;
 mod line;
+mod natural;
 mod part_inertia;
 mod picture;
+mod rail_picture;
 mod spans;
 mod story;
 mod sway;
@@ -17,14 +20,17 @@ mod uplift;
 mod wheel_load;
 
 pub use bending::Bending;
-pub use column::{Column, MOST, names};
-pub use comparison::comparison;
+pub use column::{Column, Kind, MOST, names, stresses};
+pub use comparison::{Figures, comparison};
 pub use deflection::Deflection;
+pub use drift::Drift;
 pub use envelope::{Envelope, Extreme};
 pub use line::Lines;
+pub use natural::Natural;
 pub use picture::pictures;
+pub use rail_picture::rails;
 pub use spans::spans;
-pub use story::section;
+pub use story::{beside, section};
 pub use sway::Sway;
 pub use uplift::Uplift;
 pub use wheel_load::{WheelLoad, WheelLoads};
@@ -52,10 +58,14 @@ pub struct Response {
     pub bending: Vec<Bending>,
     /// Sag of the spans.
     pub deflections: Vec<Deflection>,
+    /// Frames at the level of the crane.
+    pub drifts: Vec<Drift>,
     /// Wheels that left their rails.
     pub uplifts: Vec<Uplift>,
     /// Where bodies in space have been.
     pub sways: Vec<Sway>,
+    /// Natural modes of the scene towards its end.
+    pub modes: Vec<Natural>,
     /// What is left out, and why.
     pub notes: Vec<String>,
 }
@@ -65,7 +75,9 @@ pub struct Response {
 pub fn answers(scene: &Scene, known: &[Known]) -> Vec<bool> {
     let few = column::few(scene);
     let some = |pick: &Pick, few: bool| !matches!(pick, Pick::None) && (few || !matches!(pick, Pick::Few));
-    let asked = some(&scene.output.reactions, few[0]) || some(&scene.output.sections, few[1]);
+    let output = &scene.output;
+    let asked =
+        some(&output.reactions, few[0]) || some(&output.sections, few[1]) || some(&output.stresses, few[2]);
     scene.structures.iter().map(|structure| asked && solved_of(known, &structure.origin).is_some()).collect()
 }
 
@@ -81,9 +93,13 @@ pub fn lines(
     let few = column::few(scene);
     let each = scene.structures.iter().zip(laid).zip(solved).map(|((structure, laid), solved)| {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else { return Ok(None) };
-        let wanted = |kind: usize, name: &str| {
-            let pick = if kind == 0 { &scene.output.reactions } else { &scene.output.sections };
-            pick.takes(name, few[kind])
+        let wanted = |kind: Kind, name: &str| {
+            let (pick, few) = match kind {
+                Kind::Reaction => (&scene.output.reactions, few[0]),
+                Kind::Section => (&scene.output.sections, few[1]),
+                Kind::Stress => (&scene.output.stresses, few[2]),
+            };
+            pick.takes(name, few)
         };
         Lines::new(&structure.name, spec, solved, laid, scene.gravity, &wanted)
             .map_err(|error| Failure::Untrusted(format!("{}: {error}", structure.name)))
@@ -141,6 +157,8 @@ impl Response {
             let failed = |error: splines::Error| Failure::Untrusted(format!("{}: {error}", structure.name));
             let found = deflection::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
             response.deflections.extend(found);
+            let found = drift::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
+            response.drifts.extend(found);
         }
         response.uplifts = uplift::all(cast, record);
         response.sways = sway::all(scene, record);
@@ -183,12 +201,18 @@ impl Response {
         if !self.deflections.is_empty() {
             out.insert("deflection_ratios".into(), self.deflections.iter().map(Deflection::json).collect());
         }
+        if !self.drifts.is_empty() {
+            out.insert("drift".into(), self.drifts.iter().map(Drift::json).collect());
+        }
         if !self.uplifts.is_empty() {
             out.insert("uplift".into(), self.uplifts.iter().map(Uplift::json).collect());
         }
         if !self.sways.is_empty() {
             let all = self.sways.iter().map(|sway| (sway.body.clone(), sway.json()));
             out.insert("sway".into(), Value::Object(all.collect()));
+        }
+        if !self.modes.is_empty() {
+            out.insert("natural_modes".into(), self.modes.iter().map(Natural::json).collect());
         }
         out
     }

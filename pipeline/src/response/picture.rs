@@ -3,7 +3,7 @@
 use splines::{Axis as Direction, Probe};
 
 use super::column::Direction as Toward;
-use super::{Column, Lines, Response};
+use super::{Column, Kind, Lines, Response};
 use crate::chart::{Axis, Chart, Series, Style};
 use crate::pictures::{Labelled, Plate};
 use crate::scene::{Origin, Scene};
@@ -24,13 +24,14 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
     let scene = run.scene;
     let mut plates = Vec::new();
-    let forces = response.columns.iter().filter(|column| column.is_reaction && column.direction.is_some());
+    let forces =
+        response.columns.iter().filter(|column| column.kind == Kind::Reaction && column.direction.is_some());
     let most = forces.map(|column| reach(run.record.values(&column.name))).fold(0.0, f64::max);
     for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
         let mut own: Vec<(f64, &Column)> = response
             .columns
             .iter()
-            .filter(|column| column.is_reaction && column.direction == Some(toward))
+            .filter(|column| column.kind == Kind::Reaction && column.direction == Some(toward))
             .map(|column| (reach(run.record.values(&column.name)), column))
             .filter(|(reach, _)| *reach > STILL * most)
             .collect();
@@ -88,7 +89,7 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
         for (rail, outline) in structure.rails.iter().enumerate() {
             let supports = super::spans(spec, &model, &rails, rail);
             for (index, column) in
-                lines.columns().iter().enumerate().filter(|(_, column)| !column.is_reaction)
+                lines.columns().iter().enumerate().filter(|(_, column)| column.kind == Kind::Section)
             {
                 let [from, to] = outline.range;
                 let point = |i: usize| {

@@ -1,12 +1,16 @@
 //! What the report says of reactions, internal forces, sag and uplift.
 
 use super::Response;
+use super::comparison::{Figures, comparison};
+use crate::record::Record;
 use crate::report::{Cell, Column, Section, Table};
 use crate::scene::Scene;
 use crate::units::Dimension;
 
 /// Most rows of a table.
 const ROWS: usize = 60;
+/// Share of a range below which a value is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// The section of the first run.
 #[must_use]
@@ -24,6 +28,9 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
     }
     if !response.deflections.is_empty() {
         section = section.table(deflections(scene, label, response));
+    }
+    if !response.drifts.is_empty() {
+        section = section.table(drifts(scene, label, response));
     }
     if !response.uplifts.is_empty() {
         let mut table = Table {
@@ -52,46 +59,140 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
     section
 }
 
+/// Runs beside each other in numbers; `None`: there is one alone, or nothing to compare.
+#[must_use]
+pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Section> {
+    let all = comparison(runs);
+    if all.is_empty() {
+        return None;
+    }
+    let more = all.len().saturating_sub(ROWS);
+    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let (_, record, _) = runs.first()?;
+    let mut rows = Vec::new();
+    for name in all.keys().take(ROWS) {
+        let column = record.columns.iter().find(|column| column.name == *name);
+        let unit = column.map_or_else(String::new, |column| scene.units.label(column.dimension));
+        let mut head = vec![Cell::from(name.clone()), Cell::from(unit)];
+        for (label, record, _) in runs {
+            let Some(found) = Figures::new(record, name) else { continue };
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
+            row.push(Cell::from(*label));
+            let range = found.peak.value - found.least.value;
+            let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
+                .map(|value| short(cleared(value, range)));
+            row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
+            row.push(Cell::from(found.excursions));
+            row.push(found.hertz().map_or(Cell::Empty, short));
+            rows.push(row);
+        }
+    }
+    let columns = [
+        ("quantity", ""),
+        ("unit", ""),
+        ("run", ""),
+        ("settled mean", ""),
+        ("peak", ""),
+        ("at time", "s"),
+        ("least", ""),
+        ("at time", "s"),
+        ("excursions", ""),
+        ("frequency", "Hz"),
+    ];
+    let caption = format!(
+        "Settled mean over the last quarter of each run, extremes, how often 5 % about the mean are left, and the strongest \
+         frequency in that quarter.{rest}"
+    );
+    let columns = columns.map(|(name, unit)| Column::new(name, unit)).into();
+    Some(Section::new("Run against run").table(Table { caption, columns, rows }))
+}
+
 fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
     let more = response.envelopes.len().saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
-    let mut table = Table {
-        caption: format!(
-            "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
-        ),
-        columns: vec![
-            Column::new("quantity", ""),
-            Column::new("unit", ""),
-            Column::new("max", ""),
-            Column::new("at time", "s"),
-            Column::new("bodies at", ""),
-            Column::new("min", ""),
-            Column::new("at time", "s"),
-            Column::new("bodies at", ""),
-            Column::new("own weight", ""),
-        ],
-        rows: Vec::new(),
-    };
+    let length = scene.units.label(Dimension::LENGTH);
+    let mut columns = [("quantity", ""), ("unit", ""), ("", ""), ("value", ""), ("at time", "s")]
+        .map(|(n, u)| Column::new(n, u))
+        .to_vec();
+    columns.extend(scene.bodies.iter().map(|body| Column::new(body.name.as_str(), &length)));
+    columns.push(Column::new("own weight", ""));
+    let mut rows = Vec::new();
     let own = response.columns.iter().zip(&response.dead);
     for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
-        let mut row =
-            vec![Cell::from(envelope.column.clone()), Cell::from(scene.units.label(column.dimension))];
-        for extreme in [&envelope.max, &envelope.min] {
-            row.extend([Cell::from(extreme.value), Cell::from(extreme.time), Cell::from(places(extreme))]);
+        let unit = Cell::from(scene.units.label(column.dimension));
+        let range = envelope.max.value - envelope.min.value;
+        let mut head = vec![Cell::from(envelope.column.clone()), unit];
+        let mut weight = Cell::from(*dead);
+        for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
+            let value = Cell::from(cleared(extreme.value, range));
+            row.extend([Cell::from(word), value, Cell::from(extreme.time)]);
+            row.extend(extreme.bodies.iter().map(|(_, at)| Cell::from(place(at))));
+            row.push(std::mem::take(&mut weight));
+            rows.push(row);
         }
-        row.push(Cell::from(*dead));
-        table.rows.push(row);
     }
-    table
+    let caption = format!(
+        "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
+    );
+    Table { caption, columns, rows }
 }
 
-fn places(extreme: &super::Extreme) -> String {
-    let text = |x: &f64| crate::report::number(*x, 5).unwrap_or_default();
-    let all = extreme.bodies.iter().map(|(name, at)| {
-        let at: Vec<String> = at.iter().map(text).collect();
-        format!("{name} {}", at.join(", "))
-    });
-    all.collect::<Vec<_>>().join("; ")
+/// The value, or zero where it is what rounding leaves of a range.
+fn cleared(value: f64, range: f64) -> f64 {
+    if value.abs() < ROUNDING * range { 0.0 } else { value }
+}
+
+/// A number to five digits.
+fn short(value: f64) -> Cell {
+    Cell::from(format!("{value:.4e}").parse().unwrap_or(value))
+}
+
+/// Coordinates of a body.
+fn place(at: &[f64]) -> String {
+    at.iter().map(|x| crate::report::number(*x, 4).unwrap_or_default()).collect::<Vec<_>>().join("; ")
+}
+
+fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let columns = [
+        "rail",
+        "column at",
+        "height",
+        "displacement",
+        "at time",
+        "height over it",
+        "code",
+        "accepts",
+        "keeps",
+    ];
+    let unit_of = |name: &str| match name {
+        "column at" | "height" | "displacement" | "accepts" => unit.as_str(),
+        "at time" => "s",
+        _ => "",
+    };
+    let mut rows = Vec::new();
+    for found in response.drifts.iter().take(ROWS) {
+        let mut head = vec![
+            Cell::from(found.rail.clone()),
+            Cell::from(found.x),
+            Cell::from(found.height),
+            Cell::from(found.value),
+            Cell::from(found.time),
+            found.ratio().map_or(Cell::Empty, Cell::from),
+        ];
+        for (code, clause, most) in &found.limits {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 6]);
+            row.extend([Cell::from(format!("{code}, {clause}")), Cell::from(*most)]);
+            row.push(Cell::from(if found.value <= *most { "yes" } else { "no" }));
+            rows.push(row);
+        }
+    }
+    Table {
+        caption: format!("Largest displacement sideways of each rail over a column in the run \"{label}\"."),
+        columns: columns.map(|name| Column::new(name, unit_of(name))).into(),
+        rows,
+    }
 }
 
 fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {

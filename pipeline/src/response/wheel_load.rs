@@ -20,11 +20,9 @@ pub struct WheelLoad {
 
 /// Reads wheel loads off samples of a history.
 ///
-/// A drive acts at the treads of its driven wheels in equal shares, a brake at those of the braked ones by their
-/// vertical force times friction. The force that a prescribed motion needs comes from nowhere on the rails.
+/// The force that a prescribed motion needs comes from nowhere on the rails.
 pub struct WheelLoads {
     wheels: Vec<Wheel>,
-    pulls: Vec<Pull>,
     stops: Vec<Stop>,
 }
 
@@ -42,14 +40,6 @@ struct Wheel {
     rail: usize,
     /// First channel of the wheel: place, vertical, lateral, traction.
     first: usize,
-    /// Friction coefficient.
-    mu: f64,
-}
-
-struct Pull {
-    channel: usize,
-    wheels: Vec<usize>,
-    is_brake: bool,
 }
 
 impl WheelLoads {
@@ -59,30 +49,11 @@ impl WheelLoads {
         let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
         let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
-            let friction = scene.wheels[wheel.kind].friction.as_ref();
             Wheel {
                 structure: rail.structure,
                 rail: rail.rail,
                 first: channel(Channel::Place(w)).unwrap_or_default(),
-                mu: friction.map_or(1.0, |friction| friction.mu),
             }
-        });
-        let mut next = 0;
-        let of_contact: Vec<_> = cast
-            .scene
-            .contacts
-            .iter()
-            .map(|contact| {
-                next += contact.offsets.len();
-                next - contact.offsets.len()..next
-            })
-            .collect();
-        let on = |contacts: &[usize]| contacts.iter().flat_map(|c| of_contact[*c].clone()).collect();
-        let actuators = &cast.scene.actuators;
-        let drives = actuators.drives.iter().map(|d| (Channel::Drive(d.body), on(&d.contacts), false));
-        let brakes = actuators.brakes.iter().map(|b| (Channel::Brake(b.body), on(&b.contacts), true));
-        let pulls = drives.chain(brakes).filter_map(|(wanted, wheels, is_brake)| {
-            Some(Pull { channel: channel(wanted)?, wheels, is_brake })
         });
         let met =
             scene.stops.iter().flat_map(|stop| stop.meetings.iter().map(move |meeting| (stop, meeting)));
@@ -96,7 +67,7 @@ impl WheelLoads {
                 side: meeting.side,
             })
         });
-        WheelLoads { wheels: wheels.collect(), pulls: pulls.collect(), stops: stops.collect() }
+        WheelLoads { wheels: wheels.collect(), stops: stops.collect() }
     }
 
     /// Loads of all wheels at a sample, in their order, then of the end stops.
@@ -111,18 +82,6 @@ impl WheelLoads {
                 WheelLoad { structure: wheel.structure, rail: wheel.rail, x, force }
             })
             .collect();
-        for pull in &self.pulls {
-            let weight = |w: usize| {
-                if pull.is_brake { self.wheels[w].mu * (0.0 - loads[w].force[1]).max(0.0) } else { 1.0 }
-            };
-            let shares: Vec<f64> = pull.wheels.iter().map(|&w| weight(w)).collect();
-            let sum: f64 = shares.iter().sum();
-            if sum > 0.0 {
-                for (&w, share) in pull.wheels.iter().zip(&shares) {
-                    loads[w].force[0] -= sample[pull.channel] * share / sum;
-                }
-            }
-        }
         loads.extend(self.stops.iter().map(|stop| {
             let force = [stop.side * sample[stop.channel], 0.0, 0.0];
             WheelLoad { structure: stop.structure, rail: stop.rail, x: stop.x, force }

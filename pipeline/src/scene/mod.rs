@@ -10,6 +10,7 @@ mod method;
 mod mount;
 mod output;
 mod pin;
+mod practice;
 mod raw;
 mod read;
 mod rope;
@@ -28,7 +29,9 @@ pub use compare::{Case, Document};
 pub use event::Event;
 pub use gauge::Gauge;
 pub use method::STEPPERS;
-pub use output::{Output, Pick};
+pub use output::{Fatigue, Output, Pick};
+pub use practice::Practice;
+pub(crate) use practice::{across, seat};
 pub use rope::Rope;
 pub use spin::Spin;
 pub use stop::{Meeting, Stop};
@@ -80,6 +83,8 @@ pub struct Scene {
     pub dt: f64,
     /// What is written beside the motion.
     pub output: Output,
+    /// What the codes of crane engineers need; none = they are not asked.
+    pub practice: Option<Practice>,
     /// Relative error allowed to the steps.
     pub accuracy: f64,
     /// How the motion is integrated.

@@ -1,11 +1,13 @@
 //! What a run writes beside the motion: the scene's member `output`.
 
-use super::raw::{RawColumns, RawOutput, RawScene};
+use practice::History;
+
+use super::raw::{RawColumns, RawFatigue, RawOutput, RawScene};
 use super::{Origin, SceneRail, Structure};
 use crate::check::Check;
 use crate::fault::{Fault, nearest};
 use crate::place::Place;
-use crate::response::names;
+use crate::response::{names, stresses};
 use crate::units::Dimension;
 
 /// Which quantities of one kind become columns.
@@ -47,10 +49,51 @@ pub struct Output {
     pub reactions: Pick,
     /// Internal forces at the sections that specs name.
     pub sections: Pick,
+    /// Stresses at the points that specs give with sections.
+    pub stresses: Pick,
+    /// How these are judged.
+    pub fatigue: Fatigue,
     /// Whether they include those of the structures' own weight.
     pub dead_load: bool,
     /// Ends of the spans of rails whose deflections are judged, where the scene gives them: rail of the scene, coordinates.
     pub spans: Vec<(usize, Vec<f64>)>,
+}
+
+/// How stress histories are judged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Fatigue {
+    /// gamma_Ff on the ranges.
+    pub loads: f64,
+    /// gamma_Mf of the strength.
+    pub material: f64,
+    /// Whether the history happens once or follows itself.
+    pub history: History,
+    /// How often the run happens in the life looked at, if that is known.
+    pub crossings: Option<f64>,
+}
+
+impl Default for Fatigue {
+    fn default() -> Fatigue {
+        Fatigue { loads: 1.0, material: 1.0, history: History::Once, crossings: None }
+    }
+}
+
+fn read_fatigue(raw: &Option<RawFatigue>, at: &Place<'_>, check: &mut Check<'_>) -> Fatigue {
+    let mut fatigue = Fatigue::default();
+    let Some(raw) = raw else { return fatigue };
+    for (given, key, value) in
+        [(raw.loads, "gamma_Ff", &mut fatigue.loads), (raw.material, "gamma_Mf", &mut fatigue.material)]
+    {
+        if let Some(given) = given {
+            *value = check.positive(given, &at.key(key), Dimension::NUMBER, "a partial factor, such as 1.15");
+        }
+    }
+    let words = [("once", History::Once), ("repeated", History::Repeated)];
+    let history = raw.history.as_ref().and_then(|word| check.faults.word(word, &at.key("history"), &words));
+    fatigue.history = history.unwrap_or(History::Once);
+    let hint = "how often the run happens in a life";
+    fatigue.crossings = check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
+    fatigue
 }
 
 pub(super) fn read(
@@ -62,10 +105,13 @@ pub(super) fn read(
 ) -> Output {
     let Some(raw) = &raw.output else { return Output::default() };
     let at = root.key("output");
-    let known: Vec<[Vec<String>; 2]> = structures
+    let known: Vec<[Vec<String>; 3]> = structures
         .iter()
         .filter_map(|structure| match &structure.origin {
-            Origin::Spec { spec, .. } => Some(names(&structure.name, spec)),
+            Origin::Spec { spec, .. } => {
+                let [reactions, sections] = names(&structure.name, spec);
+                Some([reactions, sections, stresses(&structure.name, spec)])
+            }
             Origin::Tables { .. } => None,
         })
         .collect();
@@ -101,8 +147,15 @@ pub(super) fn read(
         1,
         "a structure, or `<structure>.<section>` or `.<component>` of it, of the spec's `effects`",
     );
+    let stresses = pick(
+        &raw.stresses,
+        "stresses",
+        2,
+        "a structure, or `<structure>.<section>` or `.<point>` of it, of the `points` of the spec's sections",
+    );
+    let fatigue = read_fatigue(&raw.fatigue, &at.key("fatigue"), check);
     let spans = read_spans(raw, rails, &at.key("spans"), check);
-    Output { reactions, sections, dead_load: raw.dead_load, spans }
+    Output { reactions, sections, stresses, fatigue, dead_load: raw.dead_load, spans }
 }
 
 fn read_spans(

@@ -35,7 +35,8 @@ crate::object::objects!(
     RawFollow,
     RawHoist,
     RawEnd,
-    RawOutput
+    RawOutput,
+    RawFatigue
 );
 
 #[derive(Debug, Deserialize)]
@@ -66,6 +67,7 @@ pub(crate) struct RawScene {
     pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
+    pub practice: Option<super::practice::RawPractice>,
     pub accuracy: Option<f64>,
     pub stepper: Option<String>,
     pub step: Option<f64>,
@@ -80,6 +82,7 @@ pub(crate) struct RawStructure {
     pub tables: Option<RawTables>,
     pub foundation: Option<String>,
     pub reading: Option<String>,
+    pub couplings: Option<String>,
     pub tolerance: Option<f64>,
     pub count: Option<usize>,
     pub handover: Option<String>,
@@ -436,10 +439,23 @@ pub(crate) struct RawOutput {
     pub dt: Option<f64>,
     pub reactions: Option<RawColumns>,
     pub sections: Option<RawColumns>,
+    pub stresses: Option<RawColumns>,
+    pub fatigue: Option<RawFatigue>,
     #[serde(default)]
     pub dead_load: bool,
     #[serde(default)]
     pub spans: Entries<Vec<f64>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawFatigue {
+    #[serde(rename = "gamma_Ff")]
+    pub loads: Option<f64>,
+    #[serde(rename = "gamma_Mf")]
+    pub material: Option<f64>,
+    pub history: Option<String>,
+    pub crossings: Option<f64>,
 }
 
 /// All, none, or some by their names.

@@ -3,7 +3,7 @@
 use super::raw::RawScene;
 use super::{
     Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
-    output, pin, rope, spin, stop, structure, truck, wheel,
+    output, pin, practice, rope, spin, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -93,6 +93,7 @@ pub(super) fn scene(
         ropes,
         stops: Vec::new(),
         events: Vec::new(),
+        practice: None,
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(
@@ -111,6 +112,9 @@ pub(super) fn scene(
     event::fit_brakes(&raw.events, &mut scene.bodies);
     scene.events = event::read_all(&raw.events, &scene, check);
     actuator::check_wheels(raw, &scene, check.faults);
+    if scene.trucks.len() == raw.trucks.len() {
+        scene.practice = practice::read(&raw.practice, &scene, &root, check);
+    }
     let held = check.faults.0.is_empty();
     if held {
         mount::check(&scene, check.faults);

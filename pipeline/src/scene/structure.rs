@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use splines::Couplings;
+
 use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
 use super::{irregularity, ties};
@@ -30,6 +32,8 @@ pub struct Structure {
     pub damping: f64,
     /// How its table is read.
     pub reading: Reading,
+    /// Which of its couplings count.
+    pub couplings: Couplings,
     /// Relative error allowed to the choice of the foundation.
     pub tolerance: f64,
     /// Places whose displacement is recorded.
@@ -94,6 +98,8 @@ pub enum Foundation {
         count: usize,
         /// How a wheel passes from one to the next.
         handover: Handover,
+        /// Share of critical damping of each natural mode of parts with mass.
+        damping: f64,
     },
     /// By its influence coefficients, without mass.
     Influence,
@@ -230,6 +236,7 @@ pub(super) fn read(
         Some(word) => check.faults.word(word, &at.key("reading"), &Reading::WORDS).unwrap_or(Reading::Exact),
         None => Reading::Exact,
     };
+    let couplings = read_couplings(raw, word, at, check);
     let tolerance = read_tolerance(raw, at, check);
     let ties = ties::read(raw, matches!(word, Word::Ties), at, check);
     let origin = match (&raw.spec, &raw.tables) {
@@ -259,7 +266,7 @@ pub(super) fn read(
     };
     let foundation = match word {
         Word::Rigid => Foundation::Rigid,
-        Word::Parts => Foundation::Parts { count, handover },
+        Word::Parts => Foundation::Parts { count, handover, damping },
         Word::Influence | Word::Auto => Foundation::Influence,
         Word::Modal => Foundation::Modal { modes: raw.modes.unwrap_or(MODES), damping },
         Word::Ties => ties::foundation(raw, ties.as_ref(), damping, at, check),
@@ -310,6 +317,7 @@ pub(super) fn read(
         auto,
         damping,
         reading,
+        couplings,
         tolerance,
         gauges,
         longitudinal: raw.longitudinal.unwrap_or(false),
@@ -333,6 +341,24 @@ fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) ->
         ("auto", Word::Auto),
     ];
     check.faults.word(word, &place, &words).unwrap_or(Word::Auto)
+}
+
+/// Words of what a structure may leave out.
+const COUPLINGS: [(&str, Couplings); 3] =
+    [("all", Couplings::All), ("within rails", Couplings::WithinRails), ("none", Couplings::None)];
+
+/// Couplings can be left out of what has no freedoms of its own; natural modes move all rails together.
+fn read_couplings(raw: &RawStructure, word: Word, at: &Place<'_>, check: &mut Check<'_>) -> Couplings {
+    let Some(given) = &raw.couplings else { return Couplings::All };
+    let place = at.key("couplings");
+    let couplings = check.faults.word(given, &place, &COUPLINGS).unwrap_or_default();
+    if couplings != Couplings::All && !matches!(word, Word::Influence | Word::Rigid) {
+        let fault = Fault::new(&place, "can be left out of the foundation \"influence\" alone").at_key();
+        check
+            .faults
+            .add(fault.hint("modes and parts move all that they join; \"rigid\" has nothing to leave out"));
+    }
+    couplings
 }
 
 /// Relative error allowed to the choice of a foundation.

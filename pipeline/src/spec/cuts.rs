@@ -4,6 +4,7 @@ use fea::Girder;
 
 use super::members::Cells;
 use super::raw::{RawCut, RawSpec};
+use super::stress::StressPoint;
 use crate::check::Check;
 use crate::fault::{Fault, number};
 use crate::place::Place;
@@ -20,6 +21,8 @@ pub struct Cut {
     pub member: usize,
     /// Place along the member's flexible part, 0..=1.
     pub place: f64,
+    /// Points of the section whose stresses are wanted.
+    pub points: Vec<StressPoint>,
 }
 
 /// A place of a structure as users know it.
@@ -35,6 +38,7 @@ pub enum Spot {
 pub(super) fn read_girder(
     raw: &RawSpec,
     girder: &Girder,
+    points: &[StressPoint],
     sound: bool,
     root: &Place<'_>,
     check: &mut Check<'_>,
@@ -74,13 +78,19 @@ pub(super) fn read_girder(
         let members = bounds.len() - 1;
         let member = bounds[1..members].partition_point(|bound| *bound <= x + slack);
         let place = ((x - bounds[member]) / (bounds[member + 1] - bounds[member])).clamp(0.0, 1.0);
-        cuts.push(Cut { name, spot: Spot::Along(x), member, place });
+        cuts.push(Cut { name, spot: Spot::Along(x), member, place, points: points.to_vec() });
     });
     cuts
 }
 
 /// Cuts of the general form, on the cells as the file has them.
-pub(super) fn read_frame(raw: &RawSpec, cells: &Cells, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Cut> {
+pub(super) fn read_frame(
+    raw: &RawSpec,
+    cells: &Cells,
+    points: &dyn Fn(usize) -> Vec<StressPoint>,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<Cut> {
     let mut cuts = Vec::new();
     each(raw, root, check, |raw, at, name, check| {
         if raw.x.is_some() {
@@ -95,7 +105,7 @@ pub(super) fn read_frame(raw: &RawSpec, cells: &Cells, root: &Place<'_>, check: 
         }
         let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));
         if let (Some(cell), Some(member), Some(place)) = (cell, member, share) {
-            cuts.push(Cut { name, spot: Spot::Cell(cell, place), member, place });
+            cuts.push(Cut { name, spot: Spot::Cell(cell, place), member, place, points: points(member) });
         }
     });
     cuts

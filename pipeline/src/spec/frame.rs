@@ -4,6 +4,7 @@ use fea::{Freedom, Link, Mass, Model, Segment, Spring, Support, Taper, Theory};
 
 use super::cuts::{self, Cut};
 use super::raw::RawSpec;
+use super::stress::{self, StressPoint};
 use super::{members, rails, sections};
 use crate::check::Check;
 use crate::fault::Fault;
@@ -74,7 +75,14 @@ pub(super) fn read(
     read_masses(raw, root, &mut model, check);
     let point_sets = read_sets(raw, root, &model, check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
-    let cuts = cuts::read_frame(raw, &cells, root, check);
+    let points = stress::of_sections(raw, root, check);
+    // a tapered cell has no section of its own between its ends
+    let of = |member: usize| -> Vec<StressPoint> {
+        let uniform = cells.tapers.get(member).is_some_and(Option::is_none);
+        let section = model.members.get(member).map(|member| member.section).filter(|_| uniform);
+        section.and_then(|section| points.get(section)).cloned().unwrap_or_default()
+    };
+    let cuts = cuts::read_frame(raw, &cells, &of, root, check);
     let points = model.points.len();
     let frame =
         Frame { model, rails, ranges, sections, points, cells: cells.places, point_sets, pads: Vec::new() };

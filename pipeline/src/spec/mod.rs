@@ -9,6 +9,7 @@ mod members;
 mod rails;
 mod raw;
 mod sections;
+mod stress;
 mod tapers;
 #[cfg(test)]
 mod tests;
@@ -18,6 +19,7 @@ use fea::{Girder, Model, Rail, Theory};
 pub use cuts::{Cut, Spot};
 pub use frame::Frame;
 pub use grounds::Ground;
+pub use stress::{Detail, StressPoint};
 
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -176,9 +178,11 @@ impl Spec {
             Some(girder) => {
                 refuse_general(raw, &root, check.faults);
                 let before = check.faults.0.len();
+                let points = &girder.points;
                 let girder = girder::read(girder, &raw.stations, theory, &root, &mut check);
                 let sound = check.faults.0.len() == before;
-                let effects = cuts::read_girder(raw, &girder, sound, &root, &mut check);
+                let points = stress::read(points, &root.key("girder"), &mut check);
+                let effects = cuts::read_girder(raw, &girder, &points, sound, &root, &mut check);
                 (Form::Girder(girder), effects)
             }
             None if raw.points.is_some() || raw.cells.is_some() => {

@@ -1,6 +1,9 @@
 //! A beam spec as written: the members of both forms, unchecked.
 
+use std::fmt;
+
 use serde::Deserialize;
+use serde::de::{Deserializer, Error, Visitor};
 
 use crate::entries::Entries;
 use crate::units::RawUnits;
@@ -12,6 +15,7 @@ crate::object::objects!(
     RawCellData,
     RawMaterial,
     RawSection,
+    RawPoint,
     RawSupport,
     RawSpring,
     RawLink,
@@ -70,6 +74,8 @@ pub(crate) struct RawGirder {
     pub ka_lateral: Option<f64>,
     pub rail_height: Option<f64>,
     pub mass_per_length: Option<f64>,
+    #[serde(default)]
+    pub points: Vec<RawPoint>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -122,6 +128,56 @@ pub(crate) struct RawSection {
     pub asy: Option<f64>,
     #[serde(rename = "Asz")]
     pub asz: Option<f64>,
+    #[serde(default)]
+    pub points: Vec<RawPoint>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawPoint {
+    pub name: Option<String>,
+    pub y: Option<f64>,
+    pub z: Option<f64>,
+    pub detail: Option<RawDetail>,
+}
+
+/// A detail category: a number of N/mm2, or a letter.
+#[derive(Debug)]
+pub(crate) enum RawDetail {
+    Number(f64),
+    Word(String),
+}
+
+impl<'de> Deserialize<'de> for RawDetail {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(DetailVisitor)
+    }
+}
+
+struct DetailVisitor;
+
+impl Visitor<'_> for DetailVisitor {
+    type Value = RawDetail;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a number such as 112, or a letter such as \"C\"")
+    }
+
+    fn visit_f64<E: Error>(self, value: f64) -> Result<RawDetail, E> {
+        Ok(RawDetail::Number(value))
+    }
+
+    fn visit_i64<E: Error>(self, value: i64) -> Result<RawDetail, E> {
+        Ok(RawDetail::Number(value as f64))
+    }
+
+    fn visit_u64<E: Error>(self, value: u64) -> Result<RawDetail, E> {
+        Ok(RawDetail::Number(value as f64))
+    }
+
+    fn visit_str<E: Error>(self, word: &str) -> Result<RawDetail, E> {
+        Ok(RawDetail::Word(word.to_owned()))
+    }
 }
 
 #[derive(Debug, Deserialize)]

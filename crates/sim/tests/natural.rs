@@ -1,0 +1,104 @@
+//! Natural modes of scenes at rest, against closed forms and the eigenvalues of matrices written out for the case.
+
+mod common;
+
+use common::GRAVITY;
+use common::crane::{BRIDGE, TROLLEY, body, carried, crane_of};
+use common::space::{self, G};
+use nalgebra::{Matrix3, SymmetricEigen};
+use sim::{Actuators, Body, Freedom, NaturalMode, Rope, RopeEnd, Scene, Schedule, natural_modes};
+
+const LADLE: f64 = 31_700.0;
+const EA: f64 = 2.8e8;
+const LENGTH: f64 = 40.0;
+
+/// Bridge and trolley with the freedoms given, and a ladle at rest below the middle of the trolley.
+fn crane(bridge: &[Freedom], trolley: &[Freedom]) -> Scene {
+    let mut scene =
+        crane_of(body(BRIDGE, [1e6, 4e6, 4e6], bridge), body(TROLLEY, [9e4, 2e5, 2e5], trolley), 1.0);
+    scene.bodies.push(body(LADLE, [0.0; 3], &[Freedom::X, Freedom::Y, Freedom::Z]));
+    scene.actuators.hung = vec![2];
+    scene.actuators.ropes = vec![Rope {
+        from: RopeEnd { body: Some(1), at: [0.0; 3] },
+        to: RopeEnd { body: Some(2), at: [0.0; 3] },
+        stiffness: EA,
+        damping: 7e4,
+        length: LENGTH,
+        speed: Schedule::new(&[[0.0, 0.0]]).expect("a valid table"),
+    }];
+    scene
+}
+
+fn found(scene: &Scene) -> Vec<NaturalMode> {
+    let foundations = [sim::Foundation::rigid(), carried([0.0, 0.0, 1.0], [0.0, 3.0, 0.0])];
+    let place: Vec<f64> = scene.bodies.iter().map(|body: &Body| body.start[0]).collect();
+    natural_modes(scene, &foundations, 0.0, &place).expect("a scene at rest").expect("few freedoms")
+}
+
+/// Analytic: sqrt(g/l) twice and sqrt(k/m) of a mass on an elastic rope.
+#[test]
+fn a_hung_mass_swings_and_bounces() {
+    let (m, l0, ea) = (1000.0, 8.0, 1e6);
+    let stretched = l0 * (1.0 + m * G / ea);
+    let actuators = Actuators {
+        ropes: vec![space::rope(ea, l0, [None, Some(0)])],
+        hung: vec![0],
+        ..Actuators::default()
+    };
+    let scene = space::scene(vec![space::body(m, [true; 3], [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6);
+    let modes = natural_modes(&scene, &[], 0.0, &[0.0]).expect("at rest").expect("three freedoms");
+    let swing = (G / stretched).sqrt();
+    let wanted = [swing, swing, (ea / l0 / m).sqrt()];
+    assert_eq!(modes.len(), 3);
+    for (mode, wanted) in modes.iter().zip(wanted) {
+        assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
+    }
+    assert!(modes[2].share[0][1] > 1.0 - 1e-9, "{:?}", modes[2]);
+}
+
+/// Independent: three masses on springs in a row, the bridge's wheels, the trolley's wheels and the rope; dampers do not count.
+#[test]
+fn a_crane_bounces_as_three_masses_in_a_row() {
+    let scene = crane(&[Freedom::Y], &[Freedom::Y]);
+    let wheels = 4.0 * scene.wheels[0].normal.stiffness;
+    let rope = EA / LENGTH;
+    let stiffness = Matrix3::new(
+        2.0 * wheels,
+        -wheels,
+        0.0, //
+        -wheels,
+        wheels + rope,
+        -rope, //
+        0.0,
+        -rope,
+        rope,
+    );
+    let masses = [BRIDGE, TROLLEY, LADLE];
+    let scaled = Matrix3::from_fn(|i, j| stiffness[(i, j)] / (masses[i] * masses[j]).sqrt());
+    let mut wanted: Vec<f64> = SymmetricEigen::new(scaled).eigenvalues.iter().map(|w| w.sqrt()).collect();
+    wanted.sort_by(f64::total_cmp);
+    let modes = found(&scene);
+    let upright: Vec<&NaturalMode> =
+        modes.iter().filter(|mode| mode.share[2][0] + mode.share[2][2] < 0.5).collect();
+    assert_eq!(upright.len(), 3, "{modes:?}");
+    for (mode, wanted) in upright.iter().zip(wanted) {
+        assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
+        let sum: f64 = mode.share.iter().flatten().sum();
+        assert!((sum + mode.structures - 1.0).abs() < 1e-9, "{sum}");
+    }
+    assert!(upright[0].share[2][1] > 0.9, "{:?}", upright[0]);
+}
+
+/// Analytic: a ladle below a crane that rolls freely swings with g (1 + m/M)/l along the runway, and with g/l across; the
+/// crane's own way along x is held by nothing and is no mode.
+#[test]
+fn a_ladle_swings_faster_below_a_crane_that_rolls() {
+    let modes = found(&crane(&[Freedom::X], &[]));
+    let length = LENGTH * (1.0 + LADLE * GRAVITY / EA);
+    let across = (GRAVITY / length).sqrt();
+    let along = across * (1.0 + LADLE / (BRIDGE + TROLLEY)).sqrt();
+    assert_eq!(modes.len(), 3, "{modes:?}");
+    for (mode, wanted) in modes.iter().zip([across, along]) {
+        assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
+    }
+}

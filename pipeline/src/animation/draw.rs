@@ -1,0 +1,154 @@
+//! A picture under construction, in pixels, with elements that move.
+
+use super::film::Track;
+
+/// Width of the picture.
+pub(super) const WIDTH: f64 = 860.0;
+/// Room at both sides.
+pub(super) const SIDE: f64 = 56.0;
+
+pub(super) const INK: &str = "#22222a";
+pub(super) const GREY: &str = "#8a8a92";
+pub(super) const STEEL: &str = "#c9d3dc";
+pub(super) const DARK: &str = "#7d8fa0";
+pub(super) const ORANGE: &str = "#d65a0b";
+pub(super) const BLUE: &str = "#0b55a4";
+
+/// The picture.
+pub(super) struct Drawing {
+    body: String,
+    tracks: Vec<(usize, Track)>,
+    elements: usize,
+}
+
+impl Drawing {
+    pub fn new() -> Drawing {
+        Drawing { body: String::new(), tracks: Vec::new(), elements: 0 }
+    }
+
+    fn add(&mut self, text: &str) {
+        self.body.push_str(text);
+        self.body.push('\n');
+    }
+
+    /// The attribute of a new element that follows the tracks.
+    fn element(&mut self, tracks: impl IntoIterator<Item = Track>) -> String {
+        let element = self.elements;
+        self.elements += 1;
+        self.tracks.extend(tracks.into_iter().map(|track| (element, track)));
+        format!("data-m=\"{element}\"")
+    }
+
+    /// What `draw` adds moves along `places`; drawn as at the frame `still`.
+    pub fn moving(&mut self, places: Vec<[f64; 2]>, still: usize, draw: impl FnOnce(&mut Drawing)) {
+        let [x, y] = places.get(still).copied().unwrap_or_default();
+        let mark = self.element([Track::Move(places)]);
+        self.add(&format!("<g {mark} transform=\"translate({x:.2} {y:.2})\">"));
+        draw(self);
+        self.add("</g>");
+    }
+
+    pub fn line(&mut self, [from, to]: [[f64; 2]; 2], colour: &str, width: f64) {
+        let [[x1, y1], [x2, y2]] = [from, to];
+        self.add(&format!(
+            "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+        ));
+    }
+
+    pub fn rectangle(&mut self, [left, top, width, height]: [f64; 4], fill: &str) {
+        self.add(&format!(
+            "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1\"/>"
+        ));
+    }
+
+    pub fn shape(&mut self, points: &[[f64; 2]], fill: &str) {
+        let all: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
+        self.add(&format!(
+            "<polygon points=\"{}\" fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1\"/>",
+            all.join(" ")
+        ));
+    }
+
+    pub fn disc(&mut self, [x, y]: [f64; 2], radius: f64, fill: &str) {
+        self.add(&format!(
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1\"/>"
+        ));
+    }
+
+    /// A bar from a place whose other end has these values of `x2` or `y2`.
+    pub fn bar(
+        &mut self,
+        [x, y]: [f64; 2],
+        end: &'static str,
+        values: Vec<f64>,
+        still: usize,
+        style: (&str, f64),
+    ) {
+        let now = values.get(still).copied().unwrap_or_default();
+        let [x2, y2] = if end == "x2" { [now, y] } else { [x, now] };
+        let mark = self.element([Track::Set(end, values)]);
+        let (colour, width) = style;
+        self.add(&format!(
+            "<line {mark} x1=\"{x:.2}\" y1=\"{y:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+        ));
+    }
+
+    /// A line both of whose ends move.
+    pub fn rope(&mut self, ends: [Vec<[f64; 2]>; 2], still: usize) {
+        let now = ends.each_ref().map(|end| end.get(still).copied().unwrap_or_default());
+        let part = |end: usize, k: usize| ends[end].iter().map(|place| place[k]).collect();
+        let tracks = [
+            Track::Set("x1", part(0, 0)),
+            Track::Set("y1", part(0, 1)),
+            Track::Set("x2", part(1, 0)),
+            Track::Set("y2", part(1, 1)),
+        ];
+        let mark = self.element(tracks);
+        let [[x1, y1], [x2, y2]] = now;
+        self.add(&format!(
+            "<line {mark} x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{INK}\" stroke-width=\"1.2\"/>"
+        ));
+    }
+
+    pub fn text(&mut self, [x, y]: [f64; 2], text: &str, style: (&str, f64), anchor: &str) {
+        let (colour, size) = style;
+        let text = escaped(text);
+        self.add(&format!(
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{colour}\" font-size=\"{size}\" text-anchor=\"{anchor}\">{text}</text>"
+        ));
+    }
+
+    /// A name with a number that changes, and its unit.
+    pub fn reading(
+        &mut self,
+        [x, y]: [f64; 2],
+        name: &str,
+        unit: &str,
+        digits: usize,
+        values: Vec<f64>,
+        still: usize,
+    ) {
+        let now = values.get(still).copied().unwrap_or_default();
+        let mark = self.element([Track::Say(digits, values)]);
+        let (name, unit) = (escaped(name), escaped(unit));
+        let end = x + 196.0;
+        self.add(&format!(
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{GREY}\" font-size=\"12\">{name}</text>\
+             <text x=\"{end:.2}\" y=\"{y:.2}\" fill=\"{INK}\" font-size=\"12\" text-anchor=\"end\"><tspan {mark}>{now:.digits$}</tspan> {unit}</text>"
+        ));
+    }
+
+    /// The picture as an SVG file, and its tracks.
+    pub fn finish(self, width: f64, height: f64) -> (String, Vec<(usize, Track)>) {
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" \
+             font-family=\"Arial, Helvetica, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n{}</svg>\n",
+            self.body
+        );
+        (svg, self.tracks)
+    }
+}
+
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}

@@ -1,0 +1,159 @@
+//! `girderway study`: accuracy against cost of a scene.
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use super::run::solve_all;
+use crate::cases::{Known, specs};
+use crate::cli::{Global, Study as Arguments};
+use crate::diagnostic::Diagnostic;
+use crate::exit::{Exit, Failure};
+use crate::manifest::Manifest;
+use crate::output::{self, Folder};
+use crate::progress::Progress;
+use crate::scene::{Case, Document};
+use crate::study::stability::{self, Subject, Verdict};
+use crate::study::{self, Depth, Family, Point, Study};
+
+/// Runs a scene on a ladder of settings, measures errors and times, and draws them.
+///
+/// # Errors
+/// What is wrong with the scene or the files it names; references that do not tell what they are asked to: these are
+/// written all the same.
+pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let mut document = Document::open(&args.scene)?;
+    let name = document.scene().name.clone();
+    document.cases = vec![case(&document, args)?];
+    let scene = document.scene().clone();
+    let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&name));
+    let mut folder = Folder::new(&path)?;
+    let mut depth = if args.quick { Depth::quick() } else { Depth::full() };
+    depth.limit = args.limit.unwrap_or(depth.limit);
+    depth.resolution = args.resolution.unwrap_or(depth.resolution);
+
+    let known = solve_all(&document, &specs(&document), &progress)?;
+    if args.stability {
+        return stability(args, &document, &known, folder, global);
+    }
+    let study = study::study(&scene, &known, &depth, &progress)?;
+
+    let result = study::json(&study, &scene, &depth);
+    folder.add("study.json", output::json(&result));
+    folder.add("study.csv", study::csv(&study).map_err(Failure::untrusted)?);
+    folder.add_varying("timing.json", output::json(&study::timing_json(&study)));
+    folder.add_varying("timing.csv", study::timing_csv(&study).map_err(Failure::untrusted)?);
+    for picture in study::pictures(&study, &name).map_err(Failure::untrusted)? {
+        let file = format!("plots/{}.svg", picture.name);
+        if picture.varies { folder.add_varying(&file, picture.svg) } else { folder.add(&file, picture.svg) }
+    }
+    let settings = json!({
+        "case": args.case, "quick": args.quick, "limit": depth.limit, "resolution": depth.resolution,
+    });
+    let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
+    for (family, who) in [(Family::Written, "as written"), (Family::Auto, "auto's choice")] {
+        let dearer = |cost: &dyn Fn(&Point) -> Option<f64>| {
+            let all = study::excesses(&study, family, cost).into_iter();
+            let told: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
+            told.join(", ")
+        };
+        let [time, work] = [dearer(&Point::seconds), dearer(&study::stages)];
+        if !work.is_empty() {
+            progress.say(&format!(
+                "{who}, by the cheapest setting that errs no more: time {time}; contact solutions {work}"
+            ));
+        }
+    }
+    progress.say(&format!("wrote {}", written.display()));
+    if global.json {
+        let all = json!({ "output": written.display().to_string(), "study": result });
+        output::print(&output::json(&all))?;
+    }
+    judge(&study, &depth)
+}
+
+/// Maps of where methods fail.
+fn stability(
+    args: &Arguments,
+    document: &Document,
+    known: &[Known],
+    mut folder: Folder,
+    global: Global,
+) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let subject = Subject::of(document.scene(), known).map_err(Failure::Untrusted)?;
+    let (maps, absent) = stability::maps(&subject, args.quick, &progress);
+    let result = stability::json(&maps, &absent);
+    folder.add("stability.json", output::json(&result));
+    folder.add("stability.csv", stability::csv(&maps).map_err(Failure::untrusted)?);
+    for map in &maps {
+        let pictures = stability::pictures(map).map_err(Failure::untrusted)?;
+        let is_one = pictures.len() == 1;
+        for (index, svg) in pictures.into_iter().enumerate() {
+            let number = if is_one { String::new() } else { format!("-{}", index + 1) };
+            folder.add(&format!("plots/stability-{}{number}.svg", map.name), svg);
+        }
+    }
+    let settings = json!({ "case": args.case, "quick": args.quick, "stability": true });
+    let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
+    for map in &maps {
+        for layer in map.layers.iter().filter(|layer| layer.is_ours) {
+            let counts = Verdict::WORDS.iter().zip(layer.counts()).filter(|(_, count)| *count > 0);
+            let told: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
+            progress.say(&format!("{}: {}: {}", map.name, layer.method, told.join(", ")));
+        }
+    }
+    progress.say(&format!("wrote {}", written.display()));
+    if global.json {
+        let all = json!({ "output": written.display().to_string(), "stability": result });
+        output::print(&output::json(&all))?;
+    }
+    match maps.iter().find(|map| map.silent() > 0) {
+        None => Ok(Exit::Done),
+        Some(map) => Err(Failure::Untrusted(format!(
+            "girderway itself is silently wrong at {} points of the map \"{}\": see stability.csv",
+            map.silent(),
+            map.name
+        ))),
+    }
+}
+
+/// The scene itself, or the comparison asked for.
+fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
+    let Some(label) = &args.case else {
+        return Ok(Case { label: None, scene: document.scene().clone() });
+    };
+    let labels: Vec<&str> = document.cases.iter().filter_map(|case| case.label.as_deref()).collect();
+    match document.cases.iter().find(|case| case.label.as_ref() == Some(label)) {
+        Some(found) => Ok(Case { label: None, scene: found.scene.clone() }),
+        None => {
+            let hint = match labels.as_slice() {
+                [] => "the scene has no comparisons".to_owned(),
+                labels => format!("known: {}", labels.join(", ")),
+            };
+            let wrong =
+                Diagnostic::of_file("--case", format!("must be the label of a comparison, got \"{label}\""));
+            Err(wrong.hint(hint).into())
+        }
+    }
+}
+
+/// Whether the references tell what they were asked to.
+fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
+    if let Some((against, why)) = study.lost.first() {
+        return Err(Failure::Untrusted(format!("\"{}\": {why}  hint: raise --limit", against.word())));
+    }
+    let worst = study.references.iter().max_by(|a, b| a.asked().total_cmp(&b.asked()));
+    match worst.filter(|worst| worst.asked() > depth.resolution) {
+        None => Ok(Exit::Done),
+        Some(worst) => Err(Failure::Untrusted(format!(
+            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
+             wheel forces below {:.1e} cannot be told; asked for: {:.1e}  hint: raise --limit or --resolution",
+            worst.against.word(),
+            worst.asked() / study::MARGIN,
+            worst.asked(),
+            depth.resolution
+        ))),
+    }
+}

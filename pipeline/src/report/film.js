@@ -1,0 +1,57 @@
+// Pictures that move: a button, a slider, and the frames between the recorded times. Without scripts they stand still.
+for (const source of document.querySelectorAll(".film > script")) {
+  const box = source.parentElement;
+  const svg = box.querySelector("svg");
+  const { time, tracks } = JSON.parse(source.textContent);
+  const nodes = tracks.map((track) => svg.querySelector(`[data-m="${track.e}"]`));
+  const begin = time[0], end = time[time.length - 1];
+  const button = document.createElement("button");
+  const slider = document.createElement("input");
+  const label = document.createElement("span");
+  const bar = document.createElement("div");
+  Object.assign(slider, { type: "range", min: begin, max: end, step: "any" });
+  slider.setAttribute("aria-label", "time");
+  bar.className = "control";
+  bar.append(button, slider, label);
+  box.append(bar);
+
+  const show = (now) => {
+    let low = 0, high = time.length - 1;
+    while (high - low > 1) {
+      const middle = (low + high) >> 1;
+      if (time[middle] <= now) low = middle; else high = middle;
+    }
+    const share = Math.min(1, Math.max(0, (now - time[low]) / (time[high] - time[low])));
+    const mix = (a, b) => a + share * (b - a);
+    tracks.forEach((track, index) => {
+      const a = track.v[low], b = track.v[high], node = nodes[index];
+      if (track.a === "transform") node.setAttribute("transform", `translate(${mix(a[0], b[0])} ${mix(a[1], b[1])})`);
+      else if (track.a === "text") node.textContent = mix(a, b).toFixed(track.d);
+      else node.setAttribute(track.a, mix(a, b));
+    });
+    slider.value = now;
+    label.textContent = now.toFixed(2) + " s";
+  };
+
+  let now = begin, last = null;
+  const step = (stamp) => {
+    if (last === null) return;
+    now += (stamp - last) / 1000;
+    last = stamp;
+    if (now >= end) { now = end; stop(); }
+    show(now);
+    if (last !== null) requestAnimationFrame(step);
+  };
+  const stop = () => { last = null; button.textContent = "Play"; };
+  const play = () => {
+    if (now >= end) now = begin;
+    button.textContent = "Pause";
+    requestAnimationFrame((stamp) => { last = stamp; step(stamp); });
+  };
+  button.type = "button";
+  button.addEventListener("click", () => (last === null ? play() : stop()));
+  slider.addEventListener("input", () => { stop(); now = Number(slider.value); show(now); });
+  stop();
+  now = Number(source.dataset.still);
+  show(now);
+}

@@ -1,0 +1,66 @@
+//! Pareto fronts: what nothing else beats in both cost and error.
+
+/// Whether each point (cost, error) lies on the front: no other costs no more and errs no more, one of them less.
+///
+/// Of points that are equal in both, all are on the front or none is.
+///
+/// # Source
+/// V. Pareto, Manuale di economia politica (1906): no change makes one better without making the other worse.
+#[must_use]
+pub fn on_front(points: &[[f64; 2]]) -> Vec<bool> {
+    let beats = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
+    points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
+}
+
+/// The front of `points` (cost, error) in the order of cost; equal points once.
+#[must_use]
+pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let kept = points.iter().zip(on_front(points)).filter(|(_, on)| *on).map(|(point, _)| *point);
+    let mut front: Vec<[f64; 2]> = kept.collect();
+    front.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    front.dedup();
+    front
+}
+
+/// How much dearer a point is than the cheapest of `points` that errs no more: 1 on the front.
+#[must_use]
+pub fn excess(point: [f64; 2], points: &[[f64; 2]]) -> f64 {
+    let no_worse = points.iter().filter(|other| other[1] <= point[1]);
+    let cheapest = no_worse.map(|other| other[0]).fold(point[0], f64::min);
+    if cheapest > 0.0 { point[0] / cheapest } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn front_is_what_nothing_beats() {
+        let points =
+            [[1.0, 1e-1], [2.0, 1e-2], [2.5, 5e-2], [3.0, 1e-2], [4.0, 1e-4], [9.0, 1e-3], [4.0, 1e-4]];
+        assert_eq!(on_front(&points), [true, true, false, false, true, false, true]);
+        assert_eq!(front(&points), [[1.0, 1e-1], [2.0, 1e-2], [4.0, 1e-4]]);
+    }
+
+    #[test]
+    fn errors_of_a_front_fall_as_its_costs_rise() {
+        // a cloud without order: multiples of two irrational numbers, modulo 1
+        let point = |i: i32| [f64::from(i) * 0.618_034 % 1.0, f64::from(i) * 0.414_214 % 1.0];
+        let cloud: Vec<[f64; 2]> = (1..500).map(point).collect();
+        let front = front(&cloud);
+        assert!(front.len() > 2);
+        assert!(front.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]));
+        for point in &cloud {
+            assert!(front.iter().any(|best| best[0] <= point[0] && best[1] <= point[1]), "{point:?}");
+            assert_eq!(excess(*point, &cloud) == 1.0, front.contains(point), "{point:?}");
+        }
+    }
+
+    #[test]
+    fn excess_is_the_ratio_to_the_cheapest_that_errs_no_more() {
+        let points = [[1.0, 1e-1], [2.0, 1e-2], [8.0, 1e-3]];
+        assert_eq!(excess([6.0, 2e-2], &points), 3.0);
+        assert_eq!(excess([2.0, 1e-2], &points), 1.0);
+        assert_eq!(excess([5.0, 1e-6], &points), 1.0);
+    }
+}

@@ -1,0 +1,289 @@
+//! The study itself: references, runs, errors, times.
+
+use std::ops::ControlFlow;
+
+use sim::Stepping;
+
+use super::cpu::{self, limited};
+use super::depth::Depth;
+use super::ladder::{self, Kinds, varies};
+use super::misfit::misfits;
+use super::point::{Measured, Outcome, Point};
+use super::quantity::Quantity;
+use super::reference::{Reference, reference};
+use super::rig::{Rig, Workshop};
+use super::setting::{Against, Family, Setting};
+use super::spread::Spread;
+use crate::cases::{Known, RECORDED};
+use crate::exit::Failure;
+use crate::link::{self, Trouble};
+use crate::motion::cast;
+use crate::progress::Progress;
+use crate::response;
+use crate::scene::Scene;
+use crate::summary;
+
+/// Shorter runs than this are timed several at once.
+const BATCH: f64 = 2e-3;
+/// The most of them.
+const MOST: f64 = 200.0;
+/// Accuracy of the runs that "auto" compares, by its tolerance.
+const STEPPING: f64 = 0.03;
+
+/// What a study found.
+#[derive(Clone, Debug)]
+pub struct Study {
+    /// What errors are measured against.
+    pub references: Vec<Reference>,
+    /// References that could not be run, and why.
+    pub lost: Vec<(Against, String)>,
+    /// The settings, in order.
+    pub points: Vec<Point>,
+    /// What "auto" chose, or why it did not.
+    pub auto: Result<Auto, String>,
+}
+
+/// What "auto" chose.
+#[derive(Clone, Debug, Default)]
+pub struct Auto {
+    /// Structure and reason.
+    pub reasons: Vec<(String, String)>,
+    /// Times of the whole choice, all trials included.
+    pub trials: Option<Spread>,
+}
+
+impl Study {
+    /// The reference of a family.
+    #[must_use]
+    pub fn reference(&self, against: Against) -> Option<&Reference> {
+        self.references.iter().find(|own| own.against == against)
+    }
+}
+
+/// Studies `scene`, whose structures are `known`.
+///
+/// # Errors
+/// A scene that cannot start; references that cannot be run.
+pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress) -> Result<Study, Failure> {
+    let kinds = Kinds::of(scene, known);
+    let mut workshop = Workshop::new(scene, known);
+    progress.say("choosing foundations");
+    let (auto, chosen) = auto(scene, known, depth);
+    let asks = scene.structures.iter().any(|structure| structure.auto);
+    let mut own = match &chosen {
+        Some(chosen) if asks => chosen.clone(),
+        _ => scene.clone(),
+    };
+    own.structures.iter_mut().for_each(|structure| structure.auto = false);
+
+    progress.say("running references");
+    let mut references: Vec<Reference> = Vec::new();
+    let mut lost: Vec<(Against, String)> = Vec::new();
+    let mut seen: Vec<Scene> = Vec::new();
+    let mut add = |against: Against, make: &dyn Fn(usize) -> Scene, workshop: &mut Workshop<'_>| {
+        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(2) };
+        let found = match seen.iter().position(|own| *own == plain) {
+            Some(at) => Reference { against, ..Reference::clone(&references[at]) },
+            None => match reference(workshop, against, make, depth) {
+                Ok(found) => found,
+                Err(Failure::Untrusted(why)) => {
+                    progress.say(&format!("reference \"{}\": {why}", against.word()));
+                    lost.push((against, why));
+                    return Ok(());
+                }
+                Err(other) => return Err(other),
+            },
+        };
+        seen.push(plain);
+        let told = Quantity::ALL.iter().filter(|own| found.resolves(**own).is_finite());
+        let told: Vec<String> =
+            told.map(|own| format!("{} from {:.1e}", own.name(), found.resolves(*own))).collect();
+        progress.say(&format!(
+            "reference \"{}\" tells errors of {} on: {}",
+            against.word(),
+            told.join(", "),
+            found.words[0]
+        ));
+        references.push(found);
+        Ok::<(), Failure>(())
+    };
+    if kinds.varies {
+        add(Against::Whole, &|modes| ladder::whole(&own, kinds, modes), &mut workshop)?;
+        add(Against::Massless, &|_| ladder::massless(&own), &mut workshop)?;
+    }
+    add(Against::Own, &|_| own.clone(), &mut workshop)?;
+
+    if references.is_empty() {
+        let first = lost.into_iter().next().map(|(_, why)| why);
+        return Err(Failure::Untrusted(first.unwrap_or_default()));
+    }
+    let mut settings = ladder::settings(&own, known, kinds, depth);
+    let (family, knob) = (Family::Written, "accuracy");
+    settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
+    if let Some(chosen) = chosen {
+        let (family, value) = (Family::Auto, chosen.accuracy);
+        settings.push(Setting { family, knob, value, scene: chosen, stations: None });
+    }
+    if !kinds.varies {
+        // errors of foundations mean nothing: only the scene's own can be run
+        settings
+            .retain(|setting| setting.family.against() == Against::Own || setting.family == Family::Written);
+    }
+    let bar = progress.bar("running", settings.len() as u64);
+    let mut rigs = Vec::new();
+    let mut points = Vec::new();
+    for (index, setting) in settings.into_iter().enumerate() {
+        let against = if kinds.varies { setting.family.against() } else { Against::Own };
+        let reference = references.iter().find(|own| own.against == against);
+        let (rig, outcome) = match reference {
+            Some(reference) => measure(&mut workshop, &setting, reference, depth),
+            None => {
+                let why = lost.iter().find(|(own, _)| *own == against).map_or("", |(_, why)| why.as_str());
+                (None, Outcome::Refused(why.to_owned()))
+            }
+        };
+        rigs.push(rig);
+        points.push(Point { setting, outcome });
+        bar.set(index as u64 + 1);
+    }
+    drop(bar);
+    let mut study = Study { references, lost, points, auto };
+    time(&mut study, &rigs, scene, known, depth, progress);
+    Ok(study)
+}
+
+/// Runs a setting once, and compares it with the reference; ready to run again where it reached its end.
+fn measure(
+    workshop: &mut Workshop<'_>,
+    setting: &Setting,
+    reference: &Reference,
+    depth: &Depth,
+) -> (Option<(Rig, f64)>, Outcome) {
+    let refused = |why: String| (None, Outcome::Refused(why));
+    let rig = match workshop.rig(setting) {
+        Ok(rig) => rig,
+        Err(failure) => return refused(failure.words()),
+    };
+    let start = cpu::seconds();
+    let run = match limited(depth.limit, |watch| rig.run(watch)) {
+        Ok(run) => run,
+        Err(error) => return refused(error.to_string()),
+    };
+    let seconds = cpu::seconds() - start;
+    match &run.status {
+        sim::Status::Stopped => return (None, Outcome::Stopped),
+        status if !status.is_complete() => {
+            return refused(summary::status(status).1.unwrap_or_default());
+        }
+        _ => {}
+    }
+    let trace = match workshop.trace(&rig, &run) {
+        Ok(trace) => trace,
+        Err(failure) => return refused(failure.words()),
+    };
+    let measured = Measured {
+        errors: misfits(&trace, &reference.trace),
+        counts: run.counts,
+        freedoms: rig.freedoms(),
+        time: None,
+        setup: rig.setup,
+    };
+    (Some((rig, seconds)), Outcome::Done(measured))
+}
+
+/// Lets "auto" choose every foundation that may vary: what it says, and the scene on its choice.
+fn auto(scene: &Scene, known: &[Known], depth: &Depth) -> (Result<Auto, String>, Option<Scene>) {
+    let mut chosen = asked(scene);
+    let choices = match choose(&mut chosen, known, 10.0 * depth.limit) {
+        Ok(choices) => choices,
+        Err(why) => return (Err(why), None),
+    };
+    if choices.is_empty() {
+        return (Err("no foundation may vary".to_owned()), None);
+    }
+    let name = |choice: &sim::Choice| chosen.structures[choice.structure].name.clone();
+    let reasons = choices.iter().map(|choice| (name(choice), link::reason(choice))).collect();
+    for choice in choices.iter().filter(|choice| choice.predicted.is_some()) {
+        chosen.accuracy = chosen.accuracy.min(STEPPING * chosen.structures[choice.structure].tolerance);
+    }
+    chosen.structures.iter_mut().for_each(|structure| structure.auto = false);
+    (Ok(Auto { reasons, trials: None }), Some(chosen))
+}
+
+/// The scene with every foundation that may vary left to "auto".
+fn asked(scene: &Scene) -> Scene {
+    let mut out = ladder::massless(scene);
+    out.stepping = Stepping::default();
+    for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
+        structure.auto = true;
+    }
+    out
+}
+
+/// Lets "auto" choose, within `limit` seconds.
+fn choose(scene: &mut Scene, known: &[Known], limit: f64) -> Result<Vec<sim::Choice>, String> {
+    let cast = cast(scene).map_err(|failure| failure.words())?;
+    let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
+    let answers = response::answers(scene, known);
+    let rows = scene.end / scene.dt;
+    let recorded = |s: usize, foundation: &sim::Foundation| {
+        let freedoms = foundation.freedoms();
+        freedoms > 0 && (answers[s] || freedoms as f64 * rows < RECORDED)
+    };
+    let found = limited(limit, |watch| link::choose(scene, &cast.scene, known, lateral, &recorded, watch));
+    let found = found.map_err(|trouble| match trouble {
+        Trouble::Foundation(failure) => failure.words(),
+        Trouble::Run(error) => error.to_string(),
+    })?;
+    match found.run.status {
+        sim::Status::Stopped => Err("it took longer than a setting may".to_owned()),
+        _ => Ok(found.choices),
+    }
+}
+
+/// Times all that ran to its end: every repetition runs all of them, so that what else the machine does meets all alike.
+fn time(
+    study: &mut Study,
+    rigs: &[Option<(Rig, f64)>],
+    scene: &Scene,
+    known: &[Known],
+    depth: &Depth,
+    progress: &Progress,
+) {
+    let bar = progress.bar("timing", depth.repetitions as u64);
+    let mut times: Vec<Vec<f64>> = rigs.iter().map(|_| Vec::new()).collect();
+    let mut trials = Vec::new();
+    for repetition in 0..depth.repetitions {
+        for k in 0..rigs.len() {
+            // another one begins each time
+            let index = (k + repetition * rigs.len() / depth.repetitions) % rigs.len();
+            let Some((rig, first)) = &rigs[index] else { continue };
+            if repetition as f64 * first > depth.limit {
+                continue;
+            }
+            let batch = (BATCH / first.max(1e-9)).ceil().clamp(1.0, MOST);
+            let start = cpu::seconds();
+            for _ in 0..batch as usize {
+                let _ = std::hint::black_box(rig.run(&mut |_| ControlFlow::Continue(())));
+            }
+            times[index].push((cpu::seconds() - start) / batch);
+        }
+        let spent: f64 = trials.iter().sum();
+        if study.auto.is_ok() && spent <= depth.limit {
+            let mut again = asked(scene);
+            let start = cpu::seconds();
+            if choose(&mut again, known, f64::INFINITY).is_ok() {
+                trials.push(cpu::seconds() - start);
+            }
+        }
+        bar.set(repetition as u64 + 1);
+    }
+    for (point, times) in study.points.iter_mut().zip(&times) {
+        if let Outcome::Done(measured) = &mut point.outcome {
+            measured.time = Spread::of(times);
+        }
+    }
+    if let Ok(auto) = &mut study.auto {
+        auto.trials = Spread::of(&trials);
+    }
+}

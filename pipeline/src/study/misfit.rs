@@ -1,0 +1,107 @@
+//! How far a run is from the reference.
+
+use super::quantity::Quantity;
+
+/// Columns of a run with their groups, at its output times.
+#[derive(Clone, Debug, Default)]
+pub struct Trace {
+    /// Output times.
+    pub time: Vec<f64>,
+    /// Group and values of each column.
+    pub columns: Vec<(String, Quantity, Vec<f64>)>,
+}
+
+/// Moments below this share of the largest force times the longest rail are rounding.
+const NOTHING: f64 = 1e-6;
+
+impl Trace {
+    /// Leaves out moments that nothing in the scene causes: they are rounding. `length`: that of the longest rail.
+    pub(super) fn prune(&mut self, length: f64) {
+        let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let forces = self.columns.iter().filter(|(_, quantity, _)| *quantity == Quantity::WheelForce);
+        let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
+        let least = NOTHING * force * length;
+        self.columns.retain(|(_, quantity, values)| *quantity != Quantity::Moment || largest(values) > least);
+    }
+}
+
+/// Errors of the columns of one group, relative to the largest value that the reference has in the group.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Misfit {
+    /// Largest difference at an output time.
+    pub largest: f64,
+    /// Largest difference of a column's extremes.
+    pub peak: f64,
+}
+
+/// Errors of `run` against `reference`, a group each; `None` where the reference has nothing in it but zeros, or `run`
+/// lacks a column of it.
+///
+/// e = max |a - b| / max |b| over columns and output times that both have; the extremes of a column are compared
+/// whenever they are.
+#[must_use]
+pub fn misfits(run: &Trace, reference: &Trace) -> [Option<Misfit>; 4] {
+    let common = run
+        .time
+        .iter()
+        .zip(&reference.time)
+        .take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9))
+        .count();
+    Quantity::ALL.map(|quantity| of(run, reference, quantity, common))
+}
+
+fn of(run: &Trace, reference: &Trace, quantity: Quantity, common: usize) -> Option<Misfit> {
+    let mut scale = 0.0_f64;
+    let mut worst = Misfit::default();
+    for (name, _, wanted) in reference.columns.iter().filter(|(_, group, _)| *group == quantity) {
+        let (_, _, found) = run.columns.iter().find(|(own, ..)| own == name)?;
+        scale = wanted.iter().fold(scale, |most, value| most.max(value.abs()));
+        for (a, b) in found.iter().zip(wanted).take(common) {
+            worst.largest = worst.largest.max((a - b).abs());
+        }
+        for sign in [1.0, -1.0] {
+            let most = |values: &[f64]| values.iter().fold(f64::MIN, |most, value| most.max(sign * value));
+            worst.peak = worst.peak.max((most(found) - most(wanted)).abs());
+        }
+    }
+    let relative = |value: f64| value / scale;
+    let is_told = common > 0 && scale > 0.0 && worst.largest.is_finite() && worst.peak.is_finite();
+    is_told.then(|| Misfit { largest: relative(worst.largest), peak: relative(worst.peak) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn trace(deflection: &[f64], force: &[f64]) -> Trace {
+        Trace {
+            time: (0..deflection.len()).map(|i| 0.1 * i as f64).collect(),
+            columns: vec![
+                ("body.deflection".into(), Quantity::Deflection, deflection.to_vec()),
+                ("wheel.vertical".into(), Quantity::WheelForce, force.to_vec()),
+            ],
+        }
+    }
+
+    #[test]
+    fn errors_are_relative_to_the_largest_value_of_the_group() {
+        let reference = trace(&[0.0, 2.0, -4.0], &[10.0, 10.0, 10.0]);
+        let run = trace(&[0.1, 2.0, -4.2], &[10.0, 9.0, 10.0]);
+        let [deflection, force, reaction, _] = misfits(&run, &reference);
+        let deflection = deflection.expect("a scale of 4");
+        assert!((deflection.largest - 0.05).abs() < 1e-15 && (deflection.peak - 0.05).abs() < 1e-15);
+        assert_eq!(force, Some(Misfit { largest: 0.1, peak: 0.1 }));
+        assert_eq!(reaction, None);
+    }
+
+    #[test]
+    fn a_run_cut_short_is_compared_as_far_as_it_goes() {
+        let reference = trace(&[1.0, 2.0, 1.0], &[0.0, 0.0, 0.0]);
+        let mut run = trace(&[1.0, 2.0], &[0.0, 0.0]);
+        let [deflection, force, ..] = misfits(&run, &reference);
+        assert_eq!(deflection.map(|own| own.largest), Some(0.0));
+        assert_eq!(force, None, "zeros have no scale");
+        run.columns.remove(0);
+        assert_eq!(misfits(&run, &reference)[0], None, "a column that is missing is no agreement");
+    }
+}

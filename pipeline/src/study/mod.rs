@@ -1,0 +1,29 @@
+//! Accuracy against cost: a scene on a ladder of settings, beside a converged reference.
+
+mod cpu;
+mod data;
+mod depth;
+mod front;
+mod investigate;
+mod ladder;
+mod misfit;
+mod picture;
+mod point;
+mod quantity;
+mod reference;
+mod rig;
+mod setting;
+mod spread;
+pub mod stability;
+
+pub use data::{csv, excesses, json, stages, timing_csv, timing_json};
+pub use depth::Depth;
+pub use front::{excess, front, on_front};
+pub use investigate::{Auto, Study, study};
+pub use misfit::{Misfit, Trace, misfits};
+pub use picture::{Picture, pictures};
+pub use point::{Measured, Outcome, Point};
+pub use quantity::Quantity;
+pub use reference::{MARGIN, Reference};
+pub use setting::{Against, Family, Setting};
+pub use spread::Spread;

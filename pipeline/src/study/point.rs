@@ -1,0 +1,65 @@
+//! What came of a setting.
+
+use super::misfit::Misfit;
+use super::quantity::Quantity;
+use super::setting::Setting;
+use super::spread::Spread;
+
+/// A setting with what came of it.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// The setting.
+    pub setting: Setting,
+    /// What came of it.
+    pub outcome: Outcome,
+}
+
+/// What came of a setting.
+#[derive(Clone, Debug)]
+pub enum Outcome {
+    /// It ran to its end.
+    Done(Measured),
+    /// It took longer than a setting may.
+    Stopped,
+    /// It could not be set up or did not reach its end; why.
+    Refused(String),
+}
+
+/// Error and cost of a run.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// Errors, one a group.
+    pub errors: [Option<Misfit>; 4],
+    /// Steps, stages, events.
+    pub counts: sim::Counts,
+    /// Freedoms of the foundations.
+    pub freedoms: usize,
+    /// Times of runs, in seconds that the thread worked.
+    pub time: Option<Spread>,
+    /// Seconds that it took to make the foundations.
+    pub setup: f64,
+}
+
+impl Point {
+    /// What was measured, where it ran to its end.
+    #[must_use]
+    pub fn measured(&self) -> Option<&Measured> {
+        match &self.outcome {
+            Outcome::Done(measured) => Some(measured),
+            Outcome::Stopped | Outcome::Refused(_) => None,
+        }
+    }
+
+    /// Largest error in a group.
+    #[must_use]
+    pub fn error(&self, quantity: Quantity) -> Option<f64> {
+        let at = Quantity::ALL.iter().position(|own| *own == quantity)?;
+        self.measured()?.errors[at].map(|own| own.largest)
+    }
+
+    /// Median time.
+    #[must_use]
+    pub fn seconds(&self) -> Option<f64> {
+        self.measured()?.time.map(|spread| spread.median)
+    }
+}

@@ -1,0 +1,182 @@
+//! Converged runs that errors are measured against.
+
+use sim::{Method, Stepping};
+
+use super::cpu::limited;
+use super::depth::Depth;
+use super::misfit::{Trace, misfits};
+use super::quantity::Quantity;
+use super::rig::Workshop;
+use super::setting::{Against, Family, Setting};
+use crate::exit::Failure;
+use crate::scene::{Analysis, STEPPERS, Scene};
+use crate::summary;
+
+/// How much closer than the smallest error told the two finest runs must agree.
+pub const MARGIN: f64 = 10.0;
+/// How much longer than other runs a reference may take.
+const PATIENCE: f64 = 10.0;
+/// Difference at which nothing finer is tried.
+const CLOSE: f64 = 1e-9;
+
+/// A converged run, and how far from it the one next to it is.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// What it is the reference for.
+    pub against: Against,
+    /// The run itself.
+    pub trace: Trace,
+    /// The two finest settings in words: the run's, and that of the one beside it.
+    pub words: [String; 2],
+    /// Largest difference of the two in each group.
+    pub difference: [Option<f64>; 4],
+    /// Largest differences of the pairs before, by the accuracy asked.
+    pub approach: Vec<(f64, f64)>,
+}
+
+impl Reference {
+    /// The smallest error that it can tell in a group; infinite where it does not know the group.
+    #[must_use]
+    pub fn resolves(&self, quantity: Quantity) -> f64 {
+        let at = Quantity::ALL.iter().position(|own| *own == quantity);
+        let difference = at.and_then(|at| self.difference[at]);
+        difference.map_or(f64::INFINITY, |difference| MARGIN * difference.max(f64::EPSILON))
+    }
+
+    /// The larger of those of deflections and wheel forces.
+    #[must_use]
+    pub fn asked(&self) -> f64 {
+        self.difference[..2].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
+    }
+
+    /// The largest of those of all groups that it knows.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        self.difference.iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
+    }
+}
+
+/// Runs two settings that differ in everything that can err, ever finer, until they agree: the scene that `make` gives for a
+/// number of modes by the method that "auto" takes, beside that of half the modes by SDIRK, at the same accuracy; a scene
+/// that only SDIRK integrates, at ten times the accuracy.
+///
+/// # Errors
+/// A scene that cannot start; no pair that ran to its end.
+pub fn reference(
+    workshop: &mut Workshop<'_>,
+    against: Against,
+    make: &dyn Fn(usize) -> Scene,
+    depth: &Depth,
+) -> Result<Reference, Failure> {
+    let mut best: Option<Reference> = None;
+    let mut approach = Vec::new();
+    let wanted = (depth.resolution / MARGIN * 1e-2).max(CLOSE);
+    let mut why = String::new();
+    for &(accuracy, modes) in &depth.references {
+        let scenes = [make(modes), make(modes / 2)];
+        let [(fine, method), (other, second)] =
+            match pair(workshop, &scenes, accuracy, depth.limit * PATIENCE)? {
+                Ok(pair) => pair,
+                Err(stopped) => {
+                    why = stopped;
+                    break;
+                }
+            };
+        let difference = misfits(&other, &fine).map(|own| own.map(|own| own.largest));
+        let largest = difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
+        approach.push((accuracy, largest));
+        let is_better = best.as_ref().is_none_or(|best| largest < best.resolution() / MARGIN);
+        if is_better {
+            let words = [method, second];
+            best = Some(Reference { against, trace: fine, words, difference, approach: Vec::new() });
+        }
+        if largest < wanted {
+            break;
+        }
+    }
+    let untold = || Failure::Untrusted(format!("no reference could be run: {why}"));
+    let best = best.ok_or_else(untold)?;
+    Ok(Reference { approach, ..best })
+}
+
+/// A run's columns, and its setting in words.
+type Told = (Trace, String);
+
+/// Two runs that differ in all that can err; the inner error says why one of them did not reach its end.
+fn pair(
+    workshop: &mut Workshop<'_>,
+    scenes: &[Scene; 2],
+    accuracy: f64,
+    limit: f64,
+) -> Result<Result<[Told; 2], String>, Failure> {
+    let none = || Err("no method integrates it".to_owned());
+    let (first, method, words) = match one(workshop, &scenes[0], accuracy, Method::Auto, limit)? {
+        Ok(Some(told)) => told,
+        Ok(None) => return Ok(none()),
+        Err(why) => return Ok(Err(why)),
+    };
+    let is_other = !matches!(method, Some(Method::Sdirk4));
+    let again = if is_other { accuracy } else { 10.0 * accuracy };
+    match one(workshop, &scenes[1], again, Method::Sdirk4, limit)? {
+        Ok(Some((second, _, beside))) => Ok(Ok([(first, words), (second, beside)])),
+        Ok(None) => Ok(none()),
+        Err(why) => Ok(Err(why)),
+    }
+}
+
+/// A run with its method and its setting in words; `None` where no method integrates it; or why it did not reach its end.
+type Tried = Result<Option<(Trace, Option<Method>, String)>, String>;
+
+/// One run; `None` where the method does not suit the scene.
+fn one(
+    workshop: &mut Workshop<'_>,
+    scene: &Scene,
+    accuracy: f64,
+    method: Method,
+    limit: f64,
+) -> Result<Tried, Failure> {
+    let stepping = Stepping { method, step: None };
+    let scene = Scene { accuracy, stepping, ..scene.clone() };
+    let setting =
+        Setting { family: Family::Written, knob: "accuracy", value: accuracy, scene, stations: None };
+    let rig = workshop.rig(&setting)?;
+    let run = match limited(limit, |watch| rig.run(watch)) {
+        Ok(run) => run,
+        Err(sim::Error::Method { .. }) => return Ok(Ok(None)),
+        Err(error) => return Err(Failure::untrusted(error)),
+    };
+    if !run.status.is_complete() {
+        let (_, why) = summary::status(&run.status);
+        return Ok(Err(why.unwrap_or_default()));
+    }
+    let mut trace = workshop.trace(&rig, &run)?;
+    let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
+    trace.prune(lengths.fold(0.0, f64::max));
+    let by = run.method.and_then(|method| STEPPERS.iter().find(|(_, own)| *own == method));
+    let mut words: Vec<String> = Vec::new();
+    for structure in &setting.scene.structures {
+        words.push(format!("{}: {}", structure.name, foundation(structure)));
+    }
+    match setting.scene.analysis {
+        Analysis::Dynamic => {
+            let method = by.map_or("", |(word, _)| *word);
+            words.push(format!("{method} at accuracy {accuracy:.0e}, {} steps", run.counts.steps));
+        }
+        Analysis::QuasiStatic => words.push("equilibrium at every output time".to_owned()),
+    }
+    Ok(Ok(Some((trace, run.method, words.join("; ")))))
+}
+
+/// A foundation in words.
+#[must_use]
+pub fn foundation(structure: &crate::scene::Structure) -> String {
+    use crate::scene::Foundation;
+    let word = structure.foundation.word();
+    match structure.foundation {
+        Foundation::Parts { count, .. } => format!("{word}, {count} parts"),
+        Foundation::Modal { modes, .. } => format!("{word}, {modes} modes"),
+        Foundation::Full { elements, .. } => format!("{word}, {elements} elements a member"),
+        Foundation::Influence => format!("{word}, {}", structure.reading.word()),
+        Foundation::Rigid | Foundation::Ties { .. } => word.to_owned(),
+    }
+}

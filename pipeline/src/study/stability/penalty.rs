@@ -1,0 +1,177 @@
+//! Rigid offsets by stiff members against exact kinematics.
+
+use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
+use nalgebra::{DMatrix, DVector};
+use splines::{Axis, Probe};
+
+use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::steps::spread;
+use super::subject::Subject;
+
+/// Relative error that is none, and one that nobody overlooks.
+const ALLOWED: f64 = 1e-6;
+const OBVIOUS: f64 = 0.5;
+/// Offset of a rail by the span where the scene's girder has none.
+const USUAL: f64 = 0.06;
+/// The least error drawn.
+const LEAST: f64 = 1e-17;
+
+/// A girder of unit length, simply supported and held against twist at both ends: lateral bending 1, torsion `twist`, its
+/// rail at the height `offset`.
+#[derive(Clone, Copy)]
+struct Beam {
+    twist: f64,
+    offset: f64,
+}
+
+impl Beam {
+    /// Lateral give of the rail at midspan: L^3/48 + h^2 L/(4 G J).
+    fn exact(self) -> f64 {
+        1.0 / 48.0 + self.offset * self.offset / (4.0 * self.twist)
+    }
+
+    /// The same by `count` elements and a post at midspan of `stiff` times the girder's bending stiffness, in doubles.
+    fn penalty(self, count: usize, stiff: f64) -> Option<f64> {
+        let nodes = count + 1;
+        // displacement, slope and twist of each node; then displacement and turn of the post's top
+        let n = 3 * nodes + 2;
+        let mut k = DMatrix::zeros(n, n);
+        let mut add = |at: [usize; 4], h: f64, bending: f64| {
+            let rows = [
+                [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
+                [6.0 / (h * h), 4.0 / h, -6.0 / (h * h), 2.0 / h],
+                [-12.0 / (h * h * h), -6.0 / (h * h), 12.0 / (h * h * h), -6.0 / (h * h)],
+                [6.0 / (h * h), 2.0 / h, -6.0 / (h * h), 4.0 / h],
+            ];
+            for (i, row) in rows.iter().enumerate() {
+                for (j, value) in row.iter().enumerate() {
+                    k[(at[i], at[j])] += bending * value;
+                }
+            }
+        };
+        let h = 1.0 / count as f64;
+        for e in 0..count {
+            add([3 * e, 3 * e + 1, 3 * e + 3, 3 * e + 4], h, 1.0);
+        }
+        let post = 3 * (count / 2);
+        add([post, post + 2, n - 2, n - 1], self.offset, stiff);
+        for e in 0..count {
+            let (a, b) = (3 * e + 2, 3 * e + 5);
+            let value = self.twist / h;
+            for (i, j, sign) in [(a, a, 1.0), (b, b, 1.0), (a, b, -1.0), (b, a, -1.0)] {
+                k[(i, j)] += sign * value;
+            }
+        }
+        let held = [0, 2, 3 * count, 3 * count + 2];
+        let kept: Vec<usize> = (0..n).filter(|i| !held.contains(i)).collect();
+        let small = DMatrix::from_fn(kept.len(), kept.len(), |i, j| k[(kept[i], kept[j])]);
+        let mut load = DVector::zeros(kept.len());
+        let top = kept.len() - 2;
+        load[top] = 1.0;
+        small.cholesky().map(|factor| factor.solve(&load)[top])
+    }
+
+    /// The same by the program.
+    fn ours(self, count: usize) -> Result<f64, String> {
+        let section =
+            Section { e: 1.0, g: 1.0, area: 1.0, iy: 1.0, iz: 1.0, j: self.twist, ..Section::default() };
+        let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
+        model.points = (0..=count).map(|i| [i as f64 / count as f64, 0.0, 0.0]).collect();
+        model.members = (0..count).map(|e| Member::beam([e, e + 1], 0, model.up)).collect();
+        model.supports.push(Support { point: 0, fix: [true, true, true, true, false, false] });
+        model.supports.push(Support { point: count, fix: [false, true, true, true, false, false] });
+        let segments = (0..count).map(|member| Segment { member, offset: [0.0, self.offset, 0.0] });
+        let rail = Rail {
+            origin: [0.0; 3],
+            axis: [1.0, 0.0, 0.0],
+            segments: segments.collect(),
+            stations: vec![0.5],
+        };
+        let frame = Frame::new(&model, &[rail]).map_err(|error| error.to_string())?;
+        let grid = frame.grid(&[Probe { rail: 0, x: 0.5, axis: Axis::Lateral }]);
+        grid.map(|grid| grid.value[(0, 0)]).map_err(|error| error.to_string())
+    }
+}
+
+/// The map.
+#[must_use]
+pub fn map(subject: &Subject<'_>, points: usize) -> Map {
+    let girder = subject.girder;
+    let twist = match (girder.g.zip(girder.j), girder.i_lateral) {
+        (Some((g, j)), Some(i)) if g * j > 0.0 && i > 0.0 => g * j / (girder.e * i),
+        _ => 0.3,
+    };
+    let height = (girder.rail_height / subject.length()).abs();
+    let beam = Beam { twist, offset: if height > 0.0 { height } else { USUAL } };
+    let axes = [
+        Scale::new("stiffness of the post by that of the girder", "", true),
+        Scale::new("relative error of the rail's lateral give", "", true),
+    ];
+    let mut map = Map::new(
+        "penalty",
+        "A rail off the axis of its girder: stiff members or exact kinematics",
+        axes,
+        "Soft posts give, hard ones cost digits: wrong from 1e-6 on. Ours has the offset in its kinematics and no stiffness to choose.",
+    );
+    map.find("torsional stiffness by lateral bending stiffness", beam.twist);
+    map.find("height of the rail by the span", beam.offset);
+    let wanted = beam.exact();
+    let relative = |found: f64| (found / wanted - 1.0).abs().max(LEAST);
+    let stiffs = spread(1.0, 1e16, points);
+    for count in [4, 16, 64] {
+        let mut cells = Vec::new();
+        let mut best = (f64::INFINITY, 0.0);
+        for &stiff in &stiffs {
+            let (value, verdict) = match beam.penalty(count, stiff) {
+                Some(found) => (relative(found), Verdict::of(relative(found), ALLOWED, OBVIOUS)),
+                None => (1.0, Verdict::Refused("the matrix is not positive definite".to_owned())),
+            };
+            if value < best.0 {
+                best = (value, stiff);
+            }
+            cells.push(Cell { at: [stiff, value], value, verdict });
+        }
+        map.find(format!("{count} elements: least error"), best.0);
+        map.find(format!("{count} elements: at the stiffness"), best.1);
+        for stiff in [1e3, 1e5, 1e7] {
+            if let Some(found) = beam.penalty(count, stiff) {
+                map.find(format!("{count} elements: error at the stiffness {stiff:e}"), relative(found));
+            }
+        }
+        map.layers.push(Layer::new(format!("stiff post, {count} elements"), false).with(cells));
+    }
+    let mut cells = Vec::new();
+    for count in [4, 16, 64] {
+        let (value, verdict) = match beam.ours(count) {
+            Ok(found) => (relative(found), Verdict::of(relative(found), ALLOWED, OBVIOUS)),
+            Err(why) => (1.0, Verdict::Refused(why)),
+        };
+        map.find(format!("girderway, {count} elements: error"), value);
+        // no stiffness to choose: the same everywhere
+        cells.extend(stiffs.iter().map(|stiff| Cell {
+            at: [*stiff, value],
+            value,
+            verdict: verdict.clone(),
+        }));
+    }
+    map.layers.push(Layer::new("girderway, 4, 16 and 64 elements", true).with(cells));
+    map
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn post_errs_by_its_own_bending() {
+        // F h^3 / (3 s): the rest is exact
+        let beam = Beam { twist: 0.3, offset: 0.06 };
+        for stiff in [1.0, 10.0, 1e3] {
+            let found = beam.penalty(8, stiff).expect("a beam that stands");
+            let wanted = beam.exact() + 0.06_f64.powi(3) / (3.0 * stiff);
+            assert!((found / wanted - 1.0).abs() < 1e-10, "{stiff}: {found} {wanted}");
+        }
+        let found = beam.ours(8).expect("a beam that stands");
+        assert!((found / beam.exact() - 1.0).abs() < 1e-13, "{found}");
+    }
+}

@@ -1,0 +1,112 @@
+//! Rails between supports that both hold them lengthwise: bending pulls on such ends, which a linear model leaves out.
+
+use std::collections::BTreeSet;
+
+use fea::{Freedom, Kind, Member, Model};
+
+/// Largest growth of the stiffness, A delta^2 / (4 I), of the members that carry `rail` between neighbouring points that
+/// the ground holds along it; `delta` is its deflection, in the unit of the model. `None` where no member lies between two.
+///
+/// # Source
+/// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17 (1950).
+pub(super) fn growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
+    let freedoms = [Freedom::Ux, Freedom::Uy, Freedom::Uz];
+    let size = rail.axis.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
+    let along = (0..3).find(|&k| rail.axis[k].abs() == size)?;
+    let held: BTreeSet<usize> = model
+        .supports
+        .iter()
+        .filter(|support| support.fix[freedoms[along] as usize])
+        .map(|support| support.point)
+        .collect();
+    let mut members: Vec<&Member> =
+        rail.segments.iter().map(|segment| &model.members[segment.member]).collect();
+    let place = |point: usize| model.points[point][along];
+    members.sort_by(|a, b| place(a.points[0]).total_cmp(&place(b.points[0])));
+
+    let mut largest: Option<f64> = None;
+    let mut stretch: Vec<&Member> = Vec::new();
+    let mut last = None;
+    for member in members {
+        let [mut from, mut to] = member.points;
+        if place(from) > place(to) {
+            std::mem::swap(&mut from, &mut to);
+        }
+        let slides = member.releases.iter().any(|released| released[Freedom::Ux as usize]);
+        if held.contains(&from) {
+            stretch.clear();
+            stretch.push(member);
+        } else if last == Some(from) && !stretch.is_empty() {
+            stretch.push(member);
+        } else {
+            stretch.clear();
+        }
+        if slides || member.kind == Kind::Truss {
+            stretch.clear();
+        }
+        if held.contains(&to) {
+            for member in stretch.drain(..) {
+                let section = &model.sections[member.section];
+                let inertia = if is_upright(member, model) { section.iz } else { section.iy };
+                if inertia > 0.0 {
+                    let share = section.area * delta * delta / (4.0 * inertia);
+                    largest = Some(largest.map_or(share, |most| most.max(share)));
+                }
+            }
+        }
+        last = Some(to);
+    }
+    largest
+}
+
+/// Whether the member's local y is nearer to the vertical than its local z.
+fn is_upright(member: &Member, model: &Model) -> bool {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let [from, to] = member.points.map(|point| model.points[point]);
+    let axis = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
+    let share = dot(member.orientation, axis) / dot(axis, axis);
+    let y: [f64; 3] = std::array::from_fn(|k| member.orientation[k] - share * axis[k]);
+    dot(y, model.up).powi(2) > 0.5 * dot(y, y) * dot(model.up, model.up)
+}
+
+#[cfg(test)]
+mod tests {
+    use fea::{Rail, Section, Segment, Support};
+
+    use super::*;
+
+    /// Two members over three points, the ends held as said.
+    fn beam(last_holds: bool) -> (Model, Rail) {
+        let held = [true, true, true, true, false, false];
+        let model = Model {
+            up: [0.0, 1.0, 0.0],
+            points: vec![[0.0; 3], [5.0, 0.0, 0.0], [10.0, 0.0, 0.0]],
+            members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0]), Member::beam([1, 2], 0, [0.0, 0.0, 1.0])],
+            sections: vec![Section { area: 0.2, iy: 0.01, iz: 0.05, ..Section::default() }],
+            supports: vec![
+                Support { point: 0, fix: held },
+                Support { point: 2, fix: [last_holds, true, true, false, false, false] },
+            ],
+            ..Model::default()
+        };
+        let segments = (0..2).map(|member| Segment { member, offset: [0.0; 3] }).collect();
+        (model, Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() })
+    }
+
+    /// Analytic: 0.2 x 0.1^2 / (4 x 0.01) by the member that lies flat.
+    #[test]
+    fn ends_held_twice_stiffen_by_the_square_of_the_deflection() {
+        let (model, rail) = beam(true);
+        let share = growth(&model, &rail, 0.1).expect("both ends hold");
+        assert!((share - 0.05).abs() < 1e-15, "{share}");
+    }
+
+    #[test]
+    fn an_end_that_slides_stiffens_nothing() {
+        let (model, rail) = beam(false);
+        assert_eq!(growth(&model, &rail, 0.1), None);
+        let (mut model, rail) = beam(true);
+        model.members[1].releases[0][0] = true;
+        assert_eq!(growth(&model, &rail, 0.1), None);
+    }
+}

@@ -1,0 +1,53 @@
+//! The crane that moves in the report.
+
+use serde_json::{Value, json};
+
+use super::{run_whole, scene};
+
+/// What moves in a report, frame by frame, and the time that it stands at.
+fn film(report: &str) -> (Value, f64) {
+    let (_, rest) = report.split_once("class=\"picture film\"").expect("a picture that moves");
+    let (_, rest) = rest.split_once("data-still=\"").expect("a frame that stands");
+    let (still, rest) = rest.split_once("\">").expect("an attribute");
+    let (data, _) = rest.split_once("</script>").expect("an end");
+    (serde_json::from_str(data).expect("JSON"), still.parse().expect("a time"))
+}
+
+/// By definition: pixels from the first frame are feet times one scale, for the bridge and for the ladle above the same rails; bars
+/// are forces times one scale; all at the output times.
+#[test]
+fn pictures_move_as_the_history_does() {
+    let mut scene = scene("skew");
+    scene["end"]["time"] = json!(2);
+    scene["output"]["dt"] = json!(0.1);
+    let (histories, _, report) = run_whole(&scene);
+    let history = &histories[0];
+    let (film, still) = film(&report);
+    let time: Vec<f64> = serde_json::from_value(film["time"].clone()).expect("times");
+    assert_eq!(time, history.column("time"));
+    assert!(time.contains(&still), "{still}");
+    let tracks = film["tracks"].as_array().expect("tracks");
+    let moved: Vec<Vec<[f64; 2]>> = tracks
+        .iter()
+        .filter(|track| track["a"] == "transform")
+        .map(|track| serde_json::from_value(track["v"].clone()).expect("places"))
+        .collect();
+    // bridge, trolley, ladle in plan
+    let bridge = history.column("bridge.x");
+    let last = bridge.len() - 1;
+    let scale = (moved[0][last][0] - moved[0][0][0]) / (bridge[last] - bridge[0]);
+    // 748 pixels for 240 ft between the outer columns
+    assert!((scale / (748.0 / 240.0) - 1.0).abs() < 0.05, "{scale}");
+    for (places, column) in [(&moved[0], "bridge.x"), (&moved[1], "bridge.x"), (&moved[2], "ladle.X")] {
+        let x = history.column(column);
+        for (place, x_now) in places.iter().zip(x) {
+            let wanted = (x_now - x[0]) * scale;
+            assert!((place[0] - places[0][0] - wanted).abs() < 0.03, "{column}: {place:?} {wanted}");
+        }
+    }
+    let says: Vec<&Value> = tracks.iter().filter(|track| track["a"] == "text").collect();
+    let shown: Vec<f64> = serde_json::from_value(says[1]["v"].clone()).expect("numbers");
+    for (shown, x) in shown.iter().zip(history.column("bridge.x")) {
+        assert!((shown - x).abs() <= 0.005 + 1e-9, "{shown} {x}");
+    }
+}

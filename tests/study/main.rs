@@ -1,0 +1,225 @@
+//! Studies of small scenes: orders of convergence, references that are checked, what is refused.
+
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
+mod command;
+mod stability;
+
+use girderway::cases::{Known, specs};
+use girderway::cli::Global;
+use girderway::link::solve;
+use girderway::progress::Progress;
+use girderway::scene::{Document, Reading};
+use girderway::study::{Against, Depth, Family, Outcome, Quantity, Study, study};
+use serde_json::{Value, json};
+use sim::Method;
+
+/// The paper's girder; `mass` by length, where it has one.
+fn girder(mass: Option<f64>) -> Value {
+    json!({
+        "format": "girderway-beam/1", "units": {"length": "ft", "force": "lbf", "time": "s"},
+        "theory": "euler-bernoulli",
+        "girder": {"spans": [60], "overhangs": [15, 15], "E": 4.32e9, "I_vertical": 9.528, "mass_per_length": mass},
+        "stations": [-15, 0, 15, 30, 45, 60, 75],
+    })
+}
+
+/// A body on one wheel, from `x0` at `speed` for a time, on springs that do not ring.
+fn scene(x0: f64, speed: f64, end: f64) -> Value {
+    json!({
+        "format": "girderway-scene/1", "name": "small", "units": {"length": "ft", "force": "lbf", "time": "s"},
+        "gravity": 32.174,
+        "structures": {"girder": {"spec": "spec.json", "foundation": "influence"}},
+        "bodies": {"car": {"weight": 2e6, "dof": ["y"], "x0": x0}},
+        "wheels": {"wheel": {"radius": 1.25, "vertical": {"k": 2e7}}},
+        "trucks": [{"name": "axle", "body": "car", "rail": "girder.rail", "tree": [0], "wheel": "wheel"}],
+        "motions": [{"body": "car", "dof": "x", "kind": "prescribed", "speed": [[0, speed]]}],
+        "end": {"time": end}, "output": {"dt": end / 100.0}, "accuracy": 1e-6,
+    })
+}
+
+/// Nothing tried, nothing timed.
+fn nothing() -> Depth {
+    Depth {
+        accuracies: Vec::new(),
+        steps: Vec::new(),
+        modes: Vec::new(),
+        elements: Vec::new(),
+        parts: Vec::new(),
+        stations: Vec::new(),
+        repetitions: 0,
+        ..Depth::quick()
+    }
+}
+
+fn conduct(scene: &Value, spec: &Value, depth: &Depth) -> Study {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, value) in [("scene.json", scene), ("spec.json", spec)] {
+        // a key without a value is left out
+        let mut value = value.clone();
+        if let Some(girder) = value.get_mut("girder").and_then(Value::as_object_mut) {
+            girder.retain(|_, own| !own.is_null());
+        }
+        std::fs::write(folder.path().join(name), value.to_string()).expect("writable");
+    }
+    let document = Document::open(&folder.path().join("scene.json")).expect("a scene without faults");
+    let solved = |spec: &std::sync::Arc<girderway::spec::Spec>| Known {
+        spec: std::sync::Arc::clone(spec),
+        solved: solve(spec).expect("a girder that stands"),
+    };
+    let known: Vec<Known> = specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
+    let progress = Progress::new(Global { quiet: true, ..Global::default() });
+    study(document.scene(), &known, depth, &progress).expect("a reference")
+}
+
+/// Values and errors along a family, in their order.
+fn curve(study: &Study, family: Family, quantity: Quantity) -> Vec<[f64; 2]> {
+    let own = study.points.iter().filter(|point| point.setting.family == family);
+    own.map(|point| {
+        let error = point.error(quantity);
+        [
+            point.setting.value,
+            error.unwrap_or_else(|| panic!("{}: {:?}", point.setting.label(), point.outcome)),
+        ]
+    })
+    .collect()
+}
+
+/// Slope of log error over log value from the first point to the last, with its sign turned.
+fn order(curve: &[[f64; 2]]) -> f64 {
+    let (first, last) = (curve[0], curve[curve.len() - 1]);
+    -(last[1] / first[1]).ln() / (last[0] / first[0]).ln()
+}
+
+#[test]
+fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
+    let depth = Depth { steps: vec![6, 12, 24, 48], references: vec![(1e-10, 2)], ..nothing() };
+    // between supports, where the rail's give is smooth
+    let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
+    let known = study.reference(Against::Own).expect("the scene's own reference");
+    println!("the reference tells from {:.1e}", known.resolves(Quantity::Deflection));
+    for (method, wanted) in
+        [(Method::Sdirk4, 4.0), (Method::Radau, 5.0), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
+    {
+        let curve = curve(&study, Family::Fixed(method), Quantity::Deflection);
+        let told: Vec<[f64; 2]> =
+            curve.iter().filter(|own| own[1] > known.resolves(Quantity::Deflection)).copied().collect();
+        println!("{method:?}: {curve:?}");
+        assert!(told.len() > 1, "{method:?}: {curve:?}");
+        let found = order(&told);
+        assert!((found - wanted).abs() < 0.5, "{method:?}: order {found}, theory {wanted}; {curve:?}");
+    }
+}
+
+#[test]
+fn errors_of_tables_and_parts_fall_with_their_orders() {
+    let depth = Depth { stations: vec![13, 25, 49], parts: vec![6, 12, 24, 48], ..nothing() };
+    let mut scene = scene(0.0, 5.0, 12.0);
+    scene["analysis"] = json!("quasi-static");
+    let study = conduct(&scene, &girder(None), &depth);
+    // natural splines: 3 where loads stand between stations; Akima's bilinear row: 2
+    for (family, wanted) in [
+        (Family::Table(Reading::Natural), 3.0),
+        (Family::Table(Reading::Akispl), 2.0),
+        (Family::Table(Reading::Cubspl), 2.0),
+        (Family::Parts, 2.0),
+    ] {
+        let curve = curve(&study, family, Quantity::Deflection);
+        let found = order(&curve);
+        println!("{}: {curve:?}, order {found:.2}", family.name());
+        assert!((found - wanted).abs() < 0.3, "{}: order {found}; {curve:?}", family.name());
+    }
+    let exact = curve(&study, Family::Influence, Quantity::Deflection);
+    assert!(exact.iter().all(|own| own[1] == 0.0), "the exact surface is the reference: {exact:?}");
+}
+
+#[test]
+fn residual_flexibility_spares_modes() {
+    let depth = Depth { modes: vec![1, 2, 4], references: vec![(1e-5, 12)], fine: 1e-5, ..nothing() };
+    let mut scene = scene(0.0, 100.0, 0.6);
+    scene["bodies"]["car"]["weight"] = json!(2e4);
+    scene["wheels"]["wheel"]["vertical"]["k"] = json!(1e5);
+    let study = conduct(&scene, &girder(Some(15.2)), &depth);
+    let least = study.reference(Against::Whole).expect("a reference").resolves(Quantity::Deflection);
+    let [with, without] =
+        [Family::Modal, Family::Pure].map(|family| curve(&study, family, Quantity::Deflection));
+    println!("with {with:?}, without {without:?}, told from {least:.1e}");
+    for (with, without) in with.iter().zip(&without) {
+        assert!(with[1].max(least) < 0.2 * without[1], "{with:?} {without:?}");
+    }
+    assert!(without.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{without:?}");
+    let massless = curve(&study, Family::Influence, Quantity::Deflection);
+    assert!(massless.iter().all(|own| own[1] > with[0][1]), "{massless:?}");
+}
+
+#[test]
+fn errors_by_modes_are_those_found_elsewhere() {
+    // a sprung mass of half the girder's, half its frequency, a tenth of its critical speed: errors that a prototype of
+    // other code gave, rounded
+    let (length, bending, mass) = (20.0_f64, 1e9_f64, 1000.0_f64);
+    let wave = std::f64::consts::PI / length;
+    let omega = wave * wave * (bending / mass).sqrt();
+    let speed = 0.1 * wave * (bending / mass).sqrt();
+    let sprung = 0.5 * mass * length;
+    let mut spec = girder(Some(mass));
+    spec["girder"]["spans"] = json!([length]);
+    spec["girder"]["overhangs"] = json!([0, 0]);
+    spec["girder"]["E"] = json!(bending);
+    spec["girder"]["I_vertical"] = json!(1);
+    spec["stations"] = json!([0, 5, 10, 15, 20]);
+    spec["effects"] = json!([{"name": "mid", "x": 10}]);
+    let mut scene = scene(0.0, speed, length / speed);
+    scene["bodies"]["car"]["weight"] = json!(sprung * 32.174);
+    scene["wheels"]["wheel"]["vertical"]["k"] = json!(sprung * 0.25 * omega * omega);
+    scene["output"]["dt"] = json!(length / speed / 400.0);
+    let depth = Depth {
+        modes: vec![1, 3],
+        accuracies: vec![1e-6],
+        references: vec![(1e-7, 24)],
+        fine: 1e-7,
+        resolution: 1e-4,
+        ..nothing()
+    };
+    let study = conduct(&scene, &spec, &depth);
+    for (family, quantity, wanted) in [
+        (Family::Modal, Quantity::WheelForce, [8.9e-4, 3.4e-5]),
+        (Family::Modal, Quantity::Moment, [3.4e-3, 8.9e-4]),
+        (Family::Pure, Quantity::WheelForce, [2.5e-2, f64::NAN]),
+        (Family::Influence, Quantity::WheelForce, [3.3e-2, f64::NAN]),
+        (Family::Influence, Quantity::Moment, [8.4e-2, f64::NAN]),
+    ] {
+        let curve = curve(&study, family, quantity);
+        println!("{} {}: {curve:?}, elsewhere {wanted:?}", family.name(), quantity.name());
+        for (own, wanted) in curve.iter().zip(wanted).filter(|(_, wanted)| wanted.is_finite()) {
+            assert!((own[1] / wanted - 1.0).abs() < 0.2, "{} {}: {own:?}", family.name(), quantity.name());
+        }
+    }
+}
+
+#[test]
+fn a_run_beyond_its_limit_is_stopped_and_says_so() {
+    let depth = Depth { steps: vec![16, 4_000_000], limit: 0.05, ..nothing() };
+    let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
+    let of = |value: f64| {
+        let found = study
+            .points
+            .iter()
+            .find(|own| own.setting.family == Family::Fixed(Method::Sdirk4) && own.setting.value == value);
+        &found.expect("a setting").outcome
+    };
+    assert!(matches!(of(16.0), Outcome::Done(_)), "{:?}", of(16.0));
+    assert!(matches!(of(4e6), Outcome::Stopped), "{:?}", of(4e6));
+}
+
+#[test]
+fn methods_that_do_not_suit_are_refused_with_what_they_lack() {
+    let depth = Depth { steps: vec![64], ..nothing() };
+    let mut scene = scene(20.0, 40.0, 0.5);
+    scene["wheels"]["wheel"]["vertical"]["c"] = json!(1e4);
+    let study = conduct(&scene, &girder(None), &depth);
+    let gauss = study.points.iter().find(|own| own.setting.family == Family::Fixed(Method::Gauss2));
+    match &gauss.expect("a setting").outcome {
+        Outcome::Refused(why) => assert!(why.contains("damper between wheel and rail"), "{why}"),
+        other => panic!("{other:?}"),
+    }
+}
