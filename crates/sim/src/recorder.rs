@@ -64,7 +64,7 @@ impl Recorder {
             channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
         }
         let history = History { channels, values: Vec::new() };
-        let treads = (0..system.pulls.len()).map(|index| system.treads(system.pull(index))).collect();
+        let treads = (0..system.pulls.len()).map(|index| system.wheels_of(system.pull(index))).collect();
         let along = vec![0.0; system.wheels.len()];
         Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms], treads, along }
     }

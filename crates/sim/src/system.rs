@@ -325,7 +325,7 @@ impl<'a> System<'a> {
     }
 
     /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
-    fn wheels_of(&self, i: usize) -> Vec<usize> {
+    pub fn wheels_of(&self, i: usize) -> Vec<usize> {
         match i.checked_sub(self.pull(0)) {
             None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
             Some(index) => {
