@@ -13,6 +13,7 @@ mod cranes;
 mod damping;
 mod drift;
 mod drop;
+mod emergency;
 mod event;
 mod film;
 #[path = "../history.rs"]

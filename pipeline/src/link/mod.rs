@@ -4,7 +4,6 @@ mod ladder;
 mod modal;
 mod mount;
 mod parts;
-mod rest;
 
 use std::sync::Arc;
 

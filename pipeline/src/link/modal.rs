@@ -5,10 +5,9 @@ use std::sync::Arc;
 use fea::{Frame, Modes, Refined};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
-use splines::{Compliance, Line, Probe, Surface};
+use splines::{Compliance, Line, Probe, Rest, Surface};
 
 use super::mount::{self, Push};
-use super::rest::Rest;
 use super::{Laid, Motion, Solved};
 use crate::exit::Failure;
 use crate::track::Pad;
@@ -91,12 +90,16 @@ impl Spectrum {
         let mut refined = self.refined.clone();
         refined.modes.modes = self.felt.iter().take(count).cloned().collect();
         let kept = &refined.modes;
+        let unfit = |error: &splines::Error| Failure::Untrusted(format!("{name}: {error}"));
         let line = Arc::clone(self.frame.line().map_err(untrusted)?);
         let rest: Box<dyn Compliance> = match &self.give {
-            Give::Given(exact) => Box::new(Rest::new(exact.clone(), Arc::clone(&line), &kept.modes)),
+            Give::Given(exact) => {
+                let taken = shapes(&line, &kept.modes, |mode| mode.omega).map_err(|e| unfit(&e))?;
+                Box::new(Rest::new(exact.clone(), taken))
+            }
             Give::Cut(surface) => Box::new(kept.residual(surface).map_err(untrusted)?),
         };
-        let shapes = Box::new(ModeShapes::new(line, &kept.modes));
+        let own = shapes(&line, &kept.modes, |_| 1.0).map_err(|e| unfit(&e))?;
         let rails = (0..refined.rails.len())
             .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
             .collect();
@@ -108,7 +111,7 @@ impl Spectrum {
         };
         let foundation = Foundation {
             compliance: Some(rest),
-            structure: Some(sim::Structure { dynamics, shapes }),
+            structure: Some(sim::Structure { dynamics, shapes: Box::new(ModeShapes(own)) }),
             rails,
             on: push.on.map(|on| mount::inertia(kept, on)),
             ..Foundation::default()
@@ -155,7 +158,9 @@ pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option
     felt.truncate(count);
     let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
     let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
-    let shapes = Box::new(ModeShapes::new(Arc::clone(frame.line().map_err(untrusted)?), &felt));
+    let own = shapes(frame.line().map_err(untrusted)?, &felt, |_| 1.0)
+        .map_err(|error| Failure::Untrusted(format!("{name}: {error}")))?;
+    let shapes = Box::new(ModeShapes(own));
     let omega: Vec<f64> = felt.iter().map(|mode| mode.omega).collect();
     let dynamics = Dynamics::Modes { ratio: vec![0.0; omega.len()], omega };
     Ok(Some(sim::Structure { dynamics, shapes }))
@@ -329,32 +334,23 @@ fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) 
     Dynamics::Matrices { mass: DMatrix::identity(n, n), damping, stiffness: square }
 }
 
-/// Modes along the rails: N(x) times the motion of the cells' ends.
-struct ModeShapes {
-    line: Arc<Line>,
-    /// Freedoms of the states x modes.
-    states: DMatrix<f64>,
-}
-
-impl ModeShapes {
-    fn new(line: Arc<Line>, modes: &[fea::Mode]) -> ModeShapes {
-        let states = DMatrix::from_fn(6 * line.states(), modes.len(), |k, r| modes[r].states[k / 6][k % 6]);
-        ModeShapes { line, states }
-    }
-}
+/// Modes along the rails.
+struct ModeShapes(splines::Shapes);
 
 impl Shapes for ModeShapes {
     fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), splines::Error> {
-        let row = self.line.row(at)?;
-        for (r, (value, slope)) in value.iter_mut().zip(slope).enumerate() {
-            (*value, *slope) = (0.0, 0.0);
-            let column = self.states.column(r);
-            for (&k, (share, share_slope)) in row.indices().iter().zip(row.values().iter().zip(row.slopes()))
-            {
-                *value += share * column[k];
-                *slope += share_slope * column[k];
-            }
-        }
-        Ok(())
+        self.0.row(at, value, slope)
     }
+}
+
+/// Modes along `line`, each divided by what `size` says of it.
+fn shapes(
+    line: &Arc<Line>,
+    modes: &[fea::Mode],
+    size: impl Fn(&fea::Mode) -> f64,
+) -> Result<splines::Shapes, splines::Error> {
+    let states = DMatrix::from_fn(6 * line.states(), modes.len(), |k, r| {
+        modes[r].states[k / 6][k % 6] / size(&modes[r])
+    });
+    splines::Shapes::new(Arc::clone(line), states)
 }

@@ -143,6 +143,11 @@ fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
             break;
         }
         let [low, high] = rest.swap_remove(k);
+        // the flank of a wave that is known already peaks at the edge of its band
+        let is_known = |known: &Tone| (known.frequency / tone.frequency).ln().abs() < APART.ln();
+        if found.iter().any(is_known) {
+            continue;
+        }
         let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
         rest.extend(sides.into_iter().filter(|[low, high]| low < high));
         found.push(tone);

@@ -1,0 +1,55 @@
+//! A surface without what shapes take of it.
+
+mod beam;
+
+use std::sync::Arc;
+
+use beam::{Beam, Random, probe};
+use nalgebra::DMatrix;
+use splines::{Axis, Compliance, Error, Influence, Rest, Shapes};
+
+const STATIONS: [f64; 4] = [-15.0, 0.0, 60.0, 75.0];
+
+/// Shapes of the paper's beam by arbitrary motions of its states, on the line of its surface or on a finer one.
+fn shapes(stations: &[f64], count: usize) -> Shapes {
+    let line = Arc::clone(Beam::paper().surface(stations).line());
+    let mut random = Random::new(3);
+    let states = DMatrix::from_fn(6 * line.states(), count, |_, _| random.between(-1e-5, 1e-5));
+    Shapes::new(line, states).expect("six freedoms a state")
+}
+
+/// Identity: every pair of probes loses the product of the shapes there, its slope that of slope and shape; none takes nothing.
+#[test]
+fn shapes_take_their_products_from_the_surface() {
+    let surface = Beam::paper().surface(&STATIONS);
+    let at = [-9.0, 0.0, 13.5, 41.0, 66.0].map(|x| probe(Axis::Vertical, x));
+    let mut whole = Influence::zeros(at.len());
+    surface.fill(&at, &mut whole).expect("on the rail");
+    for count in [0, 1, 3] {
+        // the finer line has joints where the surface has none
+        let taken = shapes(&[-15.0, 0.0, 20.0, 40.0, 60.0, 75.0], count);
+        let rows = at.map(|p| {
+            let (mut value, mut slope) = (vec![0.0; count], vec![0.0; count]);
+            taken.row(p, &mut value, &mut slope).expect("on the rail");
+            [value, slope]
+        });
+        let mut left = Influence::zeros(at.len());
+        Rest::new(surface.clone(), taken).fill(&at, &mut left).expect("on the rail");
+        for (i, [value, slope]) in rows.iter().enumerate() {
+            for (j, [other, _]) in rows.iter().enumerate() {
+                let sum = |a: &[f64]| a.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
+                assert_eq!(left.value[(i, j)], whole.value[(i, j)] - sum(value));
+                assert_eq!(left.slope[(i, j)], whole.slope[(i, j)] - sum(slope));
+                assert_eq!(left.value[(i, j)], left.value[(j, i)]);
+            }
+        }
+    }
+}
+
+#[test]
+fn shapes_of_another_line_are_refused() {
+    let line = Arc::clone(Beam::paper().surface(&STATIONS).line());
+    let rows = 6 * line.states();
+    let wrong = Shapes::new(line, DMatrix::zeros(rows + 1, 2));
+    assert_eq!(wrong.err(), Some(Error::NodalShape { rows: rows + 1, columns: 2, expected: rows }));
+}
