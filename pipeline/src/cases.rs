@@ -9,11 +9,11 @@ use sim::{Foundation, Run};
 use crate::codes::Codes;
 use crate::exit::Failure;
 use crate::fatigue::{self, Verdict};
-use crate::link::{self, Solved};
+use crate::link::{self, Laid, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
 use crate::record::Record;
-use crate::response::{self, Lines, Response};
+use crate::response::{self, Lines, Natural, Response};
 use crate::scene::{Case, Document, Origin, Scene};
 use crate::spec::Spec;
 
@@ -153,6 +153,11 @@ fn one(
     let lines = response::lines(&scene, &laid, &solved)?;
     let mut record = Record::new(&scene, &run.history);
     let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
+    let (foundations, motions): (Vec<Foundation>, Vec<_>) =
+        laid.into_iter().map(|laid| (laid.foundation, laid.motion)).unzip();
+    response.modes = Natural::all(&scene, &cast, &foundations, &run);
+    let with = |(foundation, motion)| Laid { foundation, motion };
+    let laid: Vec<Laid> = foundations.into_iter().zip(motions).map(with).collect();
     // only the scene itself is drawn
     if case.label.is_none() {
         response.bend(&scene, &cast, &run.history, &laid, &solved)?;

@@ -44,6 +44,10 @@ fn factors_of_codes_stand_beside_a_crane_at_rest() {
     near(found, 1.0, 1e-3);
     let phi2 = 1.1 + 0.34 * 0.5 * 0.3048;
     near(value(&summary, "load_factor", "EN 1991-3:2006", "phi2"), phi2, 1e-12);
+    let factor = |name: &str| summary["practice"]["factors"][name]["value"].as_f64().expect(name);
+    near(factor("phi6"), 0.5 + 0.5 * phi2, 1e-12);
+    near(factor("wheel_near"), (BRIDGE + TROLLEY + LADLE) / 16.0, 1e-9);
+    near(factor("wheel_impact"), 1.25 * (BRIDGE + TROLLEY + LADLE) / 16.0, 1e-9);
     let all = BRIDGE + TROLLEY + LADLE;
     let wanted = (1.1 * (BRIDGE + TROLLEY) + phi2 * LADLE) / all;
     near(value(&summary, "rail_factor", "EN 1991-3:2006", "phi1"), wanted, 1e-9);

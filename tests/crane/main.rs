@@ -10,12 +10,14 @@ use serde_json::{Value, json};
 mod codes;
 mod couplings;
 mod cranes;
+mod damping;
 mod drift;
 mod drop;
 mod event;
 mod film;
 #[path = "../history.rs"]
 mod history;
+mod inertia;
 mod parts;
 mod skew;
 

@@ -24,6 +24,10 @@ fn momenta(laid: &Laid, mass: f64) -> Vec<f64> {
     let extent = &laid.foundation.rails[0];
     let mut cuts: Vec<f64> =
         extent.range.into_iter().flatten().chain(extent.breaks.iter().copied()).collect();
+    // shapes are cubics between the joints of the members as they are cut
+    if let Some(Motion::Modes { frame, .. }) = &laid.motion {
+        cuts.extend(frame.line().expect("a rail").breaks(0));
+    }
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
     let mut sum = vec![0.0; n];

@@ -36,7 +36,7 @@ impl Category {
         ("E'", Category::EPrime),
     ];
 
-    /// C_f, and the threshold F_TH in ksi. *Not confirmed.*
+    /// C_f, and the threshold F_TH in ksi. Those of E and E' are *not confirmed*.
     ///
     /// # Source
     /// AISC 360-16, Table.

@@ -4,13 +4,17 @@
 //! mass, u = G F, so that s depends on how fast the forces change. u is a state, as a penetration is: in a stage
 //! du/dt = (G F - u*)/g along the wheel's path, less x' dG/dx F for the path itself. Freedoms with mass give Phi v.
 
+use crate::Error;
 use crate::dense::along;
+use crate::energy::stored;
+use crate::events::PASSED;
 use crate::geometry::Geometry;
 use crate::scene::arm_rows;
 use crate::settle::RIGID;
 use crate::solver::Solver;
 use crate::state::State;
-use crate::system::System;
+use crate::stepper::Stepper;
+use crate::system::{System, Tread};
 
 impl Solver<'_> {
     /// Sets the displacements of massless rails along x to those under the forces of `at`, at rest.
@@ -27,11 +31,11 @@ impl Solver<'_> {
         let (first, m) = (self.system.normals.len(), self.system.components());
         for (k, i) in self.system.drags().enumerate() {
             self.problem.pinned[i] = None;
-            let speed = path_speed(self.system, i, at);
             self.problem.rate[i] += known[first + k] / g;
             for j in i * m..(i + 1) * m {
-                self.problem.y[j] += self.geometry.compliance[j] / g - speed * self.geometry.slope[j];
+                self.problem.y[j] += self.geometry.compliance[j] / g;
             }
+            self.pass_by(i, at);
         }
     }
 
@@ -43,10 +47,19 @@ impl Solver<'_> {
             let stiffness = self.system.stiffest;
             let gives = self.geometry.compliance[i * m + i] * stiffness > RIGID;
             self.problem.pinned[i] = Some(at.p[first + k]).filter(|_| gives && self.keeps_rails);
-            let speed = path_speed(self.system, i, at);
             self.problem.rate[i] -= at.p_rate[first + k];
-            for j in i * m..(i + 1) * m {
-                self.problem.y[j] = -speed * self.geometry.slope[j];
+            self.problem.y[i * m..(i + 1) * m].fill(0.0);
+            self.pass_by(i, at);
+        }
+    }
+
+    /// Takes the wheels' own way over the deflected rail, x' dG/dx F, from the rate of component `i`.
+    fn pass_by(&mut self, i: usize, at: &State) {
+        let m = self.system.components();
+        for (tread, speed) in own_treads(self.system, i, at) {
+            let slopes = &self.geometry.by_tread[tread * m..(tread + 1) * m];
+            for (y, slope) in self.problem.y[i * m..(i + 1) * m].iter_mut().zip(slopes) {
+                *y -= speed * slope;
             }
         }
     }
@@ -62,6 +75,42 @@ impl Solver<'_> {
     }
 }
 
+impl Stepper<'_, '_> {
+    /// Where the step has ended at a joint of a rail, the wheel there goes over to another part, which the same forces
+    /// have displaced along x by another way: the displacement jumps, and slides nowhere. What pushes along x then pushes
+    /// that part, so that the rail below all wheels jumps as well, by Maxwell's theorem with as much work: penetrations
+    /// follow. Returns the energy put in.
+    pub(crate) fn pass_joint(&mut self) -> Result<f64, Error> {
+        let system = self.solver.system;
+        let Some(w) = self.meets.take().filter(|_| system.is_dragged) else { return Ok(0.0) };
+        let (x, speed) =
+            (self.solver.geometry.place(system, w, &self.to.q), self.solver.speed_of(w, &self.to));
+        let near = PASSED * self.nearness() * (1.0 + x.abs());
+        let contact = &system.scene.contacts[system.wheels[w].contact];
+        let foundation = &system.foundations[contact.structure];
+        let is_there = foundation.breaks_between(contact.rail, x - near, x + near).next().is_some();
+        if !is_there || speed == 0.0 {
+            return Ok(0.0);
+        }
+        let before = stored(system, &self.solver.geometry, &self.to);
+        let felt: Vec<usize> = (0..system.normals.len()).filter(|&i| self.solver.remembers(i)).collect();
+        for &i in &felt {
+            self.to.p[i] += along(&self.solver.geometry.compliance, i, &self.to.force);
+        }
+        self.probe.q.copy_from(&self.to.q);
+        self.probe.q.axpy(near / speed.abs(), &self.to.v, 1.0);
+        self.solver.geometry.leave();
+        self.solver.geometry.update(system, self.to.t, &self.probe.q, &self.to.force)?;
+        for i in felt {
+            self.to.p[i] -= along(&self.solver.geometry.compliance, i, &self.to.force);
+        }
+        for (k, i) in system.drags().enumerate() {
+            self.to.p[system.normals.len() + k] = along(&self.solver.geometry.compliance, i, &self.to.force);
+        }
+        Ok(stored(system, &self.solver.geometry, &self.to).total() - before.total())
+    }
+}
+
 /// Rate that the law of component `i` along a rail feels: that of its wheels less that of the rail.
 pub(crate) fn slip(system: &System, geometry: &Geometry, state: &State, i: usize) -> f64 {
     let own = geometry.rate(i, &state.v);
@@ -69,13 +118,18 @@ pub(crate) fn slip(system: &System, geometry: &Geometry, state: &State, i: usize
         return own;
     }
     let k = system.normals.len() + i - system.traction(0);
-    own - state.p_rate[k] + path_speed(system, i, state) * along(&geometry.slope, i, &state.force)
+    let way: f64 = own_treads(system, i, state)
+        .map(|(tread, speed)| speed * along(&geometry.by_tread, tread, &state.force))
+        .sum();
+    own - state.p_rate[k] + way
 }
 
-/// Speed along the rail of the first wheel of component `i`.
-fn path_speed(system: &System, i: usize, at: &State) -> f64 {
-    let Some(&w) = system.treads(i).first() else { return 0.0 };
-    let wheel = &system.wheels[w];
-    let (_, speed) = system.body(wheel.body, at.t, &at.q, &at.v);
-    arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
+/// The treads of component `i` with their speeds along the rail.
+fn own_treads<'s>(system: &'s System, i: usize, at: &'s State) -> impl Iterator<Item = (usize, f64)> + 's {
+    let own = system.treads.iter().enumerate().filter(move |(_, tread)| tread.component == i);
+    own.map(|(tread, Tread { wheel, .. })| {
+        let wheel = &system.wheels[*wheel];
+        let (_, speed) = system.body(wheel.body, at.t, &at.q, &at.v);
+        (tread, arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum())
+    })
 }

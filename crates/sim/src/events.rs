@@ -4,6 +4,7 @@ use crate::Error;
 use crate::actuator::Pull;
 use crate::dense::dot;
 use crate::drag::slip;
+use crate::root::narrow;
 use crate::state::State;
 use crate::stepper::Stepper;
 
@@ -15,6 +16,10 @@ const SLACK: f64 = 1e-11;
 
 /// The same for each unit of the error that a step may make, where that is more.
 const SLACK_BY_ERROR: f64 = 1e-4;
+
+/// Times as far before a break a step may start and cross it: what ends there has passed all breaks that near, and every
+/// stage is beyond them.
+pub(crate) const PASSED: f64 = 8.0;
 
 impl Stepper<'_, '_> {
     /// Length of the step that ends where a wheel with prescribed motion meets a break of its rail, if the
@@ -67,7 +72,8 @@ impl Stepper<'_, '_> {
             for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
                 let slack = nearness * (1.0 + place.abs());
                 // Within the slack a step may start before the break and cross it, or end beyond it.
-                if (x0 - place) * (x1 - place) >= 0.0 || (x0 - place).abs().min((x1 - place).abs()) < slack {
+                let is_there = (x0 - place).abs() < PASSED * slack || (x1 - place).abs() < slack;
+                if (x0 - place) * (x1 - place) >= 0.0 || is_there {
                     continue;
                 }
                 let aim = place - 0.5 * slack * (x1 - x0).signum();
@@ -78,7 +84,7 @@ impl Stepper<'_, '_> {
                     geometry.place(system, w, &probe.q) - aim
                 });
                 if first.is_none_or(|known| share < known) {
-                    first = Some(share);
+                    (first, self.meets) = (Some(share), Some(w));
                 }
             }
         }
@@ -86,7 +92,7 @@ impl Stepper<'_, '_> {
     }
 
     /// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it.
-    fn nearness(&self) -> f64 {
+    pub(crate) fn nearness(&self) -> f64 {
         if self.fixed.is_some() { SLACK } else { SLACK.max(SLACK_BY_ERROR * self.tolerance) }
     }
 
@@ -145,17 +151,27 @@ impl Stepper<'_, '_> {
 
     /// Share of the step at which the event function of contact `i` reaches `aim` on the interpolant.
     fn root_on_interpolant(&mut self, i: usize, aim: f64) -> Result<f64, Error> {
-        self.probe.copy_from(&self.to);
-        let (mut low, mut high) = (0.0_f64, 1.0_f64);
-        while high - low > 1e-12 {
-            let middle = 0.5 * (low + high);
-            self.look_inside(middle)?;
-            if !self.solver.instant(&mut self.probe)? {
-                break;
-            }
-            if self.event(i, &self.probe) > aim { high = middle } else { low = middle }
+        // The geometry is that of the end: the value at the start is a guess.
+        let [start, end] = [&self.from, &self.to].map(|at| self.event(i, at) - aim);
+        if end <= 0.0 {
+            return Ok(1.0);
         }
-        Ok(high)
+        let mut failure = None;
+        let [_, share] = narrow([start.min(-aim), end], 1e-12, |share| {
+            let value = self.solved_at(share).map(|solved| solved.then(|| self.event(i, &self.probe) - aim));
+            value.unwrap_or_else(|error| {
+                failure = Some(error);
+                None
+            })
+        });
+        failure.map_or(Ok(share), Err)
+    }
+
+    /// Brings `probe` to the share `share` of the step just tried, with its forces; returns whether they converged.
+    pub(crate) fn solved_at(&mut self, share: f64) -> Result<bool, Error> {
+        self.probe.copy_from(&self.to);
+        self.look_inside(share)?;
+        self.solver.instant(&mut self.probe)
     }
 
     /// Share of the step at which a drive reaches or leaves a limit, if one does by more than [`OVERSHOOT`]: the
@@ -210,16 +226,8 @@ impl Stepper<'_, '_> {
     }
 }
 
-/// Root in (0, 1) of a function with opposite signs at the ends, by bisection, from the side of 0.
+/// Root in (0, 1) of a function with opposite signs at the ends, from the side of 0.
 fn root(mut f: impl FnMut(f64) -> f64) -> f64 {
-    let sign = f(0.0).signum();
-    let (mut low, mut high) = (0.0_f64, 1.0_f64);
-    while high - low > 1e-15 {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if f(middle).signum() == sign { low = middle } else { high = middle }
-    }
-    low
+    let ends = [f(0.0), f(1.0)];
+    narrow(ends, 1e-15, |at| Some(f(at)))[0]
 }

@@ -32,6 +32,8 @@ pub(crate) struct Problem {
     pub asleep: Vec<bool>,
     /// Components whose force keeps the give of their rail at a value, as far as their law lets it.
     pub pinned: Vec<Option<f64>>,
+    /// Relative residual of the forces that may be left; rounding alone where it is zero.
+    pub slack: f64,
     matrix: Vec<f64>,
     residual: Vec<f64>,
     start: Vec<f64>,
@@ -56,6 +58,7 @@ impl Problem {
             memory: vec![None; m],
             asleep: vec![false; m],
             pinned: vec![None; m],
+            slack: 0.0,
             matrix: vec![0.0; m * m],
             residual: vec![0.0; m],
             start: vec![0.0; m],
@@ -168,7 +171,7 @@ impl Problem {
                 damping *= 0.5;
             }
             let done = TOLERANCE * scale.max(f64::MIN_POSITIVE);
-            if change <= done || size <= 0.1 * done {
+            if change <= done || size <= (0.1 * done).max(self.slack * scale) {
                 return true;
             }
         }

@@ -7,8 +7,20 @@ use crate::dense::along;
 use crate::link::Hold;
 use crate::rule::Switches;
 use crate::scene::arm_rows;
-use crate::system::{System, WheelPoint};
-use crate::{Error, Moving};
+use crate::system::{Entry, System, WheelPoint};
+use crate::way::Way;
+use crate::{Error, Freedom, Moving};
+
+/// Index of the roll among the displacements of a body.
+const ROLL: usize = Freedom::Roll as usize;
+
+/// Rows that stay as they are.
+#[derive(Clone)]
+struct Fixed {
+    rows: Vec<f64>,
+    held: Vec<f64>,
+    rate_rows: Vec<f64>,
+}
 
 /// Everything about the contacts that depends on where the wheels are.
 #[derive(Clone)]
@@ -27,6 +39,8 @@ pub(crate) struct Geometry {
     pub compliance: Vec<f64>,
     /// d G(i, j)/d x_i over components, row-major.
     pub slope: Vec<f64>,
+    /// d G(i, j)/d x by the place of each tread of component i, over components j, row-major.
+    pub by_tread: Vec<f64>,
     /// Approach e = `held` + `rows` q, before the give of G.
     pub rows: Vec<f64>,
     pub held: Vec<f64>,
@@ -51,17 +65,24 @@ pub(crate) struct Geometry {
     /// Where the influence of each structure was found, and how far each wheel is from there.
     probes: Vec<Vec<Probe>>,
     moved: Vec<Vec<f64>>,
+    /// The way of each structure's wheels in this step, and how far from it they may be.
+    ways: Vec<Option<Way>>,
+    pub reach: f64,
+    /// Whether the compliance of a structure is that of its way.
+    is_on_way: Vec<bool>,
     shape: Vec<f64>,
     shape_slope: Vec<f64>,
     /// Slopes of the structures' shapes under each component, over the freedoms, row-major.
     shape_slopes: Vec<f64>,
+    fixed: Fixed,
     built: bool,
 }
 
 impl Geometry {
     pub fn new(system: &System) -> Self {
         let (m, n) = (system.components(), system.freedoms);
-        Geometry {
+        let mut geometry = Geometry {
+            fixed: Fixed { rows: vec![0.0; m * n], held: vec![0.0; m], rate_rows: vec![0.0; m * n] },
             travel: vec![Moving::default(); system.scene.bodies.len()],
             x: vec![0.0; system.wheels.len()],
             piece: vec![0; system.wheels.len()],
@@ -69,6 +90,7 @@ impl Geometry {
             share: vec![[1.0, 0.0]; system.normals.len()],
             compliance: vec![0.0; m * m],
             slope: vec![0.0; m * m],
+            by_tread: vec![0.0; m * system.treads.len()],
             rows: vec![0.0; m * n],
             held: vec![0.0; m],
             force_rows: vec![0.0; m * n],
@@ -83,11 +105,16 @@ impl Geometry {
             probes: system.entries.iter().map(|e| e.iter().map(|entry| entry.probe).collect()).collect(),
             near: 0.0,
             moved: system.entries.iter().map(|entries| vec![0.0; entries.len()]).collect(),
+            ways: Way::all(system),
+            reach: 0.0,
+            is_on_way: vec![false; system.entries.len()],
             shape: vec![0.0; n],
             shape_slope: vec![0.0; n],
             shape_slopes: vec![0.0; m * n],
             built: false,
-        }
+        };
+        geometry.fill_rows(system);
+        geometry
     }
 
     /// Approach of component `i` at the freedoms `q`, before the give of the compliance.
@@ -102,11 +129,7 @@ impl Geometry {
 
     /// Updates everything for the wheels' places at (t, q); `force` are the latest forces, for the rail's slope.
     pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
-        for (travel, body) in self.travel.iter_mut().zip(&system.scene.bodies) {
-            if let Some(profile) = &body.motion {
-                *travel = profile.at(t);
-            }
-        }
+        self.travel(system, t);
         for w in 0..system.wheels.len() {
             self.x[w] = self.place(system, w, q);
         }
@@ -129,6 +152,14 @@ impl Geometry {
         }
         self.update_links(system, t, q);
         self.update_force_rows(system, q, force)
+    }
+
+    fn travel(&mut self, system: &System, t: f64) {
+        for (travel, body) in self.travel.iter_mut().zip(&system.scene.bodies) {
+            if let Some(profile) = &body.motion {
+                *travel = profile.at(t);
+            }
+        }
     }
 
     /// Rail coordinate of wheel `w` at the freedoms `q`, its prescribed travel being that of the last update.
@@ -169,9 +200,16 @@ impl Geometry {
                 }
             }
             let Some(compliance) = &foundation.compliance else { continue };
+            if let Some(way) = &mut self.ways[s]
+                && way.follow(&self.x, self.reach)
+            {
+                way.put(m, [&mut self.compliance, &mut self.slope, &mut self.by_tread]);
+                self.is_on_way[s] = true;
+                continue;
+            }
             let influence = &mut self.influence[s];
             let (probes, moved) = (&mut self.probes[s], &mut self.moved[s]);
-            let (mut farthest, mut changed) = (0.0_f64, false);
+            let (mut farthest, mut changed) = (0.0_f64, std::mem::take(&mut self.is_on_way[s]));
             for ((moved, probe), entry) in moved.iter_mut().zip(&*probes).zip(entries) {
                 let now = self.x[entry.wheel] - probe.x;
                 changed |= now != *moved;
@@ -202,6 +240,52 @@ impl Geometry {
         Ok(())
     }
 
+    /// Lays the ways of all wheels from a time and freedoms, to the second of those that are to come or to the first, so that no
+    /// cell of a rail ends before it. Ways that lead to the first already stay.
+    pub fn lay(&mut self, system: &System, ends: [(f64, &DVector<f64>); 3]) {
+        if self.ways.iter().all(Option::is_none) {
+            return;
+        }
+        let places = ends.map(|(t, q)| {
+            self.travel(system, t);
+            (0..system.wheels.len()).map(|w| self.place(system, w, q)).collect::<Vec<_>>()
+        });
+        let [from, to, beyond] = places.each_ref().map(Vec::as_slice);
+        for (s, way) in self.ways.iter_mut().enumerate() {
+            let (Some(way), foundation, entries) = (way, &system.foundations[s], &system.entries[s]) else {
+                continue;
+            };
+            if way.leads_to(from, self.reach) && way.leads_to(to, self.reach) {
+                continue;
+            }
+            let is_free = |start: &[f64], end: &[f64]| {
+                !entries.iter().any(|Entry { wheel, probe, .. }| {
+                    foundation.breaks_between(probe.rail, start[*wheel], end[*wheel]).next().is_some()
+                })
+            };
+            let inner = |end: &[f64]| -> [Vec<f64>; 2] {
+                let of =
+                    |k: usize| (0..from.len()).map(|w| within([from[w], end[w]], self.reach)[k]).collect();
+                [of(0), of(1)]
+            };
+            // What the rail refuses, it refuses the step itself.
+            let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
+            let laid = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
+                let goes_on = is_free(way.end(), &ends[0]);
+                way.lay(compliance.as_ref(), entries, ends.each_ref().map(Vec::as_slice), self.reach, goes_on)
+                    .is_ok()
+            });
+            if !laid {
+                way.leave();
+            }
+        }
+    }
+
+    /// Forgets the ways.
+    pub fn leave(&mut self) {
+        self.ways.iter_mut().flatten().for_each(Way::leave);
+    }
+
     /// Sums the compliance of structure `s` over its components, with what the wheels moved since it was found:
     /// G + dG/dx moved.
     fn carry(&mut self, system: &System, s: usize) {
@@ -210,6 +294,9 @@ impl Geometry {
         for row in entries {
             self.compliance[row.component * m..(row.component + 1) * m].fill(0.0);
             self.slope[row.component * m..(row.component + 1) * m].fill(0.0);
+            if let Some(tread) = row.tread {
+                self.by_tread[tread * m..(tread + 1) * m].fill(0.0);
+            }
         }
         let count = entries.len();
         let (values, slopes) = (influence.value.as_slice(), influence.slope.as_slice());
@@ -223,16 +310,17 @@ impl Geometry {
                 let (value, slope) = (values[i + j * count], slopes[i + j * count]);
                 sums[column.component] += weight * (value + slope * moved[i] + mirrored[j] * moved[j]);
                 rates[column.component] += weight * slope;
+                if let Some(tread) = row.tread {
+                    self.by_tread[tread * m + column.component] += weight * slope;
+                }
             }
         }
     }
 
-    fn update_rows(&mut self, system: &System) -> Result<(), Error> {
+    /// Rows and what is held of them, as far as they are the same wherever the wheels are; flanges as if the wheels had no
+    /// height.
+    fn fill_rows(&mut self, system: &System) {
         let n = system.freedoms;
-        self.rows.fill(0.0);
-        self.rate_rows.fill(0.0);
-        self.shape_slopes.fill(0.0);
-        self.held.fill(0.0);
         let put =
             |rows: &mut [f64], held: &mut f64, component: usize, body: usize, row: [f64; 6], scale: f64| {
                 let (terms, start) = (system.kinematics.terms(body), system.kinematics.held(body));
@@ -245,41 +333,54 @@ impl Geometry {
                     }
                 }
             };
+        let Fixed { rows, held, rate_rows } = &mut self.fixed;
         for (component, normal) in system.normals.iter().enumerate() {
             for w in normal.wheels.clone() {
                 let wheel = &system.wheels[w];
-                let row = arm_rows(wheel.hub)[1];
-                put(
-                    &mut self.rows,
-                    &mut self.held[component],
-                    component,
-                    wheel.body,
-                    row,
-                    -1.0 / normal.count(),
-                );
+                let (row, share) = (arm_rows(wheel.hub)[1], -1.0 / normal.count());
+                put(rows, &mut held[component], component, wheel.body, row, share);
             }
             let span = component * n..(component + 1) * n;
-            self.rate_rows[span.clone()].copy_from_slice(&self.rows[span]);
+            rate_rows[span.clone()].copy_from_slice(&rows[span]);
         }
         for (i, &w) in system.laterals.iter().enumerate() {
             let (component, wheel) = (system.lateral(i), &system.wheels[w]);
-            let [x, y, z] = wheel.hub;
-            let row = arm_rows([x, y - self.height[w], z])[2];
-            put(&mut self.rows, &mut self.held[component], component, wheel.body, row, 1.0);
-        }
-        if system.is_uneven {
-            self.update_shape(system);
+            put(rows, &mut held[component], component, wheel.body, arm_rows(wheel.hub)[2], 1.0);
         }
         let mut unused = 0.0;
         for (i, &w) in system.tractions.iter().enumerate() {
             let (component, wheel) = (system.traction(i), &system.wheels[w]);
-            put(&mut self.rate_rows, &mut unused, component, wheel.body, arm_rows(wheel.hub)[0], 1.0);
-            if let Some(spin) = wheel.spin {
-                self.rate_rows[component * n + spin] += self.height[w];
-            }
+            put(rate_rows, &mut unused, component, wheel.body, arm_rows(wheel.hub)[0], 1.0);
         }
         for (i, pull) in system.pulls.iter().enumerate() {
-            put(&mut self.rate_rows, &mut unused, system.pull(i), pull.body, pull.row, 1.0);
+            put(rate_rows, &mut unused, system.pull(i), pull.body, pull.row, 1.0);
+        }
+    }
+
+    fn update_rows(&mut self, system: &System) -> Result<(), Error> {
+        let n = system.freedoms;
+        self.rows.copy_from_slice(&self.fixed.rows);
+        self.rate_rows.copy_from_slice(&self.fixed.rate_rows);
+        self.held.copy_from_slice(&self.fixed.held);
+        if system.has_structures() {
+            self.shape_slopes.fill(0.0);
+        }
+        for (i, &w) in system.laterals.iter().enumerate() {
+            let (component, wheel) = (system.lateral(i), &system.wheels[w]);
+            // Where the rail is, below the hub.
+            let by_height = arm_rows([0.0, -self.height[w], 0.0])[2][ROLL];
+            for &(number, coefficient) in &system.kinematics.terms(wheel.body)[ROLL] {
+                self.rows[component * n + number] += by_height * coefficient;
+            }
+            self.held[component] += by_height * system.kinematics.held(wheel.body)[ROLL];
+        }
+        if system.is_uneven {
+            self.update_shape(system);
+        }
+        for (i, &w) in system.tractions.iter().enumerate() {
+            if let Some(spin) = system.wheels[w].spin {
+                self.rate_rows[system.traction(i) * n + spin] += self.height[w];
+            }
         }
         for (s, entries) in system.entries.iter().enumerate() {
             let Some(structure) = &system.foundations[s].structure else { continue };
@@ -354,7 +455,7 @@ impl Geometry {
         let mut tilt = |component: usize, w: usize| {
             let wheel = &system.wheels[w];
             let row = arm_rows(wheel.hub)[0];
-            for (i, coefficient) in row.iter().enumerate() {
+            for (i, coefficient) in row.iter().enumerate().filter(|(_, c)| **c != 0.0) {
                 for &(number, share) in &system.kinematics.terms(wheel.body)[i] {
                     self.force_rows[component * n + number] -=
                         self.rail_slope[component] * coefficient * share;
@@ -369,6 +470,12 @@ impl Geometry {
         }
         Ok(())
     }
+}
+
+/// A stretch of the rail without its ends, which may lie at a break: a quarter of `reach` less, or of itself.
+fn within([from, to]: [f64; 2], reach: f64) -> [f64; 2] {
+    let off = 0.25 * (to - from).clamp(-reach, reach);
+    [from + off, to - off]
 }
 
 /// Copies the first rows and columns of a column-major square matrix into a row-major one of `m` columns, in tiles

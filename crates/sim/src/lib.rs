@@ -36,6 +36,7 @@ mod profile;
 mod propagator;
 mod recorder;
 mod ride;
+mod root;
 mod rope;
 mod rule;
 mod run;
@@ -54,6 +55,7 @@ mod tie;
 mod touch;
 mod trigger;
 mod turn;
+mod way;
 mod wheel;
 
 pub use actuator::{Actuators, Brake, Drive, Load};

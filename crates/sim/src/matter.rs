@@ -40,6 +40,7 @@ enum Inverse {
 pub(crate) struct Mobility {
     step: f64,
     blocks: Vec<(Range<usize>, Inverse)>,
+    scratch: Vec<f64>,
 }
 
 impl Block {
@@ -163,7 +164,7 @@ impl Mobility {
     pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
         if let Some((_, Inverse::Matrix(bodies))) = self.blocks.first_mut() {
             bodies.copy_from(mass);
-            if !invert_spd(bodies.as_mut_slice(), mass.nrows()) {
+            if !invert_spd(bodies.as_mut_slice(), &mut self.scratch, mass.nrows()) {
                 return Err(not_definite(mass.diagonal().min()));
             }
         }
@@ -186,7 +187,9 @@ impl Mobility {
             };
             Ok((block.range.clone(), inverse))
         };
-        Ok(Mobility { step: 0.0, blocks: blocks.iter().map(of).collect::<Result<_, Error>>()? })
+        let bodies = blocks.first().map_or(0, |block| block.range.len());
+        let blocks = blocks.iter().map(of).collect::<Result<_, Error>>()?;
+        Ok(Mobility { step: 0.0, blocks, scratch: vec![0.0; bodies * bodies] })
     }
 
     /// Changes the coefficient g; the bodies' block does not depend on it.

@@ -106,7 +106,7 @@ impl Solver<'_> {
     }
 
     /// Speed of wheel `w` along its rail.
-    fn speed_of(&self, w: usize, at: &State) -> f64 {
+    pub fn speed_of(&self, w: usize, at: &State) -> f64 {
         let wheel = &self.system.wheels[w];
         let (_, speed) = self.system.body(wheel.body, at.t, &at.q, &at.v);
         arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()

@@ -26,7 +26,7 @@ pub(crate) struct Recorder {
     probes: Vec<Probe>,
     shape: Vec<f64>,
     /// Wheels that each drive and each braked contact acts under, evenly.
-    treads: Vec<Vec<usize>>,
+    pulled: Vec<Vec<usize>>,
     /// Scratch: force of each wheel on the rail along +x.
     along: Vec<f64>,
 }
@@ -64,9 +64,9 @@ impl Recorder {
             channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
         }
         let history = History { channels, values: Vec::new() };
-        let treads = (0..system.pulls.len()).map(|index| system.treads(system.pull(index))).collect();
+        let pulled = (0..system.pulls.len()).map(|index| system.wheels_of(system.pull(index))).collect();
         let along = vec![0.0; system.wheels.len()];
-        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms], treads, along }
+        Recorder { history, probes: Vec::new(), shape: vec![0.0; 2 * system.freedoms], pulled, along }
     }
 
     /// Numbers of a sample.
@@ -156,7 +156,7 @@ impl Recorder {
         for (index, &w) in system.tractions.iter().enumerate() {
             self.along[w] += at.force[system.traction(index)];
         }
-        for (index, wheels) in self.treads.iter().enumerate() {
+        for (index, wheels) in self.pulled.iter().enumerate() {
             let share = at.force[system.pull(index)] / wheels.len() as f64;
             wheels.iter().for_each(|&w| self.along[w] += share);
         }

@@ -14,6 +14,15 @@ use crate::{Damper, Error};
 /// Iterations on the wheels' places and heights inside one solution.
 const PASSES: usize = 30;
 
+/// Margin of the share that a pass leaves of what it changes, where another stage has it.
+const MARGIN: f64 = 10.0;
+
+/// The least such share that counts: less is rounding.
+const LEAST: f64 = 1e-7;
+
+/// Residual of the forces for each unit of what passes may leave.
+const SLACK: f64 = 0.1;
+
 /// Known parts of a stage: Q = `q` + (h gamma) V, V = `v` + (h gamma) A, and the like for the penetrations.
 pub(crate) struct Known {
     pub q: DVector<f64>,
@@ -36,16 +45,22 @@ pub(crate) struct Solver<'a> {
     pub keeps_rails: bool,
     inverse: Whole<'a>,
     mobility: Whole<'a>,
-    /// Scales of displacements and rates, where passes may end before rounding does, and how near beside them.
+    /// Scales of displacements and rates, where passes may end before rounding does; how near beside them, by the passes
+    /// of the stage itself and by those of another one.
     pub scales: Option<[DVector<f64>; 2]>,
-    pub settled: f64,
-    /// Components whose columns of `spread` are filled.
+    pub settled: [f64; 2],
+    /// Share that a pass leaves of what it changes, from stages of the same step; infinite where it is not known.
+    pub contraction: f64,
+    /// Components that may press, the columns of `spread` and `mobile`.
     awake: Vec<usize>,
-    /// Z R^T, freedoms x components, column-major.
+    /// Their forces.
+    pressing: Vec<f64>,
+    /// Z R^T, freedoms x awake components, row-major.
     spread: Vec<f64>,
-    /// R Z R^T, components x components, row-major; and the same with the rows of the rates.
+    /// R Z R^T, components x awake components, row-major; and the same with the rows of rates that are felt.
     mobile: Vec<f64>,
     mobile_rate: Vec<f64>,
+    answer: DVector<f64>,
     free_a: DVector<f64>,
     free_q: DVector<f64>,
     free_v: DVector<f64>,
@@ -68,13 +83,16 @@ impl<'a> Solver<'a> {
             problem: Problem::new(system),
             keeps_rails: true,
             scales: None,
-            settled: 0.0,
+            settled: [0.0; 2],
+            contraction: f64::INFINITY,
             awake: Vec::with_capacity(system.components()),
             mobility: Whole::new(system)?,
             inverse: Whole::new(system)?,
             spread: vec![0.0; n * system.components()],
             mobile: vec![0.0; system.components() * system.components()],
             mobile_rate: vec![0.0; system.components() * system.components()],
+            answer: DVector::zeros(n),
+            pressing: Vec::with_capacity(system.components()),
             free_a: DVector::zeros(n),
             free_q: DVector::zeros(n),
             free_v: DVector::zeros(n),
@@ -146,23 +164,35 @@ impl<'a> Solver<'a> {
             return;
         }
         let (n, m) = (self.system.freedoms, self.system.components());
-        self.awake.clear();
         // Rows that stay serve whatever acts later.
         let all = self.spread_is_fixed_by_rows();
+        self.awake.clear();
         self.awake.extend((0..m).filter(|&j| all || !self.problem.asleep[j]));
-        for &j in &self.awake {
-            let row = &self.geometry.force_rows[j * n..(j + 1) * n];
-            self.mobility.apply(row, &mut self.spread[j * n..(j + 1) * n]);
+        let count = self.awake.len();
+        for (column, &j) in self.awake.iter().enumerate() {
+            self.mobility.apply(&self.geometry.force_rows[j * n..(j + 1) * n], self.answer.as_mut_slice());
+            for (k, answer) in self.answer.iter().enumerate() {
+                self.spread[k * count + column] = *answer;
+            }
         }
+        let spread = &self.spread[..n * count];
         for i in 0..m {
-            let (row, rate_row) = (&self.geometry.rows[i * n..], &self.geometry.rate_rows[i * n..]);
-            for &j in &self.awake {
-                let column = &self.spread[j * n..(j + 1) * n];
-                self.mobile[i * m + j] = dot(&row[..n], column);
-                self.mobile_rate[i * m + j] = dot(&rate_row[..n], column);
+            let span = i * count..(i + 1) * count;
+            product(&self.geometry.rows[i * n..(i + 1) * n], spread, &mut self.mobile[span.clone()]);
+            if self.feels_rates(i) {
+                let row = &self.geometry.rate_rows[i * n..(i + 1) * n];
+                product(row, spread, &mut self.mobile_rate[span]);
             }
         }
         self.spread_is_fixed = all;
+    }
+
+    /// Whether the law of component `i` feels a rate of the freedoms themselves.
+    fn feels_rates(&self, i: usize) -> bool {
+        match i < self.system.normals.len() {
+            true => self.system.law(i).damper == Damper::Ground,
+            false => i >= self.system.traction(0),
+        }
     }
 
     fn spread_is_fixed_by_rows(&self) -> bool {
@@ -241,6 +271,7 @@ impl<'a> Solver<'a> {
         if hangs {
             self.charts.guess(system, &self.geometry.switches, g, known, at);
         }
+        self.problem.slack = if self.scales.is_some() { SLACK * self.settled[1] } else { 0.0 };
         let mut last = f64::INFINITY;
         for pass in 0..PASSES {
             if hangs {
@@ -255,31 +286,7 @@ impl<'a> Solver<'a> {
             }
             self.fill_spread();
             for i in 0..m {
-                let is_normal = i < system.normals.len();
-                let memory = is_normal && self.remembers(i);
-                let grounded =
-                    if is_normal { system.law(i).damper == Damper::Ground } else { i >= system.traction(0) };
-                let approach = self.geometry.approach(i, &self.free_q);
-                let span = i * m..(i + 1) * m;
-                let w = &mut self.problem.w[span.clone()];
-                let y = &mut self.problem.y[span.clone()];
-                for ((w, give), mobile) in
-                    w.iter_mut().zip(&self.geometry.compliance[span.clone()]).zip(&self.mobile[span.clone()])
-                {
-                    *w = give + g * g * mobile;
-                }
-                if memory {
-                    y.iter_mut().zip(w).for_each(|(y, w)| *y = *w / g);
-                } else if grounded {
-                    y.iter_mut().zip(&self.mobile_rate[span]).for_each(|(y, mobile)| *y = g * mobile);
-                } else {
-                    y.fill(0.0);
-                }
-                self.problem.approach[i] = approach;
-                self.problem.rate[i] =
-                    if memory { (approach - known.p[i]) / g } else { self.geometry.rate(i, &self.free_v) };
-                self.problem.memory[i] = memory.then_some(1.0 / g);
-                self.problem.known[i] = false;
+                self.fill_row(i, g, &known.p);
             }
             self.drag_stage(g, &known.p, at);
             if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
@@ -288,9 +295,12 @@ impl<'a> Solver<'a> {
             if self.wake(&at.force) {
                 continue;
             }
-            at.a.copy_from(&self.free_a);
-            for (column, force) in self.spread.chunks_exact(n.max(1)).zip(&at.force) {
-                at.a.iter_mut().zip(column).for_each(|(a, spread)| *a -= spread * force);
+            let count = self.awake.len();
+            self.pressing.clear();
+            self.pressing.extend(self.awake.iter().map(|&j| at.force[j]));
+            for k in 0..n {
+                let spread = &self.spread[k * count..(k + 1) * count];
+                at.a[k] = self.free_a[k] - dot(spread, &self.pressing);
             }
             let [mut moved, beside] = self.follow_accelerations(g, known, at);
             for i in 0..system.normals.len() {
@@ -300,19 +310,52 @@ impl<'a> Solver<'a> {
             self.drag_end(g, &known.p, at);
             let rise = self.update_heights(at);
             moved = moved.max(rise);
-            // What is left after this pass, from how much less it changed than the one before.
-            let left = beside.max(rise) / (last / beside.max(rise) - 1.0).max(0.0);
+            let change = beside.max(rise);
+            let known = last.is_finite();
+            if known {
+                self.contraction = (change / last).max(LEAST);
+            }
+            // What is left after this pass, from how much less a pass changes than the one before.
+            let rate = if known { self.contraction } else { MARGIN * self.contraction };
+            let left = if rate < 1.0 { change * rate / (1.0 - rate) } else { f64::INFINITY };
             // A good guess of where the wheels are says little of their speeds.
             let is_told = pass > 0 || !system.moves_freely;
             if (moved < 1e-13 && is_told)
                 || !iterates
-                || (self.scales.is_some() && last.is_finite() && left < self.settled)
+                || (self.scales.is_some() && left < self.settled[usize::from(!known)])
             {
                 return Ok(true);
             }
-            last = beside.max(rise);
+            last = change;
         }
         Ok(false)
+    }
+
+    /// What a stage of the coefficient `g` puts into row `i` of the contact problem; `known` are penetrations.
+    fn fill_row(&mut self, i: usize, g: f64, known: &[f64]) {
+        let (system, m, count) = (self.system, self.system.components(), self.awake.len());
+        let memory = i < system.normals.len() && self.remembers(i);
+        let (span, own) = (i * m..(i + 1) * m, i * count..(i + 1) * count);
+        let (w, y) = (&mut self.problem.w[span.clone()], &mut self.problem.y[span.clone()]);
+        w.copy_from_slice(&self.geometry.compliance[span]);
+        for (&j, mobile) in self.awake.iter().zip(&self.mobile[own.clone()]) {
+            w[j] += g * g * mobile;
+        }
+        y.fill(0.0);
+        let approach = self.geometry.approach(i, &self.free_q);
+        self.problem.approach[i] = approach;
+        self.problem.rate[i] = 0.0;
+        if memory {
+            y.iter_mut().zip(w).for_each(|(y, w)| *y = *w / g);
+            self.problem.rate[i] = (approach - known[i]) / g;
+        } else if self.feels_rates(i) {
+            for (&j, mobile) in self.awake.iter().zip(&self.mobile_rate[own]) {
+                self.problem.y[i * m + j] = g * mobile;
+            }
+            self.problem.rate[i] = self.geometry.rate(i, &self.free_v);
+        }
+        self.problem.memory[i] = memory.then_some(1.0 / g);
+        self.problem.known[i] = false;
     }
 
     /// Motion of a stage without contacts.
@@ -341,6 +384,7 @@ impl<'a> Solver<'a> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
         self.problem.asleep.fill(false);
+        self.problem.slack = 0.0;
         for _ in 0..PASSES {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
             for i in 0..m {
@@ -407,5 +451,14 @@ impl<'a> Solver<'a> {
             self.geometry.height[w] = height;
         }
         moved
+    }
+}
+
+/// `sum` = `row` times a row-major matrix as wide as `sum`.
+fn product(row: &[f64], matrix: &[f64], sum: &mut [f64]) {
+    sum.fill(0.0);
+    let width = sum.len().max(1);
+    for (share, line) in row.iter().zip(matrix.chunks_exact(width)).filter(|(share, _)| **share != 0.0) {
+        sum.iter_mut().zip(line).for_each(|(sum, entry)| *sum += share * entry);
     }
 }

@@ -48,9 +48,15 @@ const CHATTER: usize = 1000;
 /// What the passes of a stage may leave of the error a step may make.
 const SETTLED: f64 = 1e-6;
 
+/// Error of a step above which the passes of one stage tell those of the next all they need to know.
+const LOOSE: f64 = 1e-4;
+
 /// Way of a wheel, beside its radius and for each unit of the error a step may make, over which the slope of its rail
 /// stands for its compliance.
 const NEAR: f64 = 1e-3;
+
+/// Steps for which the way of the wheels is laid.
+const WAY: f64 = 4.0;
 
 /// Why a step could not be taken.
 pub(crate) enum Failure {
@@ -81,6 +87,8 @@ pub(crate) struct Stepper<'a, 'b> {
     pub fixed: Option<f64>,
     scale: DVector<f64>,
     rate_scale: DVector<f64>,
+    /// Of the smallest wheel.
+    radius: f64,
     h: f64,
     last_error: f64,
     limit: f64,
@@ -102,6 +110,8 @@ pub(crate) struct Stepper<'a, 'b> {
     pub(crate) overlaps: Vec<f64>,
     pub(crate) triggers: Triggers,
     begun: f64,
+    /// The wheel that meets a break of its rail where the step ends.
+    pub(crate) meets: Option<usize>,
     /// Boundary term of the grounded dampers where the next step starts.
     pub(crate) boundary: f64,
 }
@@ -139,6 +149,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             fixed: None,
             scale,
             rate_scale,
+            radius: system.scene.wheels.iter().fold(f64::INFINITY, |min, wheel| min.min(wheel.radius)),
             h: first,
             last_error: 1.0,
             limit: f64::INFINITY,
@@ -152,6 +163,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             forces: vec![vec![0.0; system.components()]; tableau.stages()],
             powers: vec![Exchanged::default(); tableau.stages()],
             begun: energy.total(),
+            meets: None,
             solver,
         })
     }
@@ -168,8 +180,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if self.fixed.is_some() || self.collocation.is_some() {
             return;
         }
-        self.solver.settled = SETTLED * self.tolerance;
+        let by_others = (self.tolerance / LOOSE).min(1.0).powi(2);
+        self.solver.settled = [1.0, by_others].map(|share| share * SETTLED * self.tolerance);
         self.solver.geometry.near = NEAR * self.tolerance;
+        self.solver.geometry.reach = (NEAR * self.tolerance).sqrt() * self.radius;
         match &mut self.solver.scales {
             Some([scale, rate_scale]) => {
                 scale.copy_from(&self.scale);
@@ -194,12 +208,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
             h = limit - start;
         }
         let mut ends_at_event = false;
+        self.meets = None;
         let (mut refined, mut corners, mut breaks, mut trials) = (0, 0, 0, 0);
         if let Some(share) = self.predicted_break(h).filter(|share| h * share > 2.0 * smallest) {
             breaks += 1;
             ends_at_event = true;
             h *= share;
         }
+        self.lay_way(h);
         loop {
             if h < smallest {
                 return Err(Failure::TooSmall);
@@ -220,6 +236,17 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 breaks += 1;
                 ends_at_event = true;
                 h = (h * share).max(2.0 * smallest);
+                continue;
+            }
+            // A flange that touches or lets go within a step matters where the step errs by more than it may.
+            let locates = error.is_finite() && (error > 1.0 || self.fixed.is_some()) && corners < CORNERS;
+            if locates
+                && h > shortest
+                && let Some(share) = self.first_touch()?
+            {
+                corners += 1;
+                ends_at_event = true;
+                h = (h * share).max(shortest);
                 continue;
             }
             if error > 1.0 {
@@ -254,18 +281,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 h = (h * share).max(shortest);
                 continue;
             }
-            if corners < CORNERS
-                && h > shortest
-                && let Some(share) = self.first_touch()?
-            {
-                corners += 1;
-                ends_at_event = true;
-                h = (h * share).max(shortest);
-                continue;
-            }
             let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
-            self.last_error = error.max(1e-4);
+            // A step cut short says nothing of the error of longer ones.
             if !ends_at_event {
+                self.last_error = error.max(1e-4);
                 let proposed = h * growth.clamp(0.2, 5.0);
                 // A step cut short by a limit says nothing against the longer one that was planned.
                 let wanted = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
@@ -280,6 +299,22 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         self.accept(h)?;
         Ok(())
+    }
+
+    /// Lays the way of the wheels in a step of length `h`, by the accelerations where it starts.
+    fn lay_way(&mut self, h: f64) {
+        if self.solver.geometry.reach == 0.0 {
+            return;
+        }
+        let (from, to, beyond) = (&self.from, &mut self.probe, &mut self.stage);
+        for (h, at) in [(h, &mut *to), (WAY * h, &mut *beyond)] {
+            at.t = from.t + h;
+            at.q.copy_from(&from.q);
+            at.q.axpy(h, &from.v, 1.0);
+            at.q.axpy(0.5 * h * h, &from.a, 1.0);
+        }
+        let ends = [from, &*to, &*beyond].map(|at| (at.t, &at.q));
+        self.solver.geometry.lay(self.solver.system, ends);
     }
 
     /// `h`, brought down to a power of 2^(1/4) where answers of modes are kept by the length of step.
@@ -303,6 +338,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(&self.from);
         self.solver.chart(&self.from);
+        self.solver.contraction = f64::INFINITY;
         for i in 0..tableau.stages() {
             self.known.q.copy_from(&self.from.q);
             self.known.v.copy_from(&self.from.v);
@@ -448,6 +484,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if self.to.t >= self.limit {
             self.turn()?;
         }
+        self.audit.exchanged.steps += self.pass_joint()?;
         let before = stored(system, &self.solver.geometry, &self.to);
         let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
         let due = crosses

@@ -53,6 +53,15 @@ pub(crate) struct Entry {
     pub weight: f64,
     pub wheel: usize,
     pub probe: Probe,
+    /// Which of [`System::treads`] it belongs to.
+    pub tread: Option<usize>,
+}
+
+/// Wheels of one contact under a component along a rail that gives: they move alike.
+pub(crate) struct Tread {
+    pub component: usize,
+    /// The first of them.
+    pub wheel: usize,
 }
 
 /// The numbered scene.
@@ -61,6 +70,10 @@ pub(crate) struct System<'a> {
     pub foundations: &'a [Foundation],
     pub wheels: Vec<WheelPoint<'a>>,
     pub normals: Vec<Normal>,
+    /// Vertical components of each contact.
+    bearing: Vec<Range<usize>>,
+    /// Where components along the rails load structures that feel it.
+    pub treads: Vec<Tread>,
     /// Wheels with a flange; component `normals.len() + i`.
     pub laterals: Vec<usize>,
     /// Wheels with friction; component `normals.len() + laterals.len() + i`.
@@ -128,7 +141,7 @@ impl<'a> System<'a> {
                 numbers
             })
             .collect();
-        let (mut wheels, mut normals) = (Vec::new(), Vec::new());
+        let (mut wheels, mut normals, mut bearing) = (Vec::new(), Vec::new(), Vec::new());
         for (index, contact) in scene.contacts.iter().enumerate() {
             let first = wheels.len();
             let kind = &scene.wheels[contact.wheel];
@@ -148,7 +161,7 @@ impl<'a> System<'a> {
                     turn,
                 });
             }
-            let parts = match &foundations[contact.structure].parts {
+            let parts: Vec<Option<usize>> = match &foundations[contact.structure].parts {
                 Some(chains) => {
                     let chain = chains
                         .get(contact.rail)
@@ -157,6 +170,7 @@ impl<'a> System<'a> {
                 }
                 None => vec![None],
             };
+            bearing.push(normals.len()..normals.len() + parts.len());
             for part in parts {
                 normals.push(Normal {
                     wheels: first..wheels.len(),
@@ -187,6 +201,8 @@ impl<'a> System<'a> {
             foundations,
             wheels,
             normals,
+            bearing,
+            treads: Vec::new(),
             laterals,
             tractions,
             pulls: Vec::new(),
@@ -212,6 +228,7 @@ impl<'a> System<'a> {
         system.fill_matrices()?;
         system.pulls = Pull::all(&system);
         system.links = Link::all(&system);
+        system.treads = system.all_treads();
         system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
         system.is_direct = system
             .entries
@@ -290,8 +307,25 @@ impl<'a> System<'a> {
         if self.is_dragged { self.traction(0)..self.link(0) } else { 0..0 }
     }
 
+    fn all_treads(&self) -> Vec<Tread> {
+        let mut treads: Vec<Tread> = Vec::new();
+        for component in self.drags() {
+            for wheel in self.wheels_of(component) {
+                let contact = self.wheels[wheel].contact;
+                let is_dragged = self.foundations[self.scene.contacts[contact].structure].is_dragged;
+                let is_known = |tread: &Tread| {
+                    tread.component == component && self.wheels[tread.wheel].contact == contact
+                };
+                if is_dragged && !treads.iter().any(is_known) {
+                    treads.push(Tread { component, wheel });
+                }
+            }
+        }
+        treads
+    }
+
     /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
-    pub fn treads(&self, i: usize) -> Vec<usize> {
+    pub fn wheels_of(&self, i: usize) -> Vec<usize> {
         match i.checked_sub(self.pull(0)) {
             None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
             Some(index) => {
@@ -311,9 +345,9 @@ impl<'a> System<'a> {
         self.freedom[load.body][load.freedom as usize]
     }
 
-    /// The vertical contact that `wheel` belongs to; of its parts' contacts, the first.
-    pub fn normals_of(&self, wheel: usize) -> impl Iterator<Item = usize> + '_ {
-        (0..self.normals.len()).filter(move |&n| self.normals[n].wheels.contains(&wheel))
+    /// The vertical components that `wheel` belongs to: one, or one a part.
+    pub fn normals_of(&self, wheel: usize) -> Range<usize> {
+        self.bearing[self.wheels[wheel].contact].clone()
     }
 
     /// Displacements and speeds of body `b` in all six freedoms at time `t`.
@@ -414,23 +448,27 @@ impl<'a> System<'a> {
             for wheel in normal.wheels.clone() {
                 let probe =
                     Probe { rail: rail_of(normal.contact, normal.part), x: 0.0, axis: Axis::Vertical };
-                entries.push(Entry { component, weight: -1.0 / normal.count(), wheel, probe });
+                entries.push(Entry { component, weight: -1.0 / normal.count(), wheel, probe, tread: None });
             }
         }
         for (i, &wheel) in self.laterals.iter().enumerate() {
             let contact = self.wheels[wheel].contact;
             if self.scene.contacts[contact].structure == s && self.foundations[s].parts.is_none() {
                 let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Lateral };
-                entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe });
+                entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe, tread: None });
             }
         }
         for component in self.drags().filter(|_| self.foundations[s].is_dragged) {
-            let wheels = self.treads(component);
+            let wheels = self.wheels_of(component);
             for &wheel in &wheels {
                 let contact = self.wheels[wheel].contact;
                 if self.scene.contacts[contact].structure == s {
                     let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Longitudinal };
-                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe });
+                    let is_own = |tread: &Tread| {
+                        tread.component == component && self.wheels[tread.wheel].contact == contact
+                    };
+                    let tread = self.treads.iter().position(is_own);
+                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe, tread });
                 }
             }
         }

@@ -3,10 +3,14 @@
 use crate::Error;
 use crate::dense::along;
 use crate::events::OVERSHOOT;
+use crate::root::narrow;
 use crate::solver::Solver;
 use crate::state::State;
 use crate::stepper::Stepper;
 use crate::wheel::Flange;
+
+/// Share of a step to which the place of a touch is found.
+const WIDTH: f64 = 1e-6;
 
 impl Solver<'_> {
     /// Overlap of every flange with its rail at `at`, to which the geometry belongs; negative where it is free.
@@ -42,18 +46,20 @@ impl Stepper<'_, '_> {
                 continue;
             }
             let aim = 0.5 * slack * now.signum();
-            let (mut low, mut high) = (0.0_f64, 1.0_f64);
-            while high - low > 1e-12 {
-                let middle = 0.5 * (low + high);
-                self.probe.copy_from(&self.to);
-                self.probe.interpolate(&self.from, &self.to, middle);
-                if !self.solver.instant(&mut self.probe)? {
-                    break;
-                }
-                let passed = (self.solver.overlaps(&self.probe)[index] - aim) * now > 0.0;
-                if passed { high = middle } else { low = middle }
+            let mut failure = None;
+            let [_, share] = narrow([before - aim, now - aim], WIDTH, |share| {
+                let value = self.solved_at(share);
+                let value =
+                    value.map(|solved| solved.then(|| self.solver.overlaps(&self.probe)[index] - aim));
+                value.unwrap_or_else(|error| {
+                    failure = Some(error);
+                    None
+                })
+            });
+            if let Some(error) = failure {
+                return Err(error);
             }
-            first = Some(first.map_or(high, |known| known.min(high)));
+            first = Some(first.map_or(share, |known| known.min(share)));
         }
         if first.is_some() {
             self.probe.copy_from(&self.to);

@@ -3,12 +3,17 @@
 use super::measures::Measures;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Practice, Scene};
+use crate::scene::{Practice, Scene, seat};
 
 /// Time over which the acceleration of a trolley is taken, s.
 const WINDOW: f64 = 0.5;
 /// Share of the speed at which its brakes come on below which a body stands.
 const STANDS: f64 = 0.02;
+
+/// Places of a wheel's forces.
+const VERTICAL: usize = 0;
+const LATERAL: usize = 1;
+const TRACTION: usize = 2;
 
 /// A value and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,6 +41,8 @@ pub struct Found {
     pub along: Option<Mark>,
     /// Force of the end stops together: largest.
     pub buffer: Option<Mark>,
+    /// Force of the buffer between two cranes: largest.
+    pub collision: Option<Mark>,
     /// Speed at which they are met.
     pub meeting: Option<f64>,
     /// Largest change of the trolley's speed over half a second, by time.
@@ -55,10 +62,19 @@ impl Found {
         record: &Record,
     ) -> Found {
         let time = record.values("time");
-        let column = |w: usize, part: &str| record.part(&cast.wheels[w].name, part);
-        let sum = |own: &[usize], part: &str, row: usize| -> f64 {
-            own.iter().map(|w| column(*w, part).get(row).copied().unwrap_or_default()).sum()
+        let forces: Vec<[&[f64]; 3]> = cast
+            .wheels
+            .iter()
+            .map(|wheel| ["vertical", "lateral", "traction"].map(|part| record.part(&wheel.name, part)))
+            .collect();
+        let sum = |own: &[usize], part: usize, row: usize| -> f64 {
+            own.iter().map(|w| forces[*w][part].get(row).copied().unwrap_or_default()).sum()
         };
+        let ridden = cast.wheels.iter().enumerate();
+        let ridden: Vec<usize> = ridden
+            .filter(|(_, wheel)| practice.trolley == Some(seat(scene, wheel.body).0))
+            .map(|(w, _)| w)
+            .collect();
         let mut found = Found::default();
         let places = practice.trolley.map(|trolley| record.part(&scene.bodies[trolley].name, "x"));
         for (row, &t) in time.iter().enumerate() {
@@ -69,20 +85,18 @@ impl Found {
             for (own, rest) in measures.wheels.iter().zip(rest) {
                 let mut rail = 0.0;
                 for &w in own {
-                    let force = sum(&[w], "vertical", row);
+                    let force = sum(&[w], VERTICAL, row);
                     rail += force;
                     raise(&mut found.wheel, force * own.len() as f64 / rest, t);
-                    raise(&mut found.flange, sum(&[w], "lateral", row).abs(), t);
+                    raise(&mut found.flange, sum(&[w], LATERAL, row).abs(), t);
                 }
                 raise(&mut found.rail, rail / rest, t);
-                raise(&mut found.along, sum(own, "traction", row).abs(), t);
-                across += sum(own, "lateral", row);
+                raise(&mut found.along, sum(own, TRACTION, row).abs(), t);
+                across += sum(own, LATERAL, row);
             }
             raise(&mut found.across, across.abs(), t);
-            if let (Some(trolley), true) = (practice.trolley, measures.crane.lifted > 0.0) {
-                let all = cast.wheels.iter().enumerate().filter(|(_, wheel)| wheel.body == trolley);
-                let own: Vec<usize> = all.map(|(w, _)| w).collect();
-                let share = (sum(&own, "vertical", row) - measures.crane.trolley) / measures.crane.lifted;
+            if !ridden.is_empty() && measures.crane.lifted > 0.0 {
+                let share = (sum(&ridden, VERTICAL, row) - measures.crane.trolley) / measures.crane.lifted;
                 raise(&mut found.load[0], share, t);
                 let mut least = found.load[1].map(|mark| Mark { value: 0.0 - mark.value, ..mark });
                 raise(&mut least, 0.0 - share, t);
@@ -90,10 +104,16 @@ impl Found {
             }
         }
         found.stops(scene, practice, record);
+        if let Some(between) = measures.between {
+            let force = record.part(&scene.stops[between.stop].name, "force");
+            time.iter().zip(force).for_each(|(t, force)| raise(&mut found.collision, *force, *t));
+        }
         let bodies = [Some(practice.crane), practice.trolley];
         found.brakes = bodies.map(|body| brakes(record, &scene.bodies[body?].name));
         found.acceleration = practice.trolley.and_then(|body| acceleration(record, &scene.bodies[body].name));
-        for mark in [&mut found.across, &mut found.flange, &mut found.along, &mut found.buffer] {
+        for mark in
+            [&mut found.across, &mut found.flange, &mut found.along, &mut found.buffer, &mut found.collision]
+        {
             *mark = mark.filter(|mark| mark.value > 0.0);
         }
         found

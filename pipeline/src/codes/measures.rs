@@ -6,7 +6,7 @@ use crate::exit::Failure;
 use crate::layout::Layout;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Along, Practice, Scene, across};
+use crate::scene::{Along, Practice, Scene, across, seat};
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
 /// A crane on two rails, in the units of its scene.
@@ -32,10 +32,25 @@ pub struct Measures {
     pub speeds: [Option<f64>; 3],
     /// Stiffness of the end stops that it meets, together.
     pub buffers: f64,
+    /// The first buffer between it and another crane.
+    pub between: Option<Between>,
     /// Weights that stand where they are on the bridge: place across the track, weight.
     pub fixed: Vec<[f64; 2]>,
     /// The trolley's line on the bridge: place across the track of its coordinate 0, and its slope.
     pub line: Option<[f64; 2]>,
+}
+
+/// A buffer between two cranes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Between {
+    /// Index of the stop.
+    pub stop: usize,
+    /// Its stiffness.
+    pub stiffness: f64,
+    /// Weight of the other crane without loads on ropes.
+    pub weight: f64,
+    /// Largest speed that the other is commanded.
+    pub speed: f64,
 }
 
 /// To metres and newtons.
@@ -57,8 +72,14 @@ impl Measures {
     ) -> Result<Measures, Failure> {
         let layout = Layout::new(scene)?;
         let g = scene.gravity;
-        let bridge = &scene.bodies[practice.crane];
-        let mut fixed = vec![[bridge.cg[2], bridge.mass * g]];
+        let all: Vec<(usize, [f64; 3])> = (0..scene.bodies.len()).map(|body| seat(scene, body)).collect();
+        let mut fixed: Vec<[f64; 2]> = scene
+            .bodies
+            .iter()
+            .zip(&all)
+            .filter(|(_, (root, _))| *root == practice.crane)
+            .map(|(body, (_, arm))| [body.cg[2] + arm[2], body.mass * g])
+            .collect();
         for mount in layout.carried(practice.crane) {
             let mass = mount.mass[1][1];
             if mass > 0.0 {
@@ -66,7 +87,9 @@ impl Measures {
                 fixed.push([0.0 - mount.mass[1][3] / mass, mass * g]);
             }
         }
-        let weight = |bodies: &[usize]| bodies.iter().map(|b| scene.bodies[*b].mass * g).sum::<f64>();
+        let weight = |counts: &dyn Fn(usize) -> bool| -> f64 {
+            (0..all.len()).filter(|body| counts(*body)).map(|body| scene.bodies[body].mass * g).sum()
+        };
         let across = practice.rails.map(|rail| across(scene, practice.crane, rail));
         let line = practice.trolley.and_then(|trolley| {
             let (_, axle) = layout.track(trolley)?;
@@ -74,8 +97,8 @@ impl Measures {
             Some([axle.origin[2] + off, axle.along[2]])
         });
         let wheels = practice.rails.map(|rail| {
-            let all = cast.wheels.iter().enumerate();
-            let own = all.filter(|(_, wheel)| wheel.body == practice.crane && wheel.rail == rail);
+            let wheels = cast.wheels.iter().enumerate();
+            let own = wheels.filter(|(_, wheel)| all[wheel.body].0 == practice.crane && wheel.rail == rail);
             own.map(|(index, _)| index).collect::<Vec<usize>>()
         });
         let kinds = wheels
@@ -91,8 +114,10 @@ impl Measures {
         let trucks = scene
             .trucks
             .iter()
-            .filter(|truck| truck.body == practice.crane && truck.rail == practice.rails[0]);
-        let mut places: Vec<f64> = trucks.flat_map(crate::scene::Truck::wheel_offsets).collect();
+            .filter(|truck| all[truck.body].0 == practice.crane && truck.rail == practice.rails[0]);
+        let mut places: Vec<f64> = trucks
+            .flat_map(|truck| truck.wheel_offsets().into_iter().map(|x| x + all[truck.body].1[0]))
+            .collect();
         places.sort_by(|a, b| b.total_cmp(a));
         let pairs = places.iter().map(|x| places[0] - x).collect();
         let nearest = practice.trolley.zip(line).map(|(trolley, [origin, slope])| {
@@ -101,8 +126,8 @@ impl Measures {
         });
         let span = (across[0] - across[1]).abs();
         let crane = practice::Crane {
-            lifted: weight(&practice.loads),
-            trolley: practice.trolley.map_or(0.0, |trolley| weight(&[trolley])),
+            lifted: weight(&|body| practice.loads.contains(&body)),
+            trolley: weight(&|body| practice.trolley == Some(all[body].0)),
             bridge: fixed.iter().map(|[_, weight]| weight).sum(),
             span,
             approach: practice.approach.or(nearest).unwrap_or(0.5 * span).min(span),
@@ -123,6 +148,7 @@ impl Measures {
             play,
             speeds: speeds(scene, practice),
             buffers: stops.map(|stop| stop.stiffness).sum(),
+            between: between(scene, practice, &layout),
             fixed,
             line,
         })
@@ -148,12 +174,30 @@ impl Measures {
     }
 }
 
+/// The first buffer between the crane and another body.
+fn between(scene: &Scene, practice: &Practice, layout: &Layout) -> Option<Between> {
+    let met = scene.stops.iter().enumerate().find_map(|(index, stop)| {
+        let meeting = stop.meetings.first()?;
+        let pair = [stop.against?, meeting.body];
+        let other = pair.into_iter().find(|body| *body != practice.crane)?;
+        pair.contains(&practice.crane).then_some((index, stop.stiffness, other))
+    });
+    let (stop, stiffness, other) = met?;
+    let own = scene.bodies.iter().enumerate().filter(|(body, _)| seat(scene, *body).0 == other);
+    let mass: f64 = own.map(|(_, body)| body.mass).sum();
+    let carried: f64 = layout.carried(other).map(|mount| mount.mass[1][1]).sum();
+    let speed = driven(scene, other).unwrap_or_default();
+    Some(Between { stop, stiffness, weight: (mass + carried) * scene.gravity, speed })
+}
+
+/// The largest speed that a body's drive is commanded.
+fn driven(scene: &Scene, body: usize) -> Option<f64> {
+    let Along::Driven(drive) = &scene.bodies[body].motion else { return None };
+    drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
+}
+
 /// Rated speeds, else the largest that drives and hoists are commanded.
 fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
-    let driven = |body: usize| {
-        let Along::Driven(drive) = &scene.bodies[body].motion else { return None };
-        drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
-    };
     let switched =
         scene.events.iter().flat_map(|event| &event.rule.actions).filter_map(|action| match action {
             Action::Hoist { speed, .. } => Some(speed.abs()),
@@ -161,7 +205,8 @@ fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
         });
     let tables = scene.ropes.iter().flat_map(|rope| rope.speed.breaks().map(|t| rope.speed.at(t).abs()));
     let hoist = tables.chain(switched).fold(0.0, f64::max);
-    let found = [driven(practice.crane), practice.trolley.and_then(driven), Some(hoist)];
+    let found =
+        [driven(scene, practice.crane), practice.trolley.and_then(|body| driven(scene, body)), Some(hoist)];
     let each =
         practice.speeds.iter().zip(found).map(|(given, found)| given.or(found.filter(|speed| *speed > 0.0)));
     let mut out = [None; 3];

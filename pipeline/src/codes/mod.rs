@@ -1,11 +1,14 @@
 //! Values of codes for the crane of a scene, beside what its run has.
 
+mod case;
 mod found;
+mod givens;
 mod measures;
 mod rows;
 mod story;
 
 pub use found::{Found, Mark};
+pub use givens::{Given, givens};
 pub use measures::Measures;
 pub use rows::{Row, Value, rows};
 pub use story::section;
@@ -22,6 +25,8 @@ use crate::scene::Scene;
 pub struct Codes {
     /// The crane as they see it.
     pub measures: Measures,
+    /// Factors of the codes, and wheel loads by them.
+    pub givens: Vec<Given>,
     /// Quantity by quantity.
     pub rows: Vec<Row>,
 }
@@ -36,7 +41,8 @@ impl Codes {
         let measures = Measures::new(scene, practice, cast, record)?;
         let found = Found::new(scene, practice, cast, &measures, record);
         let rows = rows(scene, practice, &measures, &found);
-        Ok(Some(Codes { measures, rows }))
+        let givens = givens(scene, practice, &measures, &found);
+        Ok(Some(Codes { measures, givens, rows }))
     }
 
     /// As the member `practice` of a run's summary.
@@ -49,6 +55,8 @@ impl Codes {
             .map(|(name, value, _)| (name.to_owned(), json!(value)))
             .collect();
         let rows: Map<_, _> = self.rows.iter().map(|row| (row.name.to_owned(), row.json())).collect();
-        json!({ "crane": crane, "approach_from_run": self.measures.approach_is_found, "values": rows })
+        let givens: Map<_, _> =
+            self.givens.iter().map(|given| (given.name.to_owned(), given.value.json())).collect();
+        json!({ "factors": givens, "crane": crane, "approach_from_run": self.measures.approach_is_found, "values": rows })
     }
 }

@@ -19,7 +19,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
     }
     if first.measures.approach_is_found {
-        section = section.say("The hook's approach is the least that the run has; the member `practice.approach` gives another.");
+        section = section.say("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
     }
     let mut columns = vec![Column::new("quantity", ""), Column::new("unit", "")];
     columns.extend(all.iter().map(|(label, _)| Column::new(*label, "")));
@@ -42,7 +42,25 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         }
     }
     let caption = "Found, and by the codes.".to_owned();
-    Some(section.table(Table { caption, columns, rows }))
+    let table = Table { caption, columns, rows };
+    let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("of", "")];
+    let givens = first.givens.iter().map(|given| {
+        let value = &given.value;
+        vec![
+            Cell::from(given.name.replace('_', " ")),
+            Cell::from(rounded(value.value)),
+            Cell::from(scene.units.label(given.dimension)),
+            Cell::from(value.code),
+            Cell::from(value.clause),
+            Cell::from(value.formula.clone()),
+        ]
+    });
+    let factors = Table {
+        caption: "Factors of the codes, and loads of one wheel by them.".to_owned(),
+        columns: heads.map(|(name, unit)| Column::new(name, unit)).into(),
+        rows: givens.collect(),
+    };
+    Some(section.table(table).table(factors))
 }
 
 /// To five digits: codes have no more.

@@ -4,6 +4,7 @@ mod ladder;
 mod modal;
 mod mount;
 mod parts;
+mod rest;
 
 use std::sync::Arc;
 

@@ -8,6 +8,7 @@ use sim::{Dynamics, Extent, Foundation, Shapes};
 use splines::{Compliance, Line, Probe, Surface};
 
 use super::mount::{self, Push};
+use super::rest::Rest;
 use super::{Laid, Motion, Solved};
 use crate::exit::Failure;
 use crate::track::Pad;
@@ -26,9 +27,17 @@ pub(super) struct Spectrum {
     refined: Refined,
     felt: Vec<fea::Mode>,
     frame: Arc<Frame>,
-    surface: Surface,
+    give: Give,
     /// Whether there are no others.
     is_whole: bool,
+}
+
+/// Static give of the structure, without what modes take of it.
+enum Give {
+    /// Of the members as given: for a few modes on members cut into many parts.
+    Given(Surface),
+    /// Of the members as they are cut: for all modes of a mesh.
+    Cut(Surface),
 }
 
 impl Spectrum {
@@ -36,7 +45,8 @@ impl Spectrum {
     pub fn lowest(name: &str, solved: &Solved, count: usize, push: Push) -> Result<Spectrum, Failure> {
         let (refined, felt, is_whole) =
             search(solved, count, ACCURACY, push).map_err(|e| refused(name, &e))?;
-        Spectrum::new(name, refined, felt, is_whole)
+        let known = solved.surface.clone().map_or_else(|| surface(name, &solved.model, &solved.rails), Ok)?;
+        Spectrum::new(name, refined, felt, Some(known), is_whole)
     }
 
     /// All modes of a mesh of `parts` elements a member.
@@ -44,14 +54,23 @@ impl Spectrum {
         let refined =
             fea::full_modes(&solved.model, &solved.rails, parts).map_err(|error| refused(name, &error))?;
         let felt = felt(&refined.modes, solved, push);
-        Spectrum::new(name, refined, felt, true)
+        Spectrum::new(name, refined, felt, None, true)
     }
 
-    fn new(name: &str, refined: Refined, felt: Vec<fea::Mode>, is_whole: bool) -> Result<Spectrum, Failure> {
+    fn new(
+        name: &str,
+        refined: Refined,
+        felt: Vec<fea::Mode>,
+        known: Option<Surface>,
+        is_whole: bool,
+    ) -> Result<Spectrum, Failure> {
         let untrusted = |error: fea::Error| Failure::Untrusted(format!("{name}: {error}"));
         let frame = Frame::new(&refined.model, &refined.rails).map_err(untrusted)?;
-        let surface = frame.surface().map_err(untrusted)?.surface;
-        Ok(Spectrum { refined, felt, frame: Arc::new(frame), surface, is_whole })
+        let give = match known {
+            Some(surface) => Give::Given(surface),
+            None => Give::Cut(frame.surface().map_err(untrusted)?.surface),
+        };
+        Ok(Spectrum { refined, felt, frame: Arc::new(frame), give, is_whole })
     }
 
     /// Whether `count` modes are there, or all that exist.
@@ -72,8 +91,12 @@ impl Spectrum {
         let mut refined = self.refined.clone();
         refined.modes.modes = self.felt.iter().take(count).cloned().collect();
         let kept = &refined.modes;
-        let rest = kept.residual(&self.surface).map_err(untrusted)?;
-        let shapes = Box::new(ModeShapes::new(Arc::clone(self.surface.line()), &kept.modes));
+        let line = Arc::clone(self.frame.line().map_err(untrusted)?);
+        let rest: Box<dyn Compliance> = match &self.give {
+            Give::Given(exact) => Box::new(Rest::new(exact.clone(), Arc::clone(&line), &kept.modes)),
+            Give::Cut(surface) => Box::new(kept.residual(surface).map_err(untrusted)?),
+        };
+        let shapes = Box::new(ModeShapes::new(line, &kept.modes));
         let rails = (0..refined.rails.len())
             .map(|rail| Extent { range: rest.range(rail), breaks: rest.breaks(rail) })
             .collect();
@@ -84,7 +107,7 @@ impl Spectrum {
             Dynamics::Modes { ratio: vec![ratio; omega.len()], omega }
         };
         let foundation = Foundation {
-            compliance: Some(Box::new(rest)),
+            compliance: Some(rest),
             structure: Some(sim::Structure { dynamics, shapes }),
             rails,
             on: push.on.map(|on| mount::inertia(kept, on)),
@@ -93,6 +116,11 @@ impl Spectrum {
         let motion = Motion::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
         Ok(Laid { foundation, motion: Some(motion) })
     }
+}
+
+fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<Surface, Failure> {
+    let found = Frame::new(model, rails).and_then(|frame| frame.surface());
+    Ok(found.map_err(|error| Failure::Untrusted(format!("{name}: {error}")))?.surface)
 }
 
 /// At least the lowest `count` modes that wheels can excite, and whether these are all; frequencies within `accuracy`.

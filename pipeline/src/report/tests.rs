@@ -219,3 +219,36 @@ fn numbers_read_well() {
     assert_eq!(number(f64::NAN, 7), None);
     assert_eq!(number(f64::NEG_INFINITY, 7), None);
 }
+
+#[test]
+fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
+    use crate::animation::{Film, Track};
+    let svg =
+        "<svg xmlns=\"http://www.w3.org/2000/svg\"><g data-m=\"0\" transform=\"translate(1 2)\"></g></svg>";
+    let film = |x: f64| {
+        let places = vec![[1.0, 2.0], [x, 2.0]];
+        Film {
+            svg: svg.to_owned(),
+            still: 0.5,
+            times: vec![0.5, 1.0],
+            tracks: vec![(0, Track::Move(places))],
+        }
+    };
+    let with = |film: Film| {
+        let mut report = report();
+        let picture = Picture::Film(Box::new(film));
+        report.sections.push(Section::new("x").figure(picture, "It moves."));
+        report.html()
+    };
+    let scripts = |page: &str| parse(page).0.iter().filter(|(name, _)| name == "script").count();
+    let moving = with(film(3.125)).expect("numbers");
+    // its data, and what moves it
+    assert_eq!(scripts(&moving), scripts(&page()) + 2);
+    assert!(moving.contains("translate(1 2)") && !moving.contains("http"));
+    let (tags, _) = parse(&moving);
+    let data = tags.iter().find(|(_, attributes)| attributes.contains_key("data-still")).expect("data");
+    assert_eq!(data.1["data-still"], "0.5");
+    assert!(moving.contains("[3.13,2.0]"), "hundredths of pixels");
+    assert!(!tags.iter().any(|(name, _)| name == "button" || name == "input"), "the script makes them");
+    assert_eq!(with(film(f64::NAN)), Err(Error::Picture { section: 2, figure: 0 }));
+}

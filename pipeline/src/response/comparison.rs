@@ -1,9 +1,9 @@
 //! Histories of forces, run beside run, in the few numbers that engineers compare.
 
-use practice::{Mark, View, dominant, resample, response};
+use practice::{Mark, Tone, View, dominant, resample, response};
 use serde_json::{Map, Value, json};
 
-use super::Response;
+use super::{Natural, Response};
 use crate::record::Record;
 
 /// Share of the run, at its end, that counts as settled.
@@ -12,11 +12,16 @@ const SETTLED: f64 = 0.25;
 /// Half width of the band about the settled mean that an excursion leaves, as a share of the mean.
 const BAND: f64 = 0.05;
 
+/// Most waves that are told, the share of the first below which none is, and how far apart two of them are as a ratio.
+const WAVES: usize = 3;
+const FAINT: f64 = 0.1;
+const APART: f64 = 1.15;
+
 /// Fewest samples of which a dominant frequency is worth its name.
 const FEWEST: usize = 64;
 
 /// A history in the few numbers that engineers compare.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Figures {
     /// Mean over the last quarter of the run.
     pub settled: f64,
@@ -26,8 +31,8 @@ pub struct Figures {
     pub least: Mark,
     /// How often it leaves 5 % about the settled mean.
     pub excursions: usize,
-    /// Strongest frequency in the last quarter, of two waves at least.
-    pub hertz: Option<f64>,
+    /// Strongest waves in the last quarter, of two periods at least, strongest first.
+    pub waves: Vec<Tone>,
 }
 
 /// Every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel forces, that all runs have, by
@@ -45,7 +50,9 @@ pub fn comparison(runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
     for name in rail_sums(record).into_iter().flatten().chain(own) {
         let each: Option<Map<String, Value>> = runs
             .iter()
-            .map(|(label, record, _)| Some(((*label).to_owned(), Figures::new(record, &name)?.json())))
+            .map(|(label, record, response)| {
+                Some(((*label).to_owned(), Figures::new(record, &name)?.json(&response.modes)))
+            })
             .collect();
         let is_zero = |record: &Record| record.values(&name).iter().all(|value| *value == 0.0);
         if let Some(each) = each
@@ -93,25 +100,54 @@ impl Figures {
         // slower than two waves is the way of the crane, no vibration
         let band = [2.0 / (SETTLED * length), 0.5 / step];
         let late = resample(times, values, view.settled, step).ok()?;
-        let tone = dominant(&late, step, band).ok()?;
         Some(Figures {
             settled: found.mean,
             peak: found.peak,
             least: found.least,
             excursions: found.excursions.total(),
-            hertz: tone.map(|tone| tone.frequency),
+            waves: tones(&late, step, band),
         })
     }
 
-    fn json(&self) -> Value {
+    /// Frequency of the strongest wave.
+    #[must_use]
+    pub fn hertz(&self) -> Option<f64> {
+        self.waves.first().map(|tone| tone.frequency)
+    }
+
+    fn json(&self, modes: &[Natural]) -> Value {
+        let wave = |tone: &Tone| {
+            let mode = Natural::of(modes, tone.frequency).map(|mode| mode.name.as_str());
+            json!({"hz": tone.frequency, "amplitude": tone.amplitude, "mode": mode})
+        };
         json!({
             "settled_mean": self.settled + 0.0,
             "peak": {"value": self.peak.value + 0.0, "time": self.peak.time},
             "least": {"value": self.least.value + 0.0, "time": self.least.time},
             "excursions": self.excursions,
-            "dominant_hz": self.hertz,
+            "dominant_hz": self.hertz(),
+            "waves": self.waves.iter().map(wave).collect::<Vec<Value>>(),
         })
     }
+}
+
+/// The strongest waves of a history in `band`, strongest first, each apart from those before by [`APART`].
+fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
+    let (mut found, mut rest) = (Vec::<Tone>::new(), vec![band]);
+    let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
+    while found.len() < WAVES {
+        let all = rest.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
+        let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
+        let Some((k, tone)) = best else { break };
+        if found.first().is_some_and(|first| tone.amplitude < FAINT * first.amplitude) {
+            break;
+        }
+        let [low, high] = rest.swap_remove(k);
+        let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
+        rest.extend(sides.into_iter().filter(|[low, high]| low < high));
+        found.push(tone);
+    }
+    found
 }
 
 #[cfg(test)]

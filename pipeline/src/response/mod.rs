@@ -9,6 +9,7 @@ mod deflection;
 mod drift;
 mod envelope;
 mod line;
+mod natural;
 mod part_inertia;
 mod picture;
 mod rail_picture;
@@ -25,6 +26,7 @@ pub use deflection::Deflection;
 pub use drift::Drift;
 pub use envelope::{Envelope, Extreme};
 pub use line::Lines;
+pub use natural::Natural;
 pub use picture::pictures;
 pub use rail_picture::rails;
 pub use spans::spans;
@@ -62,6 +64,8 @@ pub struct Response {
     pub uplifts: Vec<Uplift>,
     /// Where bodies in space have been.
     pub sways: Vec<Sway>,
+    /// Natural modes of the scene towards its end.
+    pub modes: Vec<Natural>,
     /// What is left out, and why.
     pub notes: Vec<String>,
 }
@@ -206,6 +210,9 @@ impl Response {
         if !self.sways.is_empty() {
             let all = self.sways.iter().map(|sway| (sway.body.clone(), sway.json()));
             out.insert("sway".into(), Value::Object(all.collect()));
+        }
+        if !self.modes.is_empty() {
+            out.insert("natural_modes".into(), self.modes.iter().map(Natural::json).collect());
         }
         out
     }

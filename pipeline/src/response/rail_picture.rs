@@ -57,7 +57,7 @@ fn plate(scene: &Scene, column: &str, runs: &[Labelled]) -> Option<Plate> {
 /// The numbers of one run in words.
 fn line(label: &str, found: &Figures, unit: &str) -> String {
     let text = |value: f64| number(value, 4).unwrap_or_default();
-    let hertz = found.hertz.map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
+    let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
     // about a mean of zero every swing is an excursion
     let swings = found.settled.abs() > SMALL * (found.peak.value - found.least.value);
     let times = if swings { format!(", {} excursions", found.excursions) } else { String::new() };

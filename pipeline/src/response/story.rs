@@ -9,6 +9,8 @@ use crate::units::Dimension;
 
 /// Most rows of a table.
 const ROWS: usize = 60;
+/// Share of a range below which a value is rounding.
+const ROUNDING: f64 = 1e-12;
 
 /// The section of the first run.
 #[must_use]
@@ -76,10 +78,12 @@ pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Sect
             let Some(found) = Figures::new(record, name) else { continue };
             let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
             row.push(Cell::from(*label));
-            row.extend([found.settled, found.peak.value, found.peak.time].map(Cell::from));
-            row.extend([found.least.value, found.least.time].map(Cell::from));
+            let range = found.peak.value - found.least.value;
+            let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
+                .map(|value| short(cleared(value, range)));
+            row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
             row.push(Cell::from(found.excursions));
-            row.push(found.hertz.map_or(Cell::Empty, Cell::from));
+            row.push(found.hertz().map_or(Cell::Empty, short));
             rows.push(row);
         }
     }
@@ -106,43 +110,47 @@ pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Sect
 fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
     let more = response.envelopes.len().saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
-    let mut table = Table {
-        caption: format!(
-            "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
-        ),
-        columns: vec![
-            Column::new("quantity", ""),
-            Column::new("unit", ""),
-            Column::new("max", ""),
-            Column::new("at time", "s"),
-            Column::new("bodies at", ""),
-            Column::new("min", ""),
-            Column::new("at time", "s"),
-            Column::new("bodies at", ""),
-            Column::new("own weight", ""),
-        ],
-        rows: Vec::new(),
-    };
+    let length = scene.units.label(Dimension::LENGTH);
+    let mut columns = [("quantity", ""), ("unit", ""), ("", ""), ("value", ""), ("at time", "s")]
+        .map(|(n, u)| Column::new(n, u))
+        .to_vec();
+    columns.extend(scene.bodies.iter().map(|body| Column::new(body.name.as_str(), &length)));
+    columns.push(Column::new("own weight", ""));
+    let mut rows = Vec::new();
     let own = response.columns.iter().zip(&response.dead);
     for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
-        let mut row =
-            vec![Cell::from(envelope.column.clone()), Cell::from(scene.units.label(column.dimension))];
-        for extreme in [&envelope.max, &envelope.min] {
-            row.extend([Cell::from(extreme.value), Cell::from(extreme.time), Cell::from(places(extreme))]);
+        let unit = Cell::from(scene.units.label(column.dimension));
+        let range = envelope.max.value - envelope.min.value;
+        let mut head = vec![Cell::from(envelope.column.clone()), unit];
+        let mut weight = Cell::from(*dead);
+        for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
+            let value = Cell::from(cleared(extreme.value, range));
+            row.extend([Cell::from(word), value, Cell::from(extreme.time)]);
+            row.extend(extreme.bodies.iter().map(|(_, at)| Cell::from(place(at))));
+            row.push(std::mem::take(&mut weight));
+            rows.push(row);
         }
-        row.push(Cell::from(*dead));
-        table.rows.push(row);
     }
-    table
+    let caption = format!(
+        "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
+    );
+    Table { caption, columns, rows }
 }
 
-fn places(extreme: &super::Extreme) -> String {
-    let text = |x: &f64| crate::report::number(*x, 5).unwrap_or_default();
-    let all = extreme.bodies.iter().map(|(name, at)| {
-        let at: Vec<String> = at.iter().map(text).collect();
-        format!("{name} {}", at.join(", "))
-    });
-    all.collect::<Vec<_>>().join("; ")
+/// The value, or zero where it is what rounding leaves of a range.
+fn cleared(value: f64, range: f64) -> f64 {
+    if value.abs() < ROUNDING * range { 0.0 } else { value }
+}
+
+/// A number to five digits.
+fn short(value: f64) -> Cell {
+    Cell::from(format!("{value:.4e}").parse().unwrap_or(value))
+}
+
+/// Coordinates of a body.
+fn place(at: &[f64]) -> String {
+    at.iter().map(|x| crate::report::number(*x, 4).unwrap_or_default()).collect::<Vec<_>>().join("; ")
 }
 
 fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {

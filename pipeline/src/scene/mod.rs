@@ -31,7 +31,7 @@ pub use gauge::Gauge;
 pub use method::STEPPERS;
 pub use output::{Fatigue, Output, Pick};
 pub use practice::Practice;
-pub(crate) use practice::across;
+pub(crate) use practice::{across, seat};
 pub use rope::Rope;
 pub use spin::Spin;
 pub use stop::{Meeting, Stop};

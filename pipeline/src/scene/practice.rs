@@ -120,7 +120,7 @@ pub(super) fn read(
     let rides = |body: usize| {
         scene.trucks.iter().any(|truck| {
             let on = scene.structures[scene.rails[truck.rail].structure].on;
-            truck.body == body && on.is_some_and(|on| on.body == crane)
+            seat(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
         })
     };
     let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
@@ -160,7 +160,7 @@ fn guess(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> 
     let mut found: Vec<usize> =
         scene.structures.iter().filter_map(|structure| Some(structure.on?.body)).collect();
     if found.is_empty() {
-        found = scene.trucks.iter().map(|truck| truck.body).collect();
+        found = scene.trucks.iter().map(|truck| seat(scene, truck.body).0).collect();
     }
     found.sort_unstable();
     found.dedup();
@@ -178,8 +178,12 @@ fn guess(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> 
 
 /// The two rails of a crane, in the order of the scene.
 fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) -> Option<[usize; 2]> {
-    let mut rails: Vec<usize> =
-        scene.trucks.iter().filter(|truck| truck.body == crane).map(|truck| truck.rail).collect();
+    let mut rails: Vec<usize> = scene
+        .trucks
+        .iter()
+        .filter(|truck| seat(scene, truck.body).0 == crane)
+        .map(|truck| truck.rail)
+        .collect();
     rails.sort_unstable();
     rails.dedup();
     match rails[..] {
@@ -194,10 +198,26 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
     }
 }
 
-/// Mean place of a body's trucks across the track on one rail.
+/// The body that a body is pinned to in the end, itself where it is not, and where its origin is from that body's.
+#[must_use]
+pub(crate) fn seat(scene: &Scene, body: usize) -> (usize, [f64; 3]) {
+    let (mut root, mut arm) = (body, [0.0; 3]);
+    // no chain is longer than the list
+    for _ in &scene.bodies {
+        let Some((to, at)) = scene.bodies[root].pinned else { break };
+        root = to;
+        arm.iter_mut().zip(at).for_each(|(arm, at)| *arm += at);
+    }
+    (root, arm)
+}
+
+/// Mean place of the trucks below a body, and below those pinned to it, across the track on one rail.
 #[must_use]
 pub(crate) fn across(scene: &Scene, body: usize, rail: usize) -> f64 {
-    let own = scene.trucks.iter().filter(|truck| truck.body == body && truck.rail == rail);
-    let (sum, count) = own.fold((0.0, 0.0), |(sum, count), truck| (sum + truck.at[2], count + 1.0));
+    let places = scene.trucks.iter().filter(|truck| truck.rail == rail).filter_map(|truck| {
+        let (root, arm) = seat(scene, truck.body);
+        (root == body).then_some(truck.at[2] + arm[2])
+    });
+    let (sum, count) = places.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }
 }

@@ -1,0 +1,128 @@
+//! The bridge crane's event of 45 s on one core: processor time of a run, rigid and flexible.
+//!
+//! `cargo bench -p girderway -- --accuracy 1e-4 --runs 5`; with `--against 1e-7` also the largest error of displacements,
+//! vertical and lateral wheel forces beside a run of that accuracy, each relative to its largest value.
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use girderway::cases::{Known, solved_of, specs};
+use girderway::link::{Spectra, laid, solve};
+use girderway::motion::cast;
+use girderway::scene::{Case, Document};
+use rustix::time::{ClockId, clock_gettime};
+use sim::{Channel, Freedom, Run};
+
+/// What the command line asks for.
+struct Wanted {
+    scene: PathBuf,
+    accuracy: Option<f64>,
+    against: Option<f64>,
+    runs: usize,
+}
+
+type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
+
+#[expect(clippy::print_stdout, reason = "a benchmark prints")]
+fn main() -> Outcome<()> {
+    let wanted = wanted()?;
+    let document = Document::open(&wanted.scene).map_err(|_| "the scene cannot be read")?;
+    let mut known = Vec::new();
+    for (_, _, spec) in specs(&document) {
+        known.push(Known { spec: spec.clone(), solved: solve(spec)? });
+    }
+    println!(
+        "{:12} {:>9} {:>9} {:>7} {:>7} {:>9} {:>9} {:>9}",
+        "run", "accuracy", "ms", "steps", "stages", "rejected", "us/stage", "residual"
+    );
+    for case in &document.cases {
+        time(case, &known, &wanted)?;
+    }
+    Ok(())
+}
+
+fn wanted() -> Outcome<Wanted> {
+    let scene = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/bridge_crane/scene.json");
+    let mut wanted = Wanted { scene, accuracy: None, against: None, runs: 5 };
+    let mut words = std::env::args().skip(1);
+    while let Some(word) = words.next() {
+        match word.as_str() {
+            "--accuracy" => wanted.accuracy = Some(words.next().ok_or("which accuracy?")?.parse()?),
+            "--against" => wanted.against = Some(words.next().ok_or("which accuracy?")?.parse()?),
+            "--runs" => wanted.runs = words.next().ok_or("how many runs?")?.parse()?,
+            "--scene" => wanted.scene = words.next().ok_or("which scene?")?.into(),
+            // what cargo adds, and what its other benchmarks understand
+            _ => {}
+        }
+    }
+    Ok(wanted)
+}
+
+/// Least processor time of some runs of a case.
+#[expect(clippy::print_stdout, reason = "a benchmark prints")]
+fn time(case: &Case, known: &[Known], wanted: &Wanted) -> Outcome<()> {
+    let given = &case.scene;
+    let mut scene = cast(given).map_err(|_| "the scene cannot be set up")?.scene;
+    scene.accuracy = wanted.accuracy.unwrap_or(scene.accuracy);
+    let lateral = given.trucks.iter().any(|truck| given.wheels[truck.wheel].lateral.is_some());
+    let mut foundations = Vec::new();
+    for structure in &given.structures {
+        let solved = solved_of(known, &structure.origin);
+        let laid = laid(&mut Spectra::default(), structure, solved, lateral);
+        foundations.push(laid.map_err(|_| "a foundation cannot be made")?.foundation);
+    }
+    let mut least = f64::INFINITY;
+    let mut last = None;
+    for _ in 0..wanted.runs.max(1) {
+        let start = processor();
+        let run = sim::run(&scene, &foundations, &mut |_| ControlFlow::Continue(()))?;
+        least = least.min(processor() - start);
+        last = Some(run);
+    }
+    let Some(run) = last else { return Ok(()) };
+    let errors = match wanted.against {
+        Some(accuracy) => {
+            let finer = sim::Scene { accuracy, ..scene.clone() };
+            let exact = sim::run(&finer, &foundations, &mut |_| ControlFlow::Continue(()))?;
+            errors(&run, &exact, scene.bodies.len()).map(|error| format!(" {error:9.1e}")).concat()
+        }
+        None => String::new(),
+    };
+    println!(
+        "{:12} {:9.0e} {:9.1} {:7} {:7} {:9} {:9.2} {:9.1e}{errors}",
+        case.label.as_deref().unwrap_or("scene"),
+        scene.accuracy,
+        1e3 * least,
+        run.counts.steps,
+        run.counts.stages,
+        run.counts.rejected,
+        1e6 * least / run.counts.stages as f64,
+        run.audit.residual(),
+    );
+    Ok(())
+}
+
+/// Largest differences beside the largest values: displacements y of the bodies, vertical and lateral forces of the wheels.
+fn errors(run: &Run, exact: &Run, bodies: usize) -> [f64; 3] {
+    let wheels = exact.history.channels().iter().filter(|c| matches!(c, Channel::Vertical(_))).count();
+    let apart = |channels: &mut dyn Iterator<Item = Channel>| {
+        let (mut most, mut largest) = (0.0_f64, 0.0_f64);
+        for channel in channels {
+            for (a, b) in run.history.column(channel).iter().zip(exact.history.column(channel)) {
+                (most, largest) = (most.max((a - b).abs()), largest.max(b.abs()));
+            }
+        }
+        most / largest
+    };
+    [
+        apart(&mut (0..bodies).map(|b| Channel::Displacement(b, Freedom::Y))),
+        apart(&mut (0..wheels).map(Channel::Vertical)),
+        apart(&mut (0..wheels).map(Channel::Lateral)),
+    ]
+}
+
+/// Processor time of this thread, in seconds.
+fn processor() -> f64 {
+    let now = clock_gettime(ClockId::ThreadCPUTime);
+    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
+}
