@@ -1,6 +1,6 @@
 //! The bridge crane's event of 45 s on one core: processor time of a run, rigid and flexible.
 //!
-//! `cargo bench -p girderway -- --accuracy 1e-4 --runs 5`; with `--against 1e-7` also the largest error of displacements,
+//! `cargo bench -p girderway --bench crane -- --accuracy 1e-4 --runs 5`; with `--against 1e-7` also the largest error of displacements,
 //! vertical and lateral wheel forces beside a run of that accuracy, each relative to its largest value.
 
 use std::ops::ControlFlow;

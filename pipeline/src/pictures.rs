@@ -14,6 +14,9 @@ use crate::units::{Dimension, Units};
 /// Points along a rail at which smooth pictures are sampled.
 const SAMPLES: usize = 61;
 
+/// Most wheels in a chart of lateral forces or traction.
+const WHEELS: usize = 6;
+
 /// A named picture with a caption.
 pub struct Plate {
     /// File name without its ending.
@@ -132,10 +135,41 @@ pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
     }
     let caption = format!("Vertical force of each wheel on its rail ({}).", run.label);
     let mut plates = vec![Plate::chart("wheel-forces", caption, forces)];
+    plates.extend(horizontal(run, cast, "lateral", "sideways"));
+    plates.extend(horizontal(run, cast, "traction", "along the rail"));
     for wheel in cast.wheels.iter().filter(|wheel| wheel.spins) {
         plates.extend(rolling(run, wheel));
     }
     plates
+}
+
+/// Lateral forces or traction of the wheels where they are largest; none where all are zero.
+fn horizontal(run: &Labelled, cast: &Cast, part: &str, word: &str) -> Option<Plate> {
+    let reach = |wheel: &CastWheel| {
+        run.record.part(&wheel.name, part).iter().fold(0.0_f64, |most, force| most.max(force.abs()))
+    };
+    let mut own: Vec<(usize, f64)> = cast
+        .wheels
+        .iter()
+        .enumerate()
+        .map(|(w, wheel)| (w, reach(wheel)))
+        .filter(|(_, r)| *r > 0.0)
+        .collect();
+    own.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let all = own.len();
+    own.truncate(WHEELS);
+    own.sort_by_key(|(w, _)| *w);
+    let title = format!("Forces of wheels {word}");
+    let axis = Axis::new(format!("force {word}"), run.scene.units.label(Dimension::FORCE));
+    let mut chart = Chart::new(title, Axis::new("time", "s"), axis);
+    for (index, (w, _)) in own.iter().enumerate() {
+        let name = &cast.wheels[*w].name;
+        let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+        chart = chart.with(Series::new(name, style, run.record.points("time", &format!("{name}.{part}"))));
+    }
+    let few = if all > WHEELS { format!(", the largest {WHEELS} of {all}") } else { String::new() };
+    let caption = format!("Force of wheels on their rails {word}{few} ({}).", run.label);
+    (all > 0).then(|| Plate::chart(format!("wheel-{part}"), caption, chart))
 }
 
 /// Speeds of hub and rim, and the path of a point of the rim.

@@ -10,7 +10,7 @@ use crate::stepper::Stepper;
 use crate::wheel::Flange;
 
 /// Share of a step to which the place of a touch is found.
-const WIDTH: f64 = 1e-6;
+const WIDTH: f64 = 1e-4;
 
 impl Solver<'_> {
     /// Overlap of every flange with its rail at `at`, to which the geometry belongs; negative where it is free.
@@ -32,39 +32,46 @@ impl Solver<'_> {
 
 impl Stepper<'_, '_> {
     /// Share of the step just taken at which a flange first touches its rail or leaves it, if one does by more than a
-    /// force of [`OVERSHOOT`]: the root of its overlap on the interpolant.
+    /// force of [`OVERSHOOT`]: the first root of the overlaps on the interpolant.
     pub(crate) fn first_touch(&mut self) -> Result<Option<f64>, Error> {
         if self.overlaps.is_empty() {
             return Ok(None);
         }
         let slack = OVERSHOOT * self.largest_force();
-        let mut first: Option<f64> = None;
+        // Flanges that pass from one side to the other, and where they have: there their distance to it is positive.
+        let mut passes: Vec<(usize, f64)> = Vec::new();
+        let mut ends = [f64::NEG_INFINITY; 2];
         for (index, now) in self.solver.overlaps(&self.to).into_iter().enumerate() {
             let Some(flange) = self.solver.flange(self.solver.system.laterals[index]) else { continue };
             let (before, slack) = (self.overlaps[index], slack / flange.stiffness);
-            if before * now >= 0.0 || before.abs().min(now.abs()) <= slack {
-                continue;
+            if before * now < 0.0 && before.abs().min(now.abs()) > slack {
+                let aim = 0.5 * slack * now.signum();
+                passes.push((index, aim));
+                for (end, overlap) in ends.iter_mut().zip([before, now]) {
+                    *end = end.max((overlap - aim) * aim.signum());
+                }
             }
-            let aim = 0.5 * slack * now.signum();
-            let mut failure = None;
-            let [_, share] = narrow([before - aim, now - aim], WIDTH, |share| {
-                let value = self.solved_at(share);
-                let value =
-                    value.map(|solved| solved.then(|| self.solver.overlaps(&self.probe)[index] - aim));
-                value.unwrap_or_else(|error| {
-                    failure = Some(error);
-                    None
-                })
+        }
+        if passes.is_empty() {
+            return Ok(None);
+        }
+        let mut failure = None;
+        let [_, first] = narrow(ends, WIDTH, |share| {
+            let solved = self.solved_at(share).unwrap_or_else(|error| {
+                failure = Some(error);
+                false
             });
-            if let Some(error) = failure {
-                return Err(error);
-            }
-            first = Some(first.map_or(share, |known| known.min(share)));
+            solved.then(|| {
+                let overlaps = self.solver.overlaps(&self.probe);
+                let beyond = passes.iter().map(|&(index, aim)| (overlaps[index] - aim) * aim.signum());
+                beyond.fold(f64::NEG_INFINITY, f64::max)
+            })
+        });
+        if let Some(error) = failure {
+            return Err(error);
         }
-        if first.is_some() {
-            self.probe.copy_from(&self.to);
-            self.solver.instant(&mut self.probe)?;
-        }
-        Ok(first)
+        self.probe.copy_from(&self.to);
+        self.solver.instant(&mut self.probe)?;
+        Ok(Some(first))
     }
 }
