@@ -98,6 +98,17 @@ fn a_reference_that_is_not_converged_is_told_and_fails() {
 }
 
 #[test]
+fn maps_need_a_straight_girder() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let scene = bogie().with_file_name("../mill_girderway/scene.json");
+    let scene = scene.to_str().expect("a path in UTF-8");
+    let run = girderway(folder.path(), &["--stability", scene, "-o", "out"]);
+    assert_eq!(run.status.code(), Some(1));
+    assert!(errors(&run).contains("need a truck on a straight girder"), "{}", errors(&run));
+    assert!(!folder.path().join("out").exists());
+}
+
+#[test]
 fn garbage_is_refused_before_anything_is_run() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let scene = bogie();

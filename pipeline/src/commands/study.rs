@@ -82,7 +82,7 @@ fn stability(
     global: Global,
 ) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let subject = Subject::of(document.scene(), known).map_err(Failure::Untrusted)?;
+    let subject = Subject::of(document.scene(), known).map_err(Failure::Differs)?;
     let (maps, absent) = stability::maps(&subject, args.quick, &progress);
     let result = stability::json(&maps, &absent);
     folder.add("stability.json", output::json(&result));
@@ -142,7 +142,8 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 /// Whether the references tell what they were asked to.
 fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
     if let Some((against, why)) = study.lost.first() {
-        return Err(Failure::Untrusted(format!("\"{}\": {why}  hint: raise --limit", against.word())));
+        let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
+        return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
     }
     let worst = study.references.iter().max_by(|a, b| a.asked().total_cmp(&b.asked()));
     match worst.filter(|worst| worst.asked() > depth.resolution) {

@@ -75,12 +75,18 @@ pub fn reference(
     for &(accuracy, modes) in &depth.references {
         let scenes = [make(modes), make(modes / 2)];
         let [(fine, method), (other, second)] =
-            match pair(workshop, &scenes, accuracy, depth.limit * PATIENCE)? {
-                Ok(pair) => pair,
-                Err(stopped) => {
+            match pair(workshop, &scenes, accuracy, depth.limit * PATIENCE) {
+                Ok(Ok(pair)) => pair,
+                Ok(Err(stopped)) => {
                     why = stopped;
                     break;
                 }
+                // more modes than can be found: what was run before stands
+                Err(failure) if best.is_some() => {
+                    why = failure.words();
+                    break;
+                }
+                Err(failure) => return Err(failure),
             };
         let difference = misfits(&other, &fine).map(|own| own.map(|own| own.largest));
         let largest = difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
