@@ -24,7 +24,6 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[_name] = "1"
 
 import argparse
-import json
 import pathlib
 import subprocess
 import time
@@ -196,10 +195,7 @@ def main():
     print(f"{'case':24s}{'code':12s}{'setting':24s}   error     least    median      most, ms")
     for case, code, setting, off, *times in sorted(rows, key=lambda row: (row[0], row[1], row[5])):
         print(f"{case:24s}{code:12s}{setting:24s}{off:8.1e}", *(f"{t:9.4f}" for t in times))
-    options.o.mkdir(parents=True, exist_ok=True)
-    keys = ("case", "code", "setting", "error", "least_ms", "median_ms", "most_ms")
-    text = json.dumps([dict(zip(keys, row)) for row in rows], indent=1)
-    (options.o / "peers.json").write_text(text + "\n", encoding="ascii")
+    scenes.write(rows, options.o / "peers.json")
     chart(rows, options.o / "peers.svg")
 
 

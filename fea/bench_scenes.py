@@ -263,6 +263,13 @@ def cheapest(rows):
     return best
 
 
+def write(rows, path):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    keys = ("scene", "code", "setting", "error", "least_ms", "median_ms", "most_ms")
+    text = json.dumps([dict(zip(keys, row)) for row in rows], indent=1)
+    path.write_text(text + "\n", encoding="ascii")
+
+
 def chart(rows, path):
     import matplotlib
 
@@ -304,10 +311,7 @@ def main():
         told = " ".join(f"{t:9.4f}" for t in times)
         print(f"{scene:7s}  {asked:.0e}  {code:9s}  {setting:22s}  {told}  {ratio} ({GOALS[scene].get(code, '-')})")
     if options.o:
-        options.o.mkdir(parents=True, exist_ok=True)
-        keys = ("scene", "code", "setting", "error", "least_ms", "median_ms", "most_ms")
-        text = json.dumps([dict(zip(keys, row)) for row in rows], indent=1)
-        (options.o / "scenes.json").write_text(text + "\n", encoding="ascii")
+        write(rows, options.o / "scenes.json")
         chart(rows, options.o / "scenes.svg")
 
 

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 
 use sim::{Foundation, Run};
 
@@ -16,6 +16,7 @@ use crate::record::Record;
 use crate::response::{self, Lines, Natural, Response};
 use crate::scene::{Case, Document, Origin, Scene};
 use crate::spec::Spec;
+use crate::threads::side_by_side;
 
 /// One case, run.
 pub struct Outcome {
@@ -91,38 +92,18 @@ pub fn simulate(
     progress: &Progress,
 ) -> Result<Vec<Outcome>, Failure> {
     let cases = &document.cases;
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = threads.map_or(available, usize::from).min(cases.len());
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
     let bar = progress.bar("simulating", 1000 * cases.len() as u64);
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut own = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(case) = cases.get(index) else { return own };
-            let mut watch = |t: f64| {
-                // runs that are compared start again
-                done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
-                bar.set(done.iter().map(|share| share.load(Ordering::Relaxed)).sum());
-                ControlFlow::Continue(())
-            };
-            own.push((index, one(case, known, &mut watch)));
-        }
-    };
-    let mut outcomes: Vec<(usize, Result<Outcome, Failure>)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-        let mut all = work();
-        for other in others {
-            match other.join() {
-                Ok(own) => all.extend(own),
-                Err(panic) => std::panic::resume_unwind(panic),
-            }
-        }
-        all
+    let outcomes = side_by_side(cases, threads, |index, case| {
+        let mut watch = |t: f64| {
+            // runs that are compared start again
+            done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+            bar.set(done.iter().map(|share| share.load(Ordering::Relaxed)).sum());
+            ControlFlow::Continue(())
+        };
+        one(case, known, &mut watch)
     });
-    outcomes.sort_by_key(|(index, _)| *index);
-    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+    outcomes.into_iter().collect()
 }
 
 /// Values of structures' freedoms that a history holds where no reaction asks for them.

@@ -49,6 +49,7 @@ pub mod study;
 pub mod summary;
 pub mod surface_file;
 pub mod tables;
+pub mod threads;
 pub mod track;
 pub mod units;
 pub mod warning;

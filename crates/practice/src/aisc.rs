@@ -100,15 +100,7 @@ impl Curve {
     /// # Errors
     /// A cycle whose range or count is negative or not finite.
     pub fn miner(&self, cycles: &[Cycle]) -> Result<Damage, Error> {
-        let mut damage = Damage { sum: 0.0, most: 0.0, endures: true };
-        for cycle in cycles {
-            let range = cycle.range();
-            damage.sum += least_zero(Argument::Count, cycle.count)? * self.damage(range)?;
-            damage.most = damage.most.max(range);
-        }
-        damage.endures = damage.most <= self.limit();
-        least_zero(Argument::Factor, damage.sum)?;
-        Ok(damage)
+        Damage::of(cycles, self.limit(), |range| self.damage(range))
     }
 
     /// The constant range that does the damage `sum` in [`REFERENCE`] cycles.

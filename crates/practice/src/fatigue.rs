@@ -111,15 +111,7 @@ impl Strength {
     /// # Source
     /// EN 1993-1-9:2005, A.5 (Palmgren and Miner).
     pub fn miner(&self, cycles: &[Cycle]) -> Result<Damage, Error> {
-        let mut damage = Damage { sum: 0.0, most: 0.0, endures: true };
-        for cycle in cycles {
-            let range = cycle.range();
-            damage.sum += least_zero(Argument::Count, cycle.count)? * self.damage(range)?;
-            damage.most = damage.most.max(range);
-        }
-        damage.endures = damage.most <= self.limit();
-        least_zero(Argument::Factor, damage.sum)?;
-        Ok(damage)
+        Damage::of(cycles, self.limit(), |range| self.damage(range))
     }
 
     /// The constant range that does the damage `sum` in [`REFERENCE`] cycles: reference sum^(1/3), or
@@ -149,6 +141,25 @@ pub struct Damage {
     pub most: f64,
     /// Whether no range is above the limit, so that the sum, though not zero, may be taken as zero.
     pub endures: bool,
+}
+
+impl Damage {
+    /// The sum over `cycles` of their counts times `by` of their ranges; nothing fails at ranges up to `limit`.
+    pub(crate) fn of(
+        cycles: &[Cycle],
+        limit: f64,
+        by: impl Fn(f64) -> Result<f64, Error>,
+    ) -> Result<Damage, Error> {
+        let mut damage = Damage { sum: 0.0, most: 0.0, endures: true };
+        for cycle in cycles {
+            let range = cycle.range();
+            damage.sum += least_zero(Argument::Count, cycle.count)? * by(range)?;
+            damage.most = damage.most.max(range);
+        }
+        damage.endures = damage.most <= limit;
+        least_zero(Argument::Factor, damage.sum)?;
+        Ok(damage)
+    }
 }
 
 impl Damage {

@@ -170,7 +170,7 @@ pub fn page(subject: &Subject, all: &[Findings]) -> Result<String, Box<dyn std::
         }
         report.sections.push(section);
     }
-    Ok(report.html()?)
+    Ok(report.html(None)?)
 }
 
 fn readings(subject: &Subject, found: &Findings) -> report::Table {

@@ -19,6 +19,7 @@ use crate::record::peak;
 use crate::response::{self, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
+use crate::threads::side_by_side;
 use crate::{animation, fatigue, grid_file, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
@@ -55,12 +56,13 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
             folder.add(&format!("{name}.adm"), text);
         }
     }
-    for (case, outcome) in document.cases.iter().zip(&outcomes) {
+    let sheets = side_by_side(&outcomes, global.threads, |_, outcome| outcome.record.csv());
+    for ((case, outcome), sheet) in document.cases.iter().zip(&outcomes).zip(sheets) {
         let name = case
             .label
             .as_ref()
             .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
-        folder.add(&name, outcome.record.csv().map_err(trouble)?);
+        folder.add(&name, sheet.map_err(trouble)?);
         if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.record).map_err(trouble)? {
             folder.add(&name.replacen("history", "cycles", 1), cycles);
         }
@@ -70,14 +72,15 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     clock.lap("tables");
 
     let plates = plates(scene, &document, &outcomes, &known)?;
-    for plate in &plates {
-        folder.add(&format!("plots/{}.svg", plate.name), plate.svg().map_err(trouble)?);
+    let drawn = side_by_side(&plates, global.threads, |_, plate| plate.svg());
+    for (plate, svg) in plates.iter().zip(drawn) {
+        folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?);
     }
     clock.lap("plots");
     let solved: Vec<Option<&Solved>> =
         scene.structures.iter().map(|structure| solved_of(&known, &structure.origin)).collect();
     let report = story::report(&document, &outcomes, &solved, plates);
-    folder.add("report.html", report.html().map_err(trouble)?);
+    folder.add("report.html", report.html(global.threads).map_err(trouble)?);
     clock.lap("report");
     folder.add_varying("timing.json", output::json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });

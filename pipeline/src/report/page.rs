@@ -4,6 +4,7 @@ use super::error::Error;
 use super::number::number;
 use super::section::{Cell, Figure, Picture, Section, Table};
 use crate::chart::{Chart, Drawing};
+use crate::threads::side_by_side;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use serde_json::json;
 
@@ -24,25 +25,23 @@ pub struct Report {
     pub sections: Vec<Section>,
 }
 
-/// Running numbers of tables and figures.
-#[derive(Default)]
-struct Count {
-    tables: usize,
-    figures: usize,
-}
-
 impl Report {
     /// The report as one HTML page that refers to nothing outside itself. Everything but finished SVG
-    /// pictures is escaped.
+    /// pictures is escaped. Charts are drawn on at most `threads` threads; `None`: as many as the machine has.
     ///
     /// # Errors
     /// Where a number is not finite, a table's row does not fit its head or a picture cannot be drawn.
-    pub fn html(&self) -> Result<String, Error> {
-        let mut count = Count::default();
+    pub fn html(&self, threads: Option<u16>) -> Result<String, Error> {
         let sections = self.sections.iter().enumerate();
-        let bodies: Result<Vec<Markup>, Error> = sections.map(|(i, s)| section(i, s, &mut count)).collect();
-        let figures = self.sections.iter().flat_map(|section| &section.figures);
-        let moves = figures.into_iter().any(|figure| matches!(figure.picture, Picture::Film(_)));
+        let figures: Vec<(usize, usize, &Figure)> = sections
+            .clone()
+            .flat_map(|(s, section)| section.figures.iter().enumerate().map(move |(i, one)| (s, i, one)))
+            .collect();
+        let drawn = side_by_side(&figures, threads, |running, (s, i, one)| figure(*s, *i, one, running + 1));
+        let (mut drawn, mut tables) = (drawn.into_iter(), 0);
+        let bodies: Result<Vec<Markup>, Error> =
+            sections.map(|(i, s)| section(i, s, &mut tables, &mut drawn)).collect();
+        let moves = figures.iter().any(|(.., figure)| matches!(figure.picture, Picture::Film(_)));
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -75,21 +74,23 @@ impl Report {
     }
 }
 
-fn section(index: usize, section: &Section, count: &mut Count) -> Result<Markup, Error> {
+/// One section; `tables_before` counts those of the page, `drawn` has its figures next.
+fn section(
+    index: usize,
+    section: &Section,
+    tables_before: &mut usize,
+    drawn: &mut impl Iterator<Item = Result<Markup, Error>>,
+) -> Result<Markup, Error> {
     let mut facts = Vec::new();
     for (fact, one) in section.facts.iter().enumerate() {
         facts.push((one, shown(&one.value).ok_or(Error::Fact { section: index, fact })?));
     }
     let mut tables = Vec::new();
     for (i, one) in section.tables.iter().enumerate() {
-        count.tables += 1;
-        tables.push(table(index, i, one, count.tables)?);
+        *tables_before += 1;
+        tables.push(table(index, i, one, *tables_before)?);
     }
-    let mut figures = Vec::new();
-    for (i, one) in section.figures.iter().enumerate() {
-        count.figures += 1;
-        figures.push(figure(index, i, one, count.figures)?);
-    }
+    let figures = drawn.take(section.figures.len()).collect::<Result<Vec<Markup>, Error>>()?;
     Ok(html! {
         section id=(format!("section-{}", index + 1)) {
             h2 { (section.heading) }

@@ -90,7 +90,7 @@ fn parse(page: &str) -> Parsed {
 }
 
 fn page() -> String {
-    let page = report().html().expect("the report is complete");
+    let page = report().html(None).expect("the report is complete");
     if let Some(folder) = std::env::var_os("GIRDERWAY_CHARTS") {
         let file = std::path::Path::new(&folder).join("report.html");
         std::fs::write(file, &page).expect("the folder can be written");
@@ -146,7 +146,7 @@ fn text_cannot_become_markup() {
     section = section.figure(chart, hostile);
     let before = parse(&page()).0.iter().filter(|(name, _)| name == "script").count();
     report.sections.push(section);
-    let (tags, text) = parse(&report.html().expect("the report is complete"));
+    let (tags, text) = parse(&report.html(None).expect("the report is complete"));
     assert_eq!(
         tags.iter().filter(|(name, _)| name == "script").count(),
         before + 1,
@@ -171,7 +171,7 @@ fn nan_is_refused_by_place() {
     let with = |section: Section| {
         let mut report = report();
         report.sections.push(section);
-        report.html()
+        report.html(None)
     };
     let bad = f64::NAN;
     assert_eq!(
@@ -238,7 +238,7 @@ fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
         let mut report = report();
         let picture = Picture::Film(Box::new(film));
         report.sections.push(Section::new("x").figure(picture, "It moves."));
-        report.html()
+        report.html(None)
     };
     let scripts = |page: &str| parse(page).0.iter().filter(|(name, _)| name == "script").count();
     let moving = with(film(3.125)).expect("numbers");
