@@ -10,8 +10,8 @@ use crate::{Compliance, Error, Influence, Line, Probe, Surface};
 #[derive(Clone, Debug)]
 pub struct Shapes {
     line: Arc<Line>,
-    /// Freedoms of the states x shapes.
-    states: DMatrix<f64>,
+    /// Shapes x freedoms of the states: what a place needs of all shapes lies together.
+    motions: DMatrix<f64>,
 }
 
 impl Shapes {
@@ -25,13 +25,13 @@ impl Shapes {
         if rows != expected {
             return Err(Error::NodalShape { rows, columns, expected });
         }
-        Ok(Shapes { line, states })
+        Ok(Shapes { line, motions: states.transpose() })
     }
 
     /// How many there are.
     #[must_use]
     pub fn count(&self) -> usize {
-        self.states.ncols()
+        self.motions.nrows()
     }
 
     /// Displacement at `at` along its axis of each shape, and its derivative along the rail, into `value` and `slope` of one entry
@@ -41,13 +41,13 @@ impl Shapes {
     /// A probe beyond its rail, or in a direction that nothing resists.
     pub fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
         let row = self.line.row(at)?;
-        let size = self.states.nrows().max(1);
-        let columns = self.states.as_slice().chunks_exact(size);
-        for ((value, slope), column) in value.iter_mut().zip(slope).zip(columns) {
-            (*value, *slope) = (0.0, 0.0);
-            for ((&k, share), share_slope) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
-                *value += share * column[k];
-                *slope += share_slope * column[k];
+        value.fill(0.0);
+        slope.fill(0.0);
+        for ((&k, share), share_slope) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
+            let motions = self.motions.column(k);
+            for ((value, slope), motion) in value.iter_mut().zip(&mut *slope).zip(&motions) {
+                *value += share * motion;
+                *slope += share_slope * motion;
             }
         }
         Ok(())
