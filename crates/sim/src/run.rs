@@ -175,6 +175,7 @@ fn integrate(
     let mut active = stepper.solver.active.clone();
     let mut links = stepper.solver.geometry.links.clone();
     let mut pieces = stepper.solver.geometry.piece.clone();
+    let (mut begun, mut kept) = (active.clone(), stepper.solver.kept.clone());
     let mut next = 1_u64;
     let mut status = Status::Done;
     let due = stepper.due()?;
@@ -187,6 +188,7 @@ fn integrate(
         while stepper.to.t < limit * (1.0 - 1e-14) {
             // A sample within the step belongs to where the step began.
             pieces.clone_from(&stepper.solver.geometry.piece);
+            begun.clone_from(&stepper.solver.active);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -201,6 +203,7 @@ fn integrate(
             let (from, to) = (stepper.from.t, stepper.to.t);
             let due = stepper.due()?;
             active.clone_from(&stepper.solver.active);
+            kept.clone_from(&stepper.solver.kept);
             links.clone_from(&stepper.solver.geometry.links);
             while output_time(scene, next) <= to {
                 let t = output_time(scene, next);
@@ -208,6 +211,7 @@ fn integrate(
                 let after = stepper.solver.geometry.piece.clone();
                 if !is_end {
                     stepper.solver.geometry.piece.clone_from(&pieces);
+                    stepper.solver.active.clone_from(&begun);
                 }
                 if is_end {
                     sample.copy_from(&stepper.to);
@@ -218,6 +222,7 @@ fn integrate(
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, &stepper.solver.geometry, &sample)?;
                 stepper.solver.active.clone_from(&active);
+                stepper.solver.kept.clone_from(&kept);
                 stepper.solver.geometry.piece = after;
                 stepper.solver.geometry.links.clone_from(&links);
                 next += 1;
