@@ -160,9 +160,7 @@ impl Damage {
         least_zero(Argument::Factor, damage.sum)?;
         Ok(damage)
     }
-}
 
-impl Damage {
     /// How often the history is borne; none if it does no damage.
     #[must_use]
     pub fn repeats(&self) -> Option<f64> {

@@ -385,14 +385,14 @@ impl Collocation {
     /// Modes of `at`, the share `share` of the step just taken from `from`: exact for the polynomials of time that the
     /// loads are taken to be, since no polynomial follows a mode of many periods a step.
     pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
-        let (s, h) = (self.count(), self.answers[0].h);
+        let h = self.answers[0].h;
         for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
             let mode = Propagator::new(omega, zeta, h);
             let [qq, qv, vq, vv] = mode.free(share);
             let powers = mode.forced(share);
             let (q0, v0) = (from.q[r], from.v[r]);
             let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
-            for (b, load) in self.load.iter().enumerate().take(s) {
+            for (b, load) in self.load.iter().enumerate() {
                 q += load[r] * self.nodes.load(b, &powers, 0);
                 v += load[r] * self.nodes.load(b, &powers, 1);
                 now += load[r] * self.nodes.value(b, share);

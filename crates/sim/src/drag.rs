@@ -9,7 +9,6 @@ use crate::dense::along;
 use crate::energy::stored;
 use crate::events::PASSED;
 use crate::geometry::Geometry;
-use crate::scene::arm_rows;
 use crate::settle::RIGID;
 use crate::solver::Solver;
 use crate::state::State;
@@ -83,8 +82,7 @@ impl Stepper<'_, '_> {
     pub(crate) fn pass_joint(&mut self) -> Result<f64, Error> {
         let system = self.solver.system;
         let Some(w) = self.meets.take().filter(|_| system.is_dragged) else { return Ok(0.0) };
-        let (x, speed) =
-            (self.solver.geometry.place(system, w, &self.to.q), self.solver.speed_of(w, &self.to));
+        let (x, speed) = (self.solver.geometry.place(system, w, &self.to.q), system.speed_along(w, &self.to));
         let near = PASSED * self.nearness() * (1.0 + x.abs());
         let contact = &system.scene.contacts[system.wheels[w].contact];
         let foundation = &system.foundations[contact.structure];
@@ -127,9 +125,5 @@ pub(crate) fn slip(system: &System, geometry: &Geometry, state: &State, i: usize
 /// The treads of component `i` with their speeds along the rail.
 fn own_treads<'s>(system: &'s System, i: usize, at: &'s State) -> impl Iterator<Item = (usize, f64)> + 's {
     let own = system.treads.iter().enumerate().filter(move |(_, tread)| tread.component == i);
-    own.map(|(tread, Tread { wheel, .. })| {
-        let wheel = &system.wheels[*wheel];
-        let (_, speed) = system.body(wheel.body, at.t, &at.q, &at.v);
-        (tread, arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum())
-    })
+    own.map(|(tread, Tread { wheel, .. })| (tread, system.speed_along(*wheel, at)))
 }

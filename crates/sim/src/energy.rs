@@ -165,7 +165,7 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let rate = |i: usize| geometry.rate(i, &state.v);
     let convective = |i: usize| {
-        if system.is_uneven { geometry.rise[i] * speed_along(system, state, i) } else { 0.0 }
+        if system.is_uneven { geometry.rise[i] * system.contact_speed(i, state) } else { 0.0 }
     };
     let structure = system.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
     let mut power = Exchanged { structure, ..Exchanged::default() };
@@ -175,7 +175,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         }
         let law = system.law(i);
         let [share, share_slope] = geometry.share[i];
-        let share_rate = if share_slope == 0.0 { 0.0 } else { share_slope * speed_along(system, state, i) };
+        let share_rate = if share_slope == 0.0 { 0.0 } else { share_slope * system.contact_speed(i, state) };
         power.handover -= normal.count() * share_rate * law.energy(state.p[i]);
         match law.damper {
             Damper::Rail => {
@@ -302,13 +302,6 @@ pub(crate) fn brake_force(system: &System, state: &State, b: usize) -> f64 {
 fn pull_force(system: &System, state: &State, b: usize, is_of: impl Fn(&PullLaw) -> bool) -> f64 {
     let pulls = system.pulls.iter().enumerate().filter(|(_, pull)| pull.body == b && is_of(&pull.law));
     pulls.map(|(index, _)| 0.0 - state.force[system.pull(index)]).sum()
-}
-
-/// Speed along the rail of the wheels of vertical contact `i`.
-fn speed_along(system: &System, state: &State, i: usize) -> f64 {
-    let wheel = &system.wheels[system.normals[i].wheels.start];
-    let (_, speed) = system.body(wheel.body, state.t, &state.q, &state.v);
-    dot(&arm_rows(wheel.hub)[0], &speed)
 }
 
 /// Q(p) = integral of STEP(p, 0, 0, depth, 1) from 0 to p; p itself where there is no ramp.

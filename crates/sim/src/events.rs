@@ -6,7 +6,7 @@ use crate::dense::dot;
 use crate::drag::slip;
 use crate::root::narrow;
 use crate::state::State;
-use crate::stepper::Stepper;
+use crate::stepper::{Stepper, interpolate};
 
 /// Force by which a step may end beyond an event, relative to the largest contact force.
 pub(crate) const OVERSHOOT: f64 = 1e-9;
@@ -142,9 +142,7 @@ impl Stepper<'_, '_> {
             }
         }
         if interpolated {
-            // Leave the solver's geometry at the end of the step.
-            self.probe.copy_from(&self.to);
-            self.solver.instant(&mut self.probe)?;
+            self.return_to_end()?;
         }
         Ok(first)
     }
@@ -170,8 +168,16 @@ impl Stepper<'_, '_> {
     /// Brings `probe` to the share `share` of the step just tried, with its forces; returns whether they converged.
     pub(crate) fn solved_at(&mut self, share: f64) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
-        self.look_inside(share)?;
+        let ends = [&self.from, &self.to];
+        interpolate(self.solver, self.collocation.as_ref(), ends, share, &mut self.probe)?;
         self.solver.instant(&mut self.probe)
+    }
+
+    /// Leaves the solver's geometry at the end of the step, after looks inside.
+    pub(crate) fn return_to_end(&mut self) -> Result<(), Error> {
+        self.probe.copy_from(&self.to);
+        self.solver.instant(&mut self.probe)?;
+        Ok(())
     }
 
     /// Share of the step at which a drive reaches or leaves a limit, if one does by more than [`OVERSHOOT`]: the

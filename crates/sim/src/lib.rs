@@ -3,6 +3,7 @@
 //! Knows no section, material, unit or file: a structure is a [`splines::Compliance`] and, where its mass
 //! counts, freedoms of its own ([`Foundation`]).
 
+mod acting;
 mod actuator;
 mod chart;
 mod charts;
@@ -75,7 +76,7 @@ pub use rule::{Action, Compare, Condition, Fired, Rule};
 pub use run::{Run, Status, run, run_by};
 pub use scene::{Analysis, Body, Contact, Freedom, Gauge, Pin, Scene};
 pub use schedule::Schedule;
-pub use selector::{Choice, Ladder, Predicted, Reason, Rung, Selection, Tried, choose, distance};
+pub use selector::{Choice, Ladder, Predicted, Reason, Rung, STEPPING, Selection, Tried, choose, distance};
 pub use step::step;
 pub use stepper::Counts;
 pub use turn::Turn;

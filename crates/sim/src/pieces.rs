@@ -7,7 +7,6 @@
 use crate::Error;
 use crate::dense::along;
 use crate::energy::ramp_integral;
-use crate::scene::arm_rows;
 use crate::solver::Solver;
 use crate::state::State;
 
@@ -23,7 +22,7 @@ impl Solver<'_> {
         for w in 0..system.wheels.len() {
             let Some(shape) = system.irregularity(w) else { continue };
             let acceleration = self.geometry.travel[system.kinematics.root(system.wheels[w].body)].a;
-            let speed = self.speed_of(w, at);
+            let speed = self.system.speed_along(w, at);
             let direction = [speed, acceleration].into_iter().find(|d| *d != 0.0).unwrap_or(1.0);
             self.geometry.piece[w] = shape.piece(self.geometry.x[w], direction, 0);
         }
@@ -39,7 +38,7 @@ impl Solver<'_> {
             let Some(shape) = system.irregularity(w) else { continue };
             let x = self.geometry.place(system, w, &at.q);
             let current = self.geometry.piece[w];
-            let next = shape.piece(x, self.speed_of(w, at), current);
+            let next = shape.piece(x, self.system.speed_along(w, at), current);
             if next == current {
                 continue;
             }
@@ -102,13 +101,6 @@ impl Solver<'_> {
         if !self.system.is_uneven {
             return own;
         }
-        own + self.geometry.rise[i] * self.speed_of(self.system.normals[i].wheels.start, at)
-    }
-
-    /// Speed of wheel `w` along its rail.
-    pub fn speed_of(&self, w: usize, at: &State) -> f64 {
-        let wheel = &self.system.wheels[w];
-        let (_, speed) = self.system.body(wheel.body, at.t, &at.q, &at.v);
-        arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
+        own + self.geometry.rise[i] * self.system.contact_speed(i, at)
     }
 }

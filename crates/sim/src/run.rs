@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
+use crate::acting::Acting;
 use crate::energy::Audit;
 use crate::history::History;
 use crate::passage;
@@ -172,10 +173,8 @@ fn integrate(
         Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
     stepper.fixed = stepping.step;
     let mut sample = stepper.to.clone();
-    let mut active = stepper.solver.active.clone();
-    let mut links = stepper.solver.geometry.links.clone();
-    let mut pieces = stepper.solver.geometry.piece.clone();
-    let (mut begun, mut kept) = (active.clone(), stepper.solver.kept.clone());
+    let mut begun = Acting::of(stepper.solver);
+    let mut after = begun.clone();
     let mut next = 1_u64;
     let mut status = Status::Done;
     let due = stepper.due()?;
@@ -187,8 +186,7 @@ fn integrate(
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
             // A sample within the step belongs to where the step began.
-            pieces.clone_from(&stepper.solver.geometry.piece);
-            begun.clone_from(&stepper.solver.active);
+            begun.take(stepper.solver);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -202,29 +200,20 @@ fn integrate(
             }
             let (from, to) = (stepper.from.t, stepper.to.t);
             let due = stepper.due()?;
-            active.clone_from(&stepper.solver.active);
-            kept.clone_from(&stepper.solver.kept);
-            links.clone_from(&stepper.solver.geometry.links);
+            after.take(stepper.solver);
             while output_time(scene, next) <= to {
                 let t = output_time(scene, next);
                 let is_end = t >= to * (1.0 - 1e-14);
-                let after = stepper.solver.geometry.piece.clone();
-                if !is_end {
-                    stepper.solver.geometry.piece.clone_from(&pieces);
-                    stepper.solver.active.clone_from(&begun);
-                }
                 if is_end {
                     sample.copy_from(&stepper.to);
                 } else {
+                    begun.give(stepper.solver);
                     let share = (t - from) / (to - from);
                     stepper.sample(share, &mut sample)?;
                 }
                 stepper.solver.settle(&mut sample)?;
                 recorder.record(system, &stepper.solver.geometry, &sample)?;
-                stepper.solver.active.clone_from(&active);
-                stepper.solver.kept.clone_from(&kept);
-                stepper.solver.geometry.piece = after;
-                stepper.solver.geometry.links.clone_from(&links);
+                after.give(stepper.solver);
                 next += 1;
             }
             if !due.is_empty() {

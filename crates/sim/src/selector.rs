@@ -19,7 +19,7 @@ const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
 const FEW: usize = 3;
 /// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
 /// thirty times what they are asked.
-const STEPPING: f64 = 0.03;
+pub const STEPPING: f64 = 0.03;
 /// Share of the tolerance that an estimate may reach: the higher rung errs too.
 const SAFE: f64 = 0.8;
 

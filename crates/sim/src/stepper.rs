@@ -81,7 +81,7 @@ pub(crate) struct Stepper<'a, 'b> {
     pub audit: Audit,
     tableau: &'static Tableau,
     /// In place of the tableau.
-    collocation: Option<Collocation>,
+    pub(crate) collocation: Option<Collocation>,
     pub(crate) tolerance: f64,
     /// Length of every step that no break or event ends; in place of the tolerance.
     pub fixed: Option<f64>,
@@ -408,28 +408,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
     }
 
-    /// Sets `probe` to the interpolant of the step just tried, at its share `share`.
-    ///
-    /// # Errors
-    /// What the rail refuses.
-    pub(crate) fn look_inside(&mut self, share: f64) -> Result<(), Error> {
-        self.solver.interpolate([&self.from, &self.to], share, &mut self.probe)?;
-        if let Some(collocation) = &self.collocation {
-            collocation.interpolate(&self.from, share, &mut self.probe);
-        }
-        Ok(())
-    }
-
     /// Sets `at` to the interpolant of the step just taken, at its share `share`.
     ///
     /// # Errors
     /// What the rail refuses.
     pub fn sample(&mut self, share: f64, at: &mut State) -> Result<(), Error> {
-        self.solver.interpolate([&self.from, &self.arrived], share, at)?;
-        if let Some(collocation) = &self.collocation {
-            collocation.interpolate(&self.from, share, at);
-        }
-        Ok(())
+        interpolate(self.solver, self.collocation.as_ref(), [&self.from, &self.arrived], share, at)
     }
 
     /// Embedded error relative to the tolerance.
@@ -543,6 +527,25 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.solver.instant(&mut self.to)?;
         Ok(())
     }
+}
+
+/// Sets `at` to the interpolant between the ends of the step last tried, at its share `share`; modes where `collocation`
+/// has them.
+///
+/// # Errors
+/// What the rail refuses.
+pub(crate) fn interpolate(
+    solver: &mut Solver,
+    collocation: Option<&Collocation>,
+    ends: [&State; 2],
+    share: f64,
+    at: &mut State,
+) -> Result<(), Error> {
+    solver.interpolate(ends, share, at)?;
+    if let Some(collocation) = collocation {
+        collocation.interpolate(ends[0], share, at);
+    }
+    Ok(())
 }
 
 /// Smallest displacements and rates that the error is measured against: the penetration at rest, carried

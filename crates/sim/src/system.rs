@@ -15,6 +15,7 @@ use crate::link::Link;
 use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
+use crate::state::State;
 use crate::tie::Tie;
 use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
 
@@ -313,15 +314,19 @@ impl<'a> System<'a> {
             for wheel in self.wheels_of(component) {
                 let contact = self.wheels[wheel].contact;
                 let is_dragged = self.foundations[self.scene.contacts[contact].structure].is_dragged;
-                let is_known = |tread: &Tread| {
-                    tread.component == component && self.wheels[tread.wheel].contact == contact
-                };
-                if is_dragged && !treads.iter().any(is_known) {
+                if is_dragged && self.tread_of(&treads, component, contact).is_none() {
                     treads.push(Tread { component, wheel });
                 }
             }
         }
         treads
+    }
+
+    /// Which of `treads` is that of a contact under a component.
+    fn tread_of(&self, treads: &[Tread], component: usize, contact: usize) -> Option<usize> {
+        let is_own =
+            |tread: &Tread| tread.component == component && self.wheels[tread.wheel].contact == contact;
+        treads.iter().position(is_own)
     }
 
     /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
@@ -380,6 +385,18 @@ impl<'a> System<'a> {
             speed[0] += at.v;
         }
         (displacement, speed)
+    }
+
+    /// Speed of wheel `w` along its rail, that of its hub.
+    pub fn speed_along(&self, w: usize, at: &State) -> f64 {
+        let wheel = &self.wheels[w];
+        let (_, speed) = self.body(wheel.body, at.t, &at.q, &at.v);
+        arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
+    }
+
+    /// The same of the wheels of vertical contact `i`.
+    pub fn contact_speed(&self, i: usize, at: &State) -> f64 {
+        self.speed_along(self.normals[i].wheels.start, at)
     }
 
     /// Number of the freedoms of bodies and spins, the first of all.
@@ -464,10 +481,7 @@ impl<'a> System<'a> {
                 let contact = self.wheels[wheel].contact;
                 if self.scene.contacts[contact].structure == s {
                     let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Longitudinal };
-                    let is_own = |tread: &Tread| {
-                        tread.component == component && self.wheels[tread.wheel].contact == contact
-                    };
-                    let tread = self.treads.iter().position(is_own);
+                    let tread = self.tread_of(&self.treads, component, contact);
                     entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe, tread });
                 }
             }

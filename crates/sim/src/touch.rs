@@ -70,8 +70,7 @@ impl Stepper<'_, '_> {
         if let Some(error) = failure {
             return Err(error);
         }
-        self.probe.copy_from(&self.to);
-        self.solver.instant(&mut self.probe)?;
+        self.return_to_end()?;
         Ok(Some(first))
     }
 }

@@ -81,17 +81,13 @@ impl Stepper<'_, '_> {
         let (mut low, mut high) = (0.0_f64, 1.0_f64);
         while (high - low) * h > 0.25 * slack {
             let middle = 0.5 * (low + high);
-            self.probe.copy_from(&self.to);
-            self.look_inside(middle)?;
-            if !self.solver.instant(&mut self.probe)? {
+            if !self.solved_at(middle)? {
                 break;
             }
             let is_met = !self.triggers.met(system, self.solver, &self.probe)?.is_empty();
             if is_met { high = middle } else { low = middle }
         }
-        // Leave the solver's geometry at the end of the step.
-        self.probe.copy_from(&self.to);
-        self.solver.instant(&mut self.probe)?;
+        self.return_to_end()?;
         let length = high * h + 0.5 * slack;
         let cuts = length < h - 0.5 * slack;
         self.triggers.cut |= cuts;
