@@ -10,7 +10,7 @@ use girderway::cases::{Known, solved_of, specs};
 use girderway::link::{Spectra, laid, solve};
 use girderway::motion::cast;
 use girderway::scene::{Case, Document};
-use rustix::time::{ClockId, clock_gettime};
+use girderway::study::cpu::seconds;
 use sim::{Channel, Freedom, Run};
 
 /// What the command line asks for.
@@ -64,19 +64,18 @@ fn time(case: &Case, known: &[Known], wanted: &Wanted) -> Outcome<()> {
     let given = &case.scene;
     let mut scene = cast(given).map_err(|_| "the scene cannot be set up")?.scene;
     scene.accuracy = wanted.accuracy.unwrap_or(scene.accuracy);
-    let lateral = given.trucks.iter().any(|truck| given.wheels[truck.wheel].lateral.is_some());
     let mut foundations = Vec::new();
     for structure in &given.structures {
         let solved = solved_of(known, &structure.origin);
-        let laid = laid(&mut Spectra::default(), structure, solved, lateral);
+        let laid = laid(&mut Spectra::default(), structure, solved, given.pushes_sideways());
         foundations.push(laid.map_err(|_| "a foundation cannot be made")?.foundation);
     }
     let mut least = f64::INFINITY;
     let mut last = None;
     for _ in 0..wanted.runs.max(1) {
-        let start = processor();
+        let start = seconds();
         let run = sim::run(&scene, &foundations, &mut |_| ControlFlow::Continue(()))?;
-        least = least.min(processor() - start);
+        least = least.min(seconds() - start);
         last = Some(run);
     }
     let Some(run) = last else { return Ok(()) };
@@ -119,10 +118,4 @@ fn errors(run: &Run, exact: &Run, bodies: usize) -> [f64; 3] {
         apart(&mut (0..wheels).map(Channel::Vertical)),
         apart(&mut (0..wheels).map(Channel::Lateral)),
     ]
-}
-
-/// Processor time of this thread, in seconds.
-fn processor() -> f64 {
-    let now = clock_gettime(ClockId::ThreadCPUTime);
-    now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }

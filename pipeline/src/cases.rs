@@ -9,7 +9,7 @@ use sim::{Foundation, Run};
 use crate::codes::Codes;
 use crate::exit::Failure;
 use crate::fatigue::{self, Verdict};
-use crate::link::{self, Laid, Solved};
+use crate::link::{self, Solved};
 use crate::motion::{Cast, cast};
 use crate::progress::Progress;
 use crate::record::Record;
@@ -107,7 +107,16 @@ pub fn simulate(
 }
 
 /// Values of structures' freedoms that a history holds where no reaction asks for them.
-pub(crate) const RECORDED: f64 = 1e7;
+const RECORDED: f64 = 1e7;
+
+/// Whether the history of a run of `scene` is to hold the freedoms of a structure, by its index, on a foundation.
+pub(crate) fn recorded(scene: &Scene, known: &[Known]) -> impl Fn(usize, &Foundation) -> bool + use<> {
+    let (answers, rows) = (response::answers(scene, known), scene.end / scene.dt);
+    move |s, foundation| {
+        let freedoms = foundation.freedoms();
+        freedoms > 0 && (answers[s] || freedoms as f64 * rows < RECORDED)
+    }
+}
 
 fn one(
     case: &Case,
@@ -115,15 +124,9 @@ fn one(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Outcome, Failure> {
     let mut scene = case.scene.clone();
-    let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
     let cast = cast(&scene)?;
-    let rows = scene.end / scene.dt;
-    let answers = response::answers(&scene, known);
-    let recorded = |s: usize, foundation: &Foundation| {
-        let freedoms = foundation.freedoms();
-        freedoms > 0 && (answers[s] || freedoms as f64 * rows < RECORDED)
-    };
-    let chosen = link::choose(&mut scene, &cast.scene, known, lateral, &recorded, watch);
+    let recorded = recorded(&scene, known);
+    let chosen = link::choose(&mut scene, &cast.scene, known, &recorded, watch);
     let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
     let link::Chosen { choices, run, laid } = chosen.map_err(|trouble| match trouble {
         link::Trouble::Foundation(failure) => failure,
@@ -134,15 +137,12 @@ fn one(
     let lines = response::lines(&scene, &laid, &solved)?;
     let mut record = Record::new(&scene, &run.history);
     let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
-    let (foundations, motions): (Vec<Foundation>, Vec<_>) =
-        laid.into_iter().map(|laid| (laid.foundation, laid.motion)).unzip();
-    response.modes = Natural::all(&scene, &cast, &foundations, &run);
-    let with = |(foundation, motion)| Laid { foundation, motion };
-    let laid: Vec<Laid> = foundations.into_iter().zip(motions).map(with).collect();
     // only the scene itself is drawn
     if case.label.is_none() {
         response.bend(&scene, &cast, &run.history, &laid, &solved)?;
     }
+    let foundations: Vec<Foundation> = laid.into_iter().map(|laid| laid.foundation).collect();
+    response.modes = Natural::all(&scene, &cast, &foundations, &run);
     let codes = Codes::new(&scene, &cast, &record)?;
     let fatigue = fatigue::verdicts(&scene, &record)?;
     Ok(Outcome { label, cast, run, record, choices, lines, response, codes, fatigue })

@@ -6,7 +6,7 @@ use sim::{Axle, Mount};
 use crate::exit::Failure;
 use crate::link;
 use crate::record::Record;
-use crate::scene::{Scene, Truck};
+use crate::scene::{Scene, Truck, seat};
 
 /// A scene with the places of the rails that ride on bodies.
 pub struct Layout<'s> {
@@ -70,8 +70,7 @@ impl<'s> Layout<'s> {
     /// An arm along a body's x, y and z as one along those of the tracks on the ground, small rotations left out.
     #[must_use]
     pub fn turned(&self, body: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let root = self.scene.bodies[body].pinned.map_or(body, |(to, _)| to);
-        match self.track(root) {
+        match self.track(seat(self.scene, body).0) {
             Some((_, Axle { along: [a, _, c], .. })) => [a * x - c * z, y, c * x + a * z],
             None => [x, y, z],
         }
@@ -79,11 +78,7 @@ impl<'s> Layout<'s> {
 
     /// Height of a body's origin over its rails where the wheels just touch: the radius of its wheels.
     fn radius(&self, body: usize) -> f64 {
-        let carries = |truck: &&Truck| {
-            let own = &self.scene.bodies[truck.body];
-            truck.body == body || own.pinned.is_some_and(|(to, _)| to == body)
-        };
-        let truck = self.scene.trucks.iter().find(carries);
+        let truck = self.scene.trucks.iter().find(|truck| seat(self.scene, truck.body).0 == body);
         truck.map_or(0.0, |truck| self.scene.wheels[truck.wheel].radius - truck.at[1])
     }
 

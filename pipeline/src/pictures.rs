@@ -107,7 +107,7 @@ pub fn travel(run: &Labelled, events: &[(f64, &str)]) -> Vec<Plate> {
             Axis::new(label, scene.units.label(dimension)),
         );
         for (index, body) in moving.iter().enumerate() {
-            let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+            let style = Style::in_turn(index);
             let points = record.points("time", &format!("{}.{part}", body.name));
             chart = chart.with(Series::new(&body.name, style, points));
         }
@@ -129,7 +129,7 @@ pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
         Chart::new("Wheel forces", time(), Axis::new("vertical force", units.label(Dimension::FORCE)));
     for (index, wheel) in cast.wheels.iter().enumerate() {
         let name = &wheel.name;
-        let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+        let style = Style::in_turn(index);
         forces =
             forces.with(Series::new(name, style, run.record.points("time", &format!("{name}.vertical"))));
     }
@@ -164,7 +164,7 @@ fn horizontal(run: &Labelled, cast: &Cast, part: &str, word: &str) -> Option<Pla
     let mut chart = Chart::new(title, Axis::new("time", "s"), axis);
     for (index, (w, _)) in own.iter().enumerate() {
         let name = &cast.wheels[*w].name;
-        let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+        let style = Style::in_turn(index);
         chart = chart.with(Series::new(name, style, run.record.points("time", &format!("{name}.{part}"))));
     }
     let few = if all > WHEELS { format!(", the largest {WHEELS} of {all}") } else { String::new() };

@@ -7,7 +7,7 @@ use crate::cases::Outcome;
 use crate::fatigue;
 use crate::link;
 use crate::record::Record;
-use crate::scene::{Analysis, Event, STEPPERS, Scene};
+use crate::scene::{Analysis, Event, Scene, stepper_word};
 use crate::units::Dimension;
 use crate::warning;
 
@@ -75,8 +75,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
         },
     });
     if let Some(method) = run.method {
-        let name = STEPPERS.iter().find(|(_, known)| *known == method).map(|(word, _)| *word);
-        result["steps"]["method"] = json!(name);
+        result["steps"]["method"] = json!(stepper_word(method));
     }
     if let Some(why) = why {
         result["why"] = json!(why);

@@ -10,11 +10,11 @@ use crate::cases::Outcome;
 use crate::link;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail};
+use crate::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail, seat};
 use crate::spec::Form;
 
 /// Energy residual above which a run's forces are not to be trusted blindly.
-const RESIDUAL: f64 = 1e-3;
+pub(crate) const RESIDUAL: f64 = 1e-3;
 
 /// Deflection of a rail by its span above which structures are hardly linear.
 const BENT: f64 = 0.01;
@@ -175,11 +175,9 @@ fn unsymmetric(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Strin
     if !skew || structure.foundation != Foundation::Influence || scene.analysis != Analysis::Dynamic {
         return None;
     }
-    let free = |mut body: usize| {
-        while let Some((carrier, _)) = scene.bodies[body].pinned {
-            body = carrier;
-        }
-        scene.bodies[body].motion.is_free().then_some(&scene.bodies[body].name)
+    let free = |body: usize| {
+        let root = &scene.bodies[seat(scene, body).0];
+        root.motion.is_free().then_some(&root.name)
     };
     let own = wheels.cast.wheels.iter().filter(|wheel| wheel.rail == wheels.rail);
     let body = own.filter_map(|wheel| free(wheel.body)).next()?;

@@ -47,6 +47,27 @@ impl View<'_> {
         self.rows.iter().map(|row| self.layout.origin(self.run.record, body, *row)).collect()
     }
 
+    /// Bodies in the order in which they are drawn: what is carried over what carries it.
+    fn order(&self) -> Vec<usize> {
+        let bodies = &self.scene.bodies;
+        let mut order: Vec<usize> = (0..bodies.len()).collect();
+        order.sort_by_key(|body| (bodies[*body].in_space, self.layout.track(*body).is_some(), *body));
+        order
+    }
+
+    /// Rails on the ground, and where the wheels of bodies on them are across.
+    fn rails(&self) -> Vec<(usize, f64)> {
+        let mut rails: Vec<(usize, f64)> = Vec::new();
+        for truck in &self.scene.trucks {
+            let is_known = rails.iter().any(|(rail, _)| *rail == truck.rail);
+            let is_grounded = self.layout.axle(truck.rail).is_none();
+            if !is_known && is_grounded && self.scene.bodies[truck.body].pinned.is_none() {
+                rails.push((truck.rail, truck.at[2]));
+            }
+        }
+        rails
+    }
+
     /// Wheels of the simulator's order under each truck.
     fn trucks(&self) -> Vec<std::ops::Range<usize>> {
         let mut next = 0;

@@ -2,7 +2,6 @@
 
 use super::draw::{BLUE, DARK, Drawing, GREY, INK, ORANGE, SIDE, STEEL, WIDTH};
 use super::{BAR, View};
-use crate::scene::Truck;
 
 /// Most pixels across.
 const ACROSS: f64 = 300.0;
@@ -10,15 +9,7 @@ const ACROSS: f64 = 300.0;
 /// Draws the plan below `top`; gives where it ends.
 pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
     let scene = view.scene;
-    let grounded =
-        |truck: &&Truck| view.layout.axle(truck.rail).is_none() && scene.bodies[truck.body].pinned.is_none();
-    // rails on the ground, where the wheels of bodies on them are across
-    let mut rails: Vec<(usize, f64)> = Vec::new();
-    for truck in scene.trucks.iter().filter(grounded) {
-        if rails.iter().all(|(rail, _)| *rail != truck.rail) {
-            rails.push((truck.rail, truck.at[2]));
-        }
-    }
+    let rails = view.rails();
     let hull = |values: &mut dyn Iterator<Item = f64>| {
         values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
     };
@@ -48,10 +39,7 @@ pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
         }
     }
     let trucks = view.trucks();
-    // what is carried is drawn over what carries it
-    let mut order: Vec<usize> = (0..scene.bodies.len()).collect();
-    order.sort_by_key(|body| (scene.bodies[*body].in_space, view.layout.track(*body).is_some(), *body));
-    for body in order {
+    for body in view.order() {
         let places: Vec<[f64; 2]> = view.origins(body).into_iter().map(place).collect();
         if scene.bodies[body].in_space {
             drawing.moving(places, view.still, |drawing| drawing.disc([0.0, 0.0], 8.0, ORANGE));

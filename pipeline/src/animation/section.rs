@@ -10,13 +10,7 @@ const ROOM: [f64; 2] = [600.0, 330.0];
 /// Draws the view below `top`; gives where it ends.
 pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
     let scene = view.scene;
-    let mut rails: Vec<(usize, f64)> = Vec::new();
-    for truck in &scene.trucks {
-        let known = rails.iter().any(|(rail, _)| *rail == truck.rail);
-        if !known && view.layout.axle(truck.rail).is_none() && scene.bodies[truck.body].pinned.is_none() {
-            rails.push((truck.rail, truck.at[2]));
-        }
-    }
+    let rails = view.rails();
     let origins: Vec<Vec<[f64; 3]>> = (0..scene.bodies.len()).map(|body| view.origins(body)).collect();
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let mut widen = |z: f64, y: f64| {
@@ -60,13 +54,11 @@ pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
         let beside = [at[0] + outer * 0.7 * depth, at[1] + 0.8 * depth];
         drawing.text(beside, &scene.rails[*rail].name, (GREY, 11.0), anchor);
     }
-    let mut order: Vec<usize> = (0..scene.bodies.len()).collect();
-    order.sort_by_key(|body| (scene.bodies[*body].in_space, view.layout.track(*body).is_some(), *body));
     for end in &ends {
         let both = end.each_ref().map(|end| end.iter().map(|at| place(*at)).collect());
         drawing.rope(both, view.still);
     }
-    for body in order {
+    for body in view.order() {
         let places: Vec<[f64; 2]> = origins[body].iter().map(|[_, y, z]| place([*z, *y])).collect();
         drawing.moving(places, view.still, |drawing| {
             if scene.bodies[body].in_space {

@@ -133,7 +133,7 @@ fn diagonal(
         for &x in &x {
             points.push([x, 100.0 * (own.at(x, x)? - exact.at(x, x)?) / scale]);
         }
-        let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+        let style = Style::in_turn(index);
         chart = chart.with(Series::new(one.manner.word(), style, points));
     }
     if chart.series.is_empty() {

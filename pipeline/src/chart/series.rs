@@ -29,6 +29,14 @@ pub struct Series {
     pub spread: Vec<[f64; 2]>,
 }
 
+impl Style {
+    /// Full and dashed lines in turn.
+    #[must_use]
+    pub fn in_turn(index: usize) -> Style {
+        if index.is_multiple_of(2) { Style::Line } else { Style::Dashed }
+    }
+}
+
 impl Series {
     /// A series of the given style.
     pub fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {

@@ -1,9 +1,11 @@
 //! What a run has of the quantities that codes give values for.
 
+use practice::Mark;
+
 use super::measures::Measures;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Practice, Scene, seat};
+use crate::scene::{Practice, Scene, end_stops, seat};
 
 /// Time over which the acceleration of a trolley is taken, s.
 const WINDOW: f64 = 0.5;
@@ -14,15 +16,6 @@ const STANDS: f64 = 0.02;
 const VERTICAL: usize = 0;
 const LATERAL: usize = 1;
 const TRACTION: usize = 2;
-
-/// A value and its time.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
-    /// The value.
-    pub value: f64,
-    /// When.
-    pub time: f64,
-}
 
 /// What a run has; `None`: the scene has no such thing, or it is zero throughout.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -121,10 +114,7 @@ impl Found {
 
     /// Forces of the end stops of the crane's rails, and the speed at which they are met.
     fn stops(&mut self, scene: &Scene, practice: &Practice, record: &Record) {
-        let stops = scene.stops.iter().filter(|stop| {
-            let is_rail = stop.rail.is_some_and(|rail| practice.rails.contains(&rail));
-            is_rail && stop.meetings.iter().any(|meeting| meeting.body == practice.crane)
-        });
+        let stops = end_stops(scene, practice);
         let forces: Vec<&[f64]> = stops.map(|stop| record.part(&stop.name, "force")).collect();
         let speed = record.part(&scene.bodies[practice.crane].name, "speed");
         for (row, &t) in record.values("time").iter().enumerate() {

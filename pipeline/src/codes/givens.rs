@@ -3,10 +3,7 @@
 use practice::{aist, buffer, cmaa, factor};
 
 use super::case::{AIST, CMAA, Case, EN};
-use super::found::Found;
-use super::measures::Measures;
 use super::rows::Value;
-use crate::scene::{Practice, Scene};
 use crate::units::Dimension;
 
 /// A factor or a wheel load that a code has for the crane, whatever the run.
@@ -22,8 +19,8 @@ pub struct Given {
 
 /// Factors of the codes, and loads of one wheel by them.
 #[must_use]
-pub fn givens(scene: &Scene, practice: &Practice, measures: &Measures, found: &Found) -> Vec<Given> {
-    let case = Case::new(scene, practice, measures, found);
+pub(super) fn givens(case: &Case) -> Vec<Given> {
+    let (practice, measures) = (case.practice, case.measures);
     let si = |speed: Option<f64>| speed.map(|speed| speed * case.metre);
     let phi5 = factor::phi5(practice.drives);
     let phi2 = case.phi2;

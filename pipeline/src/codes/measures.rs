@@ -6,7 +6,7 @@ use crate::exit::Failure;
 use crate::layout::Layout;
 use crate::motion::Cast;
 use crate::record::Record;
-use crate::scene::{Along, Practice, Scene, across, seat};
+use crate::scene::{Along, Practice, Scene, across, end_stops, seat};
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
 /// A crane on two rails, in the units of its scene.
@@ -133,10 +133,6 @@ impl Measures {
             approach: practice.approach.or(nearest).unwrap_or(0.5 * span).min(span),
             wheels: u32::try_from(wheels[0].len().max(wheels[1].len())).unwrap_or(u32::MAX),
         };
-        let stops = scene.stops.iter().filter(|stop| {
-            let is_rail = stop.rail.is_some_and(|rail| practice.rails.contains(&rail));
-            is_rail && stop.meetings.iter().any(|meeting| meeting.body == practice.crane)
-        });
         Ok(Measures {
             crane,
             approach_is_found: practice.approach.is_none() && nearest.is_some(),
@@ -147,7 +143,7 @@ impl Measures {
             friction,
             play,
             speeds: speeds(scene, practice),
-            buffers: stops.map(|stop| stop.stiffness).sum(),
+            buffers: end_stops(scene, practice).map(|stop| stop.stiffness).sum(),
             between: between(scene, practice, &layout),
             fixed,
             line,

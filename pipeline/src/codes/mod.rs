@@ -7,14 +7,17 @@ mod measures;
 mod rows;
 mod story;
 
-pub use found::{Found, Mark};
-pub use givens::{Given, givens};
+pub use found::Found;
+pub use givens::Given;
 pub use measures::Measures;
-pub use rows::{Row, Value, rows};
+pub use rows::{Row, Value};
 pub use story::section;
 
 use serde_json::{Map, json};
 
+use self::case::Case;
+use self::givens::givens;
+use self::rows::rows;
 use crate::exit::Failure;
 use crate::motion::Cast;
 use crate::record::Record;
@@ -40,8 +43,8 @@ impl Codes {
         let Some(practice) = &scene.practice else { return Ok(None) };
         let measures = Measures::new(scene, practice, cast, record)?;
         let found = Found::new(scene, practice, cast, &measures, record);
-        let rows = rows(scene, practice, &measures, &found);
-        let givens = givens(scene, practice, &measures, &found);
+        let case = Case::new(scene, practice, &measures, &found);
+        let (rows, givens) = (rows(&case), givens(&case));
         Ok(Some(Codes { measures, givens, rows }))
     }
 

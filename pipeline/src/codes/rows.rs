@@ -1,11 +1,9 @@
 //! Quantities of a crane that codes give values for.
 
+use practice::Mark;
 use serde_json::json;
 
 use super::case::Case;
-use super::found::{Found, Mark};
-use super::measures::Measures;
-use crate::scene::{Practice, Scene};
 use crate::units::Dimension;
 
 /// A value of a code.
@@ -57,8 +55,8 @@ impl Row {
 
 /// All quantities that the run has.
 #[must_use]
-pub fn rows(scene: &Scene, practice: &Practice, measures: &Measures, found: &Found) -> Vec<Row> {
-    let case = Case::new(scene, practice, measures, found);
+pub(super) fn rows(case: &Case) -> Vec<Row> {
+    let found = case.found;
     let list = [
         (
             "rail_factor",

@@ -1,8 +1,11 @@
 //! What the report says of codes.
 
 use super::{Codes, Row};
-use crate::report::{Cell, Column, Section, Table};
+use crate::report::{Cell, Column, Section, Table, rounded};
 use crate::scene::Scene;
+
+/// Digits of values: codes have no more.
+const DIGITS: usize = 5;
 
 /// The section of all runs that have one; `None`: the scene does not ask for it.
 #[must_use]
@@ -32,12 +35,14 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         };
         let mut head = vec![Cell::from(row.what), Cell::from(scene.units.label(row.dimension))];
         head.extend(
-            all.iter().map(|(_, codes)| found(codes).map_or(Cell::Empty, |value| Cell::from(rounded(value)))),
+            all.iter().map(|(_, codes)| {
+                found(codes).map_or(Cell::Empty, |value| Cell::from(rounded(value, DIGITS)))
+            }),
         );
         for value in &row.values {
             let mut line = std::mem::replace(&mut head, vec![Cell::Empty; 2 + all.len()]);
             line.extend([value.code, value.clause].map(Cell::from));
-            line.extend([Cell::from(value.formula.clone()), Cell::from(rounded(value.value))]);
+            line.extend([Cell::from(value.formula.clone()), Cell::from(rounded(value.value, DIGITS))]);
             rows.push(line);
         }
     }
@@ -48,7 +53,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         let value = &given.value;
         vec![
             Cell::from(given.name.replace('_', " ")),
-            Cell::from(rounded(value.value)),
+            Cell::from(rounded(value.value, DIGITS)),
             Cell::from(scene.units.label(given.dimension)),
             Cell::from(value.code),
             Cell::from(value.clause),
@@ -61,9 +66,4 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
         rows: givens.collect(),
     };
     Some(section.table(table).table(factors))
-}
-
-/// To five digits: codes have no more.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.4e}").parse().unwrap_or(value)
 }

@@ -1,10 +1,13 @@
 //! What the report says of fatigue.
 
 use super::Verdict;
-use crate::report::{Cell, Column, Section, Table};
+use crate::report::{Cell, Column, Section, Table, rounded};
 use crate::scene::Scene;
 use crate::spec::Detail;
 use crate::units::{Dimension, Force, Length, Scale, Units};
+
+/// Digits of stresses and damages.
+const DIGITS: usize = 4;
 
 /// The section of all runs; `None`: there are no stress points.
 #[must_use]
@@ -37,7 +40,7 @@ pub fn section(scene: &Scene, runs: &[(&str, &[Verdict])]) -> Option<Section> {
                 Detail::Aisc(_) => ("ksi", Length::Inch, Force::Kip),
             };
             let scale = Scale { from: scene.units, to: Units { length, force } }.factor(Dimension::STRESS);
-            let stress = |value: f64| Cell::from(rounded(value * scale));
+            let stress = |value: f64| Cell::from(rounded(value * scale, DIGITS));
             let count: f64 = verdict.cycles.iter().map(|cycle| cycle.count).sum();
             let mut row = vec![
                 std::mem::take(&mut head),
@@ -47,12 +50,15 @@ pub fn section(scene: &Scene, runs: &[(&str, &[Verdict])]) -> Option<Section> {
                 stress(verdict.damage.most),
                 stress(verdict.limit),
                 Cell::from(unit),
-                Cell::from(rounded(verdict.damage.sum)),
+                Cell::from(rounded(verdict.damage.sum, DIGITS)),
                 stress(verdict.equivalent),
-                verdict.damage.repeats().map_or(Cell::from("never"), |runs| Cell::from(rounded(runs))),
+                verdict
+                    .damage
+                    .repeats()
+                    .map_or(Cell::from("never"), |runs| Cell::from(rounded(runs, DIGITS))),
             ];
             if fatigue.crossings.is_some() {
-                row.push(verdict.life.map_or(Cell::Empty, |life| Cell::from(rounded(life))));
+                row.push(verdict.life.map_or(Cell::Empty, |life| Cell::from(rounded(life, DIGITS))));
             }
             rows.push(row);
         }
@@ -60,9 +66,4 @@ pub fn section(scene: &Scene, runs: &[(&str, &[Verdict])]) -> Option<Section> {
     let caption = "Stress points: cycles, largest range and limit, damage of the run, range of one cycle that does it, runs to failure, damage of the crossings of a life. Every cycle is in cycles.csv.".to_owned();
     section = section.table(Table { caption, columns, rows });
     Some(section)
-}
-
-/// To four digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }

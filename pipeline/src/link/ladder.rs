@@ -55,13 +55,13 @@ pub fn choose(
     scene: &mut Scene,
     cast: &sim::Scene,
     known: &[Known],
-    lateral: bool,
     recorded: &dyn Fn(usize, &sim::Foundation) -> bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Chosen, Trouble> {
     let tolerances: Vec<Option<f64>> =
         scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
     let spectra = scene.structures.iter().map(|_| Spectra::default()).collect();
+    let lateral = scene.pushes_sideways();
     let mut rungs = Rungs { scene, known, lateral, spectra, recorded };
     let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut rungs, watch)?;
     let mut spectra = rungs.spectra;

@@ -6,7 +6,7 @@ pub mod page;
 pub mod section;
 
 pub use error::Error;
-pub use number::number;
+pub use number::{number, rounded};
 pub use page::Report;
 pub use section::{Cell, Column, Fact, Figure, Picture, Section, Table};
 

@@ -1,5 +1,10 @@
 //! Numbers for people.
 
+/// `value` to `digits` significant digits (1 at least).
+pub fn rounded(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
+}
+
 /// `value` with at most `digits` significant digits (1 to 17), trailing zeros dropped.
 ///
 /// From 0.0001 up to ten million in plain notation, five digits and more before the point grouped by narrow

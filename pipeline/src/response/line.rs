@@ -100,7 +100,7 @@ impl Lines {
         }
         for cut in &spec.effects {
             let section = model.members.get(cut.member).and_then(|member| model.sections.get(member.section));
-            for (point, section) in cut.points.iter().zip(std::iter::repeat(section)) {
+            for point in &cut.points {
                 let own = format!("{name}.{}.{}", cut.name, point.name);
                 let Some(section) = section.filter(|_| wanted(Kind::Stress, &own)) else { continue };
                 for ((_, component), weight) in COMPONENTS.into_iter().zip(weights(section, point)) {

@@ -44,7 +44,7 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
             let title = format!("Reactions of the ground, {word}");
             let mut chart = over_time(scene, &title, Dimension::FORCE);
             for (index, column) in shown.iter().enumerate() {
-                let style = if index % 2 == 0 { Style::Line } else { Style::Dashed };
+                let style = Style::in_turn(index);
                 chart = chart.with(Series::new(&column.name, style, run.record.points("time", &column.name)));
             }
             let few = if own.len() > CURVES {

@@ -3,7 +3,7 @@
 use super::Response;
 use super::comparison::{Figures, comparison};
 use crate::record::Record;
-use crate::report::{Cell, Column, Section, Table};
+use crate::report::{Cell, Column, Section, Table, rounded};
 use crate::scene::Scene;
 use crate::units::Dimension;
 
@@ -145,7 +145,7 @@ fn cleared(value: f64, range: f64) -> f64 {
 
 /// A number to five digits.
 fn short(value: f64) -> Cell {
-    Cell::from(format!("{value:.4e}").parse().unwrap_or(value))
+    Cell::from(rounded(value, 5))
 }
 
 /// Coordinates of a body.

@@ -20,6 +20,12 @@ pub const STEPPERS: [(&str, Method); 6] = [
     ("gauss3", Method::Gauss3),
 ];
 
+/// Name of a method of integration.
+#[must_use]
+pub fn stepper_word(method: Method) -> &'static str {
+    STEPPERS.iter().find(|(_, known)| *known == method).map_or("", |(word, _)| *word)
+}
+
 /// Gauss needs a fixed step: its steps are equal, or energy is not kept.
 pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Stepping {
     let place = root.key("stepper");
@@ -51,7 +57,7 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
         }),
     };
     if let Some(wanted) = wanted {
-        let word = STEPPERS.iter().find(|(_, known)| *known == method).map_or("", |(word, _)| *word);
+        let word = stepper_word(method);
         let fault = Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
         faults.add(fault.hint("\"sdirk4\" integrates every scene, \"auto\" takes what suits"));
     }

@@ -28,10 +28,10 @@ pub use body::{Along, Body, FREEDOMS};
 pub use compare::{Case, Document};
 pub use event::Event;
 pub use gauge::Gauge;
-pub use method::STEPPERS;
+pub use method::stepper_word;
 pub use output::{Fatigue, Output, Pick};
 pub use practice::Practice;
-pub(crate) use practice::{across, seat};
+pub(crate) use practice::{across, end_stops, seat};
 pub use rope::Rope;
 pub use spin::Spin;
 pub use stop::{Meeting, Stop};
@@ -111,6 +111,14 @@ pub struct SceneRail {
     pub rail: usize,
     /// First and last coordinate.
     pub range: [f64; 2],
+}
+
+impl Scene {
+    /// Whether some wheel pushes its rail sideways.
+    #[must_use]
+    pub fn pushes_sideways(&self) -> bool {
+        self.trucks.iter().any(|truck| self.wheels[truck.wheel].lateral.is_some())
+    }
 }
 
 /// Names with their indices, as [`resolve`] takes them.

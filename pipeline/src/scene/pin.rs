@@ -48,10 +48,16 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
 
 /// Body at the root of `b`'s tree, and how far ahead of its origin that of `b` is; `None` where pins run in a circle.
 pub(super) fn root_of(bodies: &[Body], b: usize) -> Option<(usize, f64)> {
-    let (mut at, mut ahead) = (b, 0.0);
+    seat_of(bodies, b).map(|(root, arm)| (root, arm[0]))
+}
+
+/// Body at the root of `b`'s tree, and where the origin of `b` is from that body's; `None` where pins run in a circle.
+pub(super) fn seat_of(bodies: &[Body], b: usize) -> Option<(usize, [f64; 3])> {
+    let (mut root, mut arm) = (b, [0.0; 3]);
     for _ in 0..=bodies.len() {
-        let Some((to, pin)) = bodies[at].pinned else { return Some((at, ahead)) };
-        (at, ahead) = (to, ahead + pin[0]);
+        let Some((to, pin)) = bodies[root].pinned else { return Some((root, arm)) };
+        root = to;
+        arm.iter_mut().zip(pin).for_each(|(arm, at)| *arm += at);
     }
     None
 }

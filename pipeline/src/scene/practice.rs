@@ -5,7 +5,8 @@ use practice::factor::{Hoisting, Onset, Release};
 use practice::skew::Guide;
 use serde::Deserialize;
 
-use super::Scene;
+use super::pin::seat_of;
+use super::{Scene, Stop};
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
@@ -198,17 +199,18 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
     }
 }
 
+/// End stops on the rails of a crane that it meets itself.
+pub(crate) fn end_stops<'s>(scene: &'s Scene, practice: &'s Practice) -> impl Iterator<Item = &'s Stop> {
+    scene.stops.iter().filter(|stop| {
+        let is_rail = stop.rail.is_some_and(|rail| practice.rails.contains(&rail));
+        is_rail && stop.meetings.iter().any(|meeting| meeting.body == practice.crane)
+    })
+}
+
 /// The body that a body is pinned to in the end, itself where it is not, and where its origin is from that body's.
 #[must_use]
 pub(crate) fn seat(scene: &Scene, body: usize) -> (usize, [f64; 3]) {
-    let (mut root, mut arm) = (body, [0.0; 3]);
-    // no chain is longer than the list
-    for _ in &scene.bodies {
-        let Some((to, at)) = scene.bodies[root].pinned else { break };
-        root = to;
-        arm.iter_mut().zip(at).for_each(|(arm, at)| *arm += at);
-    }
-    (root, arm)
+    seat_of(&scene.bodies, body).unwrap_or((body, [0.0; 3]))
 }
 
 /// Mean place of the trucks below a body, and below those pinned to it, across the track on one rail.

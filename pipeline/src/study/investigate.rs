@@ -14,12 +14,11 @@ use super::reference::{Reference, reference};
 use super::rig::{Rig, Workshop};
 use super::setting::{Against, Family, Setting};
 use super::spread::Spread;
-use crate::cases::{Known, RECORDED};
+use crate::cases::{Known, recorded};
 use crate::exit::Failure;
 use crate::link::{self, Trouble};
 use crate::motion::cast;
 use crate::progress::Progress;
-use crate::response;
 use crate::scene::Scene;
 use crate::summary;
 
@@ -27,8 +26,6 @@ use crate::summary;
 const BATCH: f64 = 2e-3;
 /// The most of them.
 const MOST: f64 = 200.0;
-/// Accuracy of the runs that "auto" compares, by its tolerance.
-const STEPPING: f64 = 0.03;
 
 /// What a study found.
 #[derive(Clone, Debug)]
@@ -204,7 +201,7 @@ fn auto(scene: &Scene, known: &[Known], depth: &Depth) -> (Result<Auto, String>,
     let name = |choice: &sim::Choice| chosen.structures[choice.structure].name.clone();
     let reasons = choices.iter().map(|choice| (name(choice), link::reason(choice))).collect();
     for choice in choices.iter().filter(|choice| choice.predicted.is_some()) {
-        chosen.accuracy = chosen.accuracy.min(STEPPING * chosen.structures[choice.structure].tolerance);
+        chosen.accuracy = chosen.accuracy.min(sim::STEPPING * chosen.structures[choice.structure].tolerance);
     }
     chosen.structures.iter_mut().for_each(|structure| structure.auto = false);
     (Ok(Auto { reasons, trials: None }), Some(chosen))
@@ -223,14 +220,8 @@ fn asked(scene: &Scene) -> Scene {
 /// Lets "auto" choose, within `limit` seconds.
 fn choose(scene: &mut Scene, known: &[Known], limit: f64) -> Result<Vec<sim::Choice>, String> {
     let cast = cast(scene).map_err(|failure| failure.words())?;
-    let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
-    let answers = response::answers(scene, known);
-    let rows = scene.end / scene.dt;
-    let recorded = |s: usize, foundation: &sim::Foundation| {
-        let freedoms = foundation.freedoms();
-        freedoms > 0 && (answers[s] || freedoms as f64 * rows < RECORDED)
-    };
-    let found = limited(limit, |watch| link::choose(scene, &cast.scene, known, lateral, &recorded, watch));
+    let recorded = recorded(scene, known);
+    let found = limited(limit, |watch| link::choose(scene, &cast.scene, known, &recorded, watch));
     let found = found.map_err(|trouble| match trouble {
         Trouble::Foundation(failure) => failure.words(),
         Trouble::Run(error) => error.to_string(),

@@ -1,6 +1,6 @@
 //! Accuracy against cost: a scene on a ladder of settings, beside a converged reference.
 
-mod cpu;
+pub mod cpu;
 mod data;
 mod depth;
 mod front;

@@ -9,7 +9,7 @@ use super::quantity::Quantity;
 use super::rig::Workshop;
 use super::setting::{Against, Family, Setting};
 use crate::exit::Failure;
-use crate::scene::{Analysis, STEPPERS, Scene};
+use crate::scene::{Analysis, Scene, stepper_word};
 use crate::summary;
 
 /// How much closer than the smallest error told the two finest runs must agree.
@@ -158,14 +158,13 @@ fn one(
     let mut trace = workshop.trace(&rig, &run)?;
     let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
     trace.prune(lengths.fold(0.0, f64::max));
-    let by = run.method.and_then(|method| STEPPERS.iter().find(|(_, own)| *own == method));
     let mut words: Vec<String> = Vec::new();
     for structure in &setting.scene.structures {
         words.push(format!("{}: {}", structure.name, foundation(structure)));
     }
     match setting.scene.analysis {
         Analysis::Dynamic => {
-            let method = by.map_or("", |(word, _)| *word);
+            let method = run.method.map_or("", stepper_word);
             words.push(format!("{method} at accuracy {accuracy:.0e}, {} steps", run.counts.steps));
         }
         Analysis::QuasiStatic => words.push("equilibrium at every output time".to_owned()),

@@ -10,7 +10,7 @@ use super::cpu;
 use super::misfit::Trace;
 use super::quantity::Quantity;
 use super::setting::Setting;
-use crate::cases::{Known, RECORDED, solved_of};
+use crate::cases::{Known, recorded, solved_of};
 use crate::exit::Failure;
 use crate::grid::GridRail;
 use crate::link::{self, Laid, Solved, Spectra};
@@ -62,12 +62,10 @@ impl<'k> Workshop<'k> {
                 laid.foundation.compliance = None;
             }
         }
-        let answers = response::answers(&scene, self.known);
-        let rows = scene.end / scene.dt;
+        let recorded = recorded(&scene, self.known);
         let mut foundations: Vec<Foundation> = laid.into_iter().map(|laid| laid.foundation).collect();
-        for (foundation, answers) in foundations.iter_mut().zip(answers) {
-            let freedoms = foundation.freedoms();
-            foundation.recorded = freedoms > 0 && (answers || freedoms as f64 * rows < RECORDED);
+        for (s, foundation) in foundations.iter_mut().enumerate() {
+            foundation.recorded = recorded(s, foundation);
         }
         Ok(Rig { scene, cast, foundations, stations: setting.stations, setup: cpu::seconds() - start })
     }
@@ -97,7 +95,7 @@ impl<'k> Workshop<'k> {
     }
 
     fn lay(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<Laid>, Failure> {
-        let lateral = scene.trucks.iter().any(|truck| scene.wheels[truck.wheel].lateral.is_some());
+        let lateral = scene.pushes_sideways();
         let at = stations.map(|count| self.table(count)).transpose()?;
         let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
         let each = scene.structures.iter().zip(&mut self.spectra);

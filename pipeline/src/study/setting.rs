@@ -2,7 +2,7 @@
 
 use sim::Method;
 
-use crate::scene::{Reading, STEPPERS, Scene};
+use crate::scene::{Reading, Scene, stepper_word};
 
 /// What varies along a curve of a chart, everything else alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,8 +75,6 @@ impl Family {
     /// Its name in legends and files.
     #[must_use]
     pub fn name(self) -> String {
-        let method =
-            |method: Method| STEPPERS.iter().find(|(_, own)| *own == method).map_or("", |(word, _)| *word);
         match self {
             Family::Rigid => "rigid".into(),
             Family::Parts => "parts".into(),
@@ -85,8 +83,8 @@ impl Family {
             Family::Pure => "modal, no residual".into(),
             Family::Mesh => "mesh".into(),
             Family::Full => "full".into(),
-            Family::Adaptive(own) => method(own).into(),
-            Family::Fixed(own) => format!("{}, equal steps", method(own)),
+            Family::Adaptive(own) => stepper_word(own).into(),
+            Family::Fixed(own) => format!("{}, equal steps", stepper_word(own)),
             Family::Table(reading) => format!("{} tables", reading.word()),
             Family::Written => "as written".into(),
             Family::Auto => "auto".into(),

@@ -13,6 +13,16 @@ const OBVIOUS: f64 = 0.5;
 /// The least error drawn.
 const LEAST: f64 = 1e-17;
 
+/// Stiffness of an element of length h and bending stiffness 1: displacement and slope of its ends.
+pub(super) fn bending(h: f64) -> [[f64; 4]; 4] {
+    [
+        [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
+        [6.0 / (h * h), 4.0 / h, -6.0 / (h * h), 2.0 / h],
+        [-12.0 / (h * h * h), -6.0 / (h * h), 12.0 / (h * h * h), -6.0 / (h * h)],
+        [6.0 / (h * h), 2.0 / h, -6.0 / (h * h), 4.0 / h],
+    ]
+}
+
 /// Midspan deflection of a simply supported beam of unit length and stiffness under a unit force there, in elements of the
 /// given lengths: banded Cholesky in doubles, as programs do it.
 fn naive(lengths: &[f64], node: usize) -> Option<f64> {
@@ -20,13 +30,7 @@ fn naive(lengths: &[f64], node: usize) -> Option<f64> {
     let n = 2 * (count + 1);
     let mut band = vec![[0.0_f64; 4]; n];
     for (e, &h) in lengths.iter().enumerate() {
-        let k = [
-            [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
-            [6.0 / (h * h), 4.0 / h, -6.0 / (h * h), 2.0 / h],
-            [-12.0 / (h * h * h), -6.0 / (h * h), 12.0 / (h * h * h), -6.0 / (h * h)],
-            [6.0 / (h * h), 2.0 / h, -6.0 / (h * h), 4.0 / h],
-        ];
-        for (i, row) in k.iter().enumerate() {
+        for (i, row) in bending(h).iter().enumerate() {
             for (j, value) in row.iter().enumerate().take(i + 1) {
                 band[2 * e + i][3 + j - i] += value;
             }

@@ -12,6 +12,7 @@ use super::steps::spread;
 use super::subject::Subject;
 use crate::link::sheets;
 use crate::units::Dimension;
+use crate::warning::RESIDUAL;
 
 /// Growth, 1/time by the frequency of the wheels on their springs, that is none.
 const NONE: f64 = 1e-9;
@@ -20,8 +21,6 @@ const NONE: f64 = 1e-9;
 const EFOLDINGS: f64 = 6.0;
 /// Speed that a bogie is struck with, by gravity and the frequency of its wheels.
 const STRUCK: f64 = 1e-2;
-/// Energy residual from which the program warns.
-const WARNED: f64 = 1e-3;
 
 /// A body on two wheels at rest.
 #[derive(Clone, Copy)]
@@ -219,7 +218,7 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         let own = Bogie { law: [subject.stiffness, c], ..at };
         let growth = growth(&akispl, own).unwrap_or_default();
         let (value, verdict) = match told(subject, &tables, own, growth) {
-            Ok((_, residual)) if residual > WARNED => (residual, Verdict::Warned),
+            Ok((_, residual)) if residual > RESIDUAL => (residual, Verdict::Warned),
             Ok((grown, residual)) => (residual, if grown { Verdict::Wrong } else { Verdict::Right }),
             Err(why) => (0.0, Verdict::Refused(why)),
         };

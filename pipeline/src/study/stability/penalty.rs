@@ -4,6 +4,7 @@ use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
 use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
+use super::elements::bending;
 use super::map::{Cell, Layer, Map, Scale, Verdict};
 use super::steps::spread;
 use super::subject::Subject;
@@ -36,16 +37,10 @@ impl Beam {
         // displacement, slope and twist of each node; then displacement and turn of the post's top
         let n = 3 * nodes + 2;
         let mut k = DMatrix::zeros(n, n);
-        let mut add = |at: [usize; 4], h: f64, bending: f64| {
-            let rows = [
-                [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
-                [6.0 / (h * h), 4.0 / h, -6.0 / (h * h), 2.0 / h],
-                [-12.0 / (h * h * h), -6.0 / (h * h), 12.0 / (h * h * h), -6.0 / (h * h)],
-                [6.0 / (h * h), 2.0 / h, -6.0 / (h * h), 4.0 / h],
-            ];
-            for (i, row) in rows.iter().enumerate() {
+        let mut add = |at: [usize; 4], h: f64, stiffness: f64| {
+            for (i, row) in bending(h).iter().enumerate() {
                 for (j, value) in row.iter().enumerate() {
-                    k[(at[i], at[j])] += bending * value;
+                    k[(at[i], at[j])] += stiffness * value;
                 }
             }
         };

@@ -9,8 +9,9 @@ use sim::{Channel, Freedom, Method, Stepping};
 use super::map::{Cell, Layer, Map, Scale, Verdict};
 use super::steppers::{Oscillator, STEPPERS, State, Step};
 use super::subject::Subject;
-use crate::scene::STEPPERS as OURS;
+use crate::scene::stepper_word;
 use crate::units::Dimension;
+use crate::warning::RESIDUAL;
 
 /// Steps over a span by which the physical motion is known.
 const FINE: f64 = 4000.0;
@@ -24,8 +25,6 @@ const DECAYS: f64 = 0.95;
 const ALIKE: f64 = 1.02;
 /// Growth a span that nobody overlooks.
 const OBVIOUS: f64 = 100.0;
-/// Energy residual from which the program warns.
-const WARNED: f64 = 1e-3;
 
 /// Largest absolute value of the eigenvalues; infinite where the matrix is not finite.
 #[must_use]
@@ -222,7 +221,7 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
                 let (value, verdict) = match crossing.ours(stepping, *speed, 1e-4) {
                     Ok((value, residual)) => match judge(value, *physical) {
                         Verdict::Right => (value, Verdict::Right),
-                        _ if residual > WARNED => (value, Verdict::Warned),
+                        _ if residual > RESIDUAL => (value, Verdict::Warned),
                         other => (value, other),
                     },
                     Err(why) => (0.0, Verdict::Refused(why)),
@@ -230,7 +229,7 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
                 cells.push(Cell { at: [*speed, real], value: finite(value), verdict });
             }
         }
-        let word = OURS.iter().find(|(_, own)| *own == method).map_or("", |(word, _)| *word);
+        let word = stepper_word(method);
         map.layers.push(Layer::new(format!("girderway, {word}, equal steps"), true).with(cells));
     }
     vec![map, by_accuracy(&crossing, &speeds, &physical, points)]

@@ -135,47 +135,61 @@ impl<'a> Subject<'a> {
         law: NormalLaw,
         [x0, speed, end]: [f64; 3],
     ) -> Result<sim::Scene, sim::Error> {
-        let contact = |offset: &f64| sim::Contact {
-            body: 0,
-            structure: 0,
-            rail: 0,
-            at: [0.0; 3],
-            offsets: vec![*offset],
-            wheel: 0,
-        };
-        let body = sim::Body {
-            mass,
-            inertia: [0.0; 3],
-            cg: [0.0; 3],
-            free: [false, true, false, false, false, false],
-            start: [x0, 0.0, 0.0, 0.0, 0.0, 0.0],
-            start_speed: [0.0; 6],
-            motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], x0, speed)?),
-            pinned: None,
-        };
-        Ok(sim::Scene {
-            gravity: self.gravity,
-            bodies: vec![body],
-            wheels: vec![sim::Wheel {
-                radius: 1.0,
-                normal: law,
-                flange: None,
-                friction: None,
-                spin_inertia: None,
-            }],
-            contacts: offsets.iter().map(contact).collect(),
-            gauges: Vec::new(),
-            actuators: sim::Actuators::default(),
-            analysis: sim::Analysis::Dynamic,
-            end,
-            output_dt: end,
-            accuracy: 1e-6,
-        })
+        crossing(self.gravity, mass, offsets, law, [x0, speed, end])
     }
 
     /// A linear wheel that holds on to the rail, with its damper to the ground.
     #[must_use]
     pub fn linear(&self, stiffness: f64, damping: f64) -> NormalLaw {
-        NormalLaw { stiffness, exponent: 1.0, damping, depth: 0.0, damper: Damper::Ground, bilateral: true }
+        NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, damping, Damper::Ground) }
     }
+}
+
+/// A scene of one body of `mass` under `gravity` on wheels at `offsets`, from `x0` at `speed` until `end`.
+///
+/// # Errors
+/// A motion that is none.
+pub(super) fn crossing(
+    gravity: f64,
+    mass: f64,
+    offsets: &[f64],
+    law: NormalLaw,
+    [x0, speed, end]: [f64; 3],
+) -> Result<sim::Scene, sim::Error> {
+    let contact = |offset: &f64| sim::Contact {
+        body: 0,
+        structure: 0,
+        rail: 0,
+        at: [0.0; 3],
+        offsets: vec![*offset],
+        wheel: 0,
+    };
+    let body = sim::Body {
+        mass,
+        inertia: [0.0; 3],
+        cg: [0.0; 3],
+        free: [false, true, false, false, false, false],
+        start: [x0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        start_speed: [0.0; 6],
+        motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], x0, speed)?),
+        pinned: None,
+    };
+    Ok(sim::Scene {
+        gravity,
+        bodies: vec![body],
+        wheels: vec![sim::Wheel {
+            radius: 1.0,
+            normal: law,
+            flange: None,
+            friction: None,
+            spin_inertia: None,
+        }],
+        contacts: offsets.iter().map(contact).collect(),
+        gauges: Vec::new(),
+        actuators: sim::Actuators::default(),
+        analysis: sim::Analysis::Dynamic,
+        end,
+        output_dt: end,
+        accuracy: 1e-6,
+    })
 }

@@ -3,9 +3,10 @@
 use std::ops::ControlFlow;
 
 use fea::Section;
-use sim::{Channel, Damper, Foundation, Given, NormalLaw, Profile};
+use sim::{Channel, Damper, Foundation, NormalLaw};
 
 use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::subject::crossing;
 use crate::chart::{Series, Style};
 use crate::link::{full_of, solve};
 use crate::track::{Ties, on_ground};
@@ -62,51 +63,11 @@ impl Track {
         let speed = share * self.critical;
         let stiffness = SOFT / self.give;
         let [x0, end] = [START * self.length, (STOP - START) * self.length / speed];
-        let motion =
-            Profile::new(Given::Speed, &[[0.0, speed]], x0, speed).map_err(|error| error.to_string())?;
         let (weight, gravity) = (1e4, 386.0886);
-        let law = NormalLaw {
-            stiffness,
-            exponent: 1.0,
-            damping: 0.0,
-            depth: 0.0,
-            damper: Damper::Rail,
-            bilateral: true,
-        };
-        let scene = sim::Scene {
-            gravity,
-            bodies: vec![sim::Body {
-                mass: weight / gravity,
-                inertia: [0.0; 3],
-                cg: [0.0; 3],
-                free: [false, true, false, false, false, false],
-                start: [x0, 0.0, 0.0, 0.0, 0.0, 0.0],
-                start_speed: [0.0; 6],
-                motion: Some(motion),
-                pinned: None,
-            }],
-            wheels: vec![sim::Wheel {
-                radius: 1.0,
-                normal: law,
-                flange: None,
-                friction: None,
-                spin_inertia: None,
-            }],
-            contacts: vec![sim::Contact {
-                body: 0,
-                structure: 0,
-                rail: 0,
-                at: [0.0; 3],
-                offsets: vec![0.0],
-                wheel: 0,
-            }],
-            gauges: Vec::new(),
-            actuators: sim::Actuators::default(),
-            analysis: sim::Analysis::Dynamic,
-            end,
-            output_dt: end / 500.0,
-            accuracy: 1e-4,
-        };
+        let law = NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, 0.0, Damper::Rail) };
+        let scene = crossing(gravity, weight / gravity, &[0.0], law, [x0, speed, end]);
+        let mut scene = scene.map_err(|error| error.to_string())?;
+        (scene.output_dt, scene.accuracy) = (end / 500.0, 1e-4);
         let run = sim::run(&scene, std::slice::from_ref(foundation), &mut |_| ControlFlow::Continue(()));
         let run = run.map_err(|error| error.to_string())?;
         if !run.status.is_complete() {
@@ -154,8 +115,7 @@ pub fn map(points: usize) -> Result<Map, String> {
                 Err(why) => (wanted, 0.0, Verdict::Refused(why)),
             };
             if layer.is_ours {
-                map.findings
-                    .push(super::map::Finding { what: format!("deflection at {share:.3} of it"), value: at });
+                map.find(format!("deflection at {share:.3} of it"), at);
             }
             layer.cells.push(Cell { at: [share, at], value, verdict });
         }
