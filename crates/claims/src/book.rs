@@ -118,30 +118,25 @@ fn figures(records: &[Record]) -> String {
     let count = |verdict: Verdict| records.iter().filter(|own| own.verdict == verdict).count();
     let (met, below, corrected) = (count(Verdict::Met), count(Verdict::Below), count(Verdict::Corrected));
     let mut out = format!(
-        "{} figures: {met} met, {below} not exceeded, {corrected} not met (with why, below each table).\n",
+        "{} figures: {met} met, {below} not exceeded, {corrected} not met (with why, below the tables).\n",
         records.len()
     );
     let mut sections: Vec<&str> = records.iter().map(|own| own.section.as_str()).collect();
     sections.dedup();
     for section in sections {
         let own: Vec<&Record> = records.iter().filter(|own| own.section == section).collect();
-        out += &format!(
-            "\n### {section}\n\n| figure | source | known | ours | deviation | test |\n|---|---|---|---|---|---|\n"
-        );
+        out += &format!("\n### {section}\n");
         let mut notes: Vec<String> = Vec::new();
+        let mut test = "";
         for record in own {
+            if test != record.test {
+                test = &record.test;
+                out += &format!("\n`{test}` in `{}`\n\n", record.file);
+                out += "| figure | source | known | ours | deviation |\n|---|---|---|---|---|\n";
+            }
             out += &row(record);
             if record.verdict == Verdict::Corrected {
-                let note = format!("- {}: {}", record.what, record.why);
-                let same = notes.iter().position(|own| own.ends_with(&record.why));
-                match same {
-                    Some(at) => {
-                        let before = notes[at].replacen("- ", "", 1);
-                        let (what, why) = before.split_at(before.len() - record.why.len());
-                        notes[at] = format!("- {}; {}: {why}", what.trim_end_matches(": "), record.what);
-                    }
-                    None => notes.push(note),
-                }
+                note(&mut notes, record);
             }
         }
         if !notes.is_empty() {
@@ -169,9 +164,14 @@ fn row(own: &Record) -> String {
     } else {
         number(own.known, known)
     };
-    let file = own.file.strip_prefix("crates/").unwrap_or(&own.file);
-    format!(
-        "| {} | {} | {known} | {value} | {deviation} | `{}` in `{file}` |\n",
-        own.what, own.source, own.test
-    )
+    format!("| {} | {} | {known} | {value} | {deviation} |\n", own.what, own.source)
+}
+
+/// Adds why a figure is not met; figures of one reason share it.
+fn note(notes: &mut Vec<String>, own: &Record) {
+    let ending = format!(": {}", own.why);
+    match notes.iter_mut().find_map(|note| Some((note.strip_suffix(&ending)?.to_owned(), note))) {
+        Some((before, note)) => *note = format!("{before}; {}{ending}", own.what),
+        None => notes.push(format!("- {}{ending}", own.what)),
+    }
 }

@@ -47,11 +47,11 @@ pub fn percent(share: f64) -> String {
     format!("{:+.*} %", if share.abs() < 0.0995 { 1 } else { 0 }, 100.0 * share)
 }
 
-/// Significant digits of the shortest text that is `value`.
+/// Significant digits of `value`, up to ten: those that are not zeros at its end.
 #[must_use]
 pub fn digits(value: f64) -> usize {
-    let text = format!("{value:e}");
-    let mantissa = text.split('e').next().unwrap_or_default();
+    let text = format!("{value:.9e}");
+    let mantissa = text.split('e').next().unwrap_or_default().trim_end_matches('0');
     mantissa.chars().filter(char::is_ascii_digit).count().max(1)
 }
 
