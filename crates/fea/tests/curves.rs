@@ -173,7 +173,8 @@ fn a_rail_on_its_pad_gives_more_than_the_girder_and_spreads() {
     let at = |i: usize| c[(1, 6 * i + 1)];
     let figure = |what: &str, known: f64| claims::figure("1 Readings of tables", what, "prototype", known);
     figure("rail on its pad: give, 1 / (8 EI b^3), ft/lb", 3.4e-7).met(at(0), 5e-3);
-    figure("by that of the girder at midspan", 3.0).met(at(0) / (60.0_f64.powi(3) / (48.0 * 9.528 * 4.32e9)), 0.05);
+    figure("by that of the girder at midspan", 3.0)
+        .met(at(0) / (60.0_f64.powi(3) / (48.0 * 9.528 * 4.32e9)), 0.05);
     let beside = at(1) + (at(2) - at(1)) * (32.0 / 12.0 / a - 10.0);
     figure("32 in beside it, by that", 0.65).met(beside / at(0), 5e-3);
     // of an endless rail, by Hetenyi

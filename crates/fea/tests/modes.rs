@@ -215,8 +215,10 @@ fn a_heavy_mass_at_midspan_moves_half_of_17_35ths_of_the_beam() {
     model.masses.push(Mass { point: 12, mass, inertia: [0.0; 3], offset: [0.0; 3] });
     let alone = (48.0 * s.e * s.iz / L.powi(3) / mass).sqrt();
     let shift = 1.0 - omega(&model, 0) / alone;
-    let what = "mass of 50 beams at midspan: beam's share that moves with it, of 2 M times the shift of frequency";
-    claims::figure("5 Speed, mass and modes", what, "Rayleigh, 17/35", 17.0 / 35.0).met(2.0 * shift * mass / (s.mass * L), 0.02);
+    let what =
+        "mass of 50 beams at midspan: beam's share that moves with it, of 2 M times the shift of frequency";
+    claims::figure("5 Speed, mass and modes", what, "Rayleigh, 17/35", 17.0 / 35.0)
+        .met(2.0 * shift * mass / (s.mass * L), 0.02);
 }
 
 /// Source: Meirovitch, Analytical Methods in Vibrations (1967), section 5-10, for one beam and one mass.

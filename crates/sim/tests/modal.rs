@@ -106,7 +106,9 @@ fn static_give_of_the_other_modes_is_worth_several_modes() {
         (5, true, 4.8e-6, 7.2e-6),
     ] {
         let [found_force, found_middle] = errors(&cross(&scene, beam(modes, rest)), &reference);
-        let figure = |what: &str, known: f64| figure(format!("mass 0.5 m L, alpha 0.1, {}: error of {what}", named(modes, rest)), known);
+        let figure = |what: &str, known: f64| {
+            figure(format!("mass 0.5 m L, alpha 0.1, {}: error of {what}", named(modes, rest)), known)
+        };
         figure("the wheel's force", force).met(found_force, 0.1);
         figure("midspan", middle).met(found_middle, 0.1);
     }
@@ -133,14 +135,19 @@ fn heavy_and_stiff_wheels_need_modes_beyond_their_own_frequency() {
     let reference = cross(&scene, beam(30, true));
     for (modes, known) in [(1, 0.08), (2, 0.14), (3, 0.13), (5, 0.018)] {
         let found = errors(&cross(&scene, beam(modes, true)), &reference);
-        let what = format!("mass 5 m L on springs of 3 omega_1, alpha 0.05, {}: error of the wheel's force", named(modes, true));
+        let what = format!(
+            "mass 5 m L on springs of 3 omega_1, alpha 0.05, {}: error of the wheel's force",
+            named(modes, true)
+        );
         figure(what, known).met(found[0], 0.1);
     }
     let scene = oscillator(0.5, 3.0, 0.25);
     let reference = cross(&scene, beam(40, true));
     for (rest, force, middle) in [(false, 3.2e-2, 1.4e-3), (true, 4.1e-4, 1.7e-5)] {
         let found = errors(&cross(&scene, beam(5, rest)), &reference);
-        let of = |what: &str| format!("mass 0.5 m L on springs of 3 omega_1, alpha 0.25, {}: error of {what}", named(5, rest));
+        let of = |what: &str| {
+            format!("mass 0.5 m L on springs of 3 omega_1, alpha 0.25, {}: error of {what}", named(5, rest))
+        };
         figure(of("the wheel's force"), force).met(found[0], 0.05);
         figure(of("midspan"), middle).met(found[1], 0.05);
     }
@@ -169,7 +176,11 @@ fn two_modes_more_tell_the_error() {
     {
         for (word, known, found) in [("least", known[0], found[0]), ("most", known[1], found[1])] {
             // other runs than the prototype's 24
-            figure(format!("error told by two modes more, by the true one, {what}, {word} of 24 runs"), known).met(found, 0.07);
+            figure(
+                format!("error told by two modes more, by the true one, {what}, {word} of 24 runs"),
+                known,
+            )
+            .met(found, 0.07);
         }
     }
 }
@@ -188,8 +199,10 @@ fn a_moving_force_differs_from_rest_by_less_than_alpha_tells() {
             let x = SPAN * i as f64 / (found.middle.len() - 1) as f64;
             common::give(0.5 * SPAN, x).0 / common::give(0.5 * SPAN, 0.5 * SPAN).0
         };
-        let worst = (0..found.middle.len()).fold(0.0_f64, |max, i| max.max((found.middle[i] - rest(i)).abs()));
-        figure(format!("constant force, alpha {alpha}: largest difference from rest at midspan"), known).met(worst, 1e-3);
+        let worst =
+            (0..found.middle.len()).fold(0.0_f64, |max, i| max.max((found.middle[i] - rest(i)).abs()));
+        figure(format!("constant force, alpha {alpha}: largest difference from rest at midspan"), known)
+            .met(worst, 1e-3);
         assert!(worst < alpha / (1.0 - alpha));
     }
 }
@@ -199,14 +212,17 @@ fn a_moving_force_differs_from_rest_by_less_than_alpha_tells() {
 fn the_papers_girder_has_its_frequencies_and_sag() {
     let mass = 850.0 / 32.174;
     let omega = (std::f64::consts::PI / SPAN).powi(2) * (EI / mass).sqrt();
-    figure("paper's girder, 850 lb/ft: first frequency, Hz".to_owned(), 17.22).met(omega / (2.0 * std::f64::consts::PI), 1e-3);
+    figure("paper's girder, 850 lb/ft: first frequency, Hz".to_owned(), 17.22)
+        .met(omega / (2.0 * std::f64::consts::PI), 1e-3);
     let alpha = 5.0 * std::f64::consts::PI / (SPAN * omega);
     figure("alpha at 5 ft/s".to_owned(), 0.002_42).met(alpha, 2e-3);
     let mut bogie = common::bogie(0.0, 1.0, sim::Damper::Ground);
     bogie.bodies[0].start[0] = 0.5 * SPAN;
     bogie.bodies[0].motion = None;
-    let modes = sim::natural_modes(&bogie, &[common::girder()], 0.0, &[0.5 * SPAN]).expect("at rest").expect("few");
-    figure("(omega_b / omega_1)^2 of the bogie at midspan".to_owned(), 0.0050).met((modes[0].omega / omega).powi(2), 0.02);
+    let modes =
+        sim::natural_modes(&bogie, &[common::girder()], 0.0, &[0.5 * SPAN]).expect("at rest").expect("few");
+    figure("(omega_b / omega_1)^2 of the bogie at midspan".to_owned(), 0.0050)
+        .met((modes[0].omega / omega).powi(2), 0.02);
 
     let load = common::WEIGHT;
     let slope = load * common::give(0.0, 0.5 * SPAN).1;
@@ -216,7 +232,8 @@ fn the_papers_girder_has_its_frequencies_and_sag() {
     let h = SPAN / f64::from(steps);
     let along = |i: i32| common::give(h * (f64::from(i) + 0.5), 0.5 * SPAN).1 * load;
     let shortening: f64 = (0..steps).map(|i| 0.5 * along(i).powi(2) * h).sum();
-    figure("how far its ends approach, ft; (pi^2 / 4) sag^2 / L, of a sine".to_owned(), 0.0113).met(shortening, 0.03);
+    figure("how far its ends approach, ft; (pi^2 / 4) sag^2 / L, of a sine".to_owned(), 0.0113)
+        .met(shortening, 0.03);
 }
 
 /// Analytic: largest midspan deflection under a constant force, by its static one.
