@@ -7,6 +7,7 @@ mod grids;
 mod modes;
 mod rides;
 mod ropes;
+mod specs;
 mod stops;
 mod tables;
 mod warnings;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::{Value, json};
+use sim::Status;
 
 use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
@@ -20,7 +21,7 @@ use crate::response::{self, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
 use crate::threads::side_by_side;
-use crate::{animation, fatigue, grid_file, story, summary, tables, warning};
+use crate::{animation, fatigue, grid_file, plight, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -119,8 +120,13 @@ fn finish(
         let result = json!({ "output": written.display().to_string(), "summary": summary });
         output::print(&output::json(&result))?;
     }
-    let failed = outcomes.iter().find_map(|outcome| {
-        let (_, why) = summary::status(&outcome.run.status);
+    let failed = outcomes.iter().zip(&document.cases).find_map(|(outcome, case)| {
+        let why = match &outcome.run.status {
+            Status::Refused(t, error) => {
+                Some(format!("at t = {t:.4} s: {}", plight::words(error, &case.scene)))
+            }
+            status => summary::status(status).1,
+        };
         why.map(|why| format!("{}: {why}", outcome.label))
     });
     failed.map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
