@@ -4,6 +4,7 @@ mod drives;
 mod events;
 mod fatigue;
 mod grids;
+mod init;
 mod modes;
 mod rides;
 mod ropes;
