@@ -130,7 +130,9 @@ fn one(
     let label = case.label.clone().unwrap_or_else(|| own_label(&scene));
     let link::Chosen { choices, run, laid } = chosen.map_err(|trouble| match trouble {
         link::Trouble::Foundation(failure) => failure,
-        link::Trouble::Run(error) => Failure::Untrusted(format!("{label}: {error}")),
+        link::Trouble::Run(error) => {
+            Failure::Untrusted(format!("{label}: {}", crate::plight::words(&error, &case.scene)))
+        }
     })?;
     let solved: Vec<Option<&Solved>> =
         scene.structures.iter().map(|structure| solved_of(known, &structure.origin)).collect();

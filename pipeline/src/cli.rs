@@ -68,6 +68,30 @@ pub enum Command {
     /// Chart accuracy against cost: a scene on a ladder of settings, beside a converged reference that is made first
     #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
     Study(Study),
+    /// Write starter files that run as they are: a bogie on a girder, a girder of a mill building, a bridge crane
+    #[command(after_help = "Example:\n  girderway init bogie mine")]
+    Init(Init),
+}
+
+/// Arguments of `init`.
+#[derive(Clone, Debug, Args)]
+pub struct Init {
+    /// Which files
+    pub what: Starter,
+    /// Folder to write them into, made where there is none [default: where you are]
+    #[arg(value_name = "DIR")]
+    pub folder: Option<PathBuf>,
+}
+
+/// Words of the starter files.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Starter {
+    /// Two wheels cross a girder on two supports
+    Bogie,
+    /// A bridge crane in a building of two girderways
+    Crane,
+    /// One girderway on columns and brackets
+    Girderway,
 }
 
 /// Arguments of `study`.

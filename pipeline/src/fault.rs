@@ -141,18 +141,21 @@ pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
         .map(|(_, candidate)| candidate)
 }
 
-/// Levenshtein's distance: insertions, deletions and substitutions of one character.
+/// Edits between two words: insertions, deletions, substitutions, and exchanges of two neighbours.
 fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut before: Vec<usize> = Vec::new();
     let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, ca) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, cb) in b.iter().enumerate() {
-            let substituted = diagonal + usize::from(ca != *cb);
-            diagonal = row[j + 1];
-            row[j + 1] = substituted.min(row[j] + 1).min(diagonal + 1);
+    for i in 0..a.len() {
+        let mut next = vec![i + 1];
+        for j in 0..b.len() {
+            let mut least = (row[j] + usize::from(a[i] != b[j])).min(row[j + 1] + 1).min(next[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                least = least.min(before[j - 1] + 1);
+            }
+            next.push(least);
         }
+        before = std::mem::replace(&mut row, next);
     }
     row[b.len()]
 }
@@ -163,7 +166,13 @@ mod tests {
 
     #[test]
     fn distance_counts_single_edits() {
-        for (a, b, edits) in [("", "abc", 3), ("spans", "span", 1), ("kitten", "sitting", 3), ("x", "x", 0)] {
+        for (a, b, edits) in [
+            ("", "abc", 3),
+            ("spans", "span", 1),
+            ("kitten", "sitting", 3),
+            ("heigth", "height", 1),
+            ("x", "x", 0),
+        ] {
             assert_eq!(distance(a, b), edits, "{a} {b}");
         }
     }

@@ -35,6 +35,7 @@ mod object;
 pub mod output;
 pub mod pictures;
 pub mod place;
+pub mod plight;
 pub mod progress;
 pub mod quantity;
 pub mod record;

@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
+use tempfile::NamedTempFile;
 
 use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
@@ -20,12 +21,37 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     put(path, bytes).map_err(|error| cannot_write(path, &error))
 }
 
+/// The same for a file that must not be there yet.
+///
+/// # Errors
+/// A file of that name; what the file system refuses, naming the file.
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    let new = |file: NamedTempFile| file.persist_noclobber(path);
+    put_by(path, bytes, new).map_err(|error| cannot_write(path, &error))
+}
+
+/// Makes a folder, and those above it.
+///
+/// # Errors
+/// What the file system refuses, naming the folder.
+pub fn make(folder: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))
+}
+
 fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    put_by(path, bytes, |file| file.persist(path))
+}
+
+fn put_by(
+    path: &Path,
+    bytes: &[u8],
+    persist: impl FnOnce(NamedTempFile) -> Result<fs::File, tempfile::PersistError>,
+) -> io::Result<()> {
     let folder = folder_of(path);
     let mut file = tempfile::Builder::new().prefix(".girderway-").tempfile_in(&folder)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
-    let file = file.persist(path).map_err(|error| error.error)?;
+    let file = persist(file).map_err(|error| error.error)?;
     readable(&file)?;
     sync(&folder)
 }

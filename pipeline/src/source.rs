@@ -323,10 +323,31 @@ pub fn type_fault(path: Path, message: &str) -> Fault {
             } else {
                 plain_found(found)
             });
+            let whole =
+                ["must be a list", "must be an object"].iter().any(|kind| fault.expected.starts_with(kind));
+            if let Some(Step::Key(key)) = fault.path.0.last().filter(|_| whole) {
+                let looks = LOOKS.iter().find(|(known, _)| known == key);
+                fault.hint = looks.map(|(_, looks)| (*looks).to_owned());
+            }
         }
     }
     fault
 }
+
+/// How values look whose kind is often mistaken, by the key that has them.
+const LOOKS: [(&str, &str); 11] = [
+    ("position", "rows [time, value], such as [[0, 4]]"),
+    ("speed", "rows [time, value], such as [[0, 4]]"),
+    ("acceleration", "rows [time, value], such as [[0, 4]]"),
+    ("value", "rows [time, value], such as [[0, 4]]"),
+    ("end", "such as {\"time\": 30}"),
+    ("output", "such as {\"dt\": 0.01}"),
+    ("do", "such as {\"brake\": \"trolley\"}"),
+    ("dof", "such as [\"x\", \"y\", \"pitch\"]"),
+    ("fix", "such as [\"ux\", \"uy\", \"uz\", \"rx\"]"),
+    ("inertia", "[roll, yaw, pitch], in a spec about x, y, z"),
+    ("at", "[x, y, z]: along, up, to the right"),
+];
 
 fn plain_type(expected: &str) -> String {
     match expected {

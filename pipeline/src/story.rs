@@ -6,6 +6,7 @@ use crate::link::Solved;
 use crate::pictures::Plate;
 use crate::record::peak;
 use crate::report::{Cell, Column, Report, Section, Table};
+use crate::response::Comparison;
 use crate::scene::{Analysis, Document, Scene};
 use crate::summary;
 use crate::units::Dimension;
@@ -17,6 +18,7 @@ pub fn report(
     document: &Document,
     outcomes: &[Outcome],
     solved: &[Option<&Solved>],
+    comparison: &Comparison,
     plates: Vec<Plate>,
 ) -> Report {
     let scene = document.scene();
@@ -35,9 +37,8 @@ pub fn report(
     sections.push(influence);
     sections.push(forces(scene, outcomes));
     sections.push(crate::response::section(scene, &outcomes[0].label, &outcomes[0].response));
-    let runs: Vec<_> =
-        outcomes.iter().map(|outcome| (outcome.label.as_str(), &outcome.record, &outcome.response)).collect();
-    sections.extend(crate::response::beside(scene, &runs));
+    let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
+    sections.extend(crate::response::beside(scene, &labels, &outcomes[0].record, comparison));
     let codes: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
     sections.extend(crate::codes::section(scene, &codes));

@@ -132,6 +132,7 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
         points: model.points.len(),
         cells: Vec::new(),
         point_sets: Vec::new(),
+        supports: Vec::new(),
         model,
         pads,
     };
@@ -212,13 +213,14 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
             parts.iter().filter_map(|(member, _)| frame.cells.get(*member)).copied().collect()
         }
     };
-    let point_sets = match &spec.form {
-        Form::Girder(_) => Vec::new(),
-        Form::Frame(frame) => frame.point_sets.clone(),
+    let (point_sets, supports) = match &spec.form {
+        Form::Girder(_) => Default::default(),
+        Form::Frame(frame) => (frame.point_sets.clone(), frame.supports.clone()),
     };
     let ranges = spec.rails().iter().map(|rail| rail.range).collect();
     let effects = spec.effects.iter().map(|cut| moved(cut, &parts)).collect();
-    let frame = Frame { model, rails: new_rails, ranges, sections, points: base, cells, point_sets, pads };
+    let frame =
+        Frame { model, rails: new_rails, ranges, sections, points: base, cells, point_sets, supports, pads };
     Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
 }
 

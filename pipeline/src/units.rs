@@ -49,6 +49,16 @@ impl Length {
         }
     }
 
+    /// All units.
+    pub const ALL: [Length; 4] = [Length::Foot, Length::Inch, Length::Metre, Length::Millimetre];
+
+    /// How many of `other` it is.
+    #[must_use]
+    pub fn in_units_of(self, other: Length) -> f64 {
+        let (over, under) = reduced(self.count(), other.count());
+        over as f64 / under as f64
+    }
+
     /// The unit of a word of files.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Length> {

@@ -1,8 +1,11 @@
 //! What a user should know before believing a run: where the limits of its method are near.
 
+mod sense;
 mod taut;
 
 use std::f64::consts::PI;
+
+pub(crate) use sense::of_spec;
 
 use sim::Run;
 
@@ -44,6 +47,11 @@ fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<Strin
             "the energy audit leaves {residual:.1e} of the peak stored energy open; a smaller \"accuracy\" closes it, but \
              for a table that is not symmetric and a flange that takes hold at once"
         ));
+    }
+    for structure in &scene.structures {
+        if let Origin::Spec { spec, .. } = &structure.origin {
+            all.extend(of_spec(spec).into_iter().map(|told| format!("{}: {told}", structure.name)));
+        }
     }
     let of_rail = |rail| Wheels { cast, record, rail };
     let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));

@@ -1,5 +1,7 @@
 //! The documents speak of what is there.
 
+mod page;
+
 use std::path::{Path, PathBuf};
 
 fn root() -> PathBuf {

@@ -190,12 +190,8 @@ impl Line {
     }
 
     pub(crate) fn row_into(&self, p: Probe, row: &mut Row) -> Result<(), Error> {
-        let span = self.find(p.rail, p.x)?;
-        let ready = &self.ready[span.cell];
+        let span = self.stiff(p)?;
         let axis = p.axis.component();
-        if ready.free[axis] {
-            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
-        }
         let place = span.fraction(p.x);
         row.cell = span.cell;
         row.axis = axis;
@@ -208,16 +204,27 @@ impl Line {
     /// Where a probe stands that needs one plane or one bar; `None` where it needs more.
     #[inline]
     pub(crate) fn lean(&self, p: Probe) -> Result<Option<Found<'_>>, Error> {
-        let span = self.find(p.rail, p.x)?;
+        let span = self.stiff(p)?;
         let axis = p.axis.component();
-        if self.ready[span.cell].free[axis] {
-            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
-        }
         let found = |lean| {
             let (block, at) = (3 * span.cell + axis, span.fraction(p.x));
             Found { lean, block, at, scale: span.scale }
         };
         Ok(self.terms(span.cell, axis).lean().map(found))
+    }
+
+    /// The cell that carries a probe, where in it, and the inverse of the cell's extent in x.
+    pub(crate) fn place(&self, p: Probe) -> Result<(usize, Fraction, f64), Error> {
+        self.stiff(p).map(|span| (span.cell, span.fraction(p.x), span.scale))
+    }
+
+    /// The rows at both ends of a cell along an axis; slopes by the share of the cell.
+    pub(crate) fn end_rows(&self, cell: usize, axis: usize) -> [Row; 2] {
+        [0, 1].map(|end| {
+            let mut row = Row::EMPTY;
+            row.evaluate(self.terms(cell, axis), Fraction { end, r: 0.0 }, 1.0);
+            row
+        })
     }
 
     /// The row of a probe and second derivatives of its values by x.
@@ -307,6 +314,16 @@ impl Line {
             Some(track) if track.rail == rail => Some(track),
             _ => self.tracks.binary_search_by_key(&rail, |t| t.rail).ok().map(|k| &self.tracks[k]),
         }
+    }
+
+    /// The cell that carries a probe, if it resists along the probe's axis.
+    #[inline]
+    fn stiff(&self, p: Probe) -> Result<&Span, Error> {
+        let span = self.find(p.rail, p.x)?;
+        if self.ready[span.cell].free[p.axis.component()] {
+            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
+        }
+        Ok(span)
     }
 
     fn find(&self, rail: usize, x: f64) -> Result<&Span, Error> {

@@ -1,17 +1,24 @@
 //! Shapes along rails, and what a sum of their products leaves of a surface.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
 
+use crate::row::Fraction;
 use crate::{Compliance, Error, Influence, Line, Probe, Surface};
 
 /// Motions of a line by the motions of its states: phi_r(p) = N(p) s_r.
+///
+/// Along a cell each is a cubic, kept by its values and slopes at the cell's ends, from the first time that a probe stands
+/// on the cell: four numbers a shape where N has up to twelve entries.
 #[derive(Clone, Debug)]
 pub struct Shapes {
     line: Arc<Line>,
     /// Shapes x freedoms of the states: what a place needs of all shapes lies together.
     motions: DMatrix<f64>,
+    /// By cell and axis: of all shapes the value at the first end, then the slope there by the share of the cell, then both
+    /// at the last end.
+    ends: Vec<[OnceLock<Vec<f64>>; 3]>,
 }
 
 impl Shapes {
@@ -25,7 +32,8 @@ impl Shapes {
         if rows != expected {
             return Err(Error::NodalShape { rows, columns, expected });
         }
-        Ok(Shapes { line, motions: states.transpose() })
+        let ends = line.cells().iter().map(|_| Default::default()).collect();
+        Ok(Shapes { line, motions: states.transpose(), ends })
     }
 
     /// How many there are.
@@ -40,17 +48,49 @@ impl Shapes {
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists.
     pub fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
-        let row = self.line.row(at)?;
-        value.fill(0.0);
-        slope.fill(0.0);
-        for ((&k, share), share_slope) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
-            let motions = self.motions.column(k);
-            for ((value, slope), motion) in value.iter_mut().zip(&mut *slope).zip(&motions) {
-                *value += share * motion;
-                *slope += share_slope * motion;
-            }
+        let (cell, place, scale) = self.line.place(at)?;
+        let count = self.count();
+        if count == 0 {
+            return Ok(());
+        }
+        let axis = at.axis.component();
+        let ends = self.ends[cell][axis].get_or_init(|| self.ends(cell, axis));
+        let ([p, q, r, s], [dp, dq, dr, ds]) = hermite(place, scale);
+        let (first, last) = ends.split_at(2 * count);
+        let ((a, b), (c, d)) = (first.split_at(count), last.split_at(count));
+        let data = a.iter().zip(b).zip(c.iter().zip(d));
+        for ((value, slope), ((a, b), (c, d))) in value.iter_mut().zip(slope).zip(data) {
+            *value = p * a + q * b + r * c + s * d;
+            *slope = dp * a + dq * b + dr * c + ds * d;
         }
         Ok(())
+    }
+
+    fn ends(&self, cell: usize, axis: usize) -> Vec<f64> {
+        let rows = self.line.end_rows(cell, axis);
+        let parts = rows.iter().flat_map(|row| [(row, row.values()), (row, row.slopes())]);
+        let sum = |indices: &[usize], shares: &[f64], shape: usize| -> f64 {
+            indices.iter().zip(shares).map(|(&k, share)| share * self.motions[(shape, k)]).sum()
+        };
+        parts
+            .flat_map(|(row, shares)| (0..self.count()).map(move |shape| sum(row.indices(), shares, shape)))
+            .collect()
+    }
+}
+
+/// Shares of the value and slope at the first end of a cell and of those at its last in the value at a place; and their
+/// derivatives by x. `scale`: 1/(extent in x). By the distance from the nearer end, so that what vanishes there does.
+fn hermite(Fraction { end, r }: Fraction, scale: f64) -> ([f64; 4], [f64; 4]) {
+    let far = r * r * (3.0 - 2.0 * r);
+    let [value, slope, value_far, slope_far] =
+        [1.0 - far, r * (1.0 - r) * (1.0 - r), far, -r * r * (1.0 - r)];
+    let steep = 6.0 * r * (1.0 - r);
+    let by = [-steep, (1.0 - r) * (1.0 - 3.0 * r), steep, r * (3.0 * r - 2.0)].map(|share| share * scale);
+    if end == 0 {
+        ([value, slope, value_far, slope_far], by)
+    } else {
+        // seen from the last end x runs backwards
+        ([value_far, -slope_far, value, -slope], [-by[2], by[3], -by[0], by[1]])
     }
 }
 

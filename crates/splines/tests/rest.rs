@@ -46,6 +46,34 @@ fn shapes_take_their_products_from_the_surface() {
     }
 }
 
+/// Identity: along every cell, from both of its ends and between, a shape is the row of the line times the motions.
+#[test]
+fn shapes_are_rows_of_their_line_times_their_motions() {
+    let line = Arc::clone(Beam::paper().surface(&STATIONS).line());
+    let mut random = Random::new(7);
+    let states = DMatrix::from_fn(6 * line.states(), 5, |_, _| random.between(-1.0, 1.0));
+    let shapes = Shapes::new(Arc::clone(&line), states.clone()).expect("six freedoms a state");
+    let (mut value, mut slope) = ([0.0; 5], [0.0; 5]);
+    for (axis, x) in [Axis::Vertical, Axis::Lateral]
+        .into_iter()
+        .flat_map(|axis| (0..=90).map(move |i| (axis, -15.0 + f64::from(i))))
+    {
+        let p = probe(axis, x);
+        let Ok(row) = line.row(p) else { continue };
+        shapes.row(p, &mut value, &mut slope).expect("on the rail");
+        let sum = |shares: &[f64], shape: usize| -> [f64; 2] {
+            let terms = row.indices().iter().zip(shares).map(|(&k, share)| share * states[(k, shape)]);
+            terms.fold([0.0; 2], |[sum, size], term| [sum + term, size + term.abs()])
+        };
+        for shape in 0..5 {
+            for (seen, shares) in [(value[shape], row.values()), (slope[shape], row.slopes())] {
+                let [sum, size] = sum(shares, shape);
+                assert!((seen - sum).abs() <= 1e-14 * size, "shape {shape} at {x}: {seen} for {sum}");
+            }
+        }
+    }
+}
+
 #[test]
 fn shapes_of_another_line_are_refused() {
     let line = Arc::clone(Beam::paper().surface(&STATIONS).line());

@@ -13,6 +13,7 @@ use crate::place::Place;
 use crate::progress::Progress;
 use crate::source::Source;
 use crate::spec::Spec;
+use crate::warning;
 
 /// Unknowns from which the size of a system is worth a line.
 const LARGE: usize = 1000;
@@ -34,6 +35,9 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
+    }
+    for warning in warning::of_spec(&spec) {
+        progress.say(&format!("warning: {warning}"));
     }
     for note in &solved.grid.notes {
         progress.say(&format!("note: {note}"));

@@ -7,6 +7,7 @@ mod factored;
 pub mod fea;
 mod fewest;
 pub mod import;
+pub mod init;
 pub mod run;
 pub mod sim;
 pub mod splines;

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
+use sim::Status;
 
 use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
@@ -16,11 +17,11 @@ use crate::output::{self, Folder};
 use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
 use crate::record::peak;
-use crate::response::{self, Response};
+use crate::response::{self, Comparison, Response};
 use crate::scene::{Document, Scene};
 use crate::spec::Spec;
 use crate::threads::side_by_side;
-use crate::{animation, fatigue, grid_file, story, summary, tables, warning};
+use crate::{animation, fatigue, grid_file, plight, story, summary, tables, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -67,11 +68,14 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
             folder.add(&name.replacen("history", "cycles", 1), cycles);
         }
     }
-    let summary = summary_of(&document, &outcomes);
+    let runs: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), &outcome.record, &outcome.response)).collect();
+    let comparison = Comparison::new(&runs, global.threads);
+    let summary = summary_of(&document, &outcomes, comparison.json(&runs));
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
-    let plates = plates(scene, &document, &outcomes, &known)?;
+    let plates = plates(scene, &document, &outcomes, &known, &comparison)?;
     let drawn = side_by_side(&plates, global.threads, |_, plate| plate.svg());
     for (plate, svg) in plates.iter().zip(drawn) {
         folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?);
@@ -79,7 +83,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     clock.lap("plots");
     let solved: Vec<Option<&Solved>> =
         scene.structures.iter().map(|structure| solved_of(&known, &structure.origin)).collect();
-    let report = story::report(&document, &outcomes, &solved, plates);
+    let report = story::report(&document, &outcomes, &solved, &comparison, plates);
     folder.add("report.html", report.html(global.threads).map_err(trouble)?);
     clock.lap("report");
     folder.add_varying("timing.json", output::json(&clock.json()));
@@ -119,8 +123,13 @@ fn finish(
         let result = json!({ "output": written.display().to_string(), "summary": summary });
         output::print(&output::json(&result))?;
     }
-    let failed = outcomes.iter().find_map(|outcome| {
-        let (_, why) = summary::status(&outcome.run.status);
+    let failed = outcomes.iter().zip(&document.cases).find_map(|(outcome, case)| {
+        let why = match &outcome.run.status {
+            Status::Refused(t, error) => {
+                Some(format!("at t = {t:.4} s: {}", plight::words(error, &case.scene)))
+            }
+            status => summary::status(status).1,
+        };
         why.map(|why| format!("{}: {why}", outcome.label))
     });
     failed.map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
@@ -151,13 +160,13 @@ pub(super) fn solve_all(
     Ok(known)
 }
 
-fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
+fn summary_of(document: &Document, outcomes: &[Outcome], comparison: Map<String, Value>) -> Value {
     let scene = document.scene();
     let mut result = summary::run(scene, &outcomes[0]);
     result["format"] = json!("girderway-summary/1");
     result["name"] = json!(scene.name);
     result["units"] = summary::units(scene, &outcomes[0].record);
-    let compare: serde_json::Map<String, Value> = document
+    let compare: Map<String, Value> = document
         .cases
         .iter()
         .zip(outcomes)
@@ -167,9 +176,6 @@ fn summary_of(document: &Document, outcomes: &[Outcome]) -> Value {
     if !compare.is_empty() {
         result["compare"] = Value::Object(compare);
     }
-    let runs: Vec<_> =
-        outcomes.iter().map(|outcome| (outcome.label.as_str(), &outcome.record, &outcome.response)).collect();
-    let comparison = response::comparison(&runs);
     if !comparison.is_empty() {
         result["comparison"] = Value::Object(comparison);
     }
@@ -181,6 +187,7 @@ fn plates(
     document: &Document,
     outcomes: &[Outcome],
     known: &[Known],
+    comparison: &Comparison,
 ) -> Result<Vec<Plate>, Failure> {
     let labelled: Vec<Labelled> = document
         .cases
@@ -200,7 +207,7 @@ fn plates(
         .collect();
     let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].cast)?.into_iter().collect();
     plates.extend(pictures::travel(&labelled[0], &fired));
-    plates.extend(response::rails(&labelled));
+    plates.extend(response::rails(&labelled, comparison));
     plates.extend(pictures::paths(&labelled));
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();

@@ -5,6 +5,7 @@ use serde_json::{Map, Value, json};
 
 use super::{Natural, Response};
 use crate::record::Record;
+use crate::threads::side_by_side;
 
 /// Share of the run, at its end, that counts as settled.
 const SETTLED: f64 = 0.25;
@@ -35,33 +36,66 @@ pub struct Figures {
     pub waves: Vec<Tone>,
 }
 
-/// Every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel forces, that all runs have, by
-/// column and by the label of the run: settled mean, peak, least value, excursions and dominant frequency.
-///
-/// A column that is zero in every run is left out. Empty where there is one run alone.
-#[must_use]
-pub fn comparison(runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
-    let mut all = Map::new();
-    let [(_, record, first), rest @ ..] = runs else { return all };
-    if rest.is_empty() {
-        return all;
+/// Runs beside each other: every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel
+/// forces, in figures.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    rows: Vec<Row>,
+}
+
+/// One column of the first run.
+#[derive(Clone, Debug, PartialEq)]
+struct Row {
+    column: String,
+    /// One a run; `None`: it has not got the column, or too few rows.
+    figures: Vec<Option<Figures>>,
+    /// Whether it is zero in every run.
+    is_zero: bool,
+}
+
+impl Comparison {
+    /// The figures of all runs, on at most `threads` threads. Empty where there is one run alone.
+    #[must_use]
+    pub fn new(runs: &[(&str, &Record, &Response)], threads: Option<u16>) -> Comparison {
+        let [(_, record, first), _, ..] = runs else { return Comparison::default() };
+        let own = first.columns.iter().map(|column| column.name.clone());
+        let names: Vec<String> = rail_sums(record).into_iter().flatten().chain(own).collect();
+        let rows = side_by_side(&names, threads, |_, name| {
+            let is_zero = |record: &Record| record.values(name).iter().all(|value| *value == 0.0);
+            Row {
+                column: name.clone(),
+                figures: runs.iter().map(|(_, record, _)| Figures::new(record, name)).collect(),
+                is_zero: runs.iter().all(|(_, record, _)| is_zero(record)),
+            }
+        });
+        Comparison { rows }
     }
-    let own = first.columns.iter().map(|column| column.name.clone());
-    for name in rail_sums(record).into_iter().flatten().chain(own) {
-        let each: Option<Map<String, Value>> = runs
-            .iter()
-            .map(|(label, record, response)| {
-                Some(((*label).to_owned(), Figures::new(record, &name)?.json(&response.modes)))
-            })
-            .collect();
-        let is_zero = |record: &Record| record.values(&name).iter().all(|value| *value == 0.0);
-        if let Some(each) = each
-            && !runs.iter().all(|(_, record, _)| is_zero(record))
-        {
-            all.insert(name, Value::Object(each));
-        }
+
+    /// Figures of a column, one a run.
+    #[must_use]
+    pub fn of(&self, column: &str) -> Option<&[Option<Figures>]> {
+        self.rows.iter().find(|row| row.column == column).map(|row| row.figures.as_slice())
     }
-    all
+
+    /// Columns that all runs have and that are not zero in all of them, with their figures, one a run.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&Figures>)> {
+        self.rows.iter().filter(|row| !row.is_zero).filter_map(|row| {
+            let all: Option<Vec<&Figures>> = row.figures.iter().map(Option::as_ref).collect();
+            Some((row.column.as_str(), all?))
+        })
+    }
+
+    /// Settled mean, peak, least value, excursions and waves by column and by the label of the run; `runs`: those it was made of.
+    #[must_use]
+    pub fn json(&self, runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
+        let of_runs = |figures: Vec<&Figures>| -> Map<String, Value> {
+            let pairs = runs.iter().zip(figures);
+            pairs
+                .map(|((label, _, response), one)| ((*label).to_owned(), one.json(&response.modes)))
+                .collect()
+        };
+        self.columns().map(|(name, figures)| (name.to_owned(), Value::Object(of_runs(figures)))).collect()
+    }
 }
 
 /// Columns of the sums of wheel forces on each rail, vertical, then lateral if there are any.
@@ -178,7 +212,8 @@ mod tests {
     #[test]
     fn a_slower_run_has_the_lower_frequency_and_the_same_mean() {
         let (slow, fast) = (wave(2.0, 5.0), wave(4.0, 5.0));
-        let found = comparison(&[("flexible", &slow.0, &slow.1), ("rigid", &fast.0, &fast.1)]);
+        let runs = [("flexible", &slow.0, &slow.1), ("rigid", &fast.0, &fast.1)];
+        let found = Comparison::new(&runs, Some(1)).json(&runs);
         for (label, hz) in [("flexible", 2.0), ("rigid", 4.0)] {
             let at = &found["a"][label];
             let near = |value: &Value, wanted: f64, by: f64| {
@@ -193,6 +228,7 @@ mod tests {
     #[test]
     fn a_lone_run_is_beside_nothing() {
         let (record, response) = wave(2.0, 5.0);
-        assert!(comparison(&[("only", &record, &response)]).is_empty());
+        let runs = [("only", &record, &response)];
+        assert!(Comparison::new(&runs, Some(1)).json(&runs).is_empty());
     }
 }

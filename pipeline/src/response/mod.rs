@@ -21,7 +21,7 @@ mod wheel_load;
 
 pub use bending::Bending;
 pub use column::{Column, Kind, MOST, names, stresses};
-pub use comparison::{Figures, comparison};
+pub use comparison::{Comparison, Figures};
 pub use deflection::Deflection;
 pub use drift::Drift;
 pub use envelope::{Envelope, Extreme};

@@ -1,6 +1,6 @@
 //! Forces of all wheels on a rail, run against run.
 
-use super::comparison::{Figures, rail_sums};
+use super::comparison::{Comparison, Figures, rail_sums};
 use crate::chart::{Axis, Chart, Series, Style};
 use crate::pictures::{Labelled, Plate};
 use crate::record::Record;
@@ -15,9 +15,9 @@ const RAILS: usize = 4;
 const SMALL: f64 = 0.1;
 
 /// Vertical and lateral sums of each rail on the ground over time, their numbers below; none where
-/// there is one run alone.
+/// there is one run alone. `comparison`: figures of these runs.
 #[must_use]
-pub fn rails(runs: &[Labelled]) -> Vec<Plate> {
+pub fn rails(runs: &[Labelled], comparison: &Comparison) -> Vec<Plate> {
     let [first, _, ..] = runs else { return Vec::new() };
     let grounded = |name: &String| {
         let rail = name.rsplit_once('.').map_or("", |(rail, _)| rail);
@@ -25,10 +25,10 @@ pub fn rails(runs: &[Labelled]) -> Vec<Plate> {
         known.is_some_and(|rail| first.scene.structures[rail.structure].on.is_none())
     };
     let sums = rail_sums(first.record).into_iter().filter(|sums| sums.iter().all(grounded)).take(RAILS);
-    sums.flatten().filter_map(|column| plate(first.scene, &column, runs)).collect()
+    sums.flatten().filter_map(|column| plate(first.scene, &column, runs, comparison)).collect()
 }
 
-fn plate(scene: &Scene, column: &str, runs: &[Labelled]) -> Option<Plate> {
+fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &Comparison) -> Option<Plate> {
     let (rail, part) = column.rsplit_once('.')?;
     let word = if part == "lateral" { "lateral" } else { "vertical" };
     let zero = |record: &Record| record.values(column).iter().all(|value| *value == 0.0);
@@ -39,12 +39,13 @@ fn plate(scene: &Scene, column: &str, runs: &[Labelled]) -> Option<Plate> {
     let title = format!("Wheels on {rail} together, {word}");
     let mut chart = Chart::new(title, Axis::new("time", "s"), Axis::new(format!("{word} force"), &unit));
     let mut told = Vec::new();
+    let figures = comparison.of(column).unwrap_or_default();
     for (index, run) in runs.iter().enumerate() {
         let style = if index == 0 { Style::Line } else { Style::Dashed };
         chart = chart.with(Series::new(&run.label, style, run.record.points("time", column)));
-        let Some(found) = Figures::new(run.record, column) else { continue };
+        let Some(found) = figures.get(index).and_then(Option::as_ref) else { continue };
         chart = chart.mark(found.peak.time, format!("peak, {}", run.label));
-        told.push(line(&run.label, &found, &unit));
+        told.push(line(&run.label, found, &unit));
     }
     chart.note = told.join(" ");
     let caption = format!(

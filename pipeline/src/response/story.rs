@@ -1,7 +1,7 @@
 //! What the report says of reactions, internal forces, sag and uplift.
 
 use super::Response;
-use super::comparison::{Figures, comparison};
+use super::comparison::Comparison;
 use crate::record::Record;
 use crate::report::{Cell, Column, Section, Table, rounded};
 use crate::scene::Scene;
@@ -60,22 +60,22 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
 }
 
 /// Runs beside each other in numbers; `None`: there is one alone, or nothing to compare.
+///
+/// `labels`: those of the runs that were compared; `record`: that of the first of them.
 #[must_use]
-pub fn beside(scene: &Scene, runs: &[(&str, &Record, &Response)]) -> Option<Section> {
-    let all = comparison(runs);
+pub fn beside(scene: &Scene, labels: &[&str], record: &Record, comparison: &Comparison) -> Option<Section> {
+    let all: Vec<_> = comparison.columns().collect();
     if all.is_empty() {
         return None;
     }
     let more = all.len().saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
-    let (_, record, _) = runs.first()?;
     let mut rows = Vec::new();
-    for name in all.keys().take(ROWS) {
-        let column = record.columns.iter().find(|column| column.name == *name);
+    for (name, figures) in all.into_iter().take(ROWS) {
+        let column = record.columns.iter().find(|column| column.name == name);
         let unit = column.map_or_else(String::new, |column| scene.units.label(column.dimension));
-        let mut head = vec![Cell::from(name.clone()), Cell::from(unit)];
-        for (label, record, _) in runs {
-            let Some(found) = Figures::new(record, name) else { continue };
+        let mut head = vec![Cell::from(name.to_owned()), Cell::from(unit)];
+        for (label, found) in labels.iter().zip(figures) {
             let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
             row.push(Cell::from(*label));
             let range = found.peak.value - found.least.value;

@@ -132,7 +132,8 @@ fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Ch
         }
         (found, _) => {
             let found = if found.is_some() { "both" } else { "neither" };
-            check.faults.add(Fault::new(at, "must have either `mass` or `weight`").got(found));
+            let hint = "`weight` is a force; `mass` is force time^2 / length";
+            check.faults.add(Fault::new(at, "must have either `mass` or `weight`").got(found).hint(hint));
             1.0
         }
     }
@@ -224,6 +225,11 @@ pub(super) fn read_motions(
         if let Some(earlier) = first[body].replace(index) {
             let expected = format!("body {} has its motion in motions[{earlier}] already", bodies[body].name);
             check.faults.add(Fault::new(&at, expected).hint("every body has one motion along the rail"));
+            continue;
+        }
+        if bodies[body].in_space {
+            let fault = Fault::new(&at.key("body"), format!("body {} runs on no rail", bodies[body].name));
+            check.faults.add(fault.hint("a body in space moves by its ropes, stops and weight"));
             continue;
         }
         if raw_bodies.0[body].1.pinned.is_some() {

@@ -15,6 +15,7 @@ mod raw;
 mod read;
 mod rope;
 mod spin;
+mod stance;
 mod stop;
 mod structure;
 mod survey;

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::pin::seat_of;
 use super::{Scene, Stop};
 use crate::check::Check;
-use crate::fault::Fault;
+use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
@@ -190,10 +190,15 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
     match rails[..] {
         [one, other] if across(scene, crane, one) != across(scene, crane, other) => Some([one, other]),
         _ => {
-            let fault = Fault::new(at, format!("\"{}\" must run on two rails", scene.bodies[crane].name));
-            check
-                .faults
-                .add(fault.got(rails.len()).hint("the codes speak of cranes on a runway of two rails"));
+            let found = match rails.len() {
+                2 => format!("trucks on both at z = {}", number(across(scene, crane, rails[0]))),
+                count => count.to_string(),
+            };
+            let fault =
+                Fault::new(at, format!("\"{}\" must run on two rails, apart", scene.bodies[crane].name));
+            check.faults.add(fault.got(found).hint(
+                "the codes speak of cranes on a runway of two rails; z of a truck's `at` is its place across",
+            ));
             None
         }
     }

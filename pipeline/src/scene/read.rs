@@ -3,7 +3,7 @@
 use super::raw::RawScene;
 use super::{
     Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
-    output, pin, practice, rope, spin, stop, structure, truck, wheel,
+    output, pin, practice, rope, spin, stance, stop, structure, truck, wheel,
 };
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
@@ -111,8 +111,10 @@ pub(super) fn scene(
     scene.stops = stop::read_all(&raw.stops, &scene, check);
     event::fit_brakes(&raw.events, &mut scene.bodies);
     scene.events = event::read_all(&raw.events, &scene, check);
-    actuator::check_wheels(raw, &scene, check.faults);
     if scene.trucks.len() == raw.trucks.len() {
+        actuator::check_wheels(raw, &scene, check.faults);
+    }
+    if scene.trucks.len() == raw.trucks.len() && stance::check(&scene, check.faults) {
         scene.practice = practice::read(&raw.practice, &scene, &root, check);
     }
     let held = check.faults.0.is_empty();
@@ -151,10 +153,13 @@ fn read_structures(
     }
     let place = root.key("structures");
     let mut structures = Vec::new();
-    for (name, raw) in &raw.structures.0 {
+    let all = &raw.structures.0;
+    for (name, raw) in all {
         let at = place.key(name);
         super::name(name, &at, check.faults);
-        structures.extend(structure::read(name, raw, &at, units, inputs, elsewhere, check));
+        let others: Vec<&str> =
+            all.iter().map(|(other, _)| other.as_str()).filter(|other| other != name).collect();
+        structures.extend(structure::read(name, &others, raw, &at, units, inputs, elsewhere, check));
     }
     structures
 }

@@ -9,7 +9,7 @@ use super::raw::{RawStructure, RawTables};
 use super::{irregularity, ties};
 use crate::check::Check;
 use crate::diagnostic::Diagnostic;
-use crate::fault::Fault;
+use crate::fault::{Fault, nearest};
 use crate::inputs::{Input, Inputs};
 use crate::place::Place;
 use crate::spec::{RailOutline, Spec};
@@ -214,8 +214,11 @@ enum Word {
     Auto,
 }
 
+#[allow(clippy::too_many_arguments)]
+/// `others`: names of the scene's other structures.
 pub(super) fn read(
     name: &str,
+    others: &[&str],
     raw: &RawStructure,
     at: &Place<'_>,
     units: Units,
@@ -258,9 +261,9 @@ pub(super) fn read(
         }
         (None, None) => {
             let fault = Fault::new(at, "must have either `spec` or `tables`").got("neither");
-            check
-                .faults
-                .add(fault.hint("`spec` is a beam spec to solve, `tables` are SPLINEs that exist already"));
+            let meant = nearest(name, others).map(|near| format!("did you mean \"{near}\"? "));
+            let hint = "`spec` is a beam spec to solve, `tables` are SPLINEs that exist already";
+            check.faults.add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
             None
         }
     };

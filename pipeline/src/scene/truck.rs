@@ -134,7 +134,23 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
     if tree.is_empty() {
         check.faults.add(Fault::new(&place, "must have at least one wheel").got("an empty list"));
     }
-    tree.iter().enumerate().map(|(index, node)| read_node(node, &place.index(index), check)).collect()
+    let nodes = tree.iter().enumerate().map(|(index, node)| {
+        let at = place.index(index);
+        let node = read_node(node, &at, check);
+        let below = node.wheels();
+        if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
+            let fault = Fault::new(&at, "wheels under one equaliser must carry equal shares");
+            let hint = "both its ends need the same number of wheels; what carries more must be a body that is `pinned`";
+            check.faults.add(fault.got(shares(&below)).hint(hint));
+        }
+        node
+    });
+    nodes.collect()
+}
+
+/// Shares of an equaliser's load, wheel by wheel.
+fn shares(below: &[(f64, f64)]) -> String {
+    below.iter().map(|(_, share)| format!("1/{}", number(1.0 / share))).collect::<Vec<_>>().join(", ")
 }
 
 fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {

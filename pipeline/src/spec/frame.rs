@@ -2,6 +2,7 @@
 
 use fea::{Freedom, Link, Mass, Model, Segment, Spring, Support, Taper, Theory};
 
+use super::block::Reference;
 use super::cuts::{self, Cut};
 use super::raw::RawSpec;
 use super::stress::{self, StressPoint};
@@ -29,6 +30,8 @@ pub struct Frame {
     pub cells: Vec<[usize; 2]>,
     /// Named sets of points.
     pub point_sets: Vec<(String, Vec<usize>)>,
+    /// For each support of the model the one of the file that gave it; those of ties are not among them.
+    pub supports: Vec<usize>,
     /// Between rail and structure, where ties carry the rail.
     pub pads: Vec<Pad>,
 }
@@ -65,15 +68,15 @@ pub(super) fn read(
         check.faults.add(fault.hint("in the general form each of `rails` has its own"));
     }
     let sections = sections::read(raw, root, &mut model, check);
-    let cells = members::read(raw, root, &mut model, check);
+    let cells = members::read(raw, root, &sections, &mut model, check);
     if cells.whole {
         sections::complete(raw, root, &model, &cells.tapers, check);
     }
-    read_supports(raw, root, &mut model, check);
-    read_springs(raw, root, &mut model, check);
-    read_links(raw, root, &mut model, check);
-    read_masses(raw, root, &mut model, check);
     let point_sets = read_sets(raw, root, &model, check);
+    let supports = read_supports(raw, root, &point_sets, &mut model, check);
+    read_springs(raw, root, &point_sets, &mut model, check);
+    read_links(raw, root, &point_sets, &mut model, check);
+    read_masses(raw, root, &point_sets, &mut model, check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
     let points = stress::of_sections(raw, root, check);
     // a tapered cell has no section of its own between its ends
@@ -84,8 +87,17 @@ pub(super) fn read(
     };
     let cuts = cuts::read_frame(raw, &cells, &of, root, check);
     let points = model.points.len();
-    let frame =
-        Frame { model, rails, ranges, sections, points, cells: cells.places, point_sets, pads: Vec::new() };
+    let frame = Frame {
+        model,
+        rails,
+        ranges,
+        sections,
+        points,
+        cells: cells.places,
+        point_sets,
+        supports,
+        pads: Vec::new(),
+    };
     if cells.whole { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
 }
 
@@ -115,16 +127,67 @@ fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Fram
     (Frame { model, rails, cells, ..frame }, cuts)
 }
 
-/// The index of a point that exists.
-fn point(
-    given: &Option<usize>,
+/// Points by the name of their set.
+type Sets = [(String, Vec<usize>)];
+
+/// The points that an index or the name of a point set means; all exist.
+fn points(
+    given: &Option<Reference>,
     key: &str,
+    sets: &Sets,
+    count: usize,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<usize> {
+    match check.faults.need(given, at, key) {
+        None => Vec::new(),
+        Some(Reference::Index(index)) => {
+            let exists = index_below(*index, count, "points", &at.key(key), check);
+            if exists { vec![*index] } else { Vec::new() }
+        }
+        Some(name) => {
+            let names: Vec<(&str, usize)> =
+                sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
+            let set = refer(name, &names, "point set", &at.key(key), check);
+            // points that do not exist are told where the set stands
+            let all = set.map(|set| sets[set].1.as_slice()).unwrap_or_default();
+            all.iter().copied().filter(|point| *point < count).collect()
+        }
+    }
+}
+
+/// The one point that an index or the name of a point set means.
+fn point(
+    given: &Option<Reference>,
+    key: &str,
+    sets: &Sets,
     count: usize,
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<usize> {
-    let index = *check.faults.need(given, at, key)?;
-    index_below(index, count, "points", &at.key(key), check).then_some(index)
+    let before = check.faults.0.len();
+    let found = points(given, key, sets, count, at, check);
+    if found.len() != 1 && check.faults.0.len() == before {
+        let fault = Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
+        check.faults.add(fault.hint("supports alone take sets of several points"));
+    }
+    found.first().copied().filter(|_| found.len() == 1)
+}
+
+/// What an index or a name means, of a list that has these names.
+pub(super) fn refer(
+    given: &Reference,
+    names: &[(&str, usize)],
+    what: &str,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<usize> {
+    match given {
+        Reference::Index(index) => {
+            index_below(*index, names.len(), &format!("{what}s"), at, check).then_some(*index)
+        }
+        Reference::Name(name) => crate::scene::resolve(name, names, what, at, check.faults),
+    }
 }
 
 /// Whether an index is within a list; a fault where it is not.
@@ -156,23 +219,32 @@ pub(super) fn freedoms(words: &[String], at: &Place<'_>, check: &mut Check<'_>) 
     set
 }
 
-fn read_supports(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+fn read_supports(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    sets: &Sets,
+    model: &mut Model,
+    check: &mut Check<'_>,
+) -> Vec<usize> {
     let list = root.key("supports");
+    let mut given = Vec::new();
     for (index, raw) in raw.supports.iter().flatten().enumerate() {
         let at = list.index(index);
-        let point = point(&raw.point, "point", model.points.len(), &at, check);
+        let held = points(&raw.point, "point", sets, model.points.len(), &at, check);
         let place = at.key("fix");
         let fix = check.faults.need(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
         let fix = freedoms(fix, &place, check);
-        model.supports.extend(point.map(|point| Support { point, fix }));
+        given.extend(held.iter().map(|_| index));
+        model.supports.extend(held.into_iter().map(|point| Support { point, fix }));
     }
+    given
 }
 
-fn read_springs(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+fn read_springs(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, check: &mut Check<'_>) {
     let list = root.key("springs");
     for (index, raw) in raw.springs.iter().flatten().enumerate() {
         let at = list.index(index);
-        let point = point(&raw.point, "point", model.points.len(), &at, check);
+        let point = point(&raw.point, "point", sets, model.points.len(), &at, check);
         let freedom = check
             .faults
             .need(&raw.dof, &at, "dof")
@@ -185,12 +257,12 @@ fn read_springs(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut 
     }
 }
 
-fn read_links(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+fn read_links(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, check: &mut Check<'_>) {
     let list = root.key("links");
     for (index, raw) in raw.links.iter().flatten().enumerate() {
         let at = list.index(index);
-        let from = point(&raw.from, "from", model.points.len(), &at, check);
-        let to = point(&raw.to, "to", model.points.len(), &at, check);
+        let from = point(&raw.from, "from", sets, model.points.len(), &at, check);
+        let to = point(&raw.to, "to", sets, model.points.len(), &at, check);
         if let Some((from, to)) = from.zip(to) {
             if from == to {
                 check
@@ -202,11 +274,11 @@ fn read_links(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Ch
     }
 }
 
-fn read_masses(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) {
+fn read_masses(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, check: &mut Check<'_>) {
     let list = root.key("masses");
     for (index, raw) in raw.masses.iter().flatten().enumerate() {
         let at = list.index(index);
-        let point = point(&raw.point, "point", model.points.len(), &at, check);
+        let point = point(&raw.point, "point", sets, model.points.len(), &at, check);
         let mass = match check.faults.need(&raw.mass, &at, "mass") {
             Some(mass) => check.not_negative(*mass, &at.key("mass"), Dimension::MASS, ""),
             None => 0.0,

@@ -76,7 +76,9 @@ impl Spec {
             (Form::Frame(_), Item::Up) => Path(vec![key("up")]),
             (Form::Frame(_), Item::Point(index)) => list("points", index),
             (Form::Frame(_), Item::Section(index)) => list("sections", index),
-            (Form::Frame(_), Item::Support(index)) => list("supports", index),
+            (Form::Frame(frame), Item::Support(index)) => {
+                list("supports", frame.supports.get(index).copied().unwrap_or(index))
+            }
             (Form::Frame(_), Item::Spring(index)) => list("springs", index),
             (Form::Frame(_), Item::Link(index)) => list("links", index),
             (Form::Frame(_), Item::Mass(index)) => list("masses", index),

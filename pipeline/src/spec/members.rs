@@ -2,7 +2,8 @@
 
 use fea::{Kind, Member, Model, Taper};
 
-use super::frame::{freedoms, index_below, length};
+use super::block::{Block, Reference};
+use super::frame::{freedoms, index_below, length, refer};
 use super::raw::{RawCellData, RawSpec};
 use super::tapers::Tapers;
 use crate::check::Check;
@@ -39,14 +40,14 @@ impl Cells {
 pub(super) struct Column<'r, T> {
     pub key: &'static str,
     given: bool,
-    blocks: Option<&'r Vec<Vec<T>>>,
+    blocks: Option<&'r Vec<Block<T>>>,
 }
 
-impl<'r, T> Column<'r, T> {
-    /// One array a block, one item a cell; wrong lengths are faults and leave the column out.
+impl<'r, T: PartialEq> Column<'r, T> {
+    /// One array a block, one item a cell, or one item a block; wrong lengths are faults and leave the column out.
     pub fn new(
         key: &'static str,
-        blocks: &'r Option<Vec<Vec<T>>>,
+        blocks: &'r Option<Vec<Block<T>>>,
         counts: &[usize],
         at: &Place<'_>,
         check: &mut Check<'_>,
@@ -54,12 +55,13 @@ impl<'r, T> Column<'r, T> {
         let Some(given) = blocks else { return Column { key, given: false, blocks: None } };
         let before = check.faults.0.len();
         let place = at.key(key);
-        let hint = "cell_data has one array for each block of `cells`, with one item for each cell";
+        let hint = "cell_data has one array for each block of `cells`, with one item for each cell, or one item for the block";
         if given.len() != counts.len() {
             let fault = Fault::new(&place, format!("must have {} arrays", counts.len())).got(given.len());
             check.faults.add(fault.hint(hint));
         }
         for (block, (items, count)) in given.iter().zip(counts).enumerate() {
+            let Block::Each(items) = items else { continue };
             if items.len() != *count {
                 let fault =
                     Fault::new(&place.index(block), format!("must have {count} items")).got(items.len());
@@ -72,10 +74,40 @@ impl<'r, T> Column<'r, T> {
     pub fn get(&self, block: usize, index: usize) -> Option<&'r T> {
         self.blocks.and_then(|blocks| blocks.get(block)).and_then(|items| items.get(index))
     }
+
+    /// Whether the column has nothing for this block.
+    fn absent(&self, block: usize) -> bool {
+        self.blocks.and_then(|blocks| blocks.get(block)).is_some_and(|items| *items == Block::Absent)
+    }
+
+    /// The path of a cell's item, below `cell_data` at `data`: that of its block where it has no other.
+    pub fn at<R>(
+        &self,
+        [block, index]: [usize; 2],
+        data: &Place<'_>,
+        then: impl FnOnce(&Place<'_>) -> R,
+    ) -> R {
+        let key = data.key(self.key);
+        let place = key.index(block);
+        match self.blocks.and_then(|blocks| blocks.get(block)) {
+            Some(Block::Each(_)) => then(&place.index(index)),
+            _ => then(&place),
+        }
+    }
 }
 
 /// Reads `cells` and `cell_data` into the model.
-pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Cells {
+///
+/// `sections`: the names of the model's sections.
+pub(super) fn read(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    sections: &[String],
+    model: &mut Model,
+    check: &mut Check<'_>,
+) -> Cells {
+    let names: Vec<(&str, usize)> =
+        sections.iter().enumerate().map(|(index, name)| (name.as_str(), index)).collect();
     let Some(blocks) = check.faults.need(&raw.cells, root, "cells") else { return Cells::default() };
     let before = check.faults.0.len();
     let list = root.key("cells");
@@ -96,8 +128,18 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
         let at = list.index(block);
         let at = at.key("data");
         for (index, ends) in raw.data.iter().flatten().enumerate() {
-            if let Some(member) = columns.member(*ends, block, index, &at.index(index), root, model, check) {
-                cells.tapers.push(tapers.of(&member, [block, index], &at.index(index), root, model, check));
+            if let Some(member) =
+                columns.member(*ends, block, index, &at.index(index), root, &names, model, check)
+            {
+                cells.tapers.push(tapers.of(
+                    &member,
+                    [block, index],
+                    &at.index(index),
+                    root,
+                    &names,
+                    model,
+                    check,
+                ));
                 model.members.push(member);
                 cells.places.push([block, index]);
             }
@@ -112,7 +154,7 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
 
 struct Columns<'r> {
     kind: Column<'r, String>,
-    section: Column<'r, usize>,
+    section: Column<'r, Reference>,
     orientation: Column<'r, [f64; 3]>,
     offsets: [Column<'r, [f64; 3]>; 2],
     releases: [Column<'r, Vec<String>>; 2],
@@ -144,35 +186,41 @@ impl<'r> Columns<'r> {
         index: usize,
         cell: &Place<'_>,
         root: &Place<'_>,
+        names: &[(&str, usize)],
         model: &Model,
         check: &mut Check<'_>,
     ) -> Option<Member> {
         let data = root.key("cell_data");
+        let here = [block, index];
         let mut known = true;
         for (end, point) in points.into_iter().enumerate() {
             known &= index_below(point, model.points.len(), "points", &cell.index(end), check);
         }
-        let key = data.key(self.kind.key);
-        let place = key.index(block);
         let kinds = [("beam", Kind::Beam), ("truss", Kind::Truss)];
-        let kind = match self.kind.get(block, index) {
-            Some(word) => check.faults.word(word, &place.index(index), &kinds).unwrap_or(Kind::Beam),
-            None => Kind::Beam,
-        };
-        let key = data.key(self.section.key);
-        let place = key.index(block);
+        let kind = self
+            .kind
+            .get(block, index)
+            .and_then(|word| self.kind.at(here, &data, |place| check.faults.word(word, place, &kinds)));
+        let kind = kind.unwrap_or(Kind::Beam);
         let section = match self.section.get(block, index) {
             Some(section) => {
-                let place = place.index(index);
-                index_below(*section, model.sections.len(), "sections", &place, check).then_some(*section)
+                self.section.at(here, &data, |place| refer(section, names, "section", place, check))
             }
             None if model.sections.len() == 1 => Some(0),
             None => {
-                if block == 0 && index == 0 && !self.section.given && !model.sections.is_empty() {
-                    let fault = Fault::new(root, "missing key `cell_data.section`");
-                    check
-                        .faults
-                        .add(fault.hint("with several sections each cell needs the index of its own"));
+                let blank = self.section.absent(block);
+                if index == 0 && (blank || block == 0) && !model.sections.is_empty() {
+                    let hint = "with several sections each cell needs its own, by name or index";
+                    let fault = Fault::new(root, "missing key `cell_data.section`").hint(hint);
+                    match blank {
+                        true => {
+                            let fault = Fault { path: data.key("section").index(block).path(), ..fault };
+                            let expected = "must be the sections of this block".to_owned();
+                            check.faults.add(Fault { expected, ..fault }.got("null"));
+                        }
+                        false if !self.section.given => check.faults.add(fault),
+                        false => {}
+                    }
                 }
                 None
             }
@@ -180,15 +228,13 @@ impl<'r> Columns<'r> {
         let mut offsets = [[0.0; 3]; 2];
         let mut releases = [[false; 6]; 2];
         for end in 0..2 {
-            let key = data.key(self.offsets[end].key);
-            let place = key.index(block);
-            if let Some(offset) = self.offsets[end].get(block, index) {
-                offsets[end] = check.vector(*offset, &place.index(index), Dimension::LENGTH);
+            let column = &self.offsets[end];
+            if let Some(offset) = column.get(block, index) {
+                offsets[end] = column.at(here, &data, |at| check.vector(*offset, at, Dimension::LENGTH));
             }
-            let key = data.key(self.releases[end].key);
-            let place = key.index(block);
-            if let Some(words) = self.releases[end].get(block, index) {
-                releases[end] = freedoms(words, &place.index(index), check);
+            let column = &self.releases[end];
+            if let Some(words) = column.get(block, index) {
+                releases[end] = column.at(here, &data, |at| freedoms(words, at, check));
             }
         }
         if !known {
@@ -203,19 +249,28 @@ impl<'r> Columns<'r> {
         let given = self.orientation.get(block, index);
         let orientation = given.copied().unwrap_or(model.up);
         if kind == Kind::Beam && length(along) > 0.0 && parallel(orientation, along) {
-            let key = data.key(self.orientation.key);
-            let place = key.index(block);
-            let item = place.index(index);
-            let place = if given.is_some() { &item } else { cell };
-            let fault = Fault::new(place, "its orientation must not be zero or along the member");
-            check.faults.add(
-                fault.hint(
-                    "local y is the part of `orientation` normal to the member; without one it is `up`",
-                ),
-            );
+            let fault = |place: &Place<'_>| {
+                let found = format!("{} on a member along {}", listed(orientation), listed(along));
+                let fault =
+                    Fault::new(place, "its orientation must not be zero or along the member").got(found);
+                fault.hint(match given {
+                    Some(_) => "local y is the part of `orientation` normal to the member",
+                    None => "without `orientation` local y is `up`: give upright members, as columns, one that lies across them, such as [0, 0, 1]",
+                })
+            };
+            let fault = match given {
+                Some(_) => self.orientation.at(here, &data, fault),
+                None => fault(cell),
+            };
+            check.faults.add(fault);
         }
         Some(Member { points, kind, section: section?, orientation, offsets, releases })
     }
+}
+
+/// A vector as files have it.
+fn listed(vector: [f64; 3]) -> String {
+    format!("[{}]", vector.map(crate::fault::number).join(", "))
 }
 
 /// Whether two vectors point along one line, or one is zero, up to rounding.

@@ -1,5 +1,6 @@
 //! Beam specs: read, checked, in the units asked for.
 
+mod block;
 mod cuts;
 mod frame;
 mod girder;
@@ -9,6 +10,7 @@ mod members;
 mod rails;
 mod raw;
 mod sections;
+mod shape;
 mod stress;
 mod tapers;
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::fmt;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
 
+use super::block::{Block, Reference};
 use crate::entries::Entries;
 use crate::units::RawUnits;
 
@@ -15,6 +16,7 @@ crate::object::objects!(
     RawCellData,
     RawMaterial,
     RawSection,
+    RawShape,
     RawPoint,
     RawSupport,
     RawSpring,
@@ -89,15 +91,15 @@ pub(crate) struct RawBlock {
 #[derive(Debug, Default, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
-    pub kind: Option<Vec<Vec<String>>>,
-    pub section: Option<Vec<Vec<usize>>>,
-    pub section_b: Option<Vec<Vec<Option<usize>>>>,
-    pub parts: Option<Vec<Vec<Option<usize>>>>,
-    pub orientation: Option<Vec<Vec<[f64; 3]>>>,
-    pub offset_a: Option<Vec<Vec<[f64; 3]>>>,
-    pub offset_b: Option<Vec<Vec<[f64; 3]>>>,
-    pub release_a: Option<Vec<Vec<Vec<String>>>>,
-    pub release_b: Option<Vec<Vec<Vec<String>>>>,
+    pub kind: Option<Vec<Block<String>>>,
+    pub section: Option<Vec<Block<Reference>>>,
+    pub section_b: Option<Vec<Block<Option<Reference>>>>,
+    pub parts: Option<Vec<Block<Option<usize>>>>,
+    pub orientation: Option<Vec<Block<[f64; 3]>>>,
+    pub offset_a: Option<Vec<Block<[f64; 3]>>>,
+    pub offset_b: Option<Vec<Block<[f64; 3]>>>,
+    pub release_a: Option<Vec<Block<Vec<String>>>>,
+    pub release_b: Option<Vec<Block<Vec<String>>>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -128,8 +130,42 @@ pub(crate) struct RawSection {
     pub asy: Option<f64>,
     #[serde(rename = "Asz")]
     pub asz: Option<f64>,
+    pub shape: Option<RawShape>,
     #[serde(default)]
     pub points: Vec<RawPoint>,
+}
+
+impl RawSection {
+    /// Its own numbers, without shape and points.
+    pub fn numbers(&self) -> RawSection {
+        RawSection {
+            name: self.name.clone(),
+            material: self.material.clone(),
+            area: self.area,
+            iy: self.iy,
+            iz: self.iz,
+            j: self.j,
+            asy: self.asy,
+            asz: self.asz,
+            shape: None,
+            points: Vec::new(),
+        }
+    }
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawShape {
+    pub kind: Option<String>,
+    pub length: Option<String>,
+    pub height: Option<f64>,
+    pub width: Option<f64>,
+    pub flange: Option<f64>,
+    pub web: Option<f64>,
+    pub lower_width: Option<f64>,
+    pub lower_flange: Option<f64>,
+    pub diameter: Option<f64>,
+    pub wall: Option<f64>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -183,14 +219,14 @@ impl Visitor<'_> for DetailVisitor {
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSupport {
-    pub point: Option<usize>,
+    pub point: Option<Reference>,
     pub fix: Option<Vec<String>>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpring {
-    pub point: Option<usize>,
+    pub point: Option<Reference>,
     pub dof: Option<String>,
     pub k: Option<f64>,
 }
@@ -198,14 +234,14 @@ pub(crate) struct RawSpring {
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLink {
-    pub from: Option<usize>,
-    pub to: Option<usize>,
+    pub from: Option<Reference>,
+    pub to: Option<Reference>,
 }
 
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMass {
-    pub point: Option<usize>,
+    pub point: Option<Reference>,
     pub mass: Option<f64>,
     pub inertia: Option<[f64; 3]>,
     pub offset: Option<[f64; 3]>,

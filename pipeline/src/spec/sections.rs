@@ -43,7 +43,8 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
             );
         }
         names.push(name);
-        model.sections.push(read_section(raw, &materials, &at, check));
+        let filled = super::shape::filled(raw, &at, check);
+        model.sections.push(read_section(&filled, &materials, &at, check));
     }
     names
 }
@@ -123,7 +124,7 @@ pub(super) fn complete(
         }
         let beams = users.any(|(member, _)| member.kind == Kind::Beam);
         for (key, value) in [("A", raw.area), ("Iy", raw.iy), ("Iz", raw.iz), ("J", raw.j)] {
-            if value.is_none() && (beams || key == "A") {
+            if value.is_none() && raw.shape.is_none() && (beams || key == "A") {
                 let user = if beams { "beams" } else { "members" };
                 check.faults.add(
                     Fault::new(&at, format!("missing key `{key}`")).hint(format!("{user} use this section")),

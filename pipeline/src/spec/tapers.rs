@@ -2,7 +2,8 @@
 
 use fea::{Kind, Member, Model, Taper};
 
-use super::frame::index_below;
+use super::block::Reference;
+use super::frame::refer;
 use super::members::Column;
 use super::raw::{RawCellData, RawSpec};
 use crate::check::Check;
@@ -14,7 +15,7 @@ const MOST: usize = 1000;
 
 /// What the file says of tapers.
 pub(super) struct Tapers<'r> {
-    section_b: Column<'r, Option<usize>>,
+    section_b: Column<'r, Option<Reference>>,
     parts: Column<'r, Option<usize>>,
     /// Parts of cells that have no number of their own.
     general: Option<usize>,
@@ -40,41 +41,53 @@ impl<'r> Tapers<'r> {
         }
     }
 
-    /// The taper of the cell at `place`, [block, index], that became `member`.
+    /// The taper of the cell at `place`, [block, index], that became `member`; `names`: those of the sections.
+    #[allow(clippy::too_many_arguments)]
     pub fn of(
         &self,
         member: &Member,
         [block, index]: [usize; 2],
         place: &Place<'_>,
         root: &Place<'_>,
+        names: &[(&str, usize)],
         model: &Model,
         check: &mut Check<'_>,
     ) -> Option<Taper> {
         let data = root.key("cell_data");
+        let here = [block, index];
         let own = self.parts.get(block, index).copied().flatten();
         if let Some(parts) = own {
-            let key = data.key(self.parts.key);
-            let list = key.index(block);
-            number(parts, &list.index(index), check);
+            self.parts.at(here, &data, |place| number(parts, place, check));
         }
-        let Some(other) = self.section_b.get(block, index).copied().flatten() else {
+        let Some(other) = self.section_b.get(block, index).and_then(Option::as_ref) else {
             return own.map(|parts| Taper { section: member.section, parts });
         };
-        let key = data.key(self.section_b.key);
-        let list = key.index(block);
-        let item = list.index(index);
-        if !index_below(other, model.sections.len(), "sections", &item, check) {
-            return None;
-        }
+        self.section_b.at(here, &data, |item| {
+            let other = refer(other, names, "section", item, check)?;
+            self.between(member, other, own, item, place, model, check)
+        })
+    }
+
+    /// The taper of `member` to the section `other`, which the file gives at `item`.
+    #[allow(clippy::too_many_arguments)]
+    fn between(
+        &self,
+        member: &Member,
+        other: usize,
+        own: Option<usize>,
+        item: &Place<'_>,
+        place: &Place<'_>,
+        model: &Model,
+        check: &mut Check<'_>,
+    ) -> Option<Taper> {
         let (a, b) = (&model.sections[member.section], &model.sections[other]);
         if (a.e, a.g) != (b.e, b.g) {
-            let fault = Fault::new(&item, "must be of the material of the cell's `section`");
+            let fault = Fault::new(item, "must be of the material of the cell's `section`");
             check.faults.add(fault.hint("a tapered cell has one material"));
         }
         for (name, pair) in [("Asy", [a.shear_y, b.shear_y]), ("Asz", [a.shear_z, b.shear_z])] {
             if member.kind == Kind::Beam && pair[0].is_some() != pair[1].is_some() {
-                let fault =
-                    Fault::new(&item, format!("must have `{name}` where the cell's `section` has it"));
+                let fault = Fault::new(item, format!("must have `{name}` where the cell's `section` has it"));
                 let hint = "shear areas vary linearly between two values, or are absent at both ends";
                 check.faults.add(fault.hint(hint));
             }

@@ -16,7 +16,7 @@ mod material;
 mod property;
 mod resolve;
 mod rigid;
-mod shape;
+pub(crate) mod shape;
 mod support;
 
 use std::io;

@@ -1,0 +1,77 @@
+//! `girderway init`: starter files that run as they are.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::cli::{Global, Init, Starter};
+use crate::diagnostic::Diagnostic;
+use crate::exit::{Exit, Failure};
+use crate::output;
+use crate::progress::Progress;
+
+/// Files by their names, the scene first.
+type Files = &'static [(&'static str, &'static str)];
+
+macro_rules! files {
+    ($folder:literal: $($name:literal),+ $(,)?) => {
+        &[$(($name, include_str!(concat!("../../../examples/", $folder, "/", $name)))),+]
+    };
+}
+
+const BOGIE: Files = files!("bogie": "scene.json", "spec.json", "printed.adm");
+const GIRDERWAY: Files = files!("mill_girderway": "scene.json", "spec.json");
+const CRANE: Files = files!(
+    "bridge_crane":
+    "scene.json", "aisle.json", "girders.json", "emergency.json", "lifting.json", "drop.json", "buffer.json", "skew.json",
+    "two_cranes.json",
+);
+
+const fn files(starter: Starter) -> Files {
+    match starter {
+        Starter::Bogie => BOGIE,
+        Starter::Crane => CRANE,
+        Starter::Girderway => GIRDERWAY,
+    }
+}
+
+/// Writes the files into the folder named; none of them where one is there already.
+///
+/// # Errors
+/// Files that are there already; a folder that cannot be; what the file system refuses.
+pub fn run(args: &Init, global: Global) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let folder = args.folder.clone().unwrap_or_else(|| PathBuf::from("."));
+    // a folder that cannot be is told before anything is made
+    output::Folder::new(&folder)?;
+    let files: Vec<(PathBuf, &str)> =
+        files(args.what).iter().map(|(name, text)| (place(&folder, name), *text)).collect();
+    let taken: Vec<Diagnostic> = files
+        .iter()
+        .filter(|(path, _)| path.symlink_metadata().is_ok())
+        .map(|(path, _)| Diagnostic {
+            hint: Some("nothing is overwritten: name another folder, or move the file".to_owned()),
+            ..Diagnostic::of_file(path.display().to_string(), "exists already")
+        })
+        .collect();
+    if !taken.is_empty() {
+        return Err(taken.into());
+    }
+    output::make(&folder)?;
+    for (path, text) in &files {
+        output::write_new(path, text.as_bytes())?;
+        progress.say(&format!("wrote {}", path.display()));
+    }
+    let scene = files[0].0.display().to_string();
+    progress.say(&format!("next: girderway run {scene}"));
+    if global.json {
+        let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
+        output::print(&output::json(&json!({ "scene": scene, "files": names })))?;
+    }
+    Ok(Exit::Done)
+}
+
+/// A file in a folder, without `./` before it.
+fn place(folder: &Path, name: &str) -> PathBuf {
+    if folder == Path::new(".") { PathBuf::from(name) } else { folder.join(name) }
+}

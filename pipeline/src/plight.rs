@@ -1,0 +1,41 @@
+//! Why a run could not go on, in the names of its scene.
+
+use sim::Error;
+
+use crate::scene::Scene;
+
+/// What the simulator says by index, said by name, with what to do where that is known.
+#[must_use]
+pub fn words(error: &Error, scene: &Scene) -> String {
+    let structure = |index: usize| {
+        scene.structures.get(index).map_or_else(|| format!("structure {index}"), |one| one.name.clone())
+    };
+    let body = |index: usize| {
+        let known = scene.bodies.get(index).map(|body| format!("\"{}\"", body.name));
+        known.unwrap_or_else(|| format!("body {index}"))
+    };
+    match error {
+        Error::Compliance { structure: s, source: splines::Error::OffRail { rail, x } } => {
+            let found = scene.rails.iter().find(|known| (known.structure, known.rail) == (*s, *rail));
+            match found {
+                Some(rail) => format!(
+                    "a wheel leaves the end of rail {} at x = {x:.4}: the rail runs from {} to {}  hint: end earlier \
+                     (`end.time`), or hold the body on its rail by a drive, a brake or an end stop (`stops`)",
+                    rail.name, rail.range[0], rail.range[1]
+                ),
+                None => error.to_string(),
+            }
+        }
+        Error::Compliance { structure: s, source } => format!("{}: {source}", structure(*s)),
+        Error::NoInertia { body: b, freedom } => format!(
+            "{} is free in {freedom:?}, and nothing has inertia there  hint: give `inertia` [roll, yaw, pitch], or take it \
+             out of `dof`",
+            body(*b)
+        ),
+        Error::NoEquilibrium { .. } => format!(
+            "{error}  hint: each centre of mass (`cg`, and what hangs or rides on the body) must lie between its wheels: \
+             look at `at` and `tree` of the trucks, or give the body a `start`"
+        ),
+        _ => error.to_string(),
+    }
+}

@@ -1,0 +1,119 @@
+//! A page whose files and commands are run as they stand on it.
+//!
+//! A block marked `json FILE` holds members of that file; a block marked `sh` a command; a block marked `text` what the
+//! last command says, line by line as far as the page has it. A row of a table whose first cell is nothing but a path of
+//! names into the summary has the number that stands there in its second.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use serde_json::{Map, Value};
+
+/// A fenced block: what it is marked as, and its text.
+struct Block<'t> {
+    mark: &'t str,
+    text: &'t str,
+}
+
+fn blocks(page: &str) -> Vec<Block<'_>> {
+    let fenced = page.split("```").skip(1).step_by(2);
+    fenced.filter_map(|fence| fence.split_once('\n')).map(|(mark, text)| Block { mark, text }).collect()
+}
+
+/// Puts the members of all blocks of a file together and writes the files.
+fn write(page: &str, folder: &Path) -> usize {
+    let mut files: BTreeMap<&str, Map<String, Value>> = BTreeMap::new();
+    for block in blocks(page) {
+        let Some(name) = block.mark.strip_prefix("json ") else { continue };
+        let part: Map<String, Value> = serde_json::from_str(block.text)
+            .unwrap_or_else(|error| panic!("a block of {name} is no object: {error}"));
+        let file = files.entry(name).or_default();
+        for (key, value) in part {
+            assert!(file.insert(key.clone(), value).is_none(), "{name} has `{key}` in two blocks");
+        }
+    }
+    for (name, members) in &files {
+        let text = serde_json::to_string_pretty(members).expect("JSON");
+        fs::write(folder.join(name), text).expect("a file");
+    }
+    files.len()
+}
+
+/// Runs every command; what it says begins as the page says.
+fn run(page: &str, folder: &Path) -> usize {
+    let mut said = String::new();
+    let mut count = 0;
+    for block in blocks(page) {
+        match block.mark {
+            "sh" => {
+                let mut words = block.text.split_whitespace();
+                assert_eq!(words.next(), Some("girderway"), "{}", block.text);
+                let run = Command::new(env!("CARGO_BIN_EXE_girderway"))
+                    .args(words)
+                    .current_dir(folder)
+                    .output()
+                    .expect("the program starts");
+                said = String::from_utf8(run.stderr).expect("UTF-8");
+                assert!(run.status.success(), "{}: {said}", block.text);
+                assert!(!said.contains("warning"), "{}: {said}", block.text);
+                count += 1;
+            }
+            "text" => {
+                for line in block.text.lines() {
+                    assert!(
+                        said.lines().any(|own| own.starts_with(line)),
+                        "the page has {line:?}, got\n{said}"
+                    );
+                }
+            }
+            _ => {}
+        }
+    }
+    count
+}
+
+/// The code spans of a cell that has nothing else.
+fn path(cell: &str) -> Option<Vec<&str>> {
+    let parts: Vec<&str> = cell.trim().split('`').collect();
+    let plain = parts.iter().step_by(2).all(|between| between.trim().is_empty());
+    (parts.len() > 2 && plain).then(|| parts.into_iter().skip(1).step_by(2).collect())
+}
+
+/// Compares every number that a table of the page takes from the summary; by half of its last digit.
+fn compare(page: &str, summary: &Value) -> usize {
+    let mut count = 0;
+    for row in page.lines().filter(|line| line.starts_with("| `")) {
+        let cells: Vec<&str> = row.split('|').collect();
+        let (Some(path), Ok(printed)) = (path(cells[1]), cells[2].trim().parse::<f64>()) else { continue };
+        if path.len() < 2 {
+            continue;
+        }
+        let found = path.iter().try_fold(summary, |at, step| match step.parse::<usize>() {
+            Ok(index) => at.get(index),
+            Err(_) => at.get(step),
+        });
+        let found = found.and_then(Value::as_f64).unwrap_or_else(|| panic!("the summary has no {path:?}"));
+        let text = cells[2].trim();
+        let zeros = text.len() - text.trim_end_matches('0').len();
+        let places = match text.split_once('.') {
+            Some((_, decimals)) => -(decimals.len() as i32),
+            None => zeros as i32,
+        };
+        let half = 0.5001 * 10f64.powi(places);
+        assert!((found - printed).abs() <= half, "{path:?}: the page has {text}, got {found}");
+        count += 1;
+    }
+    count
+}
+
+#[test]
+fn the_ten_steps_run_as_they_stand_on_the_page() {
+    let page = fs::read_to_string(super::root().join("docs/crane.md")).expect("the page");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    assert_eq!(write(&page, folder.path()), 3);
+    assert_eq!(run(&page, folder.path()), 2);
+    let summary = fs::read_to_string(folder.path().join("crane/summary.json")).expect("a summary");
+    assert_eq!(compare(&page, &serde_json::from_str(&summary).expect("JSON")), 9);
+}

@@ -1,0 +1,73 @@
+//! `girderway init`: what it writes runs, and nothing is overwritten.
+
+use std::fs;
+
+use super::{example, folder, girderway, json, text};
+
+const STARTERS: [(&str, &str); 3] =
+    [("bogie", "bogie"), ("crane", "bridge_crane"), ("girderway", "mill_girderway")];
+
+#[test]
+fn starter_files_are_those_of_the_examples() {
+    for (word, origin) in STARTERS {
+        let folder = folder();
+        let run = girderway(&folder, &["init", word, "deep/mine", "--json"]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let told = json(&run.stdout);
+        assert_eq!(told["scene"], "deep/mine/scene.json");
+        let files = told["files"].as_array().expect("a list of files");
+        let there = fs::read_dir(folder.path().join("deep/mine")).expect("a folder").count();
+        assert_eq!(there, files.len(), "{word}");
+        for file in files {
+            let file = file.as_str().expect("a name");
+            let name = file.strip_prefix("deep/mine/").expect("in the folder");
+            let own = fs::read(folder.path().join(file)).expect("written");
+            assert_eq!(own, fs::read(example(origin).join(name)).expect("an example"), "{file}");
+        }
+    }
+}
+
+#[test]
+fn starter_files_run_where_they_are() {
+    let folder = folder();
+    for word in ["bogie", "girderway"] {
+        let run = girderway(&folder, &["init", word, word]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let scene = format!("{word}/scene.json");
+        assert!(
+            text(&run.stderr).ends_with(&format!("next: girderway run {scene}\n")),
+            "{}",
+            text(&run.stderr)
+        );
+        let run = girderway(&folder, &["run", &scene, "-o", "out", "--quiet"]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+    }
+    // that of the crane runs for seconds elsewhere: here its building stands
+    assert!(girderway(&folder, &["init", "crane"]).status.success());
+    let solved = girderway(&folder, &["fea", "aisle.json", "-o", "grid.json"]);
+    assert!(solved.status.success(), "{}", text(&solved.stderr));
+}
+
+#[test]
+fn nothing_is_overwritten() {
+    let folder = folder();
+    fs::write(folder.path().join("spec.json"), "mine").expect("a file");
+    let run = girderway(&folder, &["init", "bogie"]);
+    assert_eq!(run.status.code(), Some(2));
+    let told =
+        "spec.json: exists already  hint: nothing is overwritten: name another folder, or move the file\n";
+    assert_eq!(text(&run.stderr), told);
+    assert_eq!(fs::read(folder.path().join("spec.json")).expect("still there"), b"mine");
+    assert!(!folder.path().join("scene.json").exists(), "nothing else is written either");
+    let run = girderway(&folder, &["init", "bogie", "spec.json"]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("spec.json is a file"), "{}", text(&run.stderr));
+}
+
+#[test]
+fn an_unknown_starter_is_told_with_those_that_are() {
+    let folder = folder();
+    let run = girderway(&folder, &["init", "train"]);
+    assert_eq!(run.status.code(), Some(2));
+    assert!(text(&run.stderr).contains("bogie, crane, girderway"), "{}", text(&run.stderr));
+}
