@@ -108,6 +108,7 @@ fn part(root: &Path, path: &Path, name: &str) -> Result<String, Error> {
         "peers-crossings" => Ok(peers::crossings(&json("docs/peers.json")?)),
         "studies-dearer" => Ok(study::dearer(&studies()?)),
         "studies-fronts" => Ok(study::fronts(&studies()?)),
+        "studies-commands" => Ok(study::commands(&studies()?)),
         "studies-memory" => Ok(study::memory(&studies()?)),
         _ => Err(Error::Part(path.to_owned(), name.to_owned())),
     }
