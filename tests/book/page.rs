@@ -41,6 +41,17 @@ fn write(page: &str, folder: &Path) -> usize {
     files.len()
 }
 
+fn girderway(folder: &Path, arguments: &[&str]) -> String {
+    let run = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program starts");
+    let said = String::from_utf8(run.stderr).expect("UTF-8");
+    assert!(run.status.success(), "{arguments:?}: {said}");
+    said
+}
+
 /// Runs every command; what it says begins as the page says.
 fn run(page: &str, folder: &Path) -> usize {
     let mut said = String::new();
@@ -48,15 +59,9 @@ fn run(page: &str, folder: &Path) -> usize {
     for block in blocks(page) {
         match block.mark {
             "sh" => {
-                let mut words = block.text.split_whitespace();
-                assert_eq!(words.next(), Some("girderway"), "{}", block.text);
-                let run = Command::new(env!("CARGO_BIN_EXE_girderway"))
-                    .args(words)
-                    .current_dir(folder)
-                    .output()
-                    .expect("the program starts");
-                said = String::from_utf8(run.stderr).expect("UTF-8");
-                assert!(run.status.success(), "{}: {said}", block.text);
+                let words: Vec<&str> = block.text.split_whitespace().collect();
+                assert_eq!(words.first(), Some(&"girderway"), "{}", block.text);
+                said = girderway(folder, &words[1..]);
                 assert!(!said.contains("warning"), "{}: {said}", block.text);
                 count += 1;
             }
@@ -116,4 +121,20 @@ fn the_ten_steps_run_as_they_stand_on_the_page() {
     assert_eq!(run(&page, folder.path()), 2);
     let summary = fs::read_to_string(folder.path().join("crane/summary.json")).expect("a summary");
     assert_eq!(compare(&page, &serde_json::from_str(&summary).expect("JSON")), 9);
+}
+
+#[test]
+fn the_files_of_the_tutorial_run() {
+    let page = fs::read_to_string(super::root().join("docs/tutorial.md")).expect("the page");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    girderway(folder.path(), &["init", "bogie", "mine"]);
+    assert_eq!(write(&page, folder.path()), 4);
+    for scene in ["fast", "compared", "carriage"] {
+        let output = format!("out/{scene}");
+        girderway(folder.path(), &["run", &format!("mine/{scene}.json"), "-o", &output]);
+    }
+    girderway(folder.path(), &["sim", "mine/compared.json", "-o", "out/compared"]);
+    girderway(folder.path(), &["fea", "mine/runway.json", "-o", "mine/grid.json"]);
+    girderway(folder.path(), &["splines", "mine/grid.json", "-o", "mine/runway.adm"]);
+    assert!(page.contains("girderway splines mine/grid.json -o mine/runway.adm"));
 }
