@@ -266,7 +266,9 @@ def cheapest(rows):
 def write(rows, path):
     path.parent.mkdir(parents=True, exist_ok=True)
     keys = ("scene", "code", "setting", "error", "least_ms", "median_ms", "most_ms")
-    text = json.dumps([dict(zip(keys, row)) for row in rows], indent=1)
+    # an error without bound is no number of JSON
+    lasting = [[None if isinstance(own, float) and not np.isfinite(own) else own for own in row] for row in rows]
+    text = json.dumps([dict(zip(keys, row)) for row in lasting], indent=1, allow_nan=False)
     path.write_text(text + "\n", encoding="ascii")
 
 

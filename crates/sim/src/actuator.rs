@@ -250,12 +250,42 @@ impl Pull {
         }
     }
 
+    /// The most that it can give with the `traction`, and whether that is what limits it.
+    fn limit(&self, traction: f64) -> (f64, bool) {
+        match self.law {
+            PullLaw::Drive { max_force, gripped, .. } => {
+                let slips = gripped && traction < max_force;
+                (if slips { traction } else { max_force }, slips)
+            }
+            PullLaw::Brake { .. } => (traction, true),
+        }
+    }
+
+    /// The force of a drive at the rate that it gives itself, where it gives now `force` at the rate `r`, which every unit
+    /// of force lowers by `fall`: F = K (r - fall (F - force)), all that it can beyond its limit. `None`: no drive.
+    pub fn drive(&self, force: f64, r: f64, fall: f64, traction: f64) -> Option<Driven> {
+        let PullLaw::Drive { gain, .. } = self.law else { return None };
+        let stiffness = 1.0 + gain * fall.max(0.0);
+        let wanted = force + (gain * r - force) / stiffness;
+        let (limit, slips) = self.limit(traction);
+        Some(if wanted.abs() <= limit {
+            Driven {
+                force: wanted,
+                by_rate: gain / stiffness,
+                by_force: 1.0 - 1.0 / stiffness,
+                by_traction: 0.0,
+            }
+        } else {
+            let by_traction = if slips { wanted.signum() } else { 0.0 };
+            Driven { force: limit.copysign(wanted), by_rate: 0.0, by_force: 0.0, by_traction }
+        })
+    }
+
     /// Force at the rate `r` with the `traction`, and its derivatives by both.
     pub fn at(&self, r: f64, traction: f64) -> (f64, f64, f64) {
         match self.law {
-            PullLaw::Drive { gain, max_force, gripped, .. } => {
-                let slips = gripped && traction < max_force;
-                let limit = if slips { traction } else { max_force };
+            PullLaw::Drive { gain, .. } => {
+                let (limit, slips) = self.limit(traction);
                 if (gain * r).abs() <= limit {
                     (gain * r, gain, 0.0)
                 } else {
@@ -268,6 +298,14 @@ impl Pull {
             }
         }
     }
+}
+
+/// What a drive gives, see [`Pull::drive`], with its derivatives.
+pub(crate) struct Driven {
+    pub force: f64,
+    pub by_rate: f64,
+    pub by_force: f64,
+    pub by_traction: f64,
 }
 
 /// Mean over the wheels of `contacts` of the rows of their treads; the origin's where there are none.

@@ -277,16 +277,29 @@ impl Problem {
                 continue;
             }
             self.list(i);
-            let wanted = self.wanted(i, force);
-            let rate = wanted.map_or_else(|| self.rate(i, force), |wanted| SATURATED.copysign(wanted));
-            let (law, by_rate, by_traction) = pull.at(rate, pull.traction(force));
-            if wanted.is_some() && self.pin(i, law.abs(), force) {
-                continue;
-            }
-            self.residual[i] = force[i] - law;
-            for j in 0..m {
-                self.matrix[i * m + j] += by_rate * self.y[i * m + j];
-            }
+            let (own, traction) = (self.y[i * m + i], pull.traction(force));
+            let by_traction = if let Some(wanted) = self.wanted(i, force) {
+                let (law, _, by_traction) = pull.at(SATURATED.copysign(wanted), traction);
+                if self.pin(i, law.abs(), force) {
+                    continue;
+                }
+                self.residual[i] = force[i] - law;
+                by_traction
+            } else if let Some(driven) = pull.drive(force[i], self.rate(i, force), own, traction) {
+                self.residual[i] = force[i] - driven.force;
+                self.matrix[i * m + i] -= driven.by_force;
+                for j in 0..m {
+                    self.matrix[i * m + j] += driven.by_rate * self.y[i * m + j];
+                }
+                driven.by_traction
+            } else {
+                let (law, by_rate, by_traction) = pull.at(self.rate(i, force), traction);
+                self.residual[i] = force[i] - law;
+                for j in 0..m {
+                    self.matrix[i * m + j] += by_rate * self.y[i * m + j];
+                }
+                by_traction
+            };
             for grip in pull.grips.iter().filter(|grip| force[grip.normal] > 0.0) {
                 self.matrix[i * m + grip.normal] -= by_traction * grip.mu;
             }

@@ -132,7 +132,7 @@ pub struct Selection {
     pub runs: usize,
 }
 
-/// Chooses a rung for every structure with a tolerance (`None`: its foundation is given), in their order, the
+/// Chooses a rung for every structure with a tolerance (`None`: its foundation is given), those that ride on bodies first, the
 /// others held at theirs (influence before their turn), and runs the scene. `watch` sees the time that every run reaches,
 /// and may stop the choice.
 ///
@@ -156,8 +156,11 @@ pub fn choose<L: Ladder>(
         .collect::<Result<Vec<_>, _>>()?;
     let mut choices: Vec<Choice> = Vec::new();
     let (mut last, mut runs) = (None, 0);
-    for (structure, tolerance) in tolerances.iter().enumerate() {
-        let Some(tolerance) = *tolerance else { continue };
+    // what rides on a body is small: it is tried on all that is still cheap
+    let (riding, standing): (Vec<usize>, Vec<usize>) =
+        (0..tolerances.len()).partition(|&structure| foundations[structure].on.is_some());
+    for structure in riding.into_iter().chain(standing) {
+        let Some(tolerance) = tolerances[structure] else { continue };
         if scene.analysis == Analysis::QuasiStatic {
             choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
             continue;
@@ -186,7 +189,9 @@ pub fn choose<L: Ladder>(
         }
     };
     let selection = Selection { choices, run, runs };
-    Ok(joint::settle(scene, tolerances, foundations, ladder, watch, selection))
+    let mut settled = joint::settle(scene, tolerances, foundations, ladder, watch, selection);
+    settled.choices.sort_by_key(|choice| choice.structure);
+    Ok(settled)
 }
 
 impl Choice {

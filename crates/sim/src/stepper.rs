@@ -45,6 +45,11 @@ const NOW: f64 = 1e-6;
 /// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
 const CHATTER: usize = 1000;
 
+/// Steps in a row that may end at events before the next is at most [`WIDER`] times the last: from far beyond an event a
+/// secant always falls short of it.
+const SHORT: usize = 2;
+const WIDER: f64 = 16.0;
+
 /// What the passes of a stage may leave of the error a step may make.
 const SETTLED: f64 = 1e-6;
 
@@ -197,10 +202,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
     pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
         self.limit = limit;
         self.relax();
+        let widest = if self.chatter > SHORT { WIDER * (self.to.t - self.from.t) } else { f64::INFINITY };
         self.from.copy_from(&self.to);
         let start = self.from.t;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let planned = self.fixed.unwrap_or(self.h);
+        let planned = self.fixed.unwrap_or(self.h.min(widest));
         let shortest = (NOW * planned).max(2.0 * smallest);
         let mut h = planned.min(limit - start);
         // Do not leave a sliver before the limit.

@@ -52,7 +52,11 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         "case": args.case, "quick": args.quick, "limit": depth.limit, "resolution": depth.resolution,
     });
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
-    for (family, who) in [(Family::Written, "as written"), (Family::Auto, "auto's choice")] {
+    for (family, who) in [
+        (Family::Written, "as written"),
+        (Family::Auto, "auto's choice"),
+        (Family::Stepping, "as written, beside other methods on its foundations"),
+    ] {
         let dearer = |cost: &dyn Fn(&Point) -> Option<f64>| {
             let all = study::excesses(&study, family, cost).into_iter();
             let told: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();

@@ -92,7 +92,7 @@ fn setting(point: &Point, fronts: &[&'static str]) -> Value {
 pub fn excesses(study: &Study, family: Family, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<(Quantity, f64)> {
     let Some(reference) = study.reference(family.against()) else { return Vec::new() };
     let of = |quantity: Quantity| {
-        let least = reference.resolves(quantity);
+        let least = reference.tells(quantity)?;
         let place = |point: &Point| Some([cost(point)?, point.error(quantity)?.max(least)]);
         let all = study.points.iter().filter(|point| point.setting.family.against() == reference.against);
         let all: Vec<(Family, [f64; 2])> =
@@ -104,13 +104,13 @@ pub fn excesses(study: &Study, family: Family, cost: &dyn Fn(&Point) -> Option<f
     Quantity::ALL.into_iter().filter_map(of).collect()
 }
 
-/// The same as JSON, for the scene as written and for what "auto" chose.
+/// The same as JSON, for the scene as written (by foundations and by methods) and for what "auto" chose.
 fn dearer(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Value {
     let of = |family: Family| {
         let all = excesses(study, family, cost).into_iter();
         Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
     };
-    json!({ "as written": of(Family::Written), "auto": of(Family::Auto) })
+    json!({ "as written": of(Family::Written), "auto": of(Family::Auto), "stepping": of(Family::Stepping) })
 }
 
 /// Contact solutions of a point.

@@ -19,7 +19,7 @@ use crate::exit::Failure;
 use crate::link::{self, Trouble};
 use crate::motion::cast;
 use crate::progress::Progress;
-use crate::scene::Scene;
+use crate::scene::{Analysis, Scene};
 use crate::summary;
 
 /// Shorter runs than this are timed several at once.
@@ -117,6 +117,10 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
     let mut settings = ladder::settings(&own, known, kinds, depth);
     let (family, knob) = (Family::Written, "accuracy");
     settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
+    if kinds.varies && own.analysis == Analysis::Dynamic {
+        let family = Family::Stepping;
+        settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
+    }
     if let Some(chosen) = chosen {
         let (family, value) = (Family::Auto, chosen.accuracy);
         settings.push(Setting { family, knob, value, scene: chosen, stations: None });

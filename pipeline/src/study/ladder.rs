@@ -147,6 +147,11 @@ impl List<'_> {
     }
 
     fn tables(&mut self, scene: &Scene) {
+        let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());
+        let exact = Scene { accuracy, stepping, ..scene.clone() };
+        let rails = scene.structures.iter().filter(|own| varies(own)).flat_map(|own| &own.rails);
+        let stations = rails.map(|rail| rail.stations.len()).max().unwrap_or(0);
+        self.add(Family::Table(Reading::Exact), "stations", stations as f64, exact);
         for reading in [Reading::Natural, Reading::Akispl, Reading::Cubspl] {
             for &count in &self.depth.stations {
                 let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());

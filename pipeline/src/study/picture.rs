@@ -18,9 +18,6 @@ pub struct Picture {
     pub varies: bool,
 }
 
-/// A reference that tells nothing below this is not drawn.
-const UNTOLD: f64 = 0.1;
-
 /// What is along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cost {
@@ -102,10 +99,7 @@ fn chart(
     let shown = || study.points.iter().filter(|point| takes(point.setting.family));
     let against = shown().next()?.setting.family.against();
     let reference = study.reference(against)?;
-    let least = reference.resolves(quantity);
-    if least > UNTOLD {
-        return None;
-    }
+    let least = reference.tells(quantity)?;
     // errors below what the reference can tell stand at that line
     let place = |point: &Point| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
     let knob = shown().next()?.setting.knob;

@@ -16,6 +16,8 @@ use crate::summary;
 pub const MARGIN: f64 = 10.0;
 /// How much longer than other runs a reference may take.
 const PATIENCE: f64 = 10.0;
+/// Smallest error told above which nothing is said of a quantity.
+const UNTOLD: f64 = 0.1;
 /// Difference at which nothing finer is tried.
 const CLOSE: f64 = 1e-9;
 
@@ -41,6 +43,12 @@ impl Reference {
         let at = Quantity::ALL.iter().position(|own| *own == quantity);
         let difference = at.and_then(|at| self.difference[at]);
         difference.map_or(f64::INFINITY, |difference| MARGIN * difference.max(f64::EPSILON))
+    }
+
+    /// The same, where it tells more than whether a run is of any use.
+    #[must_use]
+    pub fn tells(&self, quantity: Quantity) -> Option<f64> {
+        Some(self.resolves(quantity)).filter(|least| *least <= UNTOLD)
     }
 
     /// The larger of those of deflections and wheel forces.

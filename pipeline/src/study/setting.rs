@@ -31,6 +31,8 @@ pub enum Family {
     Written,
     /// The foundations that "auto" chose, at the accuracy of its last run.
     Auto,
+    /// The scene as it is written, beside other methods on its own foundations.
+    Stepping,
 }
 
 /// Which converged run errors are measured against.
@@ -85,8 +87,9 @@ impl Family {
             Family::Full => "full".into(),
             Family::Adaptive(own) => stepper_word(own).into(),
             Family::Fixed(own) => format!("{}, equal steps", stepper_word(own)),
+            Family::Table(Reading::Exact) => "exact surface".into(),
             Family::Table(reading) => format!("{} tables", reading.word()),
-            Family::Written => "as written".into(),
+            Family::Written | Family::Stepping => "as written".into(),
             Family::Auto => "auto".into(),
         }
     }
@@ -95,7 +98,7 @@ impl Family {
     #[must_use]
     pub const fn against(self) -> Against {
         match self {
-            Family::Adaptive(_) | Family::Fixed(_) => Against::Own,
+            Family::Adaptive(_) | Family::Fixed(_) | Family::Stepping => Against::Own,
             Family::Table(_) => Against::Massless,
             _ => Against::Whole,
         }

@@ -1,0 +1,112 @@
+//! Tables of studies, from `docs/studies/*.json`.
+
+use serde_json::Value;
+
+use crate::number::number;
+
+/// Quantities that errors are measured in.
+const QUANTITIES: [&str; 4] = ["deflection", "force", "reaction", "moment"];
+
+fn text<'a>(value: &'a Value, key: &str) -> &'a str {
+    value[key].as_str().unwrap_or_default()
+}
+
+fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
+    value[key].as_array().map(Vec::as_slice).unwrap_or_default()
+}
+
+/// How much dearer the scene as written and the choice of "auto" are than the cheapest setting that errs no more.
+pub fn dearer(studies: &[Value]) -> String {
+    let mut out = "| scene | setting | by | deflection | wheel force | reaction | moment |\n|---|---|---|---|---|---|---|\n".to_owned();
+    for study in studies {
+        for own in ["as written", "auto"] {
+            for (by, key) in [("contact solutions", "dearer_by_stages"), ("time", "dearer_by_time")] {
+                let ratios = &study[key][own];
+                let cells: Vec<String> = QUANTITIES
+                    .iter()
+                    .map(|name| ratios[*name].as_f64().map_or_else(String::new, |value| number(value, 3)))
+                    .collect();
+                if cells.iter().any(|cell| !cell.is_empty()) {
+                    let name = text(study, "name");
+                    out += &format!("| {name} | {own} | {by} | {} |\n", cells.join(" | "));
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Settings on the front of the deflection by time: nothing is both cheaper and closer.
+pub fn fronts(studies: &[Value]) -> String {
+    let mut out = "| scene | setting | error of deflection | wheel force | median, ms | least to most | contact solutions |\n|---|---|---|---|---|---|---|\n".to_owned();
+    for study in studies {
+        let error = |own: &Value, name: &str| own["errors"][name].as_f64();
+        let whole = |own: &&Value| text(own, "against") == "whole" || studies_one_reference(study);
+        let mut own: Vec<(&Value, f64, f64)> = list(study, "settings")
+            .iter()
+            .filter(whole)
+            .filter_map(|own| Some((own, error(own, "deflection")?, own["median"].as_f64()?)))
+            .collect();
+        let tells = list(study, "references").first();
+        let least = tells.and_then(|own| own["tells_from"]["deflection"].as_f64()).unwrap_or(0.0);
+        own.sort_by(|a, b| a.2.total_cmp(&b.2));
+        let mut best = f64::INFINITY;
+        for (own, error_of, median) in own {
+            if error_of.max(least) >= best {
+                continue;
+            }
+            best = error_of.max(least);
+            let ms = |key: &str| own[key].as_f64().map_or_else(String::new, |value| number(1e3 * value, 2));
+            let told = |value: f64| {
+                if value <= least { format!("below {least:.0e}") } else { format!("{value:.1e}") }
+            };
+            out += &format!(
+                "| {} | {} {} | {} | {} | {} | {} to {} | {} |\n",
+                text(study, "name"),
+                text(own, "family"),
+                own["value"],
+                told(error_of),
+                error(own, "force").map_or_else(String::new, |value| format!("{value:.1e}")),
+                number(1e3 * median, 3),
+                ms("least"),
+                ms("most"),
+                own["stages"],
+            );
+        }
+    }
+    out
+}
+
+/// Whether a study has one reference alone.
+fn studies_one_reference(study: &Value) -> bool {
+    list(study, "references").len() < 2
+}
+
+/// Memory of the scene as written, of the choice of "auto" and of the dearest setting.
+pub fn memory(studies: &[Value]) -> String {
+    let mut out =
+        "| scene | setting | foundations, kB | run, kB | error of deflection |\n|---|---|---|---|---|\n"
+            .to_owned();
+    for study in studies {
+        let held = |own: &Value| own["memory"]["run"].as_f64();
+        let most = list(study, "settings")
+            .iter()
+            .filter(|own| held(own).is_some())
+            .max_by(|a, b| held(a).unwrap_or(0.0).total_cmp(&held(b).unwrap_or(0.0)));
+        let named = |family: &str| list(study, "settings").iter().find(|own| text(own, "family") == family);
+        for own in [named("as written"), named("auto"), most].into_iter().flatten() {
+            let Some(run) = held(own) else { continue };
+            let foundations = own["memory"]["foundations"].as_f64().unwrap_or(0.0);
+            out += &format!(
+                "| {} | {} {} | {} | {} | {} |\n",
+                text(study, "name"),
+                text(own, "family"),
+                own["value"],
+                number(1e-3 * foundations, 3),
+                number(1e-3 * run, 3),
+                own["errors"]["deflection"].as_f64().map_or_else(String::new, |value| format!("{value:.1e}")),
+            );
+        }
+    }
+    out
+}
