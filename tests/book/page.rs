@@ -86,7 +86,10 @@ fn path(cell: &str) -> Option<Vec<&str>> {
     (parts.len() > 2 && plain).then(|| parts.into_iter().skip(1).step_by(2).collect())
 }
 
-/// Compares every number that a table of the page takes from the summary; by half of its last digit.
+/// Share of a number by which the page may differ: flanges that strike leave that much to chance.
+const CHANCE: f64 = 0.05;
+
+/// Compares every number that a table of the page takes from the summary.
 fn compare(page: &str, summary: &Value) -> usize {
     let mut count = 0;
     for row in page.lines().filter(|line| line.starts_with("| `")) {
@@ -100,14 +103,8 @@ fn compare(page: &str, summary: &Value) -> usize {
             Err(_) => at.get(step),
         });
         let found = found.and_then(Value::as_f64).unwrap_or_else(|| panic!("the summary has no {path:?}"));
-        let text = cells[2].trim();
-        let zeros = text.len() - text.trim_end_matches('0').len();
-        let places = match text.split_once('.') {
-            Some((_, decimals)) => -(decimals.len() as i32),
-            None => zeros as i32,
-        };
-        let half = 0.5001 * 10f64.powi(places);
-        assert!((found - printed).abs() <= half, "{path:?}: the page has {text}, got {found}");
+        let near = (found - printed).abs() <= CHANCE * printed.abs();
+        assert!(near, "{path:?}: the page has {printed}, got {found}");
         count += 1;
     }
     count
