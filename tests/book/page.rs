@@ -116,6 +116,9 @@ fn the_ten_steps_run_as_they_stand_on_the_page() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     assert_eq!(write(&page, folder.path()), 3);
     assert_eq!(run(&page, folder.path()), 2);
+    let picture =
+        fs::read_to_string(folder.path().join("crane/plots/reactions-vertical.svg")).expect("a picture");
+    assert!(picture.contains("aisle.N2.uy") && !picture.contains("girders."), "girders stand on the bridge");
     let summary = fs::read_to_string(folder.path().join("crane/summary.json")).expect("a summary");
     assert_eq!(compare(&page, &serde_json::from_str(&summary).expect("JSON")), 9);
 }
