@@ -24,7 +24,12 @@ impl Solver<'_> {
 
     /// Corrects the stage at `at`. Returns the largest changes beside the freedoms themselves and beside their scales;
     /// `None` where other laws act than those whose slopes are factored: only the accelerations are better then.
-    pub(crate) fn correct(&mut self, g: f64, known: &Known, at: &mut State) -> Result<Option<[f64; 2]>, Error> {
+    pub(crate) fn correct(
+        &mut self,
+        g: f64,
+        known: &Known,
+        at: &mut State,
+    ) -> Result<Option<[f64; 2]>, Error> {
         let system = self.system;
         self.geometry.update(system, at.t, &at.q, &at.force)?;
         self.lack(at);

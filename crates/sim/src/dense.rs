@@ -246,7 +246,9 @@ mod tests {
     #[test]
     fn factors_of_a_matrix_whose_rows_are_exchanged_solve_for_every_right_side() {
         let n = 9;
-        let entry = |i: usize, j: usize| ((7 * i + 3 * j) % 11) as f64 - 5.0 + if i + j == n - 1 { 30.0 } else { 0.0 };
+        let entry = |i: usize, j: usize| {
+            ((7 * i + 3 * j) % 11) as f64 - 5.0 + if i + j == n - 1 { 30.0 } else { 0.0 }
+        };
         let a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
         let (mut factors, mut pivots) = (a.clone(), vec![0; n]);
         assert!(factor_general(&mut factors, &mut pivots));

@@ -5,8 +5,8 @@
 //! act is given; the caller checks that they push and that the others stay open.
 
 use crate::dense::{along, factor_general, solve_factored, solve_general, solve_spd};
-use crate::laws::Slope;
 use crate::geometry::Geometry;
+use crate::laws::Slope;
 use crate::system::System;
 
 /// Relative change of the forces at which Newton's method ends.
@@ -33,6 +33,8 @@ pub(crate) struct Problem {
     pub slack: f64,
     /// Penetration and rate of each component under the forces at hand; not kept of those asleep.
     pub reach: Vec<[f64; 2]>,
+    /// Largest force of what does not act.
+    pub idles: f64,
     /// Of every component, F - law(F); then Newton's change.
     pub residual: Vec<f64>,
     /// Components whose law acts, the slopes of these laws, and what forces do to the laws of others.
@@ -65,6 +67,7 @@ impl Problem {
             pinned: vec![None; m],
             slack: 0.0,
             reach: vec![[0.0; 2]; m],
+            idles: 0.0,
             residual: vec![0.0; m],
             acting: Vec::with_capacity(m),
             slopes: Vec::with_capacity(m),
@@ -233,7 +236,7 @@ impl Problem {
     /// rows of the identity.
     pub fn step_back(&mut self) {
         let (m, count) = (self.residual.len(), self.factored.len());
-        let idle = (0..m).any(|j| self.residual[j] != 0.0 && !self.factored.contains(&j));
+        let idle = self.idles > 0.0;
         for (row, &i) in self.factored.iter().enumerate() {
             self.change[row] = self.residual[i];
             if idle {

@@ -428,12 +428,16 @@ impl Geometry {
         }
     }
 
-    /// Slope of the deflected rail under each component, for the forces and freedoms given and the wheels where the
-    /// last update found them.
+    /// Slope of the deflected rail under each component that presses, for the forces and freedoms given and the wheels
+    /// where the last update found them. Where nothing presses, nothing feels it: zero.
     pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
-        for i in 0..system.components() {
+        for (i, own) in force.iter().enumerate() {
+            if *own == 0.0 {
+                self.rail_slope[i] = 0.0;
+                continue;
+            }
             self.rail_slope[i] = along(&self.slope, i, force);
-            if !system.constant_rows {
+            if system.has_structures() {
                 self.rail_slope[i] += along(&self.shape_slopes, i, q.as_slice());
             }
             if system.is_uneven {

@@ -26,6 +26,7 @@ impl Problem {
         self.slopes.clear();
         self.grips.clear();
         self.residual.fill(0.0);
+        self.idles = 0.0;
         self.press(system, geometry, active, force);
         self.guide(system, force);
         self.rub(system, force);
@@ -37,6 +38,11 @@ impl Problem {
         self.residual[i] = residual;
         self.acting.push(i);
         self.slopes.push(slope);
+    }
+
+    fn idle(&mut self, i: usize, force: f64) {
+        self.residual[i] = force;
+        self.idles = self.idles.max(force.abs());
     }
 
     /// Vertical contacts.
@@ -65,7 +71,7 @@ impl Problem {
             let Some(flange) = &kind.flange else { continue };
             let overlap = if self.asleep[i] { 0.0 } else { flange.overlap(self.reach[i][0]) };
             if overlap == 0.0 {
-                self.residual[i] = force[i];
+                self.idle(i, force[i]);
                 continue;
             }
             let normal = system.normals_of(w).next().unwrap_or(0);
@@ -105,7 +111,7 @@ impl Problem {
         for (index, pull) in system.pulls.iter().enumerate() {
             let i = system.pull(index);
             if !geometry.pulls[index] {
-                self.residual[i] = force[i];
+                self.idle(i, force[i]);
                 continue;
             }
             let wanted = self.wanted(i, force);
@@ -126,12 +132,11 @@ impl Problem {
         for (index, hold) in geometry.links.iter().enumerate() {
             let i = system.link(index);
             if !hold.taut {
-                self.residual[i] = force[i];
+                self.idle(i, force[i]);
                 continue;
             }
             let [penetration, rate] = self.reach[i];
-            let slope =
-                Slope { by_penetration: hold.stiffness, by_rate: hold.damping, ..Slope::default() };
+            let slope = Slope { by_penetration: hold.stiffness, by_rate: hold.damping, ..Slope::default() };
             self.act(i, force[i] - hold.law(penetration, rate), slope);
         }
     }

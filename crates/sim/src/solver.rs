@@ -15,7 +15,7 @@ use crate::{Damper, Error};
 const PASSES: usize = 30;
 
 /// Margin of the share that a pass leaves of what it changes, where another stage has it.
-const MARGIN: f64 = 10.0;
+const MARGIN: f64 = 100.0;
 
 /// The least such share that counts: less is rounding.
 const LEAST: f64 = 1e-7;

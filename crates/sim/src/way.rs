@@ -12,7 +12,7 @@ use crate::Foundation;
 use crate::system::{Entry, System};
 
 /// Number of probes from which it pays.
-const MANY: usize = 9;
+const MANY: usize = 3;
 
 /// What one contact does to one component.
 #[derive(Clone)]
