@@ -19,7 +19,8 @@ use crate::state::State;
 impl Solver<'_> {
     /// Whether a stage of the coefficient `g` may be corrected: matrices of such a stage are factored, of bodies alone.
     pub(crate) fn may_correct(&self, g: f64) -> bool {
-        self.factors_of == Some(g) && !self.system.has_structures() && self.charts.is_empty()
+        let is_factored = self.factors_of == Some(g) && !self.problem.factored.is_empty();
+        is_factored && !self.system.has_structures() && self.charts.is_empty()
     }
 
     /// Corrects the stage at `at`. Returns the largest changes beside the freedoms themselves and beside their scales;

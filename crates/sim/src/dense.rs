@@ -108,9 +108,9 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
 #[must_use]
 pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
     let n = pivots.len();
-    for j in 0..n {
-        let Some(pivot) = exchange(a, j, n) else { return false };
-        pivots[j] = pivot;
+    for (j, pivot) in pivots.iter_mut().enumerate() {
+        let Some(row) = exchange(a, j, n) else { return false };
+        *pivot = row;
         eliminate(a, j, n, |_, _| {});
     }
     true

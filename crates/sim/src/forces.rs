@@ -116,6 +116,7 @@ impl Problem {
         force: &mut [f64],
     ) -> bool {
         let m = force.len();
+        self.factored.clear();
         self.index.clear();
         self.index.extend((0..m).filter(|&i| active[i] && !self.known[i]));
         let count = self.index.len();

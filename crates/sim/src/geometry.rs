@@ -272,8 +272,7 @@ impl Geometry {
             let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
             let laid = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
                 let goes_on = is_free(way.end(), &ends[0]);
-                way.lay(compliance.as_ref(), entries, ends.each_ref().map(Vec::as_slice), self.reach, goes_on)
-                    .is_ok()
+                way.lay(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), self.reach, goes_on).is_ok()
             });
             if !laid {
                 way.leave();
