@@ -25,8 +25,8 @@ fn trolley(end: f64) -> Value {
             "ladle": {"weight": LADLE, "dof": ["X", "Y", "Z"]}},
         "wheels": {"steel": {"radius": 1.25, "vertical": {"k": WHEEL}}},
         "trucks": [
-            {"name": "W", "body": "trolley", "rail": "girders.west", "at": [0, 0, 10], "tree": [-6, 6]},
-            {"name": "E", "body": "trolley", "rail": "girders.east", "at": [0, 0, -10], "tree": [-6, 6]}],
+            {"name": "W", "body": "trolley", "rail": "girders.west", "at": [0, 0, -10], "tree": [-6, 6]},
+            {"name": "E", "body": "trolley", "rail": "girders.east", "at": [0, 0, 10], "tree": [-6, 6]}],
         "ropes": [{"name": "hoist", "from": {"body": "trolley"}, "to": {"body": "ladle"}, "EA": EA, "length": LENGTH}],
         "end": {"time": end}, "output": {"dt": 0.005, "reactions": false, "sections": false}, "accuracy": 1e-6,
     })

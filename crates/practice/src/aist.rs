@@ -13,7 +13,7 @@ pub enum Kind {
     Mill,
     /// Ladle cranes; the row is *not confirmed*.
     Ladle,
-    /// Clamshell-bucket and magnet cranes; the row is *not confirmed*.
+    /// Clamshell-bucket and magnet cranes; the row is that of a public program by the draft of 2020.
     Bucket,
     /// Soaking-pit cranes; the row is *not confirmed*.
     SoakingPit,
@@ -21,7 +21,7 @@ pub enum Kind {
     Stripping,
     /// Motor-room maintenance cranes and the like.
     MotorRoom,
-    /// Cab-operated stacker cranes; the row is *not confirmed*.
+    /// Cab-operated stacker cranes; the row is that of a public program by the draft of 2020.
     Stacker,
 }
 

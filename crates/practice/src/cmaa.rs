@@ -62,8 +62,8 @@ pub fn hoist_load_factor(speed: f64) -> Result<f64, Error> {
 
 /// DLF = 1.05 + v/2000, v in ft/min, 1.1 to 1.2, on the dead weight of bridge or trolley. `speed` in m/s.
 ///
-/// The edition of 1983 has 1.1 up to 200 ft/min, else 1.2; that 1.2 bounds the later formula too is
-/// *not confirmed*.
+/// The edition of 1983 has a table, 1.1 up to 200 ft/min, else 1.2 (3.3.2.1.1.4.1); that 1.2 bounds the later
+/// formula too is *not confirmed*.
 ///
 /// # Errors
 /// A speed that is negative or not finite.

@@ -117,7 +117,7 @@ pub fn phi5(onset: Onset) -> [f64; 2] {
 }
 
 /// phi6 = (1 + phi2)/2 on a dynamic test load of at least 110 % of the rated load. On a static one, of at least
-/// 125 %, phi6 is 1. The formula is *not confirmed*.
+/// 125 %, phi6 is 1. The formula is as a public program has it.
 ///
 /// # Errors
 /// A factor below one or not finite.

@@ -3,8 +3,8 @@
 //! Pure numbers: knows no file, no name, no scene and no other crate of ours. Formulas without constants that
 //! carry units take any consistent system; the others say which (SI, unless told).
 //!
-//! Where a comment says *not confirmed*, the value could not be compared with the text of its standard or with
-//! a source that quotes it. `docs/theory/practice.md` has the list.
+//! Where a comment says *not confirmed*, the value is from memory: it could not be compared with the text of its
+//! standard, or with a source that quotes or uses it. `docs/theory/practice.md` has the list.
 
 pub mod aisc;
 pub mod aist;

@@ -129,6 +129,9 @@ impl Drawing {
         still: usize,
     ) {
         let now = values.get(still).copied().unwrap_or_default();
+        let power = 10f64.powi(i32::try_from(digits).unwrap_or_default());
+        // no minus before a zero
+        let now = (now * power).round() / power + 0.0;
         let mark = self.element([Track::Say(digits, values)]);
         let (name, unit) = (escaped(name), escaped(unit));
         let end = x + 196.0;

@@ -2,6 +2,8 @@
 
 use serde_json::json;
 
+use crate::report::coded;
+
 /// What an element of the picture does, frame by frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Track {
@@ -26,10 +28,10 @@ pub struct Film {
     pub tracks: Vec<(usize, Track)>,
 }
 
-/// To a hundredth: a pixel has no finer parts.
-fn round(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0 + 0.0
-}
+/// Power of ten of a hundredth: a pixel has no finer parts.
+const PIXEL: i32 = -2;
+/// Power of ten of a millionth of a second.
+const INSTANT: i32 = -6;
 
 impl Film {
     /// Times and tracks as JSON; `None` where a number is not finite.
@@ -47,22 +49,17 @@ impl Film {
             }
             tracks.push(match track {
                 Track::Move(places) => {
-                    let values: Vec<[f64; 2]> = places.iter().map(|place| place.map(round)).collect();
-                    json!({"e": element, "a": "transform", "v": values})
+                    let [x, y] = [0, 1].map(|k| places.iter().map(|place| place[k]).collect::<Vec<f64>>());
+                    json!({"e": element, "a": "transform", "x": coded(&x, PIXEL), "y": coded(&y, PIXEL)})
                 }
-                Track::Set(name, values) => {
-                    let values: Vec<f64> = values.iter().copied().map(round).collect();
-                    json!({"e": element, "a": name, "v": values})
-                }
+                Track::Set(name, values) => json!({"e": element, "a": name, "v": coded(values, PIXEL)}),
                 Track::Say(digits, values) => {
-                    let power = 10.0_f64.powi(i32::try_from(*digits).unwrap_or(0));
-                    let values: Vec<f64> =
-                        values.iter().map(|value| (value * power).round() / power + 0.0).collect();
-                    json!({"e": element, "a": "text", "d": digits, "v": values})
+                    let power = i32::try_from(*digits).unwrap_or(0);
+                    json!({"e": element, "a": "text", "d": digits, "v": coded(values, -power)})
                 }
             });
         }
-        let data = json!({"time": self.times, "tracks": tracks});
+        let data = json!({"time": coded(&self.times, INSTANT), "tracks": tracks});
         Some(data.to_string().replace('<', "\\u003c"))
     }
 }

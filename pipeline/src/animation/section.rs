@@ -49,9 +49,10 @@ pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
         drawing.bar([at[0], at[1] + depth], "y2", down, view.still, (INK, 5.0));
         let aside = sum("lateral").into_iter().map(|f| at[0] + force * f * 2.0).collect();
         drawing.bar([at[0], at[1] - 3.0], "x2", aside, view.still, (ORANGE, 5.0));
-        let outer = if *z > middle { 1.0 } else { -1.0 };
-        let anchor = if outer > 0.0 { "start" } else { "end" };
-        let beside = [at[0] + outer * 0.7 * depth, at[1] + 0.8 * depth];
+        // on the inner side: numbers stand beside the view
+        let inner = if *z > middle { -1.0 } else { 1.0 };
+        let anchor = if inner > 0.0 { "start" } else { "end" };
+        let beside = [at[0] + inner * 0.7 * depth, at[1] + 0.8 * depth];
         drawing.text(beside, &scene.rails[*rail].name, (GREY, 11.0), anchor);
     }
     for end in &ends {

@@ -77,7 +77,7 @@ impl Sheet {
         }
         let inner = text.split_once(">\n").and_then(|(_, rest)| rest.trim_end().strip_suffix("</svg>"));
         self.body.push_str(open);
-        self.body.push_str(inner.ok_or(Error::Drawing)?);
+        self.body.push_str(&compact(inner.ok_or(Error::Drawing)?));
         self.body.push_str(close);
         Ok(())
     }
@@ -128,7 +128,7 @@ impl Sheet {
         let (w, h) = (self.width, self.height);
         format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w}\" height=\"{h}\" viewBox=\"0 0 {} {}\" \
-             stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n{}</svg>\n",
+             font-family=\"{FONT}\" stroke-linejoin=\"round\">\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n{}</svg>\n",
             w * FINE,
             h * FINE,
             self.body
@@ -202,7 +202,91 @@ fn outline(points: &[[f64; 2]]) -> String {
     text
 }
 
+const SIZE: &str = " font-size=\"";
+
+/// The same elements in fewer characters: without attributes that say what holds anyway, curves as paths from corner to corner.
+fn compact(elements: &str) -> String {
+    let mut text = elements.to_owned();
+    for idle in [" opacity=\"1\"", " stroke=\"none\" stroke-width=\"1\"", " stroke=\"none\""] {
+        text = text.replace(idle, "");
+    }
+    text = text.replace(&format!(" font-family=\"{FONT}\""), "");
+    let mut short = String::with_capacity(text.len());
+    for line in text.lines() {
+        let curve = line.strip_prefix("<polyline ").and_then(|rest| rest.split_once(" points=\""));
+        match curve.and_then(|(style, points)| Some((style, path(points.strip_suffix("\"/>")?)?))) {
+            Some((style, (path, corners))) => {
+                // a straight line has nothing to fill
+                let style =
+                    if corners == 2 { style.strip_prefix("fill=\"none\" ").unwrap_or(style) } else { style };
+                short.push_str(&format!("<path {style} d=\"{path}\"/>"));
+            }
+            None => match line.split_once(SIZE).and_then(|(a, rest)| Some((a, rest.split_once('"')?))) {
+                Some((before, (size, after))) => {
+                    let size = size
+                        .parse()
+                        .map_or_else(|_| size.to_owned(), |size: f64| format!("{}", size.round()));
+                    short.push_str(&format!("{before}{SIZE}{size}\"{after}"));
+                }
+                None => short.push_str(line),
+            },
+        }
+        short.push('\n');
+    }
+    short
+}
+
+/// Path data of `points` as SVG has them, whole numbers, and how many there are; `None`: no such list, or a point alone.
+fn path(points: &str) -> Option<(String, usize)> {
+    let corners: Option<Vec<(i32, i32)>> = points
+        .split_whitespace()
+        .map(|point| {
+            let (x, y) = point.split_once(',')?;
+            Some((x.parse().ok()?, y.parse().ok()?))
+        })
+        .collect();
+    let corners = corners.filter(|corners| corners.len() > 1)?;
+    let (x, y) = corners[0];
+    let mut text = format!("M{x} {y}l");
+    let (mut last, mut parted) = ((x, y), true);
+    for corner in &corners[1..] {
+        for step in [corner.0 - last.0, corner.1 - last.1] {
+            // a sign parts numbers as a blank does
+            if !parted && step >= 0 {
+                text.push(' ');
+            }
+            text.push_str(&step.to_string());
+            parted = false;
+        }
+        last = *corner;
+    }
+    Some((text, corners.len()))
+}
+
 fn fine(point: &[f64; 2]) -> (i32, i32) {
     let whole = |v: f64| (v.clamp(-FAR, FAR) * FINE).round() as i32;
     (whole(point[0]), whole(point[1]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_path_goes_through_the_corners_of_its_polyline() {
+        let points = "10,20 12,20 12,5 0,5 0,-3 7,-3 8,-10 8,0 9,0 ";
+        let (path, corners) = path(points).expect("a list");
+        assert_eq!(corners, 9);
+        assert_eq!(path, "M10 20l2 0 0-15-12 0 0-8 7 0 1-7 0 10 1 0");
+        let line = format!("<polyline fill=\"none\" opacity=\"1\" stroke=\"#16161D\" points=\"{points}\"/>");
+        assert_eq!(compact(&line), format!("<path fill=\"none\" stroke=\"#16161D\" d=\"{path}\"/>\n"));
+    }
+
+    #[test]
+    fn other_elements_lose_what_holds_anyway() {
+        let line = "<polyline fill=\"none\" stroke=\"#222222\" points=\"1,2 3,4 \"/>";
+        assert_eq!(compact(line), "<path stroke=\"#222222\" d=\"M1 2l2 2\"/>\n");
+        let disc = "<circle cx=\"1\" cy=\"2\" r=\"36\" opacity=\"1\" fill=\"#FFFFFF\" stroke=\"none\" stroke-width=\"1\"/>";
+        assert_eq!(compact(disc), "<circle cx=\"1\" cy=\"2\" r=\"36\" fill=\"#FFFFFF\"/>\n");
+    }
 }

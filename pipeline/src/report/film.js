@@ -2,7 +2,9 @@
 for (const source of document.querySelectorAll(".film > script")) {
   const box = source.parentElement;
   const svg = box.querySelector("svg");
-  const { time, tracks } = JSON.parse(source.textContent);
+  const data = JSON.parse(source.textContent);
+  const time = decode(data.time);
+  const tracks = data.tracks.map((track) => (track.v ? { ...track, v: decode(track.v) } : { ...track, x: decode(track.x), y: decode(track.y) }));
   const nodes = tracks.map((track) => svg.querySelector(`[data-m="${track.e}"]`));
   const begin = time[0], end = time[time.length - 1];
   const button = document.createElement("button");
@@ -22,12 +24,12 @@ for (const source of document.querySelectorAll(".film > script")) {
       if (time[middle] <= now) low = middle; else high = middle;
     }
     const share = Math.min(1, Math.max(0, (now - time[low]) / (time[high] - time[low])));
-    const mix = (a, b) => a + share * (b - a);
+    const mix = (values) => values[low] + share * (values[high] - values[low]);
     tracks.forEach((track, index) => {
-      const a = track.v[low], b = track.v[high], node = nodes[index];
-      if (track.a === "transform") node.setAttribute("transform", `translate(${mix(a[0], b[0])} ${mix(a[1], b[1])})`);
-      else if (track.a === "text") node.textContent = mix(a, b).toFixed(track.d);
-      else node.setAttribute(track.a, mix(a, b));
+      const node = nodes[index];
+      if (track.a === "transform") node.setAttribute("transform", `translate(${mix(track.x)} ${mix(track.y)})`);
+      else if (track.a === "text") node.textContent = mix(track.v).toFixed(track.d);
+      else node.setAttribute(track.a, mix(track.v));
     });
     slider.value = now;
     label.textContent = now.toFixed(2) + " s";

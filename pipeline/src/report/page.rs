@@ -1,5 +1,6 @@
 //! The page: sections to HTML.
 
+use super::code::{coded, exponent, plain};
 use super::error::Error;
 use super::number::number;
 use super::section::{Cell, Figure, Picture, Section, Table};
@@ -200,21 +201,32 @@ fn shown(cell: &Cell) -> Option<String> {
 fn data(chart: &Chart, drawing: &Drawing) -> String {
     let frame = &drawing.frame;
     let axis = |axis: &crate::chart::Axis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
-    let round = |v: f64| format!("{v:.6e}").parse::<f64>().unwrap_or(v);
+    let [x, y] = frame.ranges();
+    let list = |values: &[f64], axis: &crate::chart::Axis, range| {
+        if axis.log { plain(values) } else { coded(values, exponent(range)) }
+    };
+    // curves over the same places have them once
+    let mut places: Vec<Vec<f64>> = Vec::new();
     let series: Vec<_> = chart
         .series
         .iter()
         .zip(&drawing.series)
         .map(|(one, points)| {
-            let points: Vec<_> = points.iter().map(|p| p.map(round)).collect();
-            json!({"label": one.label, "points": points})
+            let [own, values] = [0, 1].map(|k| points.iter().map(|p| p[k]).collect::<Vec<f64>>());
+            let at = places.iter().position(|known| *known == own).unwrap_or_else(|| {
+                places.push(own);
+                places.len() - 1
+            });
+            json!({"label": one.label, "x": at, "y": list(&values, &chart.y_axis, y)})
         })
         .collect();
-    let [x, y] = frame.ranges();
+    let places: Vec<_> = places.iter().map(|own| list(own, &chart.x_axis, x)).collect();
+    let place = [frame.left, frame.top, frame.width, frame.height].map(|v| (v * 100.0).round() / 100.0);
     let all = json!({
-        "frame": [frame.left, frame.top, frame.width, frame.height],
+        "frame": place,
         "x": axis(&chart.x_axis, x),
         "y": axis(&chart.y_axis, y),
+        "places": places,
         "series": series,
     });
     all.to_string().replace('<', "\\u003c")

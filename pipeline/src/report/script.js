@@ -1,10 +1,25 @@
 "use strict";
 // Read-out under the pointer, and series switched on and off by their legend. Without scripts the charts stay as they are.
+// Numbers as steps of a power of ten, each from the one before; the last step repeats.
+const decode = (code) => {
+  if (Array.isArray(code)) return code;
+  const power = 10 ** Math.abs(code.s);
+  let count = 0;
+  return Array.from({ length: code.n }, (_, index) => {
+    count += code.v[Math.min(index, code.v.length - 1)];
+    return code.s < 0 ? count / power : count * power;
+  });
+};
 for (const source of document.querySelectorAll('.chart > script')) {
   const box = source.parentElement;
   const svg = box.querySelector("svg");
   const chart = JSON.parse(source.textContent);
   const [left, top, width, height] = chart.frame;
+  const places = chart.places.map(decode);
+  for (const series of chart.series) {
+    const values = decode(series.y);
+    series.points = places[series.x].map((x, index) => [x, values[index]]);
+  }
   const hidden = new Set();
   const fine = 10;
 

@@ -124,7 +124,7 @@ pub(super) fn of(
 /// What is accepted at a height.
 ///
 /// # Source
-/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, Table 7.1 (b), *not confirmed*.
+/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as a public program has it: loads without dynamic factors.
 fn limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
     let metre = Scale { from: units, to: Units { length: Length::Metre, force: Force::Newton } }
         .factor(Dimension::LENGTH);

@@ -24,14 +24,24 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
     let scene = run.scene;
     let mut plates = Vec::new();
-    let forces =
-        response.columns.iter().filter(|column| column.kind == Kind::Reaction && column.direction.is_some());
+    // what a body holds is not held by the ground
+    let ridden: Vec<String> = scene
+        .structures
+        .iter()
+        .filter(|structure| structure.on.is_some())
+        .map(|structure| format!("{}.", structure.name))
+        .collect();
+    let is_ground = |column: &&Column| {
+        column.kind == Kind::Reaction && !ridden.iter().any(|structure| column.name.starts_with(structure))
+    };
+    let forces = response.columns.iter().filter(is_ground).filter(|column| column.direction.is_some());
     let most = forces.map(|column| reach(run.record.values(&column.name))).fold(0.0, f64::max);
     for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
         let mut own: Vec<(f64, &Column)> = response
             .columns
             .iter()
-            .filter(|column| column.kind == Kind::Reaction && column.direction == Some(toward))
+            .filter(is_ground)
+            .filter(|column| column.direction == Some(toward))
             .map(|column| (reach(run.record.values(&column.name)), column))
             .filter(|(reach, _)| *reach > STILL * most)
             .collect();
