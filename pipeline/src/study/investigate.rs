@@ -167,8 +167,8 @@ fn measure(
         Err(failure) => return refused(failure.words()),
     };
     let start = cpu::seconds();
-    let (run, held) = memory::most(|| limited(depth.limit, |watch| rig.run(watch)));
-    let run = match run {
+    let ran = memory::held(|| limited(depth.limit, |watch| rig.run(watch)));
+    let run = match ran.out {
         Ok(run) => run,
         Err(error) => return refused(error.to_string()),
     };
@@ -185,14 +185,14 @@ fn measure(
         Err(failure) => return refused(failure.words()),
     };
     // a second one: the first left modes and tables with the workshop
-    let (_, foundations) = memory::kept(|| workshop.rig(setting));
+    let foundations = memory::held(|| workshop.rig(setting)).kept;
     let measured = Measured {
         errors: misfits(&trace, &reference.trace),
         counts: run.counts,
         freedoms: rig.freedoms(),
         time: None,
         setup: rig.setup,
-        memory: foundations.zip(held).map(|(foundations, run)| Memory { foundations, run }),
+        memory: foundations.zip(ran.most).map(|(foundations, run)| Memory { foundations, run }),
     };
     (Some((rig, seconds)), Outcome::Done(measured))
 }

@@ -1,56 +1,62 @@
-//! Memory that a run takes, as the program's allocator counts it.
+//! Memory that a run takes: bytes that its thread asks the allocator for.
 //!
-//! The counters belong to the process: what other threads take meanwhile counts too. Where the program did not install
-//! the counting allocator, as in tests of the library, nothing is told.
-
-use peak_alloc::PeakAlloc;
+//! Counted where the program is built with the feature `memory`, as it is by default.
 
 /// Bytes that a setting takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Memory {
     /// What its foundations hold: surfaces, tables, modes.
-    pub foundations: usize,
+    pub foundations: u64,
     /// The most that a run held beyond them, its history among it.
-    pub run: usize,
+    pub run: u64,
 }
 
 impl Memory {
     /// All of it.
     #[must_use]
-    pub fn total(self) -> usize {
+    pub fn total(self) -> u64 {
         self.foundations + self.run
     }
 }
 
-/// What `job` gives, and how many bytes of it are still held; none where nobody counts.
-pub fn kept<T>(job: impl FnOnce() -> T) -> (T, Option<usize>) {
-    let before = PeakAlloc.current_usage();
-    let out = job();
-    let after = PeakAlloc.current_usage();
-    (out, counts().then(|| after.saturating_sub(before)))
+/// What came of a job, with the bytes that it still holds, and the most that it held at once; none where nobody counts.
+pub struct Held<T> {
+    /// What it gave.
+    pub out: T,
+    /// Bytes of it.
+    pub kept: Option<u64>,
+    /// The most at once.
+    pub most: Option<u64>,
 }
 
-/// What `job` gives, and the most bytes that it held at once; none where nobody counts.
-pub fn most<T>(job: impl FnOnce() -> T) -> (T, Option<usize>) {
-    let before = PeakAlloc.current_usage();
-    PeakAlloc.reset_peak_usage();
-    let out = job();
-    let peak = PeakAlloc.peak_usage();
-    (out, counts().then(|| peak.saturating_sub(before)))
+/// Counts what `job` allocates on this thread.
+#[cfg(feature = "memory")]
+pub fn held<T>(job: impl FnOnce() -> T) -> Held<T> {
+    let mut out = None;
+    let info = allocation_counter::measure(|| out = Some(job()));
+    Held {
+        out: out.expect("the job ran"),
+        kept: u64::try_from(info.bytes_current).ok(),
+        most: Some(info.bytes_max),
+    }
 }
 
-/// Whether the program counts what it takes.
-fn counts() -> bool {
-    PeakAlloc.peak_usage() > 0
+/// Counts nothing.
+#[cfg(not(feature = "memory"))]
+pub fn held<T>(job: impl FnOnce() -> T) -> Held<T> {
+    Held { out: job(), kept: None, most: None }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "memory"))]
 mod tests {
-    use super::{kept, most};
+    use super::held;
 
     #[test]
-    fn where_nobody_counts_nothing_is_told() {
-        assert_eq!(kept(|| vec![0_u8; 1000].len()), (1000, None));
-        assert_eq!(most(|| 1), (1, None));
+    fn what_is_kept_and_what_was_held_at_once_are_told() {
+        let found = held(|| {
+            drop(vec![0_u8; 5000]);
+            vec![0_u8; 1000]
+        });
+        assert_eq!((found.out.len(), found.kept, found.most), (1000, Some(1000), Some(5000)));
     }
 }
