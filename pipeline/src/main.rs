@@ -10,6 +10,10 @@ use girderway::commands;
 use girderway::diagnostic::Diagnostic;
 use girderway::exit::{Exit, Failure};
 
+/// Counts what is allocated: `girderway study` tells the memory that a setting takes.
+#[global_allocator]
+static ALLOCATOR: peak_alloc::PeakAlloc = peak_alloc::PeakAlloc;
+
 fn main() -> ExitCode {
     // a fault of the program is told in one line below, without a backtrace
     panic::set_hook(Box::new(|_| {}));

@@ -173,25 +173,37 @@ fn errors_by_modes_are_those_found_elsewhere() {
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(sprung * 0.25 * omega * omega);
     scene["output"]["dt"] = json!(length / speed / 400.0);
     let depth = Depth {
-        modes: vec![1, 3],
+        modes: vec![1, 3, 5, 20],
         accuracies: vec![1e-6],
-        references: vec![(1e-7, 24)],
+        references: vec![(1e-7, 40)],
         fine: 1e-7,
         resolution: 1e-4,
         ..nothing()
     };
     let study = conduct(&scene, &spec, &depth);
     for (family, quantity, wanted) in [
-        (Family::Modal, Quantity::WheelForce, [8.9e-4, 3.4e-5]),
-        (Family::Modal, Quantity::Moment, [3.4e-3, 8.9e-4]),
-        (Family::Pure, Quantity::WheelForce, [2.5e-2, f64::NAN]),
-        (Family::Influence, Quantity::WheelForce, [3.3e-2, f64::NAN]),
-        (Family::Influence, Quantity::Moment, [8.4e-2, f64::NAN]),
+        (Family::Modal, Quantity::WheelForce, [8.9e-4, 3.4e-5, 4.8e-6, f64::NAN]),
+        (Family::Modal, Quantity::Moment, [3.4e-3, 8.9e-4, 3.6e-4, f64::NAN]),
+        (Family::Pure, Quantity::WheelForce, [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6]),
+        (Family::Pure, Quantity::Moment, [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2]),
+        (Family::Influence, Quantity::WheelForce, [3.3e-2, f64::NAN, f64::NAN, f64::NAN]),
+        (Family::Influence, Quantity::Moment, [8.4e-2, f64::NAN, f64::NAN, f64::NAN]),
     ] {
         let curve = curve(&study, family, quantity);
         println!("{} {}: {curve:?}, elsewhere {wanted:?}", family.name(), quantity.name());
         for (own, wanted) in curve.iter().zip(wanted).filter(|(_, wanted)| wanted.is_finite()) {
-            assert!((own[1] / wanted - 1.0).abs() < 0.2, "{} {}: {own:?}", family.name(), quantity.name());
+            let what =
+                format!("girderway study, {} {}: error of the {}", family.name(), own[0], quantity.name());
+            let figure = claims::figure("5 Speed, mass and modes", what, "prototype", wanted);
+            if (family, quantity) != (Family::Pure, Quantity::Moment) {
+                figure.met(own[1], 0.2);
+                continue;
+            }
+            let known = [(1.0, 1.99e-2), (5.0, 1.08e-3), (20.0, 1.87e-5)];
+            let (_, known) = known.into_iter().find(|(modes, _)| *modes == own[0]).expect("one of them");
+            let why = "the prototype adds up the bending of the modes, whose series converges slowly; ours takes moments from the equilibrium of \
+                       wheel forces and the inertia of the modes, which needs no curvature";
+            figure.corrected(own[1], known, 0.02, why);
         }
     }
 }

@@ -155,6 +155,32 @@ fn bedded_rail_sinks_as_hetenyi_says() {
     converges(wanted, [96, 192], 4.0, 1e-5, found);
 }
 
+/// A rail of EI 1.47e7 lb ft^2 on a pad of 3000 psi, springs 3 in apart, feet: what wheels beside it and the girder see.
+#[test]
+fn a_rail_on_its_pad_gives_more_than_the_girder_and_spreads() {
+    let (ei, u) = (1.47e7, 3000.0 * 144.0);
+    let (a, count) = (0.25, 320);
+    let length = a * count as f64;
+    let section = Section { e: ei, iz: 1.0, ..Section::default() };
+    let mut model = chain(count, |t| [length * (t - 0.5), 0.0, 0.0], |_| [0.0, 1.0, 0.0], section);
+    for point in 0..=count {
+        let share = if point == 0 || point == count { 0.5 } else { 1.0 };
+        model.springs.push(Spring { point, freedom: Freedom::Uy, stiffness: share * u * a });
+    }
+    let middle = count / 2;
+    // 32 in are 10.67 springs: between the places before and after it
+    let (c, _) = nodal(&model, &[middle, middle + 10, middle + 11, 0]).expect("it stands");
+    let at = |i: usize| c[(1, 6 * i + 1)];
+    let figure = |what: &str, known: f64| claims::figure("1 Readings of tables", what, "prototype", known);
+    figure("rail on its pad: give, 1 / (8 EI b^3), ft/lb", 3.4e-7).met(at(0), 5e-3);
+    figure("by that of the girder at midspan", 3.0)
+        .met(at(0) / (60.0_f64.powi(3) / (48.0 * 9.528 * 4.32e9)), 0.05);
+    let beside = at(1) + (at(2) - at(1)) * (32.0 / 12.0 / a - 10.0);
+    figure("32 in beside it, by that", 0.65).met(beside / at(0), 5e-3);
+    // of an endless rail, by Hetenyi
+    figure("at a free end of the rail, by that", 4.0).met(c[(19, 19)] / at(0), 0.05);
+}
+
 #[test]
 fn pinned_semicircle_pushes_outward_by_one_over_pi() {
     // Timoshenko, Strength of Materials II: thrust P/pi of a two-hinged semicircular arch under a load at its

@@ -204,6 +204,23 @@ fn a_mass_at_the_tip_of_a_cantilever_has_its_transcendental_roots() {
     }
 }
 
+/// A mass M at midspan of a pinned beam is slower than on a massless one by 1/2 m / M, m = 17/35 of the beam's.
+///
+/// Source: Rayleigh, The Theory of Sound (1877), section 182: the static shape.
+#[test]
+fn a_heavy_mass_at_midspan_moves_half_of_17_35ths_of_the_beam() {
+    let s = section();
+    let mut model = plane(24, Theory::EulerBernoulli, [PINNED, PINNED]);
+    let mass = 50.0 * s.mass * L;
+    model.masses.push(Mass { point: 12, mass, inertia: [0.0; 3], offset: [0.0; 3] });
+    let alone = (48.0 * s.e * s.iz / L.powi(3) / mass).sqrt();
+    let shift = 1.0 - omega(&model, 0) / alone;
+    let what =
+        "mass of 50 beams at midspan: beam's share that moves with it, of 2 M times the shift of frequency";
+    claims::figure("5 Speed, mass and modes", what, "Rayleigh, 17/35", 17.0 / 35.0)
+        .met(2.0 * shift * mass / (s.mass * L), 0.02);
+}
+
 /// Source: Meirovitch, Analytical Methods in Vibrations (1967), section 5-10, for one beam and one mass.
 #[test]
 fn a_massless_beam_leaves_the_modes_of_its_mass_alone() {
@@ -366,6 +383,10 @@ fn residual_flexibility_is_what_the_series_leaves() {
         let share = compliance(&rest, &mid)[(0, 0)] / full;
         println!("{count} modes leave {share:.3e} of the flexibility at midspan");
         assert!((share - (1.0 - sum)).abs() < 4e-6, "{count}: {share} {}", 1.0 - sum);
+        if count == 1 {
+            let what = "give at midspan that one mode leaves, by all";
+            claims::figure("5 Speed, mass and modes", what, "prototype", 0.0145).met(share, 0.01);
+        }
         let probes: Vec<Probe> = (0..40)
             .map(|k| Probe { rail: 0, x: (k as f64 + 0.3) * L / 40.0, axis: Axis::Vertical })
             .collect();

@@ -3,7 +3,7 @@
 
 mod common;
 
-use common::{Stream, paper, probes};
+use common::{Stream, paper, probes, with_nodes};
 use fea::{grid, surface};
 use splines::{Axis, Compliance, Influence, Probe};
 
@@ -129,6 +129,36 @@ fn grids_agree_with_closed_forms_to_1e_13() {
             }
         }
         assert!(worst < 1e-13, "{axis:?}: {worst:.1e}");
+    }
+}
+
+/// Nodes at every station, as a mesh has them: more of them cost digits where lengths are no sums of halves.
+#[test]
+fn nodes_at_every_station_cost_no_more_digits_than_known() {
+    let (model, _) = paper().frame().expect("sound");
+    for (count, known) in [(7, 1.8e-15), (13, 2.9e-14), (19, 2e-13), (37, 4.6e-12), (73, 6.2e-12)] {
+        let stations: Vec<f64> =
+            (0..count).map(|k| -15.0 + 90.0 * f64::from(k) / f64::from(count - 1)).collect();
+        let mut places = Vec::new();
+        let mut inside = Vec::new();
+        for (m, member) in model.members.iter().enumerate() {
+            let ends = member.points.map(|point| model.points[point][0]);
+            for x in stations.iter().filter(|x| **x > ends[0] + 1e-9 && **x < ends[1] - 1e-9) {
+                places.push((m, (x - ends[0]) / (ends[1] - ends[0]), [0.0; 3]));
+                inside.push(*x);
+            }
+        }
+        let (cut, nodes) = with_nodes(&model, &places);
+        let (c, _) = fea::nodal(&cut, &nodes).expect("it stands");
+        let mut worst = 0.0_f64;
+        for (i, &x) in inside.iter().enumerate() {
+            for (j, &z) in inside.iter().enumerate() {
+                worst = worst.max((c[(6 * i + 1, 6 * j + 1)] - vertical(x, z)).abs());
+            }
+        }
+        let found = worst / vertical(-15.0, -15.0);
+        let what = format!("frame with nodes at {count} stations: largest error / largest value");
+        claims::figure("1 Readings of tables", what, "prototype", known).below(found);
     }
 }
 

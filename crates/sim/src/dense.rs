@@ -93,35 +93,77 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -
 pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
     for j in 0..n {
-        let pivot = (j..n).max_by(|&p, &q| a[p * n + j].abs().total_cmp(&a[q * n + j].abs())).unwrap_or(j);
-        let size = a[pivot * n + j].abs();
-        if !(size > 0.0 && size.is_finite()) {
-            return false;
-        }
-        if pivot != j {
-            let (above, below) = a.split_at_mut(pivot * n);
-            above[j * n + j..(j + 1) * n].swap_with_slice(&mut below[j..n]);
-            b.swap(pivot, j);
-        }
-        let (above, below) = a.split_at_mut((j + 1) * n);
-        let row = &above[j * n..];
-        let (head, tail) = b.split_at_mut(j + 1);
-        for (line, b) in below.chunks_exact_mut(n).zip(tail) {
-            let factor = line[j] / row[j];
-            if factor != 0.0 {
-                line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
-                *b -= factor * head[j];
-            }
-        }
+        let Some(pivot) = exchange(a, j, n) else { return false };
+        b.swap(pivot, j);
+        eliminate(a, j, n, |row, factor| b[row] -= factor * b[j]);
     }
-    for i in (0..n).rev() {
-        let mut sum = b[i];
-        for k in i + 1..n {
-            sum -= a[i * n + k] * b[k];
-        }
-        b[i] = sum / a[i * n + i];
+    substitute(a, b);
+    true
+}
+
+/// Puts the factors of A (n x n, row-major) in its place, P A = L U with partial pivoting: L below the diagonal, its own
+/// diagonal left out; `pivots` are the rows exchanged.
+///
+/// Returns false where A is singular.
+#[must_use]
+pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
+    let n = pivots.len();
+    for (j, pivot) in pivots.iter_mut().enumerate() {
+        let Some(row) = exchange(a, j, n) else { return false };
+        *pivot = row;
+        eliminate(a, j, n, |_, _| {});
     }
     true
+}
+
+/// Solves A x = b by the factors and the rows exchanged of [`factor_general`]; `b` is overwritten by x.
+pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
+    let n = b.len();
+    for (j, &pivot) in pivots.iter().enumerate() {
+        b.swap(j, pivot);
+    }
+    for i in 1..n {
+        b[i] -= dot(&a[i * n..i * n + i], &b[..i]);
+    }
+    substitute(a, b);
+}
+
+/// Brings the row with the largest entry of column `j` below the diagonal to row `j`, whole; `None` where it has none.
+fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
+    let size = |row: usize| a[row * n + j].abs();
+    let pivot = (j..n).max_by(|&p, &q| size(p).total_cmp(&size(q))).unwrap_or(j);
+    if !(size(pivot) > 0.0 && size(pivot).is_finite()) {
+        return None;
+    }
+    if pivot != j {
+        let (above, below) = a.split_at_mut(pivot * n);
+        above[j * n..(j + 1) * n].swap_with_slice(&mut below[..n]);
+    }
+    Some(pivot)
+}
+
+/// Takes row `j` from those below and leaves its shares in column `j`; `also` is told of each.
+fn eliminate(a: &mut [f64], j: usize, n: usize, mut also: impl FnMut(usize, f64)) {
+    let (above, below) = a.split_at_mut((j + 1) * n);
+    let row = &above[j * n..];
+    let scale = 1.0 / row[j];
+    for (line, i) in below.chunks_exact_mut(n).zip(j + 1..) {
+        let factor = line[j] * scale;
+        line[j] = factor;
+        if factor != 0.0 {
+            line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+            also(i, factor);
+        }
+    }
+}
+
+/// Solves U x = b, U on and above the diagonal of `a`.
+fn substitute(a: &[f64], b: &mut [f64]) {
+    let n = b.len();
+    for i in (0..n).rev() {
+        let line = &a[i * n..(i + 1) * n];
+        b[i] = (b[i] - dot(&line[i + 1..], &b[i + 1..])) / line[i];
+    }
 }
 
 /// Puts the inverse of a symmetric positive definite matrix (n x n, lower triangle used) in its place: L^-T L^-1, with
@@ -165,7 +207,7 @@ pub(crate) fn invert_spd(a: &mut [f64], scratch: &mut [f64], n: usize) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{invert_spd, solve_general, solve_spd};
+    use super::{factor_general, invert_spd, solve_factored, solve_general, solve_spd};
 
     #[test]
     fn both_solvers_recover_a_planted_solution() {
@@ -198,6 +240,23 @@ mod tests {
             let mut a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
             a[n * n - 1] = -1.0;
             assert!(!solve_spd(&mut a, &mut b));
+        }
+    }
+
+    #[test]
+    fn factors_of_a_matrix_whose_rows_are_exchanged_solve_for_every_right_side() {
+        let n = 9;
+        let entry = |i: usize, j: usize| {
+            ((7 * i + 3 * j) % 11) as f64 - 5.0 + if i + j == n - 1 { 30.0 } else { 0.0 }
+        };
+        let a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
+        let (mut factors, mut pivots) = (a.clone(), vec![0; n]);
+        assert!(factor_general(&mut factors, &mut pivots));
+        for k in 0..3 {
+            let x: Vec<f64> = (0..n).map(|i| (i as f64 + f64::from(k)).cos()).collect();
+            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| a[i * n + j] * x[j]).sum()).collect();
+            solve_factored(&factors, &pivots, &mut b);
+            assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-13));
         }
     }
 

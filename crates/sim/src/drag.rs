@@ -63,6 +63,12 @@ impl Solver<'_> {
         }
     }
 
+    /// Rate of the rail under component `i` that its wheels pass over by their own way, x' dG/dx F.
+    pub fn passing(&self, i: usize, at: &State) -> f64 {
+        let own = own_treads(self.system, i, at);
+        own.map(|(tread, speed)| speed * along(&self.geometry.by_tread, tread, &at.force)).sum()
+    }
+
     /// Displacements of massless rails along x at the end of a stage, and their rates.
     pub fn drag_end(&self, g: f64, known: &[f64], at: &mut State) {
         let first = self.system.normals.len();

@@ -4,10 +4,10 @@
 //! G and, inside a step, the bodies' mobility; Y the mobility that the rates feel. Which vertical contacts
 //! act is given; the caller checks that they push and that the others stay open.
 
-use crate::dense::{along, solve_general, solve_spd};
+use crate::dense::{along, factor_general, solve_factored, solve_general, solve_spd};
 use crate::geometry::Geometry;
+use crate::laws::Slope;
 use crate::system::System;
-use crate::wheel::LawPoint;
 
 /// Relative change of the forces at which Newton's method ends.
 const TOLERANCE: f64 = 1e-13;
@@ -15,9 +15,6 @@ const ITERATIONS: usize = 60;
 /// Share of Newton's change below which a smaller one is not tried. A brake on a rail that gives grips within 1e-6 of the
 /// forces on either side, and less in short steps.
 const SHORTEST: f64 = 1e-12;
-/// A rate at which every law along the rail gives all it can.
-const SATURATED: f64 = 1e150;
-
 /// Matrices and free motion of one solution, over components, row-major.
 pub(crate) struct Problem {
     pub w: Vec<f64>,
@@ -34,16 +31,26 @@ pub(crate) struct Problem {
     pub pinned: Vec<Option<f64>>,
     /// Relative residual of the forces that may be left; rounding alone where it is zero.
     pub slack: f64,
+    /// Penetration and rate of each component under the forces at hand; not kept of those asleep.
+    pub reach: Vec<[f64; 2]>,
+    /// Largest force of what does not act.
+    pub idles: f64,
+    /// Of every component, F - law(F); then Newton's change.
+    pub residual: Vec<f64>,
+    /// Components whose law acts, the slopes of these laws, and what forces do to the laws of others.
+    pub acting: Vec<usize>,
+    pub slopes: Vec<Slope>,
+    pub grips: Vec<(usize, usize, f64)>,
+    /// Factors of the Jacobian over the components that acted when it was formed.
+    pub factored: Vec<usize>,
+    jacobian: Vec<f64>,
+    pivots: Vec<usize>,
     matrix: Vec<f64>,
-    residual: Vec<f64>,
     start: Vec<f64>,
     newton: Vec<f64>,
-    /// Rows of the Jacobian that are not the identity's, and whether each is.
-    index: Vec<usize>,
-    listed: Vec<bool>,
-    /// Those rows and columns alone, and their change.
-    compact: Vec<f64>,
     change: Vec<f64>,
+    /// Unknowns of the linear problem.
+    index: Vec<usize>,
 }
 
 impl Problem {
@@ -59,14 +66,20 @@ impl Problem {
             asleep: vec![false; m],
             pinned: vec![None; m],
             slack: 0.0,
-            matrix: vec![0.0; m * m],
+            reach: vec![[0.0; 2]; m],
+            idles: 0.0,
             residual: vec![0.0; m],
+            acting: Vec::with_capacity(m),
+            slopes: Vec::with_capacity(m),
+            grips: Vec::new(),
+            factored: Vec::with_capacity(m),
+            jacobian: vec![0.0; m * m],
+            pivots: vec![0; m],
+            matrix: vec![0.0; m * m],
             start: vec![0.0; m],
             newton: vec![0.0; m],
-            index: Vec::with_capacity(m),
-            listed: vec![false; m],
-            compact: vec![0.0; m * m],
             change: vec![0.0; m],
+            index: Vec::with_capacity(m),
         }
     }
 
@@ -103,6 +116,7 @@ impl Problem {
         force: &mut [f64],
     ) -> bool {
         let m = force.len();
+        self.factored.clear();
         self.index.clear();
         self.index.extend((0..m).filter(|&i| active[i] && !self.known[i]));
         let count = self.index.len();
@@ -151,9 +165,10 @@ impl Problem {
         }
         let mut size = self.evaluate(system, geometry, active, force);
         for _ in 0..ITERATIONS {
-            if !self.solve_acting() {
+            if !self.factor() {
                 return false;
             }
+            self.step_back();
             let scale = largest(force);
             let change = largest(&self.residual);
             self.start.copy_from_slice(force);
@@ -179,166 +194,64 @@ impl Problem {
         size <= 1e-9 * largest(force)
     }
 
-    /// Newton's change, in `residual`, from the rows that [`Problem::evaluate`] listed; the others are those of the
-    /// identity and are eliminated beforehand.
-    fn solve_acting(&mut self) -> bool {
-        let (m, count) = (self.residual.len(), self.index.len());
-        for (row, &i) in self.index.iter().enumerate() {
-            let line = &self.matrix[i * m..(i + 1) * m];
-            self.change[row] = self.residual[i];
-            for (j, entry) in line.iter().enumerate().filter(|(j, _)| !self.listed[*j]) {
-                self.change[row] -= entry * self.residual[j];
-            }
-            for (entry, &j) in self.compact[row * count..(row + 1) * count].iter_mut().zip(&self.index) {
-                *entry = line[j];
-            }
-        }
-        let solved = solve_general(&mut self.compact[..count * count], &mut self.change[..count]);
-        for (row, &i) in self.index.iter().enumerate() {
-            self.residual[i] = self.change[row];
-        }
-        solved
-    }
-
-    /// Row `i` of the Jacobian is to be filled: the identity's to begin with.
-    fn list(&mut self, i: usize) {
-        let m = self.residual.len();
-        self.index.push(i);
-        self.listed[i] = true;
-        self.matrix[i * m..(i + 1) * m].fill(0.0);
-        self.matrix[i * m + i] = 1.0;
-    }
-
-    /// Fills the residual F - law(F) and its Jacobian; returns the residual's largest entry.
+    /// Residual of the laws under `force`, by W and Y; returns its largest entry.
     fn evaluate(&mut self, system: &System, geometry: &Geometry, active: &[bool], force: &[f64]) -> f64 {
-        let m = force.len();
-        self.index.clear();
-        self.listed.fill(false);
-        self.residual.fill(0.0);
-        for (i, normal) in system.normals.iter().enumerate() {
-            if self.known[i] || !active[i] {
-                continue;
-            }
-            self.list(i);
-            let LawPoint { force: law, by_penetration, by_rate } =
-                system.law(i).at(self.penetration(i, force), self.rate(i, force));
-            let scale = normal.count() * geometry.share[i][0];
-            self.residual[i] = force[i] - scale * law;
-            for j in 0..m {
-                self.matrix[i * m + j] +=
-                    scale * (by_penetration * self.w[i * m + j] + by_rate * self.y[i * m + j]);
+        for i in 0..force.len() {
+            if i < system.normals.len() || !self.asleep[i] {
+                self.reach[i] = [self.penetration(i, force), self.rate(i, force)];
             }
         }
-        for (index, &w) in system.laterals.iter().enumerate() {
-            let i = system.lateral(index);
-            let kind = &system.scene.wheels[system.wheels[w].kind];
-            let Some(flange) = &kind.flange else { continue };
-            let overlap = if self.asleep[i] { 0.0 } else { flange.overlap(self.penetration(i, force)) };
-            if overlap == 0.0 {
-                self.residual[i] = force[i];
-                continue;
-            }
-            self.list(i);
-            let normal = system.normals_of(w).next().unwrap_or(0);
-            let (share, by_height) = flange.share(kind.radius - self.penetration(normal, force));
-            self.residual[i] = force[i] - flange.stiffness * share * overlap;
-            for j in 0..m {
-                self.matrix[i * m + j] += flange.stiffness
-                    * (share * self.w[i * m + j] - by_height * overlap * self.w[normal * m + j]);
-            }
-        }
-        for (index, &w) in system.tractions.iter().enumerate() {
-            let i = system.traction(index);
-            let Some(friction) = &system.scene.wheels[system.wheels[w].kind].friction else { continue };
-            self.list(i);
-            let (share, by_slip) = friction.share(self.rate(i, force));
-            let load: f64 = system.normals_of(w).map(|n| force[n] / system.normals[n].count()).sum();
-            let bound = friction.coefficient * load;
-            if self.pin(i, bound, force) {
-                continue;
-            }
-            let (share, by_slip) = if let Some(wanted) = self.wanted(i, force) {
-                (wanted.signum(), 0.0)
-            } else {
-                (share, by_slip)
-            };
-            self.residual[i] = force[i] - friction.coefficient * load * share;
-            for j in 0..m {
-                self.matrix[i * m + j] += friction.coefficient * load * by_slip * self.y[i * m + j];
-            }
-            for n in system.normals_of(w) {
-                self.matrix[i * m + n] -= friction.coefficient * share / system.normals[n].count();
-            }
-        }
-        for (index, pull) in system.pulls.iter().enumerate() {
-            let i = system.pull(index);
-            if !geometry.pulls[index] {
-                self.residual[i] = force[i];
-                continue;
-            }
-            self.list(i);
-            let (own, traction) = (self.y[i * m + i], pull.traction(force));
-            let by_traction = if let Some(wanted) = self.wanted(i, force) {
-                let (law, _, by_traction) = pull.at(SATURATED.copysign(wanted), traction);
-                if self.pin(i, law.abs(), force) {
-                    continue;
-                }
-                self.residual[i] = force[i] - law;
-                by_traction
-            } else if let Some(driven) = pull.drive(force[i], self.rate(i, force), own, traction) {
-                self.residual[i] = force[i] - driven.force;
-                self.matrix[i * m + i] -= driven.by_force;
-                for j in 0..m {
-                    self.matrix[i * m + j] += driven.by_rate * self.y[i * m + j];
-                }
-                driven.by_traction
-            } else {
-                let (law, by_rate, by_traction) = pull.at(self.rate(i, force), traction);
-                self.residual[i] = force[i] - law;
-                for j in 0..m {
-                    self.matrix[i * m + j] += by_rate * self.y[i * m + j];
-                }
-                by_traction
-            };
-            for grip in pull.grips.iter().filter(|grip| force[grip.normal] > 0.0) {
-                self.matrix[i * m + grip.normal] -= by_traction * grip.mu;
-            }
-        }
-        for (index, hold) in geometry.links.iter().enumerate() {
-            let i = system.link(index);
-            if !hold.taut {
-                self.residual[i] = force[i];
-                continue;
-            }
-            self.list(i);
-            self.residual[i] = force[i] - hold.law(self.penetration(i, force), self.rate(i, force));
-            for j in 0..m {
-                self.matrix[i * m + j] +=
-                    hold.stiffness * self.w[i * m + j] + hold.damping * self.y[i * m + j];
-            }
-        }
+        self.answer(system, geometry, active, force);
         largest(&self.residual)
     }
-}
 
-impl Problem {
-    /// Force of a pinned component that keeps the give of its rail, beside the others of `force`.
-    fn wanted(&self, i: usize, force: &[f64]) -> Option<f64> {
-        let give = self.pinned[i]?;
-        let own = self.w[i * force.len() + i];
-        Some(force[i] + (give - along(&self.w, i, force)) / own)
+    /// Factors the Jacobian of the laws that [`Problem::answer`] found to act: I + F_p W + F_r Y, less what the laws take
+    /// from other forces. Returns false where it is singular.
+    fn factor(&mut self) -> bool {
+        let (m, count) = (self.residual.len(), self.acting.len());
+        for (row, &i) in self.acting.iter().enumerate() {
+            let line = &mut self.jacobian[row * count..(row + 1) * count];
+            let (w, y) = (&self.w[i * m..(i + 1) * m], &self.y[i * m..(i + 1) * m]);
+            let Slope { by_penetration, by_rate, by_other } = self.slopes[row];
+            for (entry, &j) in line.iter_mut().zip(&self.acting) {
+                *entry = by_penetration * w[j] + by_rate * y[j];
+            }
+            if let Some((other, slope)) = by_other {
+                let w = &self.w[other * m..(other + 1) * m];
+                line.iter_mut().zip(&self.acting).for_each(|(entry, &j)| *entry += slope * w[j]);
+            }
+            line[row] += 1.0;
+        }
+        self.factored.clear();
+        self.factored.extend_from_slice(&self.acting);
+        for &(i, j, slope) in &self.grips {
+            let place = |of| self.acting.iter().position(|own| *own == of);
+            if let (Some(row), Some(column)) = (place(i), place(j)) {
+                self.jacobian[row * count + column] -= slope;
+            }
+        }
+        factor_general(&mut self.jacobian[..count * count], &mut self.pivots[..count])
     }
 
-    /// The row of a pinned component whose force is within `bound`; false for others.
-    fn pin(&mut self, i: usize, bound: f64, force: &[f64]) -> bool {
-        let Some(wanted) = self.wanted(i, force).filter(|wanted| wanted.abs() <= bound) else { return false };
-        let m = force.len();
-        let own = self.w[i * m + i];
-        self.residual[i] = force[i] - wanted;
-        for j in (0..m).filter(|&j| j != i) {
-            self.matrix[i * m + j] += self.w[i * m + j] / own;
+    /// Newton's change of the forces in place of their residual, by the factors of the Jacobian. What does not act has the
+    /// rows of the identity.
+    pub fn step_back(&mut self) {
+        let (m, count) = (self.residual.len(), self.factored.len());
+        let idle = self.idles > 0.0;
+        for (row, &i) in self.factored.iter().enumerate() {
+            self.change[row] = self.residual[i];
+            if idle {
+                let Slope { by_penetration, by_rate, .. } = self.slopes[row];
+                for j in (0..m).filter(|j| !self.factored.contains(j)) {
+                    let entry = by_penetration * self.w[i * m + j] + by_rate * self.y[i * m + j];
+                    self.change[row] -= entry * self.residual[j];
+                }
+            }
         }
-        true
+        solve_factored(&self.jacobian[..count * count], &self.pivots[..count], &mut self.change[..count]);
+        for (row, &i) in self.factored.iter().enumerate() {
+            self.residual[i] = self.change[row];
+        }
     }
 }
 

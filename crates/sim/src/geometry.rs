@@ -272,8 +272,7 @@ impl Geometry {
             let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
             let laid = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
                 let goes_on = is_free(way.end(), &ends[0]);
-                way.lay(compliance.as_ref(), entries, ends.each_ref().map(Vec::as_slice), self.reach, goes_on)
-                    .is_ok()
+                way.lay(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), self.reach, goes_on).is_ok()
             });
             if !laid {
                 way.leave();
@@ -428,12 +427,16 @@ impl Geometry {
         }
     }
 
-    /// Slope of the deflected rail under each component, for the forces and freedoms given and the wheels where the
-    /// last update found them.
+    /// Slope of the deflected rail under each component that presses, for the forces and freedoms given and the wheels
+    /// where the last update found them. Where nothing presses, nothing feels it: zero.
     pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
-        for i in 0..system.components() {
+        for (i, own) in force.iter().enumerate() {
+            if *own == 0.0 {
+                self.rail_slope[i] = 0.0;
+                continue;
+            }
             self.rail_slope[i] = along(&self.slope, i, force);
-            if !system.constant_rows {
+            if system.has_structures() {
                 self.rail_slope[i] += along(&self.shape_slopes, i, q.as_slice());
             }
             if system.is_uneven {

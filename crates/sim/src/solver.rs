@@ -15,13 +15,26 @@ use crate::{Damper, Error};
 const PASSES: usize = 30;
 
 /// Margin of the share that a pass leaves of what it changes, where another stage has it.
-const MARGIN: f64 = 10.0;
+const MARGIN: f64 = 100.0;
 
 /// The least such share that counts: less is rounding.
 const LEAST: f64 = 1e-7;
 
 /// Residual of the forces for each unit of what passes may leave.
 const SLACK: f64 = 0.1;
+
+/// Share that a pass leaves of what it changes, above which the matrices are formed again.
+const POOR: f64 = 0.2;
+
+/// What a pass of a stage did.
+enum Pass {
+    /// Largest changes beside the freedoms themselves, and beside their scales.
+    Moved([f64; 2]),
+    /// Flanges were found to touch that had been taken as free.
+    Woken,
+    /// The forces have no solution.
+    Failed,
+}
 
 /// Known parts of a stage: Q = `q` + (h gamma) V, V = `v` + (h gamma) A, and the like for the penetrations.
 pub(crate) struct Known {
@@ -43,31 +56,33 @@ pub(crate) struct Solver<'a> {
     pub problem: Problem,
     /// Whether the displacements of massless rails along x are known at an instant.
     pub keeps_rails: bool,
-    inverse: Whole<'a>,
-    mobility: Whole<'a>,
+    pub(crate) inverse: Whole<'a>,
+    pub(crate) mobility: Whole<'a>,
     /// Scales of displacements and rates, where passes may end before rounding does; how near beside them, by the passes
     /// of the stage itself and by those of another one.
     pub scales: Option<[DVector<f64>; 2]>,
     pub settled: [f64; 2],
     /// Share that a pass leaves of what it changes, from stages of the same step; infinite where it is not known.
     pub contraction: f64,
+    /// Coefficient g of the stage whose matrices the problem of the forces has factored.
+    pub factors_of: Option<f64>,
     /// Components that may press, the columns of `spread` and `mobile`.
-    awake: Vec<usize>,
+    pub(crate) awake: Vec<usize>,
     /// Their forces.
-    pressing: Vec<f64>,
+    pub(crate) pressing: Vec<f64>,
     /// Z R^T, freedoms x awake components, row-major.
-    spread: Vec<f64>,
+    pub(crate) spread: Vec<f64>,
     /// R Z R^T, components x awake components, row-major; and the same with the rows of rates that are felt.
     mobile: Vec<f64>,
     mobile_rate: Vec<f64>,
-    answer: DVector<f64>,
-    free_a: DVector<f64>,
-    free_q: DVector<f64>,
-    free_v: DVector<f64>,
-    load: DVector<f64>,
+    pub(crate) answer: DVector<f64>,
+    pub(crate) free_a: DVector<f64>,
+    pub(crate) free_q: DVector<f64>,
+    pub(crate) free_v: DVector<f64>,
+    pub(crate) load: DVector<f64>,
     /// Mass of the bodies, those that ride among them, and scratch for it.
-    mass: DMatrix<f64>,
-    columns: Vec<SVector<f64, 6>>,
+    pub(crate) mass: DMatrix<f64>,
+    pub(crate) columns: Vec<SVector<f64, 6>>,
     spread_is_fixed: bool,
 }
 
@@ -85,6 +100,7 @@ impl<'a> Solver<'a> {
             scales: None,
             settled: [0.0; 2],
             contraction: f64::INFINITY,
+            factors_of: None,
             awake: Vec::with_capacity(system.components()),
             mobility: Whole::new(system)?,
             inverse: Whole::new(system)?,
@@ -109,7 +125,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Forces that do not depend on the contacts: weight, loads, and what a prescribed x does to the other freedoms.
-    fn fill_load(&mut self, t: f64) {
+    pub(crate) fn fill_load(&mut self, t: f64) {
         self.load.copy_from(&self.system.gravity);
         for load in &self.system.scene.actuators.loads {
             if let Some(number) = self.system.loaded(load) {
@@ -188,7 +204,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Whether the law of component `i` feels a rate of the freedoms themselves.
-    fn feels_rates(&self, i: usize) -> bool {
+    pub(crate) fn feels_rates(&self, i: usize) -> bool {
         match i < self.system.normals.len() {
             true => self.system.law(i).damper == Damper::Ground,
             false => i >= self.system.traction(0),
@@ -234,7 +250,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Largest of the changes from `at` to what its accelerations `at.a` give, beside their scales, and puts them there.
-    fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
+    pub(crate) fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
         let [mut moved, mut beside] = [0.0_f64; 2];
         for i in 0..self.system.freedoms {
             let v = known.v[i] + g * at.a[i];
@@ -255,7 +271,7 @@ impl<'a> Solver<'a> {
     /// the previous solution as a guess. Returns whether it converged.
     pub fn stage(&mut self, g: f64, known: &mut Known, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
-        let (n, m) = (system.freedoms, system.components());
+        let n = system.freedoms;
         self.mobility.set_step(system, g)?;
         let rides = !system.rides.is_empty();
         let places_move =
@@ -277,40 +293,21 @@ impl<'a> Solver<'a> {
             if hangs {
                 self.charts.flatten(system, &self.geometry.switches, g, known, at);
             }
-            if pass == 0 || rides || hangs {
-                self.move_freely(g, known, at)?;
+            let mut corrected = None;
+            if self.may_correct(g) {
+                corrected = self.correct(g, known, at)?;
+                if corrected.is_none() {
+                    self.factors_of = None;
+                }
             }
-            self.geometry.update(system, at.t, &at.q, &at.force)?;
-            if pass == 0 {
-                self.lull(&at.force);
-            }
-            self.fill_spread();
-            for i in 0..m {
-                self.fill_row(i, g, &known.p);
-            }
-            self.drag_stage(g, &known.p, at);
-            if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
-                return Ok(false);
-            }
-            if self.wake(&at.force) {
-                continue;
-            }
-            let count = self.awake.len();
-            self.pressing.clear();
-            self.pressing.extend(self.awake.iter().map(|&j| at.force[j]));
-            for k in 0..n {
-                let spread = &self.spread[k * count..(k + 1) * count];
-                at.a[k] = self.free_a[k] - dot(spread, &self.pressing);
-            }
-            let [mut moved, beside] = self.follow_accelerations(g, known, at);
-            for i in 0..system.normals.len() {
-                at.p[i] = self.problem.penetration(i, &at.force);
-                at.p_rate[i] = (at.p[i] - known.p[i]) / g;
-            }
-            self.drag_end(g, &known.p, at);
-            let rise = self.update_heights(at);
-            moved = moved.max(rise);
-            let change = beside.max(rise);
+            let [moved, change] = match corrected {
+                Some(changes) => changes,
+                None => match self.pass(g, known, at, pass == 0)? {
+                    Pass::Moved(changes) => changes,
+                    Pass::Woken => continue,
+                    Pass::Failed => return Ok(false),
+                },
+            };
             let known = last.is_finite();
             if known {
                 self.contraction = (change / last).max(LEAST);
@@ -326,9 +323,56 @@ impl<'a> Solver<'a> {
             {
                 return Ok(true);
             }
+            if known && self.contraction > POOR {
+                self.factors_of = None;
+            }
             last = change;
         }
         Ok(false)
+    }
+
+    /// A pass of a stage: all matrices at the places of `at`, and the forces that they give. `begins`: nothing is known of
+    /// the stage but the guess in `at`.
+    fn pass(&mut self, g: f64, known: &mut Known, at: &mut State, begins: bool) -> Result<Pass, Error> {
+        let system = self.system;
+        let (n, m) = (system.freedoms, system.components());
+        let rides = !system.rides.is_empty();
+        if begins || rides || !self.charts.is_empty() || self.factors_of.is_none() {
+            self.move_freely(g, known, at)?;
+        }
+        self.factors_of = None;
+        self.geometry.update(system, at.t, &at.q, &at.force)?;
+        if begins {
+            self.lull(&at.force);
+        }
+        self.fill_spread();
+        for i in 0..m {
+            self.fill_row(i, g, &known.p);
+        }
+        self.drag_stage(g, &known.p, at);
+        if !self.problem.solve(system, &self.geometry, &self.active, &mut at.force) {
+            return Ok(Pass::Failed);
+        }
+        if self.wake(&at.force) {
+            return Ok(Pass::Woken);
+        }
+        self.factors_of = Some(g);
+        let count = self.awake.len();
+        self.pressing.clear();
+        self.pressing.extend(self.awake.iter().map(|&j| at.force[j]));
+        for k in 0..n {
+            let spread = &self.spread[k * count..(k + 1) * count];
+            at.a[k] = self.free_a[k] - dot(spread, &self.pressing);
+        }
+        let [mut moved, beside] = self.follow_accelerations(g, known, at);
+        for i in 0..system.normals.len() {
+            at.p[i] = self.problem.penetration(i, &at.force);
+            at.p_rate[i] = (at.p[i] - known.p[i]) / g;
+        }
+        self.drag_end(g, &known.p, at);
+        let rise = self.update_heights(at);
+        moved = moved.max(rise);
+        Ok(Pass::Moved([moved, beside.max(rise)]))
     }
 
     /// What a stage of the coefficient `g` puts into row `i` of the contact problem; `known` are penetrations.
@@ -379,11 +423,13 @@ impl<'a> Solver<'a> {
     }
 
     /// Forces, penetrations and accelerations at (t, q, v) for the contacts that are active; the
-    /// penetration of those that remember it is given. Returns whether it converged.
+    /// penetration of those that remember it is given, inside a step its rate: p + G F = e with F = k p + c p' errs by
+    /// c/(1 + k G) of the rate's error, where F = k p + c p' alone errs by k of the penetration's. Returns whether it converged.
     pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         let (n, m) = (system.freedoms, system.components());
         self.problem.asleep.fill(false);
+        self.factors_of = None;
         self.problem.slack = 0.0;
         for _ in 0..PASSES {
             self.geometry.update(system, at.t, &at.q, &at.force)?;
@@ -391,7 +437,11 @@ impl<'a> Solver<'a> {
                 self.problem.approach[i] = self.geometry.approach(i, &at.q);
                 self.problem.rate[i] = self.geometry.rate(i, &at.v);
                 self.problem.memory[i] = None;
-                self.problem.known[i] = i < system.normals.len() && self.remembers(i);
+                let remembers = i < system.normals.len() && self.remembers(i);
+                self.problem.known[i] = remembers && !at.is_between;
+                if remembers && at.is_between {
+                    self.problem.rate[i] = at.p_rate[i];
+                }
                 if self.problem.known[i] {
                     let scale = system.normals[i].count() * self.geometry.share[i][0];
                     at.force[i] = scale * system.law(i).at(at.p[i], at.p_rate[i]).force;
@@ -439,7 +489,7 @@ impl<'a> Solver<'a> {
     }
 
     /// Heights of the wheels' centres above their rails; returns the largest change where it matters.
-    fn update_heights(&mut self, at: &State) -> f64 {
+    pub(crate) fn update_heights(&mut self, at: &State) -> f64 {
         if self.system.laterals.is_empty() && self.system.tractions.is_empty() {
             return 0.0;
         }

@@ -18,6 +18,8 @@ pub(crate) struct State {
     pub p_rate: Vec<f64>,
     /// Force of each component.
     pub force: Vec<f64>,
+    /// Whether it is an interpolant: rates of penetration are as near as the places, penetrations are not, for stiff wheels.
+    pub is_between: bool,
 }
 
 impl State {
@@ -35,6 +37,7 @@ impl State {
             p: vec![0.0; penetrations],
             p_rate: vec![0.0; penetrations],
             force: vec![0.0; components],
+            is_between: false,
         }
     }
 
@@ -46,12 +49,14 @@ impl State {
         self.p.copy_from_slice(&other.p);
         self.p_rate.copy_from_slice(&other.p_rate);
         self.force.copy_from_slice(&other.force);
+        self.is_between = other.is_between;
     }
 
     /// Sets this state to the interpolant between `from` and `to` at the share `s` of the step: quintic in q
     /// (from q, v and a at both ends), cubic in the penetrations. Forces keep those of `from` as a first guess.
     pub fn interpolate(&mut self, from: &State, to: &State, s: f64) {
         let h = to.t - from.t;
+        self.is_between = true;
         self.t = from.t + s * h;
         let (s2, s3, s4) = (s * s, s * s * s, s * s * s * s);
         let s5 = s4 * s;

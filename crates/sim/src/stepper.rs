@@ -345,6 +345,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.stage.copy_from(&self.from);
         self.solver.chart(&self.from);
         self.solver.contraction = f64::INFINITY;
+        self.solver.factors_of = None;
         for i in 0..tableau.stages() {
             self.known.q.copy_from(&self.from.q);
             self.known.v.copy_from(&self.from.v);

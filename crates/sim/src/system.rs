@@ -17,7 +17,7 @@ use crate::ride::Rides;
 use crate::scene::arm_rows;
 use crate::state::State;
 use crate::tie::Tie;
-use crate::{Error, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
+use crate::{Error, Flange, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
 
 /// One physical wheel.
 pub(crate) struct WheelPoint<'a> {
@@ -290,6 +290,11 @@ impl<'a> System<'a> {
     /// Component of flange `i`.
     pub fn lateral(&self, i: usize) -> usize {
         self.normals.len() + i
+    }
+
+    /// The law of flange `i`.
+    pub fn flange(&self, i: usize) -> Option<&'a Flange> {
+        self.scene.wheels[self.wheels[self.laterals[i]].kind].flange.as_ref()
     }
 
     /// Component of friction `i`.

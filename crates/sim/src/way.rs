@@ -12,7 +12,7 @@ use crate::Foundation;
 use crate::system::{Entry, System};
 
 /// Number of probes from which it pays.
-const MANY: usize = 9;
+const MANY: usize = 3;
 
 /// What one contact does to one component.
 #[derive(Clone)]
@@ -21,6 +21,14 @@ struct Strand {
     /// A wheel of it.
     wheel: usize,
     tread: Option<usize>,
+}
+
+/// What one wheel has in a strand.
+#[derive(Clone, Copy)]
+struct Thread {
+    strand: usize,
+    probe: usize,
+    weight: f64,
 }
 
 /// The compliance over the strands at one place of each.
@@ -37,9 +45,11 @@ struct Node {
 #[derive(Clone)]
 pub(crate) struct Way {
     strands: Vec<Strand>,
-    /// The strand of each entry.
-    strand: Vec<usize>,
+    /// Of each entry: its strand, its probe and its weight. A drive and a brake of one wheel probe the same.
+    threads: Vec<Thread>,
     probes: Vec<Probe>,
+    /// The wheel of each probe.
+    wheels: Vec<usize>,
     influence: Influence,
     ends: [Node; 2],
     /// Rail coordinates of all wheels at the end.
@@ -69,25 +79,32 @@ impl Way {
             return None;
         }
         let mut strands: Vec<Strand> = Vec::new();
-        let mut strand = Vec::new();
-        for entry in entries {
+        let (mut threads, mut probes, mut wheels) = (Vec::new(), Vec::<Probe>::new(), Vec::new());
+        for Entry { component, weight, wheel, probe, tread } in entries {
             let contact = |wheel: usize| system.wheels[wheel].contact;
-            let same = |known: &Strand| {
-                known.component == entry.component && contact(known.wheel) == contact(entry.wheel)
-            };
-            strand.push(strands.iter().position(same).unwrap_or(strands.len()));
-            if strand.last() == Some(&strands.len()) {
-                let Entry { component, wheel, tread, .. } = *entry;
-                strands.push(Strand { component, wheel, tread });
+            let same =
+                |known: &Strand| known.component == *component && contact(known.wheel) == contact(*wheel);
+            let strand = strands.iter().position(same).unwrap_or(strands.len());
+            if strand == strands.len() {
+                strands.push(Strand { component: *component, wheel: *wheel, tread: *tread });
             }
+            let own =
+                |(at, of): (&Probe, &usize)| at.rail == probe.rail && at.axis == probe.axis && of == wheel;
+            let place = probes.iter().zip(&wheels).position(own).unwrap_or(probes.len());
+            if place == probes.len() {
+                probes.push(*probe);
+                wheels.push(*wheel);
+            }
+            threads.push(Thread { strand, probe: place, weight: *weight });
         }
         let count = strands.len();
         let square = || vec![0.0; count * count];
         let node = || Node { x: vec![0.0; count], value: square(), slope: square() };
         Some(Way {
-            strand,
-            probes: entries.iter().map(|entry| entry.probe).collect(),
-            influence: Influence::zeros(entries.len()),
+            influence: Influence::zeros(probes.len()),
+            threads,
+            probes,
+            wheels,
             ends: [node(), node()],
             last: vec![0.0; system.wheels.len()],
             length: vec![0.0; count],
@@ -108,7 +125,6 @@ impl Way {
     pub fn lay(
         &mut self,
         compliance: &dyn Compliance,
-        entries: &[Entry],
         [from, to]: [&[f64]; 2],
         reach: f64,
         goes_on: bool,
@@ -119,9 +135,9 @@ impl Way {
         self.is_laid = false;
         self.ends.swap(0, 1);
         if !is_near {
-            self.find(0, compliance, entries, from)?;
+            self.find(0, compliance, from)?;
         }
-        self.find(1, compliance, entries, to)?;
+        self.find(1, compliance, to)?;
         self.last.copy_from_slice(to);
         self.fit();
         self.is_laid = true;
@@ -148,27 +164,27 @@ impl Way {
         &mut self,
         end: usize,
         compliance: &dyn Compliance,
-        entries: &[Entry],
         places: &[f64],
     ) -> Result<(), splines::Error> {
-        for (probe, entry) in self.probes.iter_mut().zip(entries) {
-            probe.x = places[entry.wheel];
+        for (probe, &wheel) in self.probes.iter_mut().zip(&self.wheels) {
+            probe.x = places[wheel];
         }
         compliance.fill(&self.probes, &mut self.influence)?;
-        let (node, count) = (&mut self.ends[end], self.strands.len());
+        let (node, count, size) = (&mut self.ends[end], self.strands.len(), self.probes.len());
         node.value.fill(0.0);
         node.slope.fill(0.0);
         for (x, strand) in node.x.iter_mut().zip(&self.strands) {
             *x = places[strand.wheel];
         }
         let (values, slopes) = (self.influence.value.as_slice(), self.influence.slope.as_slice());
-        let columns = values.chunks_exact(entries.len()).zip(slopes.chunks_exact(entries.len()));
-        for ((column, &j), (values, slopes)) in entries.iter().zip(&self.strand).zip(columns) {
-            for ((row, &i), (value, slope)) in entries.iter().zip(&self.strand).zip(values.iter().zip(slopes))
-            {
+        for column in &self.threads {
+            let span = column.probe * size..(column.probe + 1) * size;
+            let (values, slopes) = (&values[span.clone()], &slopes[span]);
+            for row in &self.threads {
                 let weight = row.weight * column.weight;
-                node.value[i * count + j] += weight * value;
-                node.slope[i * count + j] += weight * slope;
+                let place = row.strand * count + column.strand;
+                node.value[place] += weight * values[row.probe];
+                node.slope[place] += weight * slopes[row.probe];
             }
         }
         Ok(())

@@ -56,6 +56,29 @@ fn a_hung_mass_swings_and_bounces() {
     assert!(modes[2].share[0][1] > 1.0 - 1e-9, "{:?}", modes[2]);
 }
 
+/// A ladle of 1,020 kip on elastic ropes, feet and pounds.
+#[test]
+fn a_ladle_on_its_ropes_bounces_at_a_few_hertz() {
+    for (stiffness, known) in [(5e6, 1.9), (5e7, 6.0)] {
+        let weight = 1.02e6;
+        let mass = weight / GRAVITY;
+        let actuators = Actuators {
+            ropes: vec![space::rope(stiffness * 40.0, 40.0, [None, Some(0)])],
+            hung: vec![0],
+            ..Actuators::default()
+        };
+        let mut scene =
+            space::scene(vec![space::body(mass, [true; 3], [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6);
+        scene.gravity = GRAVITY;
+        let modes = natural_modes(&scene, &[], 0.0, &[0.0]).expect("at rest").expect("three freedoms");
+        let what = format!(
+            "ladle of 1,020 kip on ropes of {stiffness:e} lb/ft: frequency, Hz (one digit, its weight not told)"
+        );
+        claims::figure("4 Steps in time", what, "prototype", known)
+            .met(modes[2].omega / (2.0 * std::f64::consts::PI), 0.06);
+    }
+}
+
 /// Independent: three masses on springs in a row, the bridge's wheels, the trolley's wheels and the rope; dampers do not count.
 #[test]
 fn a_crane_bounces_as_three_masses_in_a_row() {

@@ -6,6 +6,9 @@ use super::error::Error;
 /// Ranges shorter than this count as a single value: powers of ten below it lose digits.
 const TINY: f64 = 1e-280;
 
+/// Labels that a logarithmic axis must have to be read.
+const FEWEST: usize = 3;
+
 /// Placed values with their labels.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Ticks {
@@ -90,7 +93,16 @@ impl Scale {
 
     /// Ticks, about `target` of them.
     pub fn ticks(&self, target: f64) -> Ticks {
-        if self.log { self.log_ticks() } else { self.linear_ticks(target) }
+        if !self.log {
+            return self.linear_ticks(target);
+        }
+        let ticks = self.log_ticks();
+        // a part of a decade may hold one of them, or none
+        if ticks.labels.iter().filter(|label| !label.is_empty()).count() < FEWEST {
+            self.linear_ticks(target)
+        } else {
+            ticks
+        }
     }
 
     fn linear_ticks(&self, target: f64) -> Ticks {

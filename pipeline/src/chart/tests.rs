@@ -149,6 +149,18 @@ fn girder_is_drawn() {
     assert!(svg.contains("displacements x 10"), "the factor is stated");
 }
 
+/// Three labels at least on every logarithmic axis, in order and within it, whether it spans a share of a decade or many.
+#[test]
+fn logarithmic_axes_can_be_read() {
+    for (low, high) in [(1.3, 2.2), (5.6e3, 2.4e4), (0.9, 1.1), (2e-9, 3e-4), (0.5, 60.0)] {
+        let ticks = scale::Scale { low, high, log: true }.ticks(6.0);
+        let labels = ticks.labels.iter().filter(|label| !label.is_empty()).count();
+        assert!(labels >= 3, "{low} to {high}: {:?}", ticks.labels);
+        assert!(ticks.values.windows(2).all(|pair| pair[0] < pair[1]));
+        assert!(ticks.values.iter().all(|value| (low..=high).contains(value)));
+    }
+}
+
 #[test]
 fn logarithmic_errors_are_drawn() {
     let points = |c: f64| (0..6).map(|i| [6.0 * 2f64.powi(i), c * 4f64.powi(-i)]).collect();

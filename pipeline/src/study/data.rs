@@ -76,6 +76,9 @@ fn setting(point: &Point, fronts: &[&'static str]) -> Value {
             out["stages"] = json!(measured.counts.stages);
             out["events"] = json!(measured.counts.events);
             out["freedoms"] = json!(measured.freedoms);
+            if let Some(memory) = measured.memory {
+                out["memory"] = json!({ "foundations": memory.foundations, "run": memory.run });
+            }
             out["front_by_stages"] = json!(fronts);
         }
         Outcome::Stopped => out["status"] = json!("stopped"),
@@ -182,6 +185,7 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
         head.extend(["largest", "peak"].map(|kind| format!("{}.{kind}", quantity.word())));
     }
     head.extend(["steps", "rejected", "stages", "events", "freedoms"].map(str::to_owned));
+    head.extend(["foundations [B]", "run [B]"].map(str::to_owned));
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(&head)?;
     for point in &study.points {
@@ -206,6 +210,8 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
                 }
                 let sim::Counts { steps, rejected, stages, events } = measured.counts;
                 row.extend([steps, rejected, stages, events, measured.freedoms].map(|own| own.to_string()));
+                let bytes = measured.memory.map(|own| [own.foundations, own.run].map(|own| own.to_string()));
+                row.extend(bytes.unwrap_or_default());
             }
             None => row.resize(head.len(), String::new()),
         }

@@ -7,6 +7,7 @@ use sim::Stepping;
 use super::cpu::{self, limited};
 use super::depth::Depth;
 use super::ladder::{self, Kinds, varies};
+use super::memory::{self, Memory};
 use super::misfit::misfits;
 use super::point::{Measured, Outcome, Point};
 use super::quantity::Quantity;
@@ -166,7 +167,8 @@ fn measure(
         Err(failure) => return refused(failure.words()),
     };
     let start = cpu::seconds();
-    let run = match limited(depth.limit, |watch| rig.run(watch)) {
+    let (run, held) = memory::most(|| limited(depth.limit, |watch| rig.run(watch)));
+    let run = match run {
         Ok(run) => run,
         Err(error) => return refused(error.to_string()),
     };
@@ -182,12 +184,15 @@ fn measure(
         Ok(trace) => trace,
         Err(failure) => return refused(failure.words()),
     };
+    // a second one: the first left modes and tables with the workshop
+    let (_, foundations) = memory::kept(|| workshop.rig(setting));
     let measured = Measured {
         errors: misfits(&trace, &reference.trace),
         counts: run.counts,
         freedoms: rig.freedoms(),
         time: None,
         setup: rig.setup,
+        memory: foundations.zip(held).map(|(foundations, run)| Memory { foundations, run }),
     };
     (Some((rig, seconds)), Outcome::Done(measured))
 }

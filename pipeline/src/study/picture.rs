@@ -25,6 +25,8 @@ enum Cost {
     Time,
     /// Contact solutions in stages.
     Stages,
+    /// Memory of foundations and run, kB.
+    Memory,
     /// What varies along each curve.
     Knob,
 }
@@ -49,9 +51,10 @@ fn is_table(family: Family) -> bool {
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
 pub fn pictures(study: &Study, name: &str) -> Result<Vec<Picture>, Error> {
-    let all: [(&str, &str, Takes, Cost); 9] = [
+    let all: [(&str, &str, Takes, Cost); 10] = [
         ("foundations-time", "foundations", is_foundation, Cost::Time),
         ("foundations-stages", "foundations", is_foundation, Cost::Stages),
+        ("foundations-memory", "foundations", is_foundation, Cost::Memory),
         ("methods-time", "methods of integration", is_method, Cost::Time),
         ("methods-stages", "methods of integration", is_method, Cost::Stages),
         ("tables-time", "readings of tables", is_table, Cost::Time),
@@ -82,6 +85,7 @@ fn cost_of(point: &Point, cost: Cost) -> Option<f64> {
     let value = match cost {
         Cost::Time => 1e3 * measured.time?.median,
         Cost::Stages => measured.counts.stages as f64,
+        Cost::Memory => 1e-3 * measured.memory?.total() as f64,
         Cost::Knob => point.setting.value,
     };
     (value > 0.0).then_some(value)
@@ -106,6 +110,7 @@ fn chart(
     let x = match cost {
         Cost::Time => Axis::new("time of a run (median; bar: least to most)", "ms"),
         Cost::Stages => Axis::new("contact solutions", ""),
+        Cost::Memory => Axis::new("memory of foundations and run", "kB"),
         Cost::Knob if knob == "stations" => Axis::new("stations a rail", ""),
         Cost::Knob if knob == "elements" => Axis::new("elements a member", ""),
         Cost::Knob => Axis::new(knob, ""),
@@ -114,6 +119,7 @@ fn chart(
     title += match cost {
         Cost::Time => "time",
         Cost::Stages => "work",
+        Cost::Memory => "memory",
         Cost::Knob => knob,
     };
     if cost != Cost::Knob || what != knob {

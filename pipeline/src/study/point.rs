@@ -1,5 +1,6 @@
 //! What came of a setting.
 
+use super::memory::Memory;
 use super::misfit::Misfit;
 use super::quantity::Quantity;
 use super::setting::Setting;
@@ -38,6 +39,8 @@ pub struct Measured {
     pub time: Option<Spread>,
     /// Seconds that it took to make the foundations.
     pub setup: f64,
+    /// Memory that it takes, where the program counts it.
+    pub memory: Option<Memory>,
 }
 
 impl Point {
