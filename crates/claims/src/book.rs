@@ -108,6 +108,7 @@ fn part(root: &Path, path: &Path, name: &str) -> Result<String, Error> {
         "peers-crossings" => Ok(peers::crossings(&json("docs/peers.json")?)),
         "studies-dearer" => Ok(study::dearer(&studies()?)),
         "studies-fronts" => Ok(study::fronts(&studies()?)),
+        "studies-commands" => Ok(study::commands(&studies()?)),
         "studies-memory" => Ok(study::memory(&studies()?)),
         _ => Err(Error::Part(path.to_owned(), name.to_owned())),
     }
@@ -126,24 +127,25 @@ fn figures(records: &[Record]) -> String {
     for section in sections {
         let own: Vec<&Record> = records.iter().filter(|own| own.section == section).collect();
         out += &format!("\n### {section}\n");
-        let mut notes: Vec<String> = Vec::new();
-        let mut test = "";
-        for record in own {
-            if test != record.test {
-                test = &record.test;
-                out += &format!("\n`{test}` in `{}`\n\n", record.file);
-                out += "| figure | source | known | ours | deviation |\n|---|---|---|---|---|\n";
-            }
-            out += &row(record);
-            if record.verdict == Verdict::Corrected {
-                note(&mut notes, record);
-            }
-        }
-        if !notes.is_empty() {
-            out += &format!("\nNot met:\n\n{}\n", notes.join("\n"));
+        for own in own.chunk_by(|a, b| (&a.file, &a.test) == (&b.file, &b.test)) {
+            out += &format!("\n`{}` in `{}`\n\n", own[0].test, own[0].file);
+            out += "| figure | source | known | ours | deviation |\n|---|---|---|---|---|\n";
+            own.iter().for_each(|record| out += &row(record));
+            out += &notes(own);
         }
     }
     out
+}
+
+/// Why figures of a test are not met: a line a reason.
+fn notes(own: &[&Record]) -> String {
+    let mut seen: Vec<&str> = Vec::new();
+    for record in own.iter().filter(|own| own.verdict == Verdict::Corrected) {
+        if !seen.contains(&record.why.as_str()) {
+            seen.push(&record.why);
+        }
+    }
+    seen.iter().map(|why| format!("\nNot met: {why}.\n")).collect()
 }
 
 fn row(own: &Record) -> String {
@@ -165,13 +167,4 @@ fn row(own: &Record) -> String {
         number(own.known, known)
     };
     format!("| {} | {} | {known} | {value} | {deviation} |\n", own.what, own.source)
-}
-
-/// Adds why a figure is not met; figures of one reason share it.
-fn note(notes: &mut Vec<String>, own: &Record) {
-    let ending = format!(": {}", own.why);
-    match notes.iter_mut().find_map(|note| Some((note.strip_suffix(&ending)?.to_owned(), note))) {
-        Some((before, note)) => *note = format!("{before}; {}{ending}", own.what),
-        None => notes.push(format!("- {}{ending}", own.what)),
-    }
 }

@@ -96,18 +96,14 @@ pub fn excerpt(folder: &Path, command: &str) -> Result<String, Error> {
     let (study, timing) = (read("study.json")?, read("timing.json")?);
     let entries = |value: &Value| value.as_array().cloned().unwrap_or_default();
     let times = entries(&timing["settings"]);
-    let label = |own: &Value| {
-        let family = own["family"].as_str().unwrap_or_default();
-        let object = own.as_object();
-        // the knob is the member after the family
-        let knob = object.and_then(|own| own.iter().nth(1));
-        knob.map_or_else(|| (family.to_owned(), Value::Null), |(_, value)| (family.to_owned(), value.clone()))
-    };
     let mut done = 0;
     let mut lines = Vec::new();
     for setting in entries(&study["settings"]) {
-        let (family, value) = label(&setting);
-        let mut line = json!({ "family": family, "value": value, "against": setting["against"] });
+        // what varies is the member after the family
+        let knob = setting.as_object().and_then(|own| own.iter().nth(1));
+        let (knob, value) = knob.map_or(("", &Value::Null), |(knob, value)| (knob.as_str(), value));
+        let mut line = json!({ "family": setting["family"], "knob": knob, "value": value });
+        line["against"] = setting["against"].clone();
         line["status"] = setting["status"].clone();
         if setting["status"] == "done" {
             for key in ["errors", "steps", "stages", "freedoms", "memory"] {

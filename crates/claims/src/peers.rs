@@ -55,8 +55,12 @@ pub fn loads(data: &Value) -> String {
 /// Crossings: cheapest setting of each code that reaches an error, and its time by ours.
 pub fn crossings(data: &Value) -> String {
     let runs = runs(data);
-    let mut scenes: Vec<&str> = runs.iter().map(|own| own.scene).filter(|own| *own != LOADS).collect();
-    scenes.dedup();
+    let mut scenes: Vec<&str> = Vec::new();
+    for own in runs.iter().filter(|own| own.scene != LOADS) {
+        if !scenes.contains(&own.scene) {
+            scenes.push(own.scene);
+        }
+    }
     let mut out = "| scene | error | girderway".to_owned();
     OTHERS.iter().for_each(|code| out += &format!(" | {code} | by ours"));
     out += " |\n|---|---|---";

@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::number::number;
 
 /// Quantities that errors are measured in.
-const QUANTITIES: [&str; 4] = ["deflection", "force", "reaction", "moment"];
+const QUANTITIES: [&str; 4] = ["deflection", "wheel_force", "reaction", "moment"];
 
 fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or_default()
@@ -13,6 +13,13 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
 
 fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value[key].as_array().map(Vec::as_slice).unwrap_or_default()
+}
+
+/// A setting in words.
+fn label(own: &Value) -> String {
+    let value = own["value"].as_f64().unwrap_or(f64::NAN);
+    let value = if value < 1.0 { format!("{value:e}") } else { format!("{value}") };
+    format!("{}, {} {value}", text(own, "family"), text(own, "knob"))
 }
 
 /// How much dearer the scene as written and the choice of "auto" are than the cheapest setting that errs no more.
@@ -61,12 +68,11 @@ pub fn fronts(studies: &[Value]) -> String {
                 if value <= least { format!("below {least:.0e}") } else { format!("{value:.1e}") }
             };
             out += &format!(
-                "| {} | {} {} | {} | {} | {} | {} to {} | {} |\n",
+                "| {} | {} | {} | {} | {} | {} to {} | {} |\n",
                 text(study, "name"),
-                text(own, "family"),
-                own["value"],
+                label(own),
                 told(error_of),
-                error(own, "force").map_or_else(String::new, |value| format!("{value:.1e}")),
+                error(own, "wheel_force").map_or_else(String::new, |value| format!("{value:.1e}")),
                 number(1e3 * median, 3),
                 ms("least"),
                 ms("most"),
@@ -75,6 +81,15 @@ pub fn fronts(studies: &[Value]) -> String {
         }
     }
     out
+}
+
+/// How the studies were run.
+pub fn commands(studies: &[Value]) -> String {
+    let mut out = "```sh\n".to_owned();
+    for study in studies {
+        out += &format!("{}\n", text(study, "command"));
+    }
+    out + "```\n"
 }
 
 /// Whether a study has one reference alone.
@@ -98,10 +113,9 @@ pub fn memory(studies: &[Value]) -> String {
             let Some(run) = held(own) else { continue };
             let foundations = own["memory"]["foundations"].as_f64().unwrap_or(0.0);
             out += &format!(
-                "| {} | {} {} | {} | {} | {} |\n",
+                "| {} | {} | {} | {} | {} |\n",
                 text(study, "name"),
-                text(own, "family"),
-                own["value"],
+                label(own),
                 number(1e-3 * foundations, 3),
                 number(1e-3 * run, 3),
                 own["errors"]["deflection"].as_f64().map_or_else(String::new, |value| format!("{value:.1e}")),
