@@ -15,6 +15,11 @@ fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value[key].as_array().map(Vec::as_slice).unwrap_or_default()
 }
 
+/// An error as the tables write it.
+fn error(value: f64) -> String {
+    if value == 0.0 { "that of the reference".to_owned() } else { format!("{value:.1e}") }
+}
+
 /// A setting in words.
 fn label(own: &Value) -> String {
     let value = own["value"].as_f64().unwrap_or(f64::NAN);
@@ -47,12 +52,12 @@ pub fn dearer(studies: &[Value]) -> String {
 pub fn fronts(studies: &[Value]) -> String {
     let mut out = "| scene | setting | error of deflection | wheel force | median, ms | least to most | contact solutions |\n|---|---|---|---|---|---|---|\n".to_owned();
     for study in studies {
-        let error = |own: &Value, name: &str| own["errors"][name].as_f64();
+        let of = |own: &Value, name: &str| own["errors"][name].as_f64();
         let whole = |own: &&Value| text(own, "against") == "whole" || studies_one_reference(study);
         let mut own: Vec<(&Value, f64, f64)> = list(study, "settings")
             .iter()
             .filter(whole)
-            .filter_map(|own| Some((own, error(own, "deflection")?, own["median"].as_f64()?)))
+            .filter_map(|own| Some((own, of(own, "deflection")?, own["median"].as_f64()?)))
             .collect();
         let tells = list(study, "references").first();
         let least = tells.and_then(|own| own["tells_from"]["deflection"].as_f64()).unwrap_or(0.0);
@@ -72,7 +77,7 @@ pub fn fronts(studies: &[Value]) -> String {
                 text(study, "name"),
                 label(own),
                 told(error_of),
-                error(own, "wheel_force").map_or_else(String::new, |value| format!("{value:.1e}")),
+                of(own, "wheel_force").map_or_else(String::new, error),
                 number(1e3 * median, 3),
                 ms("least"),
                 ms("most"),
@@ -103,14 +108,16 @@ pub fn memory(studies: &[Value]) -> String {
         "| scene | setting | foundations, kB | run, kB | error of deflection |\n|---|---|---|---|---|\n"
             .to_owned();
     for study in studies {
-        let held = |own: &Value| own["memory"]["run"].as_f64();
+        let held = |own: &Value| {
+            Some(own["memory"]["run"].as_f64()? + own["memory"]["foundations"].as_f64().unwrap_or(0.0))
+        };
         let most = list(study, "settings")
             .iter()
             .filter(|own| held(own).is_some())
             .max_by(|a, b| held(a).unwrap_or(0.0).total_cmp(&held(b).unwrap_or(0.0)));
         let named = |family: &str| list(study, "settings").iter().find(|own| text(own, "family") == family);
         for own in [named("as written"), named("auto"), most].into_iter().flatten() {
-            let Some(run) = held(own) else { continue };
+            let Some(run) = own["memory"]["run"].as_f64() else { continue };
             let foundations = own["memory"]["foundations"].as_f64().unwrap_or(0.0);
             out += &format!(
                 "| {} | {} | {} | {} | {} |\n",
@@ -118,7 +125,7 @@ pub fn memory(studies: &[Value]) -> String {
                 label(own),
                 number(1e-3 * foundations, 3),
                 number(1e-3 * run, 3),
-                own["errors"]["deflection"].as_f64().map_or_else(String::new, |value| format!("{value:.1e}")),
+                own["errors"]["deflection"].as_f64().map_or_else(String::new, error),
             );
         }
     }

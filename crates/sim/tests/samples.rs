@@ -15,11 +15,12 @@ fn run(accuracy: f64) -> Run {
     run_by(Method::Sdirk4, &scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
 }
 
-/// Independent: the same run in steps a tenth as long. A spring of 1e8 between wheel and rail makes 1e-4 of a penetration
-/// 1e4 of force; forces inside steps are those of the rail that gives.
+/// Independent: the same run in shorter steps. Penetrations inside a step are those of a rail that gives, not those of the
+/// polynomial through its ends, which err by 7.6e-5 here.
 #[test]
-fn forces_inside_steps_err_as_little_as_the_places() {
-    let (coarse, fine) = (run(1e-3), run(1e-8));
+fn give_of_the_rail_inside_long_steps_errs_by_a_thirtieth_of_the_accuracy() {
+    let accuracy = 1e-3;
+    let (coarse, fine) = (run(accuracy), run(1e-8));
     let apart = |channel| {
         let (a, b) = (coarse.history.column(channel), fine.history.column(channel));
         let size = b.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
@@ -28,5 +29,5 @@ fn forces_inside_steps_err_as_little_as_the_places() {
     let [force, give] = [Channel::Vertical(0), Channel::Give(0)].map(apart);
     let (samples, steps) = (fine.history.column(Channel::Time).len(), coarse.counts.steps);
     println!("{samples} samples in {steps} steps: force {force:.1e}, give {give:.1e}");
-    assert!(samples > steps && force < 2.0 * give && give < 2e-3, "{force} {give}");
+    assert!(samples > 2 * steps && give < accuracy / 30.0 && force < 2.0 * accuracy, "{force} {give}");
 }

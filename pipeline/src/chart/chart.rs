@@ -3,7 +3,7 @@
 use super::axis::Axis;
 use super::error::Error;
 use super::frame::{BELOW, Frame, RIGHT, WIDTH};
-use super::legend::{Legend, dashes, symbol};
+use super::legend::{Legend, dashes, ink, symbol};
 use super::path::{along, thin};
 use super::scale::Scale;
 use super::series::{Marker, Series, Style};
@@ -155,7 +155,9 @@ impl Chart {
     fn scales(&self) -> Result<(Scale, Scale, f64), Error> {
         let points = || self.series.iter().flat_map(|s| &s.points);
         let loose = self.series.iter().any(Series::has_symbols) && !self.equal_aspect;
-        let x = Scale::new(&self.x_axis, points().map(|p| p[0]), loose)?;
+        let spread = self.series.iter().flat_map(|s| s.spread.iter().flatten().copied());
+        let spread = spread.filter(|x| x.is_finite() && (*x > 0.0 || !self.x_axis.log));
+        let x = Scale::new(&self.x_axis, points().map(|p| p[0]).chain(spread), loose)?;
         let y = Scale::new(&self.y_axis, points().map(|p| p[1]), true)?;
         let mut found = (x, y, HEIGHT);
         if self.equal_aspect && !x.log && !y.log {
@@ -224,7 +226,7 @@ impl Chart {
                     pen.line(&path, colour(index), 1.0)?;
                     path.iter().try_for_each(|p| symbol(pen, index, *p, 3.6))
                 }
-                _ => pen.line(&path, colour(index), 2.0),
+                _ => pen.line(&path, ink(series.style, index), 2.0),
             }
         })?;
         if self.crowded() && !series.has_symbols() {

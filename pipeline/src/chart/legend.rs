@@ -2,7 +2,7 @@
 
 use super::error::Error;
 use super::series::{Series, Style};
-use super::svg::{Anchor, INK, Pen, SMALL, Sheet, colour};
+use super::svg::{Anchor, GREY, INK, Pen, SMALL, Sheet, colour};
 use super::text::text_width;
 use plotters::style::{RGBColor, WHITE};
 
@@ -53,7 +53,7 @@ impl Legend {
             let attributes = format!("class=\"key\" data-series=\"{index}\"{}", dashes(one.style));
             sheet.group(&attributes, |pen| match one.style {
                 Style::Points => Ok(()),
-                _ => pen.line(&line, colour(index), 2.0),
+                style => pen.line(&line, ink(style, index), 2.0),
             })?;
             if self.symbols || one.has_symbols() {
                 sheet.group(&format!("class=\"key\" data-series=\"{index}\""), |pen| {
@@ -65,9 +65,14 @@ impl Legend {
     }
 }
 
+/// Colour of the lines of a series.
+pub(super) fn ink(style: Style, index: usize) -> RGBColor {
+    if style == Style::Limit { GREY } else { colour(index) }
+}
+
 /// Attribute that draws the lines of a group in that style.
 pub(super) fn dashes(style: Style) -> &'static str {
-    if style == Style::Dashed { " stroke-dasharray=\"80 50\"" } else { "" }
+    if matches!(style, Style::Dashed | Style::Limit) { " stroke-dasharray=\"80 50\"" } else { "" }
 }
 
 /// Symbol of the series with that index, in its colour: disc, square, triangle, ring, diamond, open square.

@@ -8,6 +8,8 @@ pub enum Style {
     Line,
     /// The same, dashed.
     Dashed,
+    /// The same, dashed and grey: a bound of the others, not one of them.
+    Limit,
     /// A symbol at each point.
     Points,
     /// A thin line from point to point, and a symbol at each.

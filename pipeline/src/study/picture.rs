@@ -162,7 +162,7 @@ fn chart(
     let high = all.iter().map(|own| own[0]).fold(0.0, f64::max);
     chart.series.push(Series::new(
         "what the reference tells",
-        Style::Dashed,
+        Style::Limit,
         vec![[low, least], [high, least]],
     ));
     let gone = shown().filter(|point| !matches!(point.outcome, Outcome::Done(_))).count();
