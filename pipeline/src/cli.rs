@@ -68,9 +68,33 @@ pub enum Command {
     /// Chart accuracy against cost: a scene on a ladder of settings, beside a converged reference that is made first
     #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
     Study(Study),
+    /// Give the JSON Schema of a format, for editors that complete and check as one types
+    #[command(after_help = "Example:\n  girderway schema scene -o scene.schema.json")]
+    Schema(Schema),
     /// Write starter files that run as they are: a bogie on a girder, a girder of a mill building, a bridge crane
     #[command(after_help = "Example:\n  girderway init bogie mine")]
     Init(Init),
+}
+
+/// Arguments of `schema`.
+#[derive(Clone, Debug, Args)]
+pub struct Schema {
+    /// Which format
+    pub format: Format,
+    /// File to write [default: standard output]
+    #[arg(short, long, value_name = "FILE.json")]
+    pub output: Option<PathBuf>,
+}
+
+/// Words of the formats that have a schema.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Format {
+    /// Beam spec
+    Beam,
+    /// Influence grid
+    Grid,
+    /// Scene
+    Scene,
 }
 
 /// Arguments of `init`.

@@ -1,6 +1,7 @@
 //! How strongly the directions of a structure are coupled, and what leaving that out costs.
 
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
@@ -141,7 +142,7 @@ fn change(coupling: &DMatrix<f64>, direct: &DMatrix<f64>, factor: f64) -> Option
 }
 
 /// The member `coupling` as it stands in the file: it follows from the grids.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCoupling {
     #[serde(rename = "vertical_lateral")]
@@ -154,7 +155,7 @@ pub(crate) struct RawCoupling {
     _dropped: Option<RawDropped>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawDropped {
     #[serde(rename = "side_load")]
@@ -165,7 +166,7 @@ struct RawDropped {
     _lateral: RawChange,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawChange {
     #[serde(rename = "median")]

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use splines::Axis;
@@ -18,7 +19,7 @@ const AXES: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
 
 /// The member `effects` as it stands in the file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawEffects {
     /// For people: they follow from the units of the file.
@@ -28,7 +29,7 @@ pub(crate) struct RawEffects {
     sections: Option<Vec<RawSection>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawUnits {
     #[serde(rename = "force")]
@@ -37,7 +38,7 @@ struct RawUnits {
     _moment: Option<String>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawReaction {
     x: Option<f64>,
@@ -49,7 +50,7 @@ struct RawReaction {
     longitudinal: Option<Vec<f64>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawSection {
     name: Option<String>,
@@ -70,7 +71,7 @@ struct RawSection {
     mz: Option<RawLines>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawLines {
     vertical: Option<Vec<f64>>,

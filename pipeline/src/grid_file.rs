@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use fea::Certificate;
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
 use splines::Surface;
@@ -84,9 +85,9 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
     text
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
-struct RawGrid {
+pub(crate) struct RawGrid {
     format: Option<String>,
     name: Option<String>,
     units: Option<RawUnits>,
@@ -104,14 +105,14 @@ struct RawGrid {
     modes: Option<RawModes>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawRail {
     name: Option<String>,
     stations: Option<Vec<f64>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawCertificate {
     condition: f64,
@@ -121,7 +122,7 @@ struct RawCertificate {
 }
 
 /// In what the stiffness was formed and factored.
-#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 enum Precision {
     #[default]
@@ -129,7 +130,7 @@ enum Precision {
     DoubleDouble,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawInfluence {
     vertical: Option<Vec<Vec<f64>>>,

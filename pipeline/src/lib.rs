@@ -42,6 +42,7 @@ pub mod record;
 pub mod report;
 pub mod response;
 pub mod scene;
+pub mod schema;
 pub mod source;
 pub mod spec;
 pub mod stations;

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 use std::fmt::Write;
 
 use fea::{Modes, Refined};
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use splines::{Axis, Probe};
@@ -91,7 +92,7 @@ fn hertz(omega: f64) -> String {
 }
 
 /// The member as it stands in the file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawModes {
     #[serde(rename = "complete_below")]
@@ -105,7 +106,7 @@ pub(crate) struct RawModes {
     modes: Option<Vec<RawMode>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawMode {
     hz: Option<f64>,
@@ -121,7 +122,7 @@ struct RawMode {
     twist: Option<Vec<f64>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawShape {
     value: Vec<f64>,

@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 use splines::{Carrier, Cell, Flexibility, Line, Surface};
@@ -16,14 +17,14 @@ use crate::place::Place;
 crate::object::objects!(RawSurface, RawCell);
 
 /// The member `surface` as it stands in the file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawSurface {
     cells: Vec<RawCell>,
     compliance: Vec<Vec<Option<f64>>>,
 }
 
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawCell {
     rail: usize,

@@ -2,6 +2,7 @@
 //!
 //! Time is in seconds everywhere; mass is force time^2 / length.
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::fault::{Fault, Faults};
@@ -119,7 +120,7 @@ pub struct Units {
 }
 
 /// The member `units` as written.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub struct RawUnits {
     length: Option<String>,

@@ -8,6 +8,7 @@ mod init;
 mod modes;
 mod rides;
 mod ropes;
+mod schema;
 mod specs;
 mod stops;
 mod tables;

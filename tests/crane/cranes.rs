@@ -11,7 +11,8 @@ fn momentum_of_two_cranes_passes_through_the_buffer() {
     let mut scene = scene("two_cranes");
     scene["structures"]["aisle"] = json!({"spec": "aisle.json", "foundation": "rigid"});
     scene["structures"]["girders"]["foundation"] = json!("rigid");
-    scene["output"] = json!({"dt": 0.005, "reactions": false, "sections": false});
+    // trapezia of drives at their limits, which flanges shake: at 0.005 s they err by 1 % of the buffer's impulse
+    scene["output"] = json!({"dt": 0.002, "reactions": false, "sections": false});
     let (histories, _) = run(&scene);
     let history = &histories[0];
     let time = history.column("time");

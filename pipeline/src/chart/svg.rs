@@ -191,13 +191,29 @@ impl Pen<'_> {
 
 /// Path data of an open polyline, relative after the first point.
 fn outline(points: &[[f64; 2]]) -> String {
-    let mut text = String::new();
-    let mut last = (0, 0);
-    for (i, point) in points.iter().enumerate() {
-        let here = fine(point);
-        text.push(if i == 0 { 'M' } else { 'l' });
-        text.push_str(&format!("{} {}", here.0 - last.0, here.1 - last.1));
-        last = here;
+    let mut corners = points.iter().map(fine);
+    let Some(first) = corners.next() else { return String::new() };
+    let mut text = format!("M{} {}", first.0, first.1);
+    let (mut last, mut letter) = (first, ' ');
+    for here in corners {
+        let (own, steps) = match (here.0 - last.0, here.1 - last.1) {
+            (x, 0) => ('h', [Some(x), None]),
+            (0, y) => ('v', [Some(y), None]),
+            (x, y) => ('l', [Some(x), Some(y)]),
+        };
+        let mut parted = own != letter;
+        if parted {
+            text.push(own);
+        }
+        for step in steps.into_iter().flatten() {
+            // a sign parts numbers as a blank does
+            if !parted && step >= 0 {
+                text.push(' ');
+            }
+            text.push_str(&step.to_string());
+            parted = false;
+        }
+        (last, letter) = (here, own);
     }
     text
 }
@@ -280,6 +296,13 @@ mod tests {
         assert_eq!(path, "M10 20l2 0 0-15-12 0 0-8 7 0 1-7 0 10 1 0");
         let line = format!("<polyline fill=\"none\" opacity=\"1\" stroke=\"#16161D\" points=\"{points}\"/>");
         assert_eq!(compact(&line), format!("<path fill=\"none\" stroke=\"#16161D\" d=\"{path}\"/>\n"));
+    }
+
+    #[test]
+    fn an_outline_says_level_and_upright_steps_by_one_number() {
+        let points = [[1.0, 2.0], [3.0, 2.0], [3.0, 1.5], [3.0, 1.0], [2.0, 0.5], [1.0, 0.7], [1.0, 0.7]];
+        assert_eq!(outline(&points), "M10 20h20v-5-5l-10-5-10 2h0");
+        assert_eq!(outline(&[]), "");
     }
 
     #[test]

@@ -9,6 +9,7 @@ mod fewest;
 pub mod import;
 pub mod init;
 pub mod run;
+pub mod schema;
 pub mod sim;
 pub mod splines;
 pub mod study;

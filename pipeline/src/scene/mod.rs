@@ -33,6 +33,7 @@ pub use method::stepper_word;
 pub use output::{Fatigue, Output, Pick};
 pub use practice::Practice;
 pub(crate) use practice::{across, end_stops, seat};
+pub(crate) use raw::{Pick as RawPick, RawColumns, RawNode, RawScene};
 pub use rope::Rope;
 pub use spin::Spin;
 pub use stop::{Meeting, Stop};

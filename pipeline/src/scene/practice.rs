@@ -3,6 +3,7 @@
 use practice::aist::Kind;
 use practice::factor::{Hoisting, Onset, Release};
 use practice::skew::Guide;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::pin::seat_of;
@@ -39,7 +40,7 @@ const KINDS: [(&str, Kind); 7] = [
     ("stacker", Kind::Stacker),
 ];
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawPractice {
     pub crane: Option<String>,

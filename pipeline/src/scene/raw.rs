@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
 use serde_json::Value;
@@ -39,7 +40,7 @@ crate::object::objects!(
     RawFatigue
 );
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawScene {
     pub format: Option<String>,
@@ -75,7 +76,7 @@ pub(crate) struct RawScene {
     pub compare: Vec<Value>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawStructure {
     pub spec: Option<String>,
@@ -101,7 +102,7 @@ pub(crate) struct RawStructure {
     pub at: Option<[f64; 3]>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTies {
     pub spacing: Option<f64>,
@@ -113,7 +114,7 @@ pub(crate) struct RawTies {
     pub rail: Option<RawTieRail>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTieRail {
     #[serde(rename = "E")]
@@ -131,7 +132,7 @@ pub(crate) struct RawTieRail {
     pub mass_per_length: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTables {
     pub file: Option<String>,
@@ -174,7 +175,7 @@ impl Visitor<'_> for PickVisitor {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawGauge {
     pub rail: Option<String>,
@@ -182,7 +183,7 @@ pub(crate) struct RawGauge {
     pub direction: Option<String>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawIrregularity {
     pub rail: Option<String>,
@@ -201,7 +202,7 @@ pub(crate) struct RawIrregularity {
     pub scale: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawBody {
     pub mass: Option<f64>,
@@ -216,14 +217,14 @@ pub(crate) struct RawBody {
     pub pinned: Option<RawPin>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawPin {
     pub to: Option<String>,
     pub at: Option<[f64; 3]>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawStart {
     pub y: Option<f64>,
@@ -233,7 +234,7 @@ pub(crate) struct RawStart {
     pub pitch: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawWheel {
     pub radius: Option<f64>,
@@ -247,7 +248,7 @@ pub(crate) struct RawWheel {
     pub braked: bool,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawVertical {
     pub law: Option<String>,
@@ -259,7 +260,7 @@ pub(crate) struct RawVertical {
     pub bilateral: Option<bool>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLateral {
     pub k: Option<f64>,
@@ -267,7 +268,7 @@ pub(crate) struct RawLateral {
     pub release: Option<[f64; 2]>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawFriction {
     pub law: Option<String>,
@@ -275,7 +276,7 @@ pub(crate) struct RawFriction {
     pub slip: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawTruck {
     pub name: Option<String>,
@@ -329,7 +330,7 @@ impl<'de> Visitor<'de> for NodeVisitor {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMotion {
     pub body: Option<String>,
@@ -345,7 +346,7 @@ pub(crate) struct RawMotion {
     pub brake: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLoad {
     pub body: Option<String>,
@@ -353,7 +354,7 @@ pub(crate) struct RawLoad {
     pub value: Option<Vec<[f64; 2]>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawRope {
     pub name: Option<String>,
@@ -366,7 +367,7 @@ pub(crate) struct RawRope {
     pub speed: Option<Vec<[f64; 2]>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawStop {
     pub name: Option<String>,
@@ -383,7 +384,7 @@ pub(crate) struct RawStop {
     pub c: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawEvent {
     pub name: Option<String>,
@@ -393,7 +394,7 @@ pub(crate) struct RawEvent {
 }
 
 /// What an event does.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawDo {
     pub brake: Option<String>,
@@ -405,14 +406,14 @@ pub(crate) struct RawDo {
     pub end: Option<bool>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawFollow {
     pub body: Option<String>,
     pub speed: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawHoist {
     pub rope: Option<String>,
@@ -420,20 +421,20 @@ pub(crate) struct RawHoist {
 }
 
 /// One end of a rope.
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawEnds {
     pub body: Option<String>,
     pub at: Option<[f64; 3]>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawEnd {
     pub time: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawOutput {
     pub dt: Option<f64>,
@@ -447,7 +448,7 @@ pub(crate) struct RawOutput {
     pub spans: Entries<Vec<f64>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawFatigue {
     #[serde(rename = "gamma_Ff")]

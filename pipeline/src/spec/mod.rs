@@ -30,7 +30,8 @@ use crate::place::Place;
 use crate::source::Source;
 use crate::track::Pad;
 use crate::units::{Scale, Units};
-use raw::RawSpec;
+pub(crate) use block::{Block, Reference};
+pub(crate) use raw::{RawDetail, RawSpec};
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-beam/1";

@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
 
@@ -27,7 +28,7 @@ crate::object::objects!(
     RawCut
 );
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpec {
     pub format: Option<String>,
@@ -53,7 +54,7 @@ pub(crate) struct RawSpec {
     pub effects: Option<Vec<RawCut>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawGirder {
     pub spans: Option<Vec<f64>>,
@@ -80,7 +81,7 @@ pub(crate) struct RawGirder {
     pub points: Vec<RawPoint>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawBlock {
     #[serde(rename = "type")]
@@ -88,7 +89,7 @@ pub(crate) struct RawBlock {
     pub data: Option<Vec<[usize; 2]>>,
 }
 
-#[derive(Debug, Default, Deserialize)]
+#[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
     pub kind: Option<Vec<Block<String>>>,
@@ -102,7 +103,7 @@ pub(crate) struct RawCellData {
     pub release_b: Option<Vec<Block<Vec<String>>>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMaterial {
     pub name: Option<String>,
@@ -113,7 +114,7 @@ pub(crate) struct RawMaterial {
     pub density: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSection {
     pub name: Option<String>,
@@ -153,7 +154,7 @@ impl RawSection {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawShape {
     pub kind: Option<String>,
@@ -168,7 +169,7 @@ pub(crate) struct RawShape {
     pub wall: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawPoint {
     pub name: Option<String>,
@@ -216,14 +217,14 @@ impl Visitor<'_> for DetailVisitor {
     }
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSupport {
     pub point: Option<Reference>,
     pub fix: Option<Vec<String>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpring {
     pub point: Option<Reference>,
@@ -231,14 +232,14 @@ pub(crate) struct RawSpring {
     pub k: Option<f64>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLink {
     pub from: Option<Reference>,
     pub to: Option<Reference>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMass {
     pub point: Option<Reference>,
@@ -247,7 +248,7 @@ pub(crate) struct RawMass {
     pub offset: Option<[f64; 3]>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawRail {
     pub origin: Option<[f64; 3]>,
@@ -256,14 +257,14 @@ pub(crate) struct RawRail {
     pub stations: Option<Vec<f64>>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSegment {
     pub cell: Option<[usize; 2]>,
     pub offset: Option<[f64; 3]>,
 }
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCut {
     pub name: Option<String>,

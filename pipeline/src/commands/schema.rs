@@ -1,0 +1,21 @@
+//! `girderway schema`: the JSON Schema of a format.
+
+use crate::cli::{Format, Global, Schema};
+use crate::exit::{Exit, Failure};
+use crate::output;
+use crate::progress::Progress;
+use crate::schema;
+
+/// Writes the schema to the file named or to standard output.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn run(args: &Schema, global: Global) -> Result<Exit, Failure> {
+    let schema = match args.format {
+        Format::Beam => schema::beam(),
+        Format::Grid => schema::grid(),
+        Format::Scene => schema::scene(),
+    };
+    output::deliver(args.output.as_deref(), &output::json(&schema), &Progress::new(global))?;
+    Ok(Exit::Done)
+}

@@ -1,0 +1,99 @@
+//! JSON Schemas of the formats, from the types that read them.
+//!
+//! They say which keys there are, and of what type; what numbers must be, and which keys need each other, the readers say.
+
+use std::borrow::Cow;
+
+use schemars::generate::SchemaSettings;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde_json::{Value, json};
+
+use crate::entries::Entries;
+use crate::grid_file::RawGrid;
+use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
+use crate::spec::{Block, RawDetail, RawSpec, Reference};
+
+/// The schema of beam specs.
+#[must_use]
+pub fn beam() -> Value {
+    of::<RawSpec>(crate::spec::FORMAT, "Beam spec of girderway")
+}
+
+/// The schema of grids.
+#[must_use]
+pub fn grid() -> Value {
+    of::<RawGrid>(crate::grid_file::FORMAT, "Influence grid of girderway")
+}
+
+/// The schema of scenes.
+#[must_use]
+pub fn scene() -> Value {
+    of::<RawScene>(crate::scene::FORMAT, "Scene of girderway")
+}
+
+fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
+    let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
+    // types as written are called Raw, which says nothing to others
+    let text = schema.to_value().to_string().replace("\"Raw", "\"").replace("$defs/Raw", "$defs/");
+    let mut schema: Value = serde_json::from_str(&text).unwrap_or_default();
+    schema["title"] = json!(title);
+    schema["properties"]["format"] = json!({ "const": format });
+    schema["required"] = json!(["format", "units"]);
+    schema
+}
+
+/// Implements [`JsonSchema`] for a type that reads itself: its name, and its schema.
+macro_rules! says {
+    ($($type:ty, $name:literal, |$generator:ident| $schema:expr;)+) => {
+        $(impl JsonSchema for $type {
+            fn schema_name() -> Cow<'static, str> {
+                $name.into()
+            }
+
+            fn json_schema($generator: &mut SchemaGenerator) -> Schema {
+                $schema
+            }
+        })+
+    };
+}
+
+says! {
+    Reference, "Reference", |_generator| json_schema!({ "anyOf": [{ "type": "integer", "minimum": 0 }, { "type": "string" }] });
+    RawDetail, "Detail", |_generator| json_schema!({ "type": ["number", "string"] });
+    RawColumns, "Columns", |_generator| json_schema!({ "anyOf": [{ "type": "boolean" }, { "type": "array", "items": { "type": "string" } }] });
+    RawPick, "Pick", |_generator| json_schema!({ "type": ["integer", "string"] });
+    RawNode, "Node", |generator| {
+        let below = generator.subschema_for::<RawNode>();
+        json_schema!({ "anyOf": [{ "type": "number" }, { "type": "array", "items": below, "minItems": 2, "maxItems": 2 }] })
+    };
+}
+
+impl<T: JsonSchema> JsonSchema for Entries<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("Entries_of_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let member = generator.subschema_for::<T>();
+        json_schema!({ "type": "object", "additionalProperties": member })
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Block<T> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        format!("Block_of_{}", T::schema_name()).into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let item = generator.subschema_for::<T>();
+        json_schema!({ "anyOf": [{ "type": "null" }, item, { "type": "array", "items": item }] })
+    }
+}

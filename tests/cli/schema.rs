@@ -1,0 +1,142 @@
+//! `girderway schema`: what the program reads is in its schemas, what it refuses for its form is not.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::{example, folder, girderway, json, text};
+
+/// Whether `value` has the form that `schema` asks for: the words of JSON Schema that the program's schemas use.
+fn fits(value: &Value, schema: &Value, root: &Value) -> bool {
+    let Some(schema) = schema.as_object() else { return schema != &Value::Bool(false) };
+    schema.iter().all(|(word, asked)| match word.as_str() {
+        "$ref" => {
+            let path = asked.as_str().and_then(|path| path.strip_prefix('#')).expect("a place in the schema");
+            fits(value, root.pointer(path).expect("a definition"), root)
+        }
+        "const" => value == asked,
+        "enum" => asked.as_array().expect("a list").contains(value),
+        "type" => match asked {
+            Value::Array(any) => any.iter().any(|one| is_of(value, one)),
+            one => is_of(value, one),
+        },
+        "anyOf" => asked.as_array().expect("a list").iter().any(|one| fits(value, one, root)),
+        "oneOf" => asked.as_array().expect("a list").iter().filter(|one| fits(value, one, root)).count() == 1,
+        "required" => {
+            let keys = asked.as_array().expect("a list").iter().filter_map(Value::as_str);
+            value.as_object().is_none_or(|object| keys.into_iter().all(|key| object.contains_key(key)))
+        }
+        "properties" => value
+            .as_object()
+            .into_iter()
+            .flatten()
+            .all(|(key, member)| asked.get(key).is_none_or(|schema| fits(member, schema, root))),
+        "additionalProperties" => {
+            let known = schema.get("properties").and_then(Value::as_object);
+            let others = value.as_object().into_iter().flatten();
+            others
+                .filter(|(key, _)| known.is_none_or(|known| !known.contains_key(*key)))
+                .all(|(_, member)| fits(member, asked, root))
+        }
+        "items" => value.as_array().into_iter().flatten().all(|item| fits(item, asked, root)),
+        "minItems" => {
+            value.as_array().is_none_or(|list| list.len() as u64 >= asked.as_u64().expect("a number"))
+        }
+        "maxItems" => {
+            value.as_array().is_none_or(|list| list.len() as u64 <= asked.as_u64().expect("a number"))
+        }
+        "minimum" => value.as_f64().is_none_or(|value| value >= asked.as_f64().expect("a number")),
+        "$schema" | "$defs" | "title" | "description" | "default" | "format" => true,
+        other => panic!("the schema says {other}"),
+    })
+}
+
+fn is_of(value: &Value, kind: &Value) -> bool {
+    match kind.as_str().expect("a word") {
+        "object" => value.is_object(),
+        "array" => value.is_array(),
+        "string" => value.is_string(),
+        "number" => value.is_number(),
+        "integer" => value.is_u64() || value.is_i64(),
+        "boolean" => value.is_boolean(),
+        "null" => value.is_null(),
+        other => panic!("the schema knows a type {other}"),
+    }
+}
+
+fn schema(format: &str) -> Value {
+    let run = girderway(&folder(), &["schema", format]);
+    assert!(run.status.success() && run.stderr.is_empty(), "{}", text(&run.stderr));
+    json(&run.stdout)
+}
+
+#[test]
+fn examples_have_the_form_of_their_schemas() {
+    let (beam, scene) = (schema("beam"), schema("scene"));
+    let mut checked = 0;
+    for folder in fs::read_dir(example("")).expect("the examples") {
+        for file in fs::read_dir(folder.expect("a folder").path()).expect("a folder") {
+            let path = file.expect("a file").path();
+            if path.extension().is_none_or(|ending| ending != "json") {
+                continue;
+            }
+            let value: Value = json(&fs::read(&path).expect("a readable file"));
+            let schema = match value["format"].as_str() {
+                Some("girderway-beam/1") => &beam,
+                Some("girderway-scene/1") => &scene,
+                _ => continue,
+            };
+            assert!(fits(&value, schema, schema), "{}", path.display());
+            checked += 1;
+        }
+    }
+    assert!(checked >= 20, "{checked}");
+}
+
+#[test]
+fn grids_have_the_form_of_their_schema() {
+    let folder = folder();
+    let grid = schema("grid");
+    for spec in ["bogie/spec.json", "mill_girderway/spec.json", "bridge_crane/girders.json"] {
+        let spec = example(spec);
+        let run = girderway(&folder, &["fea", spec.to_str().expect("UTF-8"), "--modes", "2"]);
+        // the paper's girder has no mass
+        let run = if run.status.success() {
+            run
+        } else {
+            girderway(&folder, &["fea", spec.to_str().expect("UTF-8")])
+        };
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let value = json(&run.stdout);
+        assert!(fits(&value, &grid, &grid), "{}", spec.display());
+    }
+}
+
+#[test]
+fn what_is_mistyped_does_not_fit() {
+    let scene = schema("scene");
+    let good = fs::read_to_string(example("bogie/scene.json")).expect("an example");
+    assert!(fits(&json(good.as_bytes()), &scene, &scene));
+    for (old, new) in [
+        ("\"gravity\"", "\"gravitation\""),
+        ("girderway-scene/1", "girderway-beam/1"),
+        ("\"radius\": 1.25", "\"radius\": \"1.25 ft\""),
+        ("\"end\": {\"time\": 12}", "\"end\": 12"),
+        ("[[0, 5]]", "[0, 5]"),
+        ("\"units\"", "\"unit\""),
+    ] {
+        assert_eq!(good.matches(old).count(), 1, "{old}");
+        let bad = json(good.replace(old, new).as_bytes());
+        assert!(!fits(&bad, &scene, &scene), "{old} => {new}");
+    }
+}
+
+#[test]
+fn a_schema_goes_to_the_file_named() {
+    let folder = folder();
+    let run = girderway(&folder, &["schema", "beam", "-o", "beam.schema.json"]);
+    assert!(run.status.success() && run.stdout.is_empty());
+    let written = json(&fs::read(folder.path().join("beam.schema.json")).expect("written"));
+    assert_eq!(written, schema("beam"));
+    assert_eq!(girderway(&folder, &["schema", "song"]).status.code(), Some(2));
+}
