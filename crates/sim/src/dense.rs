@@ -93,11 +93,34 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -
 pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
     for j in 0..n {
-        let Some(pivot) = exchange(a, j, n) else { return false };
-        b.swap(pivot, j);
-        eliminate(a, j, n, |row, factor| b[row] -= factor * b[j]);
+        let pivot = (j..n).max_by(|&p, &q| a[p * n + j].abs().total_cmp(&a[q * n + j].abs())).unwrap_or(j);
+        let size = a[pivot * n + j].abs();
+        if !(size > 0.0 && size.is_finite()) {
+            return false;
+        }
+        if pivot != j {
+            let (above, below) = a.split_at_mut(pivot * n);
+            above[j * n + j..(j + 1) * n].swap_with_slice(&mut below[j..n]);
+            b.swap(pivot, j);
+        }
+        let (above, below) = a.split_at_mut((j + 1) * n);
+        let row = &above[j * n..];
+        let (head, tail) = b.split_at_mut(j + 1);
+        for (line, b) in below.chunks_exact_mut(n).zip(tail) {
+            let factor = line[j] / row[j];
+            if factor != 0.0 {
+                line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+                *b -= factor * head[j];
+            }
+        }
     }
-    substitute(a, b);
+    for i in (0..n).rev() {
+        let mut sum = b[i];
+        for k in i + 1..n {
+            sum -= a[i * n + k] * b[k];
+        }
+        b[i] = sum / a[i * n + i];
+    }
     true
 }
 
@@ -111,7 +134,7 @@ pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
     for (j, pivot) in pivots.iter_mut().enumerate() {
         let Some(row) = exchange(a, j, n) else { return false };
         *pivot = row;
-        eliminate(a, j, n, |_, _| {});
+        eliminate(a, j, n);
     }
     true
 }
@@ -142,17 +165,16 @@ fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
     Some(pivot)
 }
 
-/// Takes row `j` from those below and leaves its shares in column `j`; `also` is told of each.
-fn eliminate(a: &mut [f64], j: usize, n: usize, mut also: impl FnMut(usize, f64)) {
+/// Takes row `j` from those below and leaves its shares in column `j`.
+fn eliminate(a: &mut [f64], j: usize, n: usize) {
     let (above, below) = a.split_at_mut((j + 1) * n);
     let row = &above[j * n..];
     let scale = 1.0 / row[j];
-    for (line, i) in below.chunks_exact_mut(n).zip(j + 1..) {
+    for line in below.chunks_exact_mut(n) {
         let factor = line[j] * scale;
         line[j] = factor;
         if factor != 0.0 {
             line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
-            also(i, factor);
         }
     }
 }
