@@ -4,6 +4,8 @@ use serde_json::Value;
 
 use crate::number::number;
 
+/// An error above which a run is of no use.
+const UNTOLD: f64 = 0.1;
 /// Quantities that errors are measured in.
 const QUANTITIES: [&str; 4] = ["deflection", "wheel_force", "reaction", "moment"];
 
@@ -31,7 +33,10 @@ fn label(own: &Value) -> String {
 pub fn dearer(studies: &[Value]) -> String {
     let mut out = "| scene | setting | by | deflection | wheel force | reaction | moment |\n|---|---|---|---|---|---|---|\n".to_owned();
     for study in studies {
-        for own in ["as written", "auto"] {
+        // among methods alone where no reference tells what foundations err by
+        let is_told = study["dearer_by_stages"]["as written"]["deflection"].is_number();
+        let methods = (!is_told).then_some(("stepping", "as written, among methods"));
+        for (own, word) in [("as written", "as written"), ("auto", "auto")].into_iter().chain(methods) {
             for (by, key) in [("contact solutions", "dearer_by_stages"), ("time", "dearer_by_time")] {
                 let ratios = &study[key][own];
                 let cells: Vec<String> = QUANTITIES
@@ -40,7 +45,7 @@ pub fn dearer(studies: &[Value]) -> String {
                     .collect();
                 if cells.iter().any(|cell| !cell.is_empty()) {
                     let name = text(study, "name");
-                    out += &format!("| {name} | {own} | {by} | {} |\n", cells.join(" | "));
+                    out += &format!("| {name} | {word} | {by} | {} |\n", cells.join(" | "));
                 }
             }
         }
@@ -53,14 +58,13 @@ pub fn fronts(studies: &[Value]) -> String {
     let mut out = "| scene | setting | error of deflection | wheel force | median, ms | least to most | contact solutions |\n|---|---|---|---|---|---|---|\n".to_owned();
     for study in studies {
         let of = |own: &Value, name: &str| own["errors"][name].as_f64();
-        let whole = |own: &&Value| text(own, "against") == "whole" || studies_one_reference(study);
+        let (against, least) = reference(study);
+        let compared = |own: &&Value| text(own, "against") == against;
         let mut own: Vec<(&Value, f64, f64)> = list(study, "settings")
             .iter()
-            .filter(whole)
+            .filter(compared)
             .filter_map(|own| Some((own, of(own, "deflection")?, own["median"].as_f64()?)))
             .collect();
-        let tells = list(study, "references").first();
-        let least = tells.and_then(|own| own["tells_from"]["deflection"].as_f64()).unwrap_or(0.0);
         own.sort_by(|a, b| a.2.total_cmp(&b.2));
         let mut best = f64::INFINITY;
         for (own, error_of, median) in own {
@@ -97,9 +101,16 @@ pub fn commands(studies: &[Value]) -> String {
     out + "```\n"
 }
 
-/// Whether a study has one reference alone.
-fn studies_one_reference(study: &Value) -> bool {
-    list(study, "references").len() < 2
+/// The first reference that tells errors of deflections below [`UNTOLD`], and from where on; that of the scene's own
+/// foundations, which comes last, where none does.
+fn reference(study: &Value) -> (&str, f64) {
+    let all = || {
+        let references = list(study, "references").iter();
+        references.map(|own| (text(own, "against"), own["tells_from"]["deflection"].as_f64().unwrap_or(0.0)))
+    };
+    let charted = |against: &str| against != "massless";
+    let told = all().find(|(against, least)| charted(against) && *least < UNTOLD);
+    told.or_else(|| all().last()).unwrap_or(("own", 0.0))
 }
 
 /// Memory of the scene as written, of the choice of "auto" and of the dearest setting.
@@ -116,6 +127,7 @@ pub fn memory(studies: &[Value]) -> String {
             .filter(|own| held(own).is_some())
             .max_by(|a, b| held(a).unwrap_or(0.0).total_cmp(&held(b).unwrap_or(0.0)));
         let named = |family: &str| list(study, "settings").iter().find(|own| text(own, "family") == family);
+        let is_told = reference(study).0 == "whole";
         for own in [named("as written"), named("auto"), most].into_iter().flatten() {
             let Some(run) = own["memory"]["run"].as_f64() else { continue };
             let foundations = own["memory"]["foundations"].as_f64().unwrap_or(0.0);
