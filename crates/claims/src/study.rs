@@ -137,7 +137,10 @@ pub fn memory(studies: &[Value]) -> String {
                 label(own),
                 number(1e-3 * foundations, 3),
                 number(1e-3 * run, 3),
-                own["errors"]["deflection"].as_f64().map_or_else(String::new, error),
+                own["errors"]["deflection"]
+                    .as_f64()
+                    .filter(|_| is_told || text(own, "against") != "whole")
+                    .map_or_else(String::new, error),
             );
         }
     }

@@ -125,7 +125,7 @@ impl Scale {
 
     fn log_ticks(&self) -> Ticks {
         let decades = (self.high / self.low).log10();
-        let factors: &[f64] = if decades <= 2.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
+        let factors: &[f64] = if decades <= 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
         let skip = (decades / 8.0).ceil().max(1.0) as i32;
         let (from, to) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
         let plain = self.low >= 1e-3 && self.high <= 1e4;

@@ -152,12 +152,13 @@ fn girder_is_drawn() {
 /// Three labels at least on every logarithmic axis, in order and within it, whether it spans a share of a decade or many.
 #[test]
 fn logarithmic_axes_can_be_read() {
-    for (low, high) in [(1.3, 2.2), (5.6e3, 2.4e4), (0.9, 1.1), (2e-9, 3e-4), (0.5, 60.0)] {
+    for (low, high) in [(1.3, 2.2), (5.6e3, 2.4e4), (0.9, 1.1), (2e-9, 3e-4), (0.5, 60.0), (2.1e-3, 0.62)] {
         let ticks = scale::Scale { low, high, log: true }.ticks(6.0);
         let labels = ticks.labels.iter().filter(|label| !label.is_empty()).count();
         assert!(labels >= 3, "{low} to {high}: {:?}", ticks.labels);
         assert!(ticks.values.windows(2).all(|pair| pair[0] < pair[1]));
         assert!(ticks.values.iter().all(|value| (low..=high).contains(value)));
+        assert!(ticks.values[0] < 10.0 * low && 10.0 * ticks.values[ticks.values.len() - 1] > high);
     }
 }
 
