@@ -110,7 +110,7 @@ fn reference(study: &Value) -> (&str, f64) {
     };
     let charted = |against: &str| against != "massless";
     let told = all().find(|(against, least)| charted(against) && *least < UNTOLD);
-    told.or_else(|| all().last()).unwrap_or(("own", 0.0))
+    told.or_else(|| all().next_back()).unwrap_or(("own", 0.0))
 }
 
 /// Memory of the scene as written, of the choice of "auto" and of the dearest setting.

@@ -6,6 +6,7 @@ mod printed;
 
 use std::ops::ControlFlow;
 
+use common::random::Random;
 use common::{GRAVITY, WEIGHT, bogie, surface};
 use nalgebra::{DMatrix, Matrix2, Matrix4};
 use sim::{Channel, Damper, Foundation, Freedom, Given, Profile, Run};
@@ -112,18 +113,6 @@ fn akispl_shakes_an_uneven_bogie_and_the_exact_surface_does_not() {
     let still = run(Foundation::influence(Box::new(surface()), 1), PUBLISHED, 14.0);
     claims::figure(SECTION, "exact surface: growth seen in a run, 1/s", "symmetry", 1e-3)
         .below(grown(&still, omega));
-}
-
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        low + (high - low)
-            * ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64)
-    }
 }
 
 /// Trains of 2 to 6 equal masses, each on its wheel: eigenvalues of (G + I/k)^-1 that are not real and positive. Bogies

@@ -8,6 +8,7 @@ mod complementarity;
 #[path = "../src/dense.rs"]
 mod dense;
 
+use common::random::Random;
 use common::{GRAVITY, bogie, girder, give};
 use nalgebra::{DMatrix, DVector};
 use sim::{Damper, Instant};
@@ -85,18 +86,6 @@ fn forces_that_lag_a_step_blow_up_at_any_step() {
         }
         figure(&format!("rail that lags a step of {h:e} s: steps until the force is 1e12 weights"), 15.0)
             .met(f64::from(count), 0.1);
-    }
-}
-
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        low + (high - low)
-            * ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64)
     }
 }
 

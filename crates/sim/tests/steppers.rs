@@ -6,8 +6,8 @@ mod common;
 mod steppers;
 
 use common::{GRAVITY, SPAN, give};
-use nalgebra::{DMatrix, Matrix4, Vector4};
-use steppers::{Oscillator, STEPPERS, State, Step};
+use nalgebra::{Matrix4, Vector4};
+use steppers::{Oscillator, STEPPERS, State, Step, monodromy};
 
 const SECTION: &str = "4 Steps in time";
 /// Excess of a spectral radius that is growth.
@@ -51,30 +51,10 @@ fn all() -> Vec<(&'static str, usize, Step)> {
     out
 }
 
-/// Spectral radius of `count` steps over `period`.
-fn radius(of: &Oscillator<'_>, (size, step): (usize, Step), period: f64, count: usize) -> f64 {
-    let h = period / count as f64;
-    let mut out = DMatrix::zeros(size, size);
-    for column in 0..size {
-        let mut state: State = [0.0; 4];
-        state[column] = 1.0;
-        for i in 0..count {
-            state = step(of, i as f64 * h, h, state);
-        }
-        for row in 0..size {
-            out[(row, column)] = state[row];
-        }
-    }
-    if out.iter().any(|own| !own.is_finite()) {
-        return f64::INFINITY;
-    }
-    out.complex_eigenvalues().iter().map(|own| own.norm()).fold(0.0, f64::max)
-}
-
 /// Longest step times frequency up to which z'' + 2 zeta z' + z = 0 does not grow; none below 50.
 fn limit(stepper: (usize, Step), zeta: f64) -> Option<f64> {
     let of = Oscillator { damping: &|_| 2.0 * zeta, stiffness: &|_| 1.0 };
-    let grows = |h: f64| radius(&of, stepper, h, 1) > 1.0 + GROWTH;
+    let grows = |h: f64| monodromy(&of, stepper.1, stepper.0, h, 1) > 1.0 + GROWTH;
     let first = (1..5000).map(|i| 0.01 * f64::from(i)).find(|h| grows(*h))?;
     let (mut low, mut high) = (first - 0.01, first);
     for _ in 0..40 {
@@ -131,7 +111,7 @@ impl Crossing {
             self.omega * self.omega / (1.0 + 1e8 * give(x, x).0)
         };
         let of = Oscillator { damping: &|_| self.damping, stiffness: &stiffness };
-        radius(&of, stepper, SPAN / self.speed, count)
+        monodromy(&of, stepper.1, stepper.0, SPAN / self.speed, count)
     }
 
     fn physical(&self) -> f64 {

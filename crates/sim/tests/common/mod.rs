@@ -6,6 +6,7 @@ pub mod crane;
 pub mod kutta;
 pub mod modes;
 pub mod parts;
+pub mod random;
 pub mod space;
 
 use std::sync::Arc;

@@ -1,5 +1,7 @@
 //! Steppers that others use, on one oscillator whose stiffness and damping depend on time.
 
+use nalgebra::DMatrix;
+
 /// z'' + d(t) z' + s(t) z = 0.
 pub struct Oscillator<'a> {
     /// d(t), 1/time.
@@ -126,6 +128,33 @@ fn alpha5(of: &Oscillator<'_>, t: f64, h: f64, state: State) -> State {
 fn bdf2(of: &Oscillator<'_>, t: f64, h: f64, [z, v, z0, v0]: State) -> State {
     let [new, speed] = of.implicit(t + h, 2.0 / 3.0 * h, [(4.0 * z - z0) / 3.0, (4.0 * v - v0) / 3.0]);
     [new, speed, z, v]
+}
+
+/// Largest absolute value of the eigenvalues; infinite where the matrix is not finite.
+#[must_use]
+pub fn radius(matrix: &DMatrix<f64>) -> f64 {
+    if matrix.iter().any(|own| !own.is_finite()) {
+        return f64::INFINITY;
+    }
+    matrix.complex_eigenvalues().iter().map(|own| own.norm()).fold(0.0, f64::max)
+}
+
+/// Spectral radius of what `count` steps over the time `period` make of the first `size` numbers of a state.
+#[must_use]
+pub fn monodromy(of: &Oscillator<'_>, step: Step, size: usize, period: f64, count: usize) -> f64 {
+    let h = period / count as f64;
+    let mut out = DMatrix::zeros(size, size);
+    for column in 0..size {
+        let mut state: State = [0.0; 4];
+        state[column] = 1.0;
+        for i in 0..count {
+            state = step(of, i as f64 * h, h, state);
+        }
+        for row in 0..size {
+            out[(row, column)] = state[row];
+        }
+    }
+    radius(&out)
 }
 
 #[cfg(test)]

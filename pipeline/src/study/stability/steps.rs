@@ -7,7 +7,7 @@ use nalgebra::DMatrix;
 use sim::{Channel, Freedom, Method, Stepping};
 
 use super::map::{Cell, Layer, Map, Scale, Verdict};
-use super::steppers::{Oscillator, STEPPERS, State, Step};
+use super::steppers::{Oscillator, STEPPERS, Step, monodromy, radius};
 use super::subject::Subject;
 use crate::scene::stepper_word;
 use crate::units::Dimension;
@@ -25,32 +25,6 @@ const DECAYS: f64 = 0.95;
 const ALIKE: f64 = 1.02;
 /// Growth a span that nobody overlooks.
 const OBVIOUS: f64 = 100.0;
-
-/// Largest absolute value of the eigenvalues; infinite where the matrix is not finite.
-#[must_use]
-pub fn radius(matrix: &DMatrix<f64>) -> f64 {
-    if matrix.iter().any(|own| !own.is_finite()) {
-        return f64::INFINITY;
-    }
-    matrix.complex_eigenvalues().iter().map(|own| own.norm()).fold(0.0, f64::max)
-}
-
-/// Spectral radius of what `count` steps over the time `period` make of the first `size` numbers of a state.
-fn monodromy(of: &Oscillator<'_>, step: Step, size: usize, period: f64, count: usize) -> f64 {
-    let h = period / count as f64;
-    let mut out = DMatrix::zeros(size, size);
-    for column in 0..size {
-        let mut state: State = [0.0; 4];
-        state[column] = 1.0;
-        for i in 0..count {
-            state = step(of, i as f64 * h, h, state);
-        }
-        for row in 0..size {
-            out[(row, column)] = state[row];
-        }
-    }
-    radius(&out)
-}
 
 /// The crossing of one span by one wheel.
 struct Crossing<'s, 'a> {
