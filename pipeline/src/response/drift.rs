@@ -12,7 +12,7 @@ use super::wheel_load::{WheelLoad, WheelLoads};
 use crate::link::{Laid, Solved};
 use crate::scene::{Origin, Scene};
 use crate::spec::Form;
-use crate::units::{Dimension, Force, Length, Scale, Units};
+use crate::units::{Dimension, Scale, Units};
 
 /// Output times looked at.
 const TIMES: usize = 300;
@@ -126,8 +126,7 @@ pub(super) fn of(
 /// # Source
 /// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as a public program has it: loads without dynamic factors.
 fn limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
-    let metre = Scale { from: units, to: Units { length: Length::Metre, force: Force::Newton } }
-        .factor(Dimension::LENGTH);
+    let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
     let mut limits = vec![("EN 1993-6:2007", "Table 7.1 b: height/400", height / 400.0)];
     if let Ok(most) = practice::aist::drift(height * metre) {
         limits.push(("AIST TR-13", "5.3 (2021): height/400, at most 2 in", most / metre));
