@@ -18,6 +18,8 @@ pub struct Body {
     pub name: String,
     /// Mass.
     pub mass: f64,
+    /// Whether the scene gives the mass itself, not the weight.
+    pub by_mass: bool,
     /// Moments of inertia about its centre of mass: roll, yaw, pitch (about x, y, z).
     pub inertia: [f64; 3],
     /// Centre of mass from the body's origin, in the rail frame.
@@ -105,6 +107,7 @@ pub(super) fn read(
     Body {
         name: name.to_owned(),
         mass,
+        by_mass: raw.mass.is_some(),
         inertia,
         cg,
         free,
