@@ -66,18 +66,6 @@ impl Along {
     }
 }
 
-impl Body {
-    /// Position along the rail at `t` where that is known beforehand.
-    #[must_use]
-    pub fn known_x(&self, t: f64) -> Option<f64> {
-        match &self.motion {
-            Along::Held => Some(self.x0),
-            Along::Free | Along::Driven(_) => (t == 0.0).then_some(self.x0),
-            Along::Prescribed(travel) => Some(travel.at(t).x),
-        }
-    }
-}
-
 /// Words of a body's freedoms, in the order of [`Body::free`].
 pub const FREEDOMS: [&str; 6] = ["x", "y", "z", "roll", "yaw", "pitch"];
 
