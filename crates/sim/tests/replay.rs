@@ -52,13 +52,13 @@ fn replayed(forces: &[f64], end: f64) -> Vec<f64> {
         let w = omega(r);
         let (sin, cos) = (w * h).sin_cos();
         let [mut q, mut v] = [0.0; 2];
-        for i in 1..=last {
+        for (i, out) in out.iter_mut().enumerate().skip(1) {
             // q'' + w^2 q = a + b t: (a + b t) / w^2 beside the free motion
             let [a, load] = [i - 1, i].map(|i| shape(r, place(i)) * forces[i] / (w * w));
             let b = (load - a) / h;
             let [along, across] = [q - a, (v - b) / w];
             (q, v) = (along * cos + across * sin + load, w * (across * cos - along * sin) + b);
-            out[i] += shape(r, middle) * q;
+            *out += shape(r, middle) * q;
         }
     }
     out

@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 pub mod crane;
+pub mod dormand;
 pub mod kutta;
 pub mod modes;
 pub mod parts;
