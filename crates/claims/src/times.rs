@@ -1,0 +1,115 @@
+//! Tables of benchmarks, from `docs/benchmarks.json`, and of steps by wheels, from `docs/wheels.csv`.
+
+use crate::bench::{Bench, Sitting};
+use crate::number::{number, time};
+
+/// When and where they were run.
+pub fn sitting(own: &Sitting) -> String {
+    format!(
+        "Sitting of {}: {}; {} benchmarks in {} s, release build, one thread.",
+        own.date,
+        own.machine,
+        own.benches.len(),
+        number(own.seconds, 2)
+    )
+}
+
+/// Tables of the benchmarks of a program, one a function.
+pub fn tables(own: &Sitting, program: &str) -> String {
+    let within = |bench: &&Bench| bench.name.strip_prefix(program).is_some_and(|rest| rest.starts_with('/'));
+    let all: Vec<&Bench> = own.benches.iter().filter(within).collect();
+    let rest = |bench: &Bench| bench.name[program.len() + 1..].to_owned();
+    let mut out = String::new();
+    let mut singles = Vec::new();
+    for group in all.chunk_by(|a, b| rest(a).split('/').next() == rest(b).split('/').next()) {
+        match grid(group, &rest) {
+            Some(table) => out += &table,
+            None => singles.extend(group.iter().copied()),
+        }
+    }
+    if singles.is_empty() { out } else { rows(&singles, &rest) + "\n" + &out }
+}
+
+/// A benchmark a row.
+fn rows(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> String {
+    let is_known = all.iter().any(|own| own.known.is_some());
+    let mut out = "| benchmark | fastest | median | samples |".to_owned();
+    out += if is_known {
+        " known | median by known | source |\n|---|---|---|---|---|---|---|\n"
+    } else {
+        "\n|---|---|---|---|\n"
+    };
+    for own in all {
+        out += &format!("| {} | {} | {} | {} |", rest(own), time(own.fastest), time(own.median), own.samples);
+        if let Some(known) = &own.known {
+            let by = number(own.median / known.value, 2);
+            out += &format!(" {} | {by} | {} |", time(known.value), known.source);
+        } else if is_known {
+            out += " | | |";
+        }
+        out.push('\n');
+    }
+    out
+}
+
+/// A function with two arguments, one of them a count: medians by it.
+fn grid(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> Option<String> {
+    let mut entries = Vec::new();
+    for own in all {
+        let path = rest(own);
+        let [function, a, b] = path.split('/').collect::<Vec<_>>()[..] else { return None };
+        // the count is either the one or the other
+        let (row, column) = match (a.parse::<u64>(), b.parse::<u64>()) {
+            (Err(_), Ok(column)) => (a, column),
+            (Ok(column), Err(_)) => (b, column),
+            _ => return None,
+        };
+        entries.push((function.to_owned(), row.to_owned(), column, *own));
+    }
+    let (mut lines, mut columns) = (Vec::new(), Vec::new());
+    for (_, row, column, _) in &entries {
+        if !lines.contains(row) {
+            lines.push(row.clone());
+        }
+        if !columns.contains(column) {
+            columns.push(*column);
+        }
+    }
+    let mut out = format!("| {}, medians |", entries.first()?.0);
+    columns.iter().for_each(|column| out += &format!(" {column} |"));
+    out += &format!("\n|---|{}\n", "---|".repeat(columns.len()));
+    for line in lines {
+        out += &format!("| {line} |");
+        for column in &columns {
+            let own = entries.iter().find(|own| own.1 == line && own.2 == *column).map(|own| own.3);
+            let known = own.and_then(|own| own.known.as_ref());
+            let known =
+                known.map_or_else(String::new, |own| format!(" ({}: {})", own.source, time(own.value)));
+            out += &format!(" {}{known} |", own.map_or_else(String::new, |own| time(own.median)));
+        }
+        out.push('\n');
+    }
+    Some(out + "\n")
+}
+
+/// Time of a step by the number of wheels: number of wheels, steps, contact solutions a step, time, energy left over.
+pub fn wheels(text: &str) -> String {
+    let mut out = "| wheels | steps | contact solutions a step | time of a step | energy left over |\n|---|---|---|---|---|\n".to_owned();
+    let mut lines = text.lines();
+    let headings: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
+    for line in lines {
+        let cells: Vec<&str> = line.split(',').collect();
+        let column =
+            |name: &str| cells.get(headings.iter().position(|own| *own == name)?)?.parse::<f64>().ok();
+        if let (Some(n), Some(steps), Some(stages), Some(us), Some(residual)) =
+            (column("n"), column("steps"), column("stages"), column("us a step"), column("residual"))
+        {
+            out += &format!(
+                "| {n} | {steps} | {} | {} | {residual:.0e} |\n",
+                number(stages / steps, 2),
+                time(1e-6 * us)
+            );
+        }
+    }
+    out
+}
