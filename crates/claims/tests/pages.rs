@@ -45,6 +45,18 @@ fn figures_name_tests_that_are_there() {
     assert!(missing.is_empty(), "cargo run -p claims -- figures was not run since {missing:?} got figures");
 }
 
+#[test]
+fn files_that_the_page_of_verification_names_are_there() {
+    let page = claims::text(&root().join("docs/verification.md")).expect("the page");
+    let quoted = page.split('`').skip(1).step_by(2).filter(|own| own.contains('/') && !own.contains(' '));
+    let mut checked = 0;
+    for own in quoted.filter(|own| own.ends_with(".rs")) {
+        assert!(root().join(own).is_file(), "docs/verification.md names {own}");
+        checked += 1;
+    }
+    assert!(checked > 100, "{checked}");
+}
+
 /// Bytes that a file of data may have.
 const MOST: usize = 100_000;
 
