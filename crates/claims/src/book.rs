@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::error::Error;
 use crate::file::{self, json};
 use crate::record::Record;
-use crate::{figures, maps, origin, peers, roll, study, times};
+use crate::{figures, maps, origin, peers, roll, sheets, study, times};
 
 /// How a generated part begins and ends.
 const BEGIN: &str = "<!-- generated: ";
@@ -96,7 +96,8 @@ fn part(root: &Path, path: &Path, name: &str) -> Result<String, Error> {
             Ok(names.iter().map(|name| times::tables(&sitting, name)).collect())
         }
         "benches-sitting" => Ok(times::sitting(&sitting()?)),
-        "wheels" => Ok(times::wheels(&file::text(&root.join("docs/wheels.csv"))?)),
+        "frames" => Ok(sheets::frames(&file::rows(&root.join("docs/frames.csv"))?)),
+        "wheels" => Ok(sheets::wheels(&file::rows(&root.join("docs/wheels.csv"))?)),
         _ => Err(Error::Part(path.to_owned(), name.to_owned())),
     }
 }

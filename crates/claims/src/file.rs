@@ -23,6 +23,16 @@ pub fn json<T: DeserializeOwned>(path: &Path) -> Result<T, Error> {
     serde_json::from_str(&text(path)?).map_err(|error| Error::file(path, &error))
 }
 
+/// Rows of a CSV file, by its headings.
+///
+/// # Errors
+/// What cannot be read or holds something else.
+pub fn rows<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, Error> {
+    let mut reader = csv::Reader::from_path(path).map_err(|error| Error::file(path, &error))?;
+    let rows: Result<Vec<T>, csv::Error> = reader.deserialize().collect();
+    rows.map_err(|error| Error::file(path, &error))
+}
+
 /// What is in a folder, in order; nothing where there is none.
 ///
 /// # Errors

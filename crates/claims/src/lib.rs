@@ -18,6 +18,7 @@ mod origin;
 mod peers;
 mod record;
 mod roll;
+mod sheets;
 mod study;
 mod times;
 

@@ -15,7 +15,7 @@ struct Origin {
     time: &'static str,
 }
 
-const ALL: [Origin; 7] = [
+const ALL: [Origin; 8] = [
     Origin {
         kind: "figures",
         what: "figures of others beside ours",
@@ -60,6 +60,13 @@ const ALL: [Origin; 7] = [
         data: "docs/peers.json",
         commands: &["python fea/bench_peers.py -o docs", "cargo run -p claims"],
         time: "30 minutes",
+    },
+    Origin {
+        kind: "frames",
+        what: "frames beside other solvers",
+        data: "docs/frames.csv",
+        commands: &["python fea/bench_frames.py --csv docs/frames.csv", "cargo run -p claims"],
+        time: "15 minutes",
     },
     Origin {
         kind: "wheels",

@@ -1,4 +1,4 @@
-//! Tables of benchmarks, from `docs/benchmarks.json`, and of steps by wheels, from `docs/wheels.csv`.
+//! Tables of benchmarks, from `docs/benchmarks.json`, of steps by wheels, and frames.
 
 use crate::bench::{Bench, Sitting};
 use crate::number::{number, time};
@@ -90,26 +90,4 @@ fn grid(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> Option<String> {
         out.push('\n');
     }
     Some(out + "\n")
-}
-
-/// Time of a step by the number of wheels: number of wheels, steps, contact solutions a step, time, energy left over.
-pub fn wheels(text: &str) -> String {
-    let mut out = "| wheels | steps | contact solutions a step | time of a step | energy left over |\n|---|---|---|---|---|\n".to_owned();
-    let mut lines = text.lines();
-    let headings: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    for line in lines {
-        let cells: Vec<&str> = line.split(',').collect();
-        let column =
-            |name: &str| cells.get(headings.iter().position(|own| *own == name)?)?.parse::<f64>().ok();
-        if let (Some(n), Some(steps), Some(stages), Some(us), Some(residual)) =
-            (column("n"), column("steps"), column("stages"), column("us a step"), column("residual"))
-        {
-            out += &format!(
-                "| {n} | {steps} | {} | {} | {residual:.0e} |\n",
-                number(stages / steps, 2),
-                time(1e-6 * us)
-            );
-        }
-    }
-    out
 }
