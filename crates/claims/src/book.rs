@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::error::Error;
 use crate::file::{self, json};
 use crate::record::Record;
-use crate::{figures, maps, origin, peers, roll, sheets, study, times};
+use crate::{figures, map, maps, origin, peers, roll, sheets, study, times};
 
 /// How a generated part begins and ends.
 const BEGIN: &str = "<!-- generated: ";
@@ -71,7 +71,7 @@ fn part(root: &Path, path: &Path, name: &str) -> Result<String, Error> {
     };
     let records = || json::<Vec<Record>>(&root.join("docs/claims.json"));
     let others = || json(&root.join("docs/peers.json"));
-    let kept = || json(&root.join(maps::FILE));
+    let kept = || json(&root.join(map::FILE));
     let sitting = || json(&root.join("docs/benchmarks.json"));
     match kind {
         "commands" => origin::table(root),

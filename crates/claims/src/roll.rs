@@ -121,7 +121,7 @@ pub fn summary(root: &Path) -> Result<String, Error> {
 }
 
 #[cfg(test)]
-mod unit {
+mod own {
     use super::tests;
 
     #[test]

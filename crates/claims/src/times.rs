@@ -91,3 +91,46 @@ fn grid(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> Option<String> {
     }
     Some(out + "\n")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{sitting, tables};
+    use crate::bench::{Bench, Known, Sitting};
+
+    fn bench(name: &str, median: f64, known: Option<f64>) -> Bench {
+        let known = known.map(|value| Known { value, source: "elsewhere".to_owned() });
+        Bench { name: name.to_owned(), fastest: 0.5 * median, median, samples: 9, known }
+    }
+
+    fn of(benches: Vec<Bench>) -> Sitting {
+        Sitting { date: "2026-11-22".to_owned(), machine: "a machine".to_owned(), seconds: 61.0, benches }
+    }
+
+    #[test]
+    fn functions_of_two_arguments_are_tables_by_the_count_and_known_times_stand_beside() {
+        let own = of(vec![
+            bench("p/q/fill/2/Exact", 1e-7, None),
+            bench("p/q/fill/2/Akispl", 2e-7, Some(3e-7)),
+            bench("p/q/fill/8/Exact", 4e-7, None),
+            bench("p/q/alone", 1e-3, Some(2e-3)),
+            bench("p/quite/another", 1.0, None),
+        ]);
+        assert_eq!(
+            tables(&own, "p/q"),
+            "| benchmark | fastest | median | samples | known | median by known | source |\n|---|---|---|---|---|---|---|\n\
+             | alone | 500 us | 1.00 ms | 9 | 2.00 ms | 0.50 | elsewhere |\n\n\
+             | fill, medians | 2 | 8 |\n|---|---|---|\n| Exact | 100 ns | 400 ns |\n| Akispl | 200 ns (elsewhere: 300 ns) |  |\n\n"
+        );
+        assert!(sitting(&own).contains("5 benchmarks in 61 s"), "{}", sitting(&own));
+    }
+
+    #[test]
+    fn times_that_nobody_knows_have_no_columns() {
+        let own = of(vec![bench("p/q/a/(Radau, 0.5)", 2e-6, None)]);
+        assert_eq!(
+            tables(&own, "p/q"),
+            "| benchmark | fastest | median | samples |\n|---|---|---|---|\n| a/(Radau, 0.5) | 1.00 us | 2.00 us | 9 |\n\n"
+        );
+        assert_eq!(tables(&own, "p/r"), "");
+    }
+}

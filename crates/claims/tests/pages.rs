@@ -46,6 +46,14 @@ fn figures_name_tests_that_are_there() {
 }
 
 #[test]
+fn every_file_with_tests_says_what_it_tests() {
+    let list = claims::text(&root().join("docs/tests.md")).expect("the page");
+    let silent: Vec<&str> =
+        list.lines().filter(|line| line.starts_with('`') && line.trim_end().ends_with(".rs`:")).collect();
+    assert!(silent.is_empty(), "no `//!` in {silent:?}");
+}
+
+#[test]
 fn files_that_the_page_of_verification_names_are_there() {
     let page = claims::text(&root().join("docs/verification.md")).expect("the page");
     let quoted = page.split('`').skip(1).step_by(2).filter(|own| own.contains('/') && !own.contains(' '));
