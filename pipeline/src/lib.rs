@@ -54,4 +54,5 @@ pub mod tables;
 pub mod threads;
 pub mod track;
 pub mod units;
+mod vector;
 pub mod warning;

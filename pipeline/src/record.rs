@@ -71,8 +71,13 @@ impl Record {
             // adding zero turns -0 into 0
             writer.write_record(self.columns.iter().map(|column| format!("{:?}", column.values[i] + 0.0)))?;
         }
-        writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+        bytes(writer)
     }
+}
+
+/// What was written.
+pub(crate) fn bytes(writer: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
+    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
 }
 
 /// Largest value of a column, with its index.

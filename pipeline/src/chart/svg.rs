@@ -201,21 +201,23 @@ fn outline(points: &[[f64; 2]]) -> String {
             (0, y) => ('v', [Some(y), None]),
             (x, y) => ('l', [Some(x), Some(y)]),
         };
-        let mut parted = own != letter;
-        if parted {
+        if own != letter {
             text.push(own);
         }
-        for step in steps.into_iter().flatten() {
-            // a sign parts numbers as a blank does
-            if !parted && step >= 0 {
-                text.push(' ');
-            }
-            text.push_str(&step.to_string());
-            parted = false;
-        }
+        push_steps(&mut text, steps.into_iter().flatten());
         (last, letter) = (here, own);
     }
     text
+}
+
+/// Adds numbers to path data, parted by a sign, a letter or a blank.
+fn push_steps(text: &mut String, steps: impl IntoIterator<Item = i32>) {
+    for step in steps {
+        if step >= 0 && text.ends_with(|last: char| last.is_ascii_digit()) {
+            text.push(' ');
+        }
+        text.push_str(&step.to_string());
+    }
 }
 
 const SIZE: &str = " font-size=\"";
@@ -264,17 +266,8 @@ fn path(points: &str) -> Option<(String, usize)> {
     let corners = corners.filter(|corners| corners.len() > 1)?;
     let (x, y) = corners[0];
     let mut text = format!("M{x} {y}l");
-    let (mut last, mut parted) = ((x, y), true);
-    for corner in &corners[1..] {
-        for step in [corner.0 - last.0, corner.1 - last.1] {
-            // a sign parts numbers as a blank does
-            if !parted && step >= 0 {
-                text.push(' ');
-            }
-            text.push_str(&step.to_string());
-            parted = false;
-        }
-        last = *corner;
+    for pair in corners.windows(2) {
+        push_steps(&mut text, [pair[1].0 - pair[0].0, pair[1].1 - pair[0].1]);
     }
     Some((text, corners.len()))
 }

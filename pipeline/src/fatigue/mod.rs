@@ -9,7 +9,7 @@ use practice::{Cycle, Damage, Strength, aisc, rainflow};
 use serde_json::{Map, Value, json};
 
 use crate::exit::Failure;
-use crate::record::Record;
+use crate::record::{Record, bytes};
 use crate::scene::{Fatigue, Origin, Scene};
 use crate::spec::Detail;
 use crate::units::{Dimension, Force, Length, Scale, Units};
@@ -185,6 +185,5 @@ pub fn csv(verdicts: &[Verdict], record: &Record) -> Result<Option<Vec<u8>>, csv
             writer.write_record(std::iter::once(verdict.column.clone()).chain(numbers))?;
         }
     }
-    let bytes = writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))?;
-    Ok(Some(bytes))
+    bytes(writer).map(Some)
 }

@@ -9,7 +9,6 @@ pub mod fix;
 pub mod msh;
 pub mod rail;
 pub mod structure;
-mod vector;
 mod write;
 
 use std::path::Path;

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use super::structure::{Rail, Structure};
-use super::vector::{dot, length, minus, parallel, unit};
+use crate::vector::{dot, length, minus, parallel, unit};
 
 /// A rail as asked for: `NAME=12,23,30-35` or `NAME=SET`, then `/offset=X,Y,Z` and `/axis=X,Y,Z`.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,6 +2,8 @@
 
 use serde_json::{Value, json};
 
+use super::rounded;
+
 /// Steps in the range of an axis, at least: twenty a pixel.
 const FINE: f64 = 2e4;
 
@@ -50,8 +52,7 @@ pub(crate) fn coded(values: &[f64], exponent: i32) -> Value {
 /// `values` to seven digits.
 #[must_use]
 pub(crate) fn plain(values: &[f64]) -> Value {
-    let round = |value: &f64| format!("{value:.6e}").parse::<f64>().unwrap_or(*value);
-    json!(values.iter().map(round).collect::<Vec<f64>>())
+    json!(values.iter().map(|value| rounded(*value, 7)).collect::<Vec<f64>>())
 }
 
 #[cfg(test)]

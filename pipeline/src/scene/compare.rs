@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
+use super::files::Files;
 use super::raw::RawScene;
 use super::{FORMAT, Scene, read};
 use crate::diagnostic::Diagnostic;
@@ -39,11 +40,11 @@ impl Document {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let raw: RawScene = source.parse(FORMAT).map_err(|error| vec![*error])?;
         let mut faults = source.duplicates_below("compare");
-        let mut elsewhere = Vec::new();
-        let scene = read::scene(&raw, &source.name, &mut inputs, &mut faults, &mut elsewhere);
+        let mut files = Files::of(&mut inputs);
+        let scene = read::scene(&raw, &source.name, &mut files, &mut faults);
         labels(&raw.compare, &mut faults);
         let mut wrong = source.diagnose(&faults);
-        wrong.append(&mut elsewhere);
+        wrong.append(&mut files.wrong);
         let base_is_right = wrong.is_empty();
         let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
         if !raw.compare.is_empty() && base_is_right {
@@ -117,22 +118,24 @@ fn case(
     }
     merge(&mut merged, changes);
     let mut faults = Faults::default();
-    let mut elsewhere = Vec::new();
+    let mut files = Files::of(inputs);
     let scene = match serde_path_to_error::deserialize::<_, RawScene>(merged) {
-        Ok(raw) => read::scene(&raw, &source.name, inputs, &mut faults, &mut elsewhere),
+        Ok(raw) => read::scene(&raw, &source.name, &mut files, &mut faults),
         Err(error) => {
             faults.add(type_fault(path_of(error.path()), &error.inner().to_string()));
             None
         }
     };
     match scene {
-        Some(scene) if faults.0.is_empty() && elsewhere.is_empty() => Ok(Case { label: Some(label), scene }),
+        Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => {
+            Ok(Case { label: Some(label), scene })
+        }
         _ => {
             let mut wrong = source.diagnose_merged(index, &faults);
             for diagnostic in wrong.iter_mut().filter(|found| !found.path.starts_with("compare")) {
                 diagnostic.expected = format!("in comparison \"{label}\": {}", diagnostic.expected);
             }
-            wrong.append(&mut elsewhere);
+            wrong.append(&mut files.wrong);
             Err(wrong)
         }
     }

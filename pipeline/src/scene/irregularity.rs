@@ -5,13 +5,12 @@ use std::f64::consts::FRAC_PI_2;
 use sim::{Irregularity, Wave};
 use splines::Axis;
 
+use super::files::Files;
 use super::gauge::rail_among;
 use super::raw::RawIrregularity;
 use super::survey::profile;
 use crate::check::Check;
-use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, number};
-use crate::inputs::Inputs;
 use crate::place::Place;
 use crate::spec::RailOutline;
 use crate::units::Dimension;
@@ -52,8 +51,7 @@ pub(super) fn read(
     raw: &[RawIrregularity],
     rails: &[RailOutline],
     at: &Place<'_>,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
+    files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Vec<Irregularity> {
     if raw.is_empty() {
@@ -75,7 +73,7 @@ pub(super) fn read(
         }
         let faults = check.faults.0.len();
         let shape = match kind {
-            Kind::Profile => profile(raw, &at, inputs, elsewhere, check).map(|rows| table(axis, &rows)),
+            Kind::Profile => profile(raw, &at, files, check).map(|rows| table(axis, &rows)),
             Kind::Sinusoid => Some(sinusoid(raw, axis, &rails[rail], &at, check)),
             Kind::Step | Kind::Joint | Kind::Dip => local(raw, kind, axis, &rails[rail], &at, check),
         };

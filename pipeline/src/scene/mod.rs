@@ -4,6 +4,7 @@ mod actuator;
 mod body;
 mod compare;
 mod event;
+mod files;
 mod gauge;
 mod irregularity;
 mod method;

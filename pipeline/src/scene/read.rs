@@ -1,14 +1,13 @@
 //! From a scene as written to a checked scene.
 
+use super::files::Files;
 use super::raw::RawScene;
 use super::{
     Along, Analysis, Body, FORMAT, Scene, SceneRail, Structure, Truck, actuator, body, event, method, mount,
     output, pin, practice, rope, spin, stance, stop, structure, truck, wheel,
 };
 use crate::check::Check;
-use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, Faults, number};
-use crate::inputs::Inputs;
 use crate::place::Place;
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
@@ -21,14 +20,8 @@ const ROWS: f64 = 1000.0;
 /// Most rows of a history.
 const MOST_ROWS: f64 = 1e7;
 
-/// Checks a scene; what is wrong in it goes to `faults`, what is wrong in files it refers to, to `elsewhere`.
-pub(super) fn scene(
-    raw: &RawScene,
-    file: &str,
-    inputs: &mut Inputs,
-    faults: &mut Faults,
-    elsewhere: &mut Vec<Diagnostic>,
-) -> Option<Scene> {
+/// Checks a scene; what is wrong in it goes to `faults`, what is wrong in files it names, to `files`.
+pub(super) fn scene(raw: &RawScene, file: &str, files: &mut Files<'_>, faults: &mut Faults) -> Option<Scene> {
     let root = Place::root();
     crate::spec::format(&raw.format, FORMAT, &root, faults);
     let units = Units::read(&raw.units, &root, faults);
@@ -40,7 +33,7 @@ pub(super) fn scene(
         super::name(&name, &root.key("name"), check.faults);
     }
     let gravity = read_gravity(raw, &root, check);
-    let mut structures = read_structures(raw, &root, known, inputs, elsewhere, check);
+    let mut structures = read_structures(raw, &root, files, check);
     let rails = rails_of(&structures);
     let all_structures = structures.len() == raw.structures.0.len();
     let mut bodies = Vec::new();
@@ -143,9 +136,7 @@ fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Opti
 fn read_structures(
     raw: &RawScene,
     root: &Place<'_>,
-    units: Units,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
+    files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Vec<Structure> {
     if raw.structures.0.is_empty() {
@@ -159,7 +150,7 @@ fn read_structures(
         super::name(name, &at, check.faults);
         let others: Vec<&str> =
             all.iter().map(|(other, _)| other.as_str()).filter(|other| other != name).collect();
-        structures.extend(structure::read(name, &others, raw, &at, units, inputs, elsewhere, check));
+        structures.extend(structure::read(name, &others, raw, &at, files, check));
     }
     structures
 }

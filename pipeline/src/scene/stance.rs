@@ -6,6 +6,7 @@ use super::pin::seat_of;
 use super::{Origin, Scene};
 use crate::fault::{Fault, Faults, number};
 use crate::place::Place;
+use crate::vector::{cross, dot, unit};
 
 /// Share of the distance of two rails by which trucks may miss it: wheel treads, worn rails, rounded drawings.
 const SLACK: f64 = 0.1;
@@ -81,17 +82,4 @@ fn line(model: &Model, rail: &Rail, right: [f64; 3]) -> Option<f64> {
         })
         .collect();
     (!ends.is_empty()).then(|| ends.iter().sum::<f64>() / ends.len() as f64)
-}
-
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
-    let size = dot(a, a).sqrt();
-    (size > 0.0).then(|| a.map(|part| part / size))
 }

@@ -4,16 +4,15 @@ use std::sync::Arc;
 
 use splines::Couplings;
 
+use super::files::Files;
 use super::gauge::{self, Gauge};
 use super::raw::{RawStructure, RawTables};
-use super::{irregularity, ties};
+use super::{irregularity, tables, ties};
 use crate::check::Check;
-use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, nearest};
-use crate::inputs::{Input, Inputs};
 use crate::place::Place;
 use crate::spec::{RailOutline, Spec};
-use crate::units::{Dimension, Units};
+use crate::units::Dimension;
 
 /// Something that carries rails.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,6 +73,21 @@ pub enum Origin {
         /// Stations and values of the tables.
         tables: Arc<TablePair>,
     },
+}
+
+impl Origin {
+    /// Its rails.
+    fn rails(&self) -> Vec<RailOutline> {
+        match self {
+            Origin::Spec { spec, .. } => spec.rails(),
+            Origin::Tables { tables, .. } => {
+                let stations = tables.stations.clone();
+                let ends = stations.first().zip(stations.last());
+                let range = ends.map_or([0.0; 2], |(first, last)| [*first, *last]);
+                vec![RailOutline { name: crate::spec::GIRDER_RAIL.to_owned(), range, stations }]
+            }
+        }
+    }
 }
 
 /// Two SPLINE tables at the same stations.
@@ -214,16 +228,13 @@ enum Word {
     Auto,
 }
 
-#[allow(clippy::too_many_arguments)]
-/// `others`: names of the scene's other structures.
+/// Reads a structure; `others`: names of the scene's other ones.
 pub(super) fn read(
     name: &str,
     others: &[&str],
     raw: &RawStructure,
     at: &Place<'_>,
-    units: Units,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
+    files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Option<Structure> {
     let word = foundation_word(raw, at, check);
@@ -244,14 +255,14 @@ pub(super) fn read(
     let ties = ties::read(raw, matches!(word, Word::Ties), at, check);
     let origin = match (&raw.spec, &raw.tables) {
         (None, None) if ties.is_some() || matches!(word, Word::Ties) => {
-            ties::on_ground(name, raw, ties.as_ref(), at, units, check)
+            ties::on_ground(name, raw, ties.as_ref(), at, check)
         }
         (Some(file), None) if matches!(word, Word::Ties) => {
-            let origin = read_spec(file, &at.key("spec"), units, inputs, elsewhere, check);
+            let origin = read_spec(file, &at.key("spec"), files, check);
             origin.and_then(|origin| ties::on_structure(origin, raw, ties.as_ref(), at, check))
         }
-        (Some(file), None) => read_spec(file, &at.key("spec"), units, inputs, elsewhere, check),
-        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, units, inputs, elsewhere, check),
+        (Some(file), None) => read_spec(file, &at.key("spec"), files, check),
+        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, files, check),
         (Some(_), Some(_)) => {
             let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
             check
@@ -282,36 +293,15 @@ pub(super) fn read(
         let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
         check.faults.add(fault.hint("the short form of a spec, with `girder`"));
     }
-    let rails = match &origin {
-        Origin::Spec { spec, .. } => spec.rails(),
-        Origin::Tables { tables, .. } => {
-            let ends = tables.stations.first().zip(tables.stations.last());
-            let range = ends.map_or([0.0; 2], |(first, last)| [*first, *last]);
-            vec![RailOutline {
-                name: crate::spec::GIRDER_RAIL.to_owned(),
-                range,
-                stations: tables.stations.clone(),
-            }]
-        }
-    };
+    let rails = origin.rails();
     if reading != Reading::Exact {
         enough_stations(&rails, reading, at, check);
     }
     let auto = matches!(word, Word::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
-    if raw.longitudinal == Some(true) && raw.tables.is_some() {
-        let fault = Fault::new(&at.key("longitudinal"), "needs a `spec`").at_key();
-        check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
-    }
-    if raw.longitudinal == Some(true) && raw.on.is_some() {
-        check.faults.unavailable(&at.key("longitudinal"), "give along the rails of a structure on a body");
-    }
-    if raw.longitudinal == Some(true) && matches!(word, Word::Parts) {
-        let fault = Fault::new(&at.key("longitudinal"), "\"parts\" do not give along the rail").at_key();
-        check.faults.add(fault.hint("use \"influence\" or \"modal\""));
-    }
+    let longitudinal = read_longitudinal(raw, word, at, check);
     let place = at.key("irregularities");
-    let irregularities = irregularity::read(&raw.irregularities, &rails, &place, inputs, elsewhere, check);
+    let irregularities = irregularity::read(&raw.irregularities, &rails, &place, files, check);
     Some(Structure {
         name: name.to_owned(),
         origin,
@@ -323,7 +313,7 @@ pub(super) fn read(
         couplings,
         tolerance,
         gauges,
-        longitudinal: raw.longitudinal.unwrap_or(false),
+        longitudinal,
         irregularities,
         on: None,
     })
@@ -364,6 +354,24 @@ fn read_couplings(raw: &RawStructure, word: Word, at: &Place<'_>, check: &mut Ch
     couplings
 }
 
+/// Whether a structure gives along its rails.
+fn read_longitudinal(raw: &RawStructure, word: Word, at: &Place<'_>, check: &mut Check<'_>) -> bool {
+    let longitudinal = raw.longitudinal.unwrap_or(false);
+    let place = at.key("longitudinal");
+    if longitudinal && raw.tables.is_some() {
+        let fault = Fault::new(&place, "needs a `spec`").at_key();
+        check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
+    }
+    if longitudinal && raw.on.is_some() {
+        check.faults.unavailable(&place, "give along the rails of a structure on a body");
+    }
+    if longitudinal && matches!(word, Word::Parts) {
+        let fault = Fault::new(&place, "\"parts\" do not give along the rail").at_key();
+        check.faults.add(fault.hint("use \"influence\" or \"modal\""));
+    }
+    longitudinal
+}
+
 /// Relative error allowed to the choice of a foundation.
 fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
     let (place, given) = (at.key("tolerance"), raw.tolerance.unwrap_or(TOLERANCE));
@@ -402,53 +410,19 @@ fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> H
     if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
 }
 
-fn read_spec(
-    file: &str,
-    at: &Place<'_>,
-    units: Units,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
-    check: &mut Check<'_>,
-) -> Option<Origin> {
-    let source = match refer(file, at, inputs, check)?.source() {
-        Ok(source) => source,
-        Err(diagnostic) => {
-            elsewhere.push(*diagnostic);
-            return None;
-        }
-    };
-    match Spec::read(&source, Some(units)) {
-        Ok(spec) => Some(Origin::Spec { file: file.to_owned(), spec: Arc::new(spec) }),
-        Err(diagnostics) => {
-            elsewhere.extend(diagnostics);
-            None
-        }
-    }
-}
-
-pub(super) fn refer<'i>(
-    file: &str,
-    at: &Place<'_>,
-    inputs: &'i mut Inputs,
-    check: &mut Check<'_>,
-) -> Option<&'i Input> {
-    match inputs.refer(file) {
-        Ok(input) => Some(input),
-        Err(why) => {
-            let fault = Fault::new(at, format!("\"{file}\" {why}"));
-            check.faults.add(fault.hint("paths are relative to the scene's folder"));
-            None
-        }
-    }
+fn read_spec(file: &str, at: &Place<'_>, files: &mut Files<'_>, check: &mut Check<'_>) -> Option<Origin> {
+    files.read(file, at, check, |input, check| {
+        let source = input.source().map_err(|error| vec![*error])?;
+        let spec = Spec::read(&source, Some(check.scale.to))?;
+        Ok(Origin::Spec { file: file.to_owned(), spec: Arc::new(spec) })
+    })
 }
 
 fn read_tables(
     raw: &RawTables,
     at: &Place<'_>,
     word: Word,
-    units: Units,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
+    files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
     if matches!(word, Word::Parts | Word::Modal | Word::Full | Word::Ties) {
@@ -461,8 +435,8 @@ fn read_tables(
         check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6, or its name in quotes"));
     }
     let file = check.faults.need(&raw.file, at, "file")?;
-    let input = refer(file, &at.key("file"), inputs, check)?;
-    super::tables::read(raw, input, at, units, elsewhere, check)
+    let read = files.read(file, &at.key("file"), check, |input, check| tables::read(raw, input, at, check));
+    read.flatten()
 }
 
 /// What the spline readings of a table need.

@@ -1,11 +1,9 @@
 //! Profiles of uneven rails: rows in a scene, or columns of a file.
 
+use super::files::Files;
 use super::raw::RawIrregularity;
-use super::structure::refer;
 use crate::check::Check;
-use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, nearest, number};
-use crate::inputs::Inputs;
 use crate::place::Place;
 use crate::tables::{Columns, disorder};
 use crate::units::Dimension;
@@ -14,8 +12,7 @@ use crate::units::Dimension;
 pub(super) fn profile(
     raw: &RawIrregularity,
     at: &Place<'_>,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
+    files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Option<Vec<[f64; 2]>> {
     let scale = check.number(raw.scale.unwrap_or(1.0), &at.key("scale"), Dimension::NUMBER);
@@ -27,7 +24,7 @@ pub(super) fn profile(
             }
             (listed(rows, &at.key("rows"), check), at.key("rows"))
         }
-        (None, Some(file)) => (filed(raw, file, at, inputs, elsewhere, check)?, at.key("file")),
+        (None, Some(file)) => (filed(raw, file, at, files, check)?, at.key("file")),
         (rows, _) => {
             let found = if rows.is_some() { "both" } else { "neither" };
             let fault = Fault::new(at, "must have either `rows` or `file`").got(found);
@@ -60,22 +57,15 @@ fn filed(
     raw: &RawIrregularity,
     file: &str,
     at: &Place<'_>,
-    inputs: &mut Inputs,
-    elsewhere: &mut Vec<Diagnostic>,
+    files: &mut Files<'_>,
     check: &mut Check<'_>,
 ) -> Option<Vec<[f64; 2]>> {
-    let input = refer(file, &at.key("file"), inputs, check)?;
-    let read = input.source().map_err(|error| vec![*error]).and_then(|source| {
+    let rows = files.read(file, &at.key("file"), check, |input, check| {
+        let source = input.source().map_err(|error| vec![*error])?;
         let columns = Columns::of(&source).map_err(|error| vec![*error])?;
-        match picked(raw, &columns, at, check) {
-            Some(picked) => columns.rows(picked).map(Some),
-            None => Ok(None),
-        }
+        picked(raw, &columns, at, check).map(|picked| columns.rows(picked)).transpose()
     });
-    read.unwrap_or_else(|wrong| {
-        elsewhere.extend(wrong.into_iter().filter(|one| !elsewhere.contains(one)).collect::<Vec<_>>());
-        None
-    })
+    rows.flatten()
 }
 
 /// Indices of the columns of x and of the value: the first two, or those named.

@@ -19,24 +19,25 @@ pub(super) fn read(
     raw: &RawTables,
     input: &Input,
     at: &Place<'_>,
-    units: Units,
-    elsewhere: &mut Vec<Diagnostic>,
     check: &mut Check<'_>,
-) -> Option<Origin> {
+) -> Result<Option<Origin>, Vec<Diagnostic>> {
     let told = match &raw.units {
         None => None,
-        given => Some(Units::read(given, at, check.faults)?),
-    };
-    let set = match tables::read(&input.shown, &input.bytes, told) {
-        Ok(set) => tables::expand(&set),
-        Err(diagnostics) => {
-            elsewhere.extend(diagnostics);
-            return None;
+        given => {
+            let Some(units) = Units::read(given, at, check.faults) else { return Ok(None) };
+            Some(units)
         }
     };
-    let scale = Scale { from: set.units, to: units };
-    let vertical = table(&set, raw.vertical.as_ref(), &at.key("vertical"), check);
-    let lateral = table(&set, raw.lateral.as_ref(), &at.key("lateral"), check);
+    let set = tables::expand(&tables::read(&input.shown, &input.bytes, told)?);
+    Ok(pair(&set, raw, at, check)
+        .map(|tables| Origin::Tables { file: input.name.clone(), tables: Arc::new(tables) }))
+}
+
+/// The tables that `raw` names of a set.
+fn pair(set: &TableSet, raw: &RawTables, at: &Place<'_>, check: &mut Check<'_>) -> Option<TablePair> {
+    let scale = Scale { from: set.units, to: check.scale.to };
+    let vertical = table(set, raw.vertical.as_ref(), &at.key("vertical"), check);
+    let lateral = table(set, raw.lateral.as_ref(), &at.key("lateral"), check);
     let first = vertical.or(lateral)?;
     if let Some((own, other)) = vertical.zip(lateral)
         && own.x() != other.x()
@@ -51,12 +52,11 @@ pub(super) fn read(
         let rows = table.y().iter();
         rows.map(|row| row.iter().map(|value| value * give).collect()).collect()
     };
-    let tables = TablePair {
+    Some(TablePair {
         stations: first.x().iter().map(|x| x * length).collect(),
         vertical: vertical.map(rows),
         lateral: lateral.map(rows),
-    };
-    Some(Origin::Tables { file: input.name.clone(), tables: Arc::new(tables) })
+    })
 }
 
 /// The table of one direction: a family with a curve for each station.

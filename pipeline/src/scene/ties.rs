@@ -10,7 +10,7 @@ use crate::check::Check;
 use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::track::{self, Refusal, Ties};
-use crate::units::{Dimension, Units};
+use crate::units::Dimension;
 
 /// Elements between two ties where the scene gives no number of them and masses move.
 const ELEMENTS: usize = 2;
@@ -71,7 +71,6 @@ pub(super) fn on_ground(
     raw: &RawStructure,
     ties: Option<&Ties>,
     at: &Place<'_>,
-    units: Units,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
     let given = *check.faults.need(&raw.range, at, "range")?;
@@ -82,7 +81,7 @@ pub(super) fn on_ground(
         check.faults.add(fault.got(number(given[1])).hint("first and last coordinate of the rail"));
     }
     sound(check)?;
-    match track::on_ground(name, units, ties?, range) {
+    match track::on_ground(name, check.scale.to, ties?, range) {
         Ok(spec) => Some(Origin::Spec { file: String::new(), spec: Arc::new(spec) }),
         Err(refusal) => refuse(refusal, at, check),
     }

@@ -63,7 +63,7 @@ impl<'de> Deserialize<'de> for Reference {
 }
 
 /// What stands where a list of items, or an item alone, may stand.
-pub(crate) trait Item: Sized {
+pub(crate) trait Item: Sized + for<'de> Deserialize<'de> {
     /// In messages.
     const WHAT: &'static str;
 
@@ -78,11 +78,9 @@ pub(crate) trait Item: Sized {
     }
 
     /// A list: of items, or itself an item.
-    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error>;
-}
-
-fn plain<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(list: A) -> Result<Block<T>, A::Error> {
-    Vec::deserialize(SeqAccessDeserializer::new(list)).map(Block::Each)
+    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
+        Vec::deserialize(SeqAccessDeserializer::new(list)).map(Block::Each)
+    }
 }
 
 impl Item for String {
@@ -90,10 +88,6 @@ impl Item for String {
 
     fn of_word(word: &str) -> Option<Self> {
         Some(word.to_owned())
-    }
-
-    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
-        plain(list)
     }
 }
 
@@ -107,10 +101,6 @@ impl Item for Reference {
     fn of_word(word: &str) -> Option<Self> {
         Some(Reference::Name(word.to_owned()))
     }
-
-    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
-        plain(list)
-    }
 }
 
 impl Item for Option<Reference> {
@@ -123,10 +113,6 @@ impl Item for Option<Reference> {
     fn of_word(word: &str) -> Option<Self> {
         Some(Reference::of_word(word))
     }
-
-    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
-        plain(list)
-    }
 }
 
 impl Item for Option<usize> {
@@ -134,10 +120,6 @@ impl Item for Option<usize> {
 
     fn of_index(index: usize) -> Option<Self> {
         Some(Some(index))
-    }
-
-    fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
-        plain(list)
     }
 }
 

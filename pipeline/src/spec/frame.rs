@@ -12,6 +12,7 @@ use crate::fault::Fault;
 use crate::place::Place;
 use crate::track::Pad;
 use crate::units::Dimension;
+use crate::vector::length;
 
 /// A checked general form, in the units asked for: the model with the names that users know.
 #[derive(Clone, Debug, PartialEq)]
@@ -73,10 +74,11 @@ pub(super) fn read(
         sections::complete(raw, root, &model, &cells.tapers, check);
     }
     let point_sets = read_sets(raw, root, &model, check);
-    let supports = read_supports(raw, root, &point_sets, &mut model, check);
-    read_springs(raw, root, &point_sets, &mut model, check);
-    read_links(raw, root, &point_sets, &mut model, check);
-    read_masses(raw, root, &point_sets, &mut model, check);
+    let known = Points { count: model.points.len(), sets: &point_sets };
+    let supports = read_supports(raw, root, &known, &mut model, check);
+    read_springs(raw, root, &known, &mut model, check);
+    read_links(raw, root, &known, &mut model, check);
+    read_masses(raw, root, &known, &mut model, check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
     let points = stress::of_sections(raw, root, check);
     // a tapered cell has no section of its own between its ends
@@ -127,51 +129,51 @@ fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Fram
     (Frame { model, rails, cells, ..frame }, cuts)
 }
 
-/// Points by the name of their set.
-type Sets = [(String, Vec<usize>)];
-
-/// The points that an index or the name of a point set means; all exist.
-fn points(
-    given: &Option<Reference>,
-    key: &str,
-    sets: &Sets,
+/// What an index or a name can mean.
+struct Points<'s> {
+    /// How many there are.
     count: usize,
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) -> Vec<usize> {
-    match check.faults.need(given, at, key) {
-        None => Vec::new(),
-        Some(Reference::Index(index)) => {
-            let exists = index_below(*index, count, "points", &at.key(key), check);
-            if exists { vec![*index] } else { Vec::new() }
-        }
-        Some(name) => {
-            let names: Vec<(&str, usize)> =
-                sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
-            let set = refer(name, &names, "point set", &at.key(key), check);
-            // points that do not exist are told where the set stands
-            let all = set.map(|set| sets[set].1.as_slice()).unwrap_or_default();
-            all.iter().copied().filter(|point| *point < count).collect()
-        }
-    }
+    /// Points by the name of their set.
+    sets: &'s [(String, Vec<usize>)],
 }
 
-/// The one point that an index or the name of a point set means.
-fn point(
-    given: &Option<Reference>,
-    key: &str,
-    sets: &Sets,
-    count: usize,
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) -> Option<usize> {
-    let before = check.faults.0.len();
-    let found = points(given, key, sets, count, at, check);
-    if found.len() != 1 && check.faults.0.len() == before {
-        let fault = Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
-        check.faults.add(fault.hint("supports alone take sets of several points"));
+impl Points<'_> {
+    /// The points that an index or the name of a point set means; all exist.
+    fn all(&self, given: &Option<Reference>, key: &str, at: &Place<'_>, check: &mut Check<'_>) -> Vec<usize> {
+        match check.faults.need(given, at, key) {
+            None => Vec::new(),
+            Some(Reference::Index(index)) => {
+                let exists = index_below(*index, self.count, "points", &at.key(key), check);
+                if exists { vec![*index] } else { Vec::new() }
+            }
+            Some(name) => {
+                let names: Vec<(&str, usize)> =
+                    self.sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
+                let set = refer(name, &names, "point set", &at.key(key), check);
+                // points that do not exist are told where the set stands
+                let all = set.map(|set| self.sets[set].1.as_slice()).unwrap_or_default();
+                all.iter().copied().filter(|point| *point < self.count).collect()
+            }
+        }
     }
-    found.first().copied().filter(|_| found.len() == 1)
+
+    /// The one point that an index or the name of a point set means.
+    fn one(
+        &self,
+        given: &Option<Reference>,
+        key: &str,
+        at: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> Option<usize> {
+        let before = check.faults.0.len();
+        let found = self.all(given, key, at, check);
+        if found.len() != 1 && check.faults.0.len() == before {
+            let fault =
+                Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
+            check.faults.add(fault.hint("supports alone take sets of several points"));
+        }
+        found.first().copied().filter(|_| found.len() == 1)
+    }
 }
 
 /// What an index or a name means, of a list that has these names.
@@ -222,7 +224,7 @@ pub(super) fn freedoms(words: &[String], at: &Place<'_>, check: &mut Check<'_>) 
 fn read_supports(
     raw: &RawSpec,
     root: &Place<'_>,
-    sets: &Sets,
+    known: &Points<'_>,
     model: &mut Model,
     check: &mut Check<'_>,
 ) -> Vec<usize> {
@@ -230,7 +232,7 @@ fn read_supports(
     let mut given = Vec::new();
     for (index, raw) in raw.supports.iter().flatten().enumerate() {
         let at = list.index(index);
-        let held = points(&raw.point, "point", sets, model.points.len(), &at, check);
+        let held = known.all(&raw.point, "point", &at, check);
         let place = at.key("fix");
         let fix = check.faults.need(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
         let fix = freedoms(fix, &place, check);
@@ -240,11 +242,17 @@ fn read_supports(
     given
 }
 
-fn read_springs(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, check: &mut Check<'_>) {
+fn read_springs(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    known: &Points<'_>,
+    model: &mut Model,
+    check: &mut Check<'_>,
+) {
     let list = root.key("springs");
     for (index, raw) in raw.springs.iter().flatten().enumerate() {
         let at = list.index(index);
-        let point = point(&raw.point, "point", sets, model.points.len(), &at, check);
+        let point = known.one(&raw.point, "point", &at, check);
         let freedom = check
             .faults
             .need(&raw.dof, &at, "dof")
@@ -257,12 +265,12 @@ fn read_springs(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model,
     }
 }
 
-fn read_links(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, check: &mut Check<'_>) {
+fn read_links(raw: &RawSpec, root: &Place<'_>, known: &Points<'_>, model: &mut Model, check: &mut Check<'_>) {
     let list = root.key("links");
     for (index, raw) in raw.links.iter().flatten().enumerate() {
         let at = list.index(index);
-        let from = point(&raw.from, "from", sets, model.points.len(), &at, check);
-        let to = point(&raw.to, "to", sets, model.points.len(), &at, check);
+        let from = known.one(&raw.from, "from", &at, check);
+        let to = known.one(&raw.to, "to", &at, check);
         if let Some((from, to)) = from.zip(to) {
             if from == to {
                 check
@@ -274,11 +282,17 @@ fn read_links(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, c
     }
 }
 
-fn read_masses(raw: &RawSpec, root: &Place<'_>, sets: &Sets, model: &mut Model, check: &mut Check<'_>) {
+fn read_masses(
+    raw: &RawSpec,
+    root: &Place<'_>,
+    known: &Points<'_>,
+    model: &mut Model,
+    check: &mut Check<'_>,
+) {
     let list = root.key("masses");
     for (index, raw) in raw.masses.iter().flatten().enumerate() {
         let at = list.index(index);
-        let point = point(&raw.point, "point", sets, model.points.len(), &at, check);
+        let point = known.one(&raw.point, "point", &at, check);
         let mass = match check.faults.need(&raw.mass, &at, "mass") {
             Some(mass) => check.not_negative(*mass, &at.key("mass"), Dimension::MASS, ""),
             None => 0.0,
@@ -308,9 +322,4 @@ fn read_sets(
         }
     }
     sets.cloned().collect()
-}
-
-/// Length of a vector.
-pub(super) fn length(vector: [f64; 3]) -> f64 {
-    vector[0].hypot(vector[1]).hypot(vector[2])
 }

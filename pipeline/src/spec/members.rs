@@ -3,13 +3,14 @@
 use fea::{Kind, Member, Model, Taper};
 
 use super::block::{Block, Reference};
-use super::frame::{freedoms, index_below, length, refer};
+use super::frame::{freedoms, index_below, refer};
 use super::raw::{RawCellData, RawSpec};
 use super::tapers::Tapers;
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
 use crate::units::Dimension;
+use crate::vector::{length, parallel};
 
 /// Where the members stand in the file.
 #[derive(Clone, Debug, Default)]
@@ -271,10 +272,4 @@ impl<'r> Columns<'r> {
 /// A vector as files have it.
 fn listed(vector: [f64; 3]) -> String {
     format!("[{}]", vector.map(crate::fault::number).join(", "))
-}
-
-/// Whether two vectors point along one line, or one is zero, up to rounding.
-pub(super) fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
-    let cross = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-    length(cross) <= 1e-9 * length(a) * length(b)
 }

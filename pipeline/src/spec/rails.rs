@@ -2,13 +2,13 @@
 
 use fea::{Model, Rail, Segment};
 
-use super::frame::length;
-use super::members::{Cells, parallel};
+use super::members::Cells;
 use super::raw::{RawRail, RawSpec};
 use crate::check::Check;
 use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
+use crate::vector::{length, parallel};
 
 /// Reads the rails with their ranges.
 pub(super) fn read(

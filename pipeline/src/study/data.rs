@@ -9,6 +9,7 @@ use super::point::{Outcome, Point};
 use super::quantity::Quantity;
 use super::reference::{MARGIN, Reference, foundation};
 use super::setting::Family;
+use crate::record::bytes;
 use crate::scene::Scene;
 
 /// `study.json`: everything but times.
@@ -218,7 +219,7 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
         }
         writer.write_record(&row)?;
     }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    bytes(writer)
 }
 
 /// `timing.csv`: a row a setting that ran, ms.
@@ -254,5 +255,5 @@ pub fn timing_csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
             ms(measured.setup),
         ])?;
     }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    bytes(writer)
 }

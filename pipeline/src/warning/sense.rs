@@ -3,6 +3,7 @@
 use fea::{Model, Rail, Section};
 
 use crate::fault::number;
+use crate::report::rounded;
 use crate::spec::{Form, Spec};
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
@@ -57,8 +58,8 @@ fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
         format!(
             "{what} is {} {unit}, {} GPa: steel has about {} {unit}",
             number(e),
-            rounded(pascals * 1e-9),
-            rounded(steel)
+            short(pascals * 1e-9),
+            short(steel)
         )
     })
 }
@@ -71,9 +72,9 @@ fn heavy(name: &str, section: &Section, units: Units, scale: Scale) -> Option<St
     (own > 0.0 && !(DENSITIES[0]..=DENSITIES[1]).contains(&si)).then(|| {
         format!(
             "`density` of section \"{name}\" is {} {unit}, {} kg/m3: it is mass by volume, steel has about {} {unit}",
-            rounded(own),
-            rounded(si),
-            rounded(steel)
+            short(own),
+            short(si),
+            short(steel)
         )
     })
 }
@@ -111,12 +112,8 @@ fn holes(name: &str, model: &Model, rail: &Rail) -> Vec<String> {
 }
 
 /// Three digits.
-fn rounded(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return number(value);
-    }
-    let parsed = format!("{value:.2e}").parse();
-    number(parsed.unwrap_or(value))
+fn short(value: f64) -> String {
+    number(rounded(value, 3))
 }
 
 #[cfg(test)]

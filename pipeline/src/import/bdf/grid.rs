@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::fields::Fields;
 use crate::import::findings::{Finding, Findings, Spot};
-use crate::import::vector::{cross, dot, minus, unit};
+use crate::vector::{cross, dot, minus, unit};
 
 /// A point as its card has it.
 #[derive(Clone, Debug)]

@@ -12,7 +12,7 @@ use super::support;
 use crate::import::PARTS;
 use crate::import::findings::{Finding, Findings, Spot};
 use crate::import::structure::{Mass, Material, Member, Point, Section, Spring, Structure};
-use crate::import::vector::{minus, parallel};
+use crate::vector::{minus, parallel};
 
 /// What a deck becomes, step by step.
 struct Resolver<'d, 'f> {

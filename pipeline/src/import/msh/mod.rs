@@ -13,7 +13,7 @@ pub use sections::{FORMAT, Sections};
 
 use super::findings::{Finding, Findings};
 use super::structure::{Member, Point, Structure};
-use super::vector::{minus, parallel};
+use crate::vector::{minus, parallel};
 use mesh::Mesh;
 
 /// Reads a mesh into `empty`, a structure that has its name, units and up; `factor`: its unit of length in that of

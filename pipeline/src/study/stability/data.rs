@@ -3,6 +3,7 @@
 use serde_json::{Map as Object, Value, json};
 
 use super::map::{Layer, Map, Verdict};
+use crate::record::bytes;
 
 /// `stability.json`: counts, numbers found and messages of every map, and why others are absent.
 #[must_use]
@@ -69,5 +70,5 @@ pub fn csv(maps: &[Map]) -> Result<Vec<u8>, csv::Error> {
             }
         }
     }
-    writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
+    bytes(writer)
 }
