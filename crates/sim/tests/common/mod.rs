@@ -3,6 +3,7 @@
 #![allow(dead_code)]
 
 pub mod crane;
+pub mod dormand;
 pub mod hinged;
 pub mod kutta;
 pub mod modes;
