@@ -3,7 +3,7 @@
 
     apt-get install libsuitesparse-dev libopenblas0-serial
     python3 -m venv VENV && VENV/bin/pip install -r fea/requirements-bench.txt
-    VENV/bin/python fea/bench_frames.py [--dir DIR] [--cargo ARGS] [--only NAME ...] [--quick]
+    VENV/bin/python fea/bench_frames.py [--dir DIR] [--cargo ARGS] [--only NAME ...] [--quick] [--csv FILE]
 
 Runs the example `frames` of the crate fea, which times girderway and writes its frames to DIR, and then the other
 codes on the same frames and unit loads. Times are the least of three, in milliseconds, on one thread:
@@ -25,6 +25,7 @@ for _name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[_name] = "1"
 
 import argparse
+import csv
 import pathlib
 import subprocess
 import time
@@ -305,7 +306,9 @@ def main():
     options.add_argument("--cargo", default="run --release --quiet -p fea --example frames --")
     options.add_argument("--only", nargs="+", default=CASES, choices=CASES)
     options.add_argument("--quick", action="store_true", help="CHOLMOD and SuperLU alone")
+    options.add_argument("--csv", type=pathlib.Path, help="also write all totals there, as docs/frames.csv has them")
     args = options.parse_args()
+    rows = []
     limits = (0.0, 0.0, SUPERLU) if args.quick else (PYNITE, OPENSEES, SUPERLU)
     print(f"one thread, least of three, ms; CHOLMOD's BLAS: {blas()}")
     for name in args.only:
@@ -320,12 +323,17 @@ def main():
                     print(f"{code:30}{times}")
                     continue
                 total = sum(times)
+                if not code.startswith("assembly"):
+                    rows.append((name.split("-")[0], len(frame.free), count, code, f"{total:.3g}"))
                 stages = "".join(f"{t:12.2f}" for t in times) if len(times) == 2 else " " * 24
                 if code == "girderway":
                     own = total
                 ratio = "" if code == "girderway" or code.startswith("assembly") else f"{own / total:14.3f}"
                 difference = "" if apart is None else f"{apart:14.1e}"
                 print(f"{code:30}{stages}{total:12.2f}{ratio}{difference}", flush=True)
+    if args.csv:
+        with args.csv.open("w", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows([("frame", "freedoms", "loads", "code", "ms"), *rows])
 
 
 if __name__ == "__main__":

@@ -31,10 +31,20 @@ fn main() -> Outcome<()> {
     for (_, _, spec) in specs(&document) {
         known.push(Known { spec: spec.clone(), solved: solve(spec)? });
     }
-    println!(
-        "{:12} {:>9} {:>9} {:>7} {:>7} {:>9} {:>9} {:>9}",
-        "run", "accuracy", "ms", "steps", "stages", "rejected", "us/stage", "residual"
+    print!(
+        "{:12} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9}",
+        "run",
+        "accuracy",
+        "fastest_ms",
+        "median_ms",
+        "samples",
+        "steps",
+        "stages",
+        "rejected",
+        "us/stage",
+        "residual"
     );
+    println!("{}", if wanted.against.is_some() { " displaced  vertical   lateral" } else { "" });
     for case in &document.cases {
         time(case, &known, &wanted)?;
     }
@@ -58,7 +68,7 @@ fn wanted() -> Outcome<Wanted> {
     Ok(wanted)
 }
 
-/// Least processor time of some runs of a case.
+/// Processor times of some runs of a case.
 #[expect(clippy::print_stdout, reason = "a benchmark prints")]
 fn time(case: &Case, known: &[Known], wanted: &Wanted) -> Outcome<()> {
     let given = &case.scene;
@@ -70,15 +80,17 @@ fn time(case: &Case, known: &[Known], wanted: &Wanted) -> Outcome<()> {
         let laid = laid(&mut Spectra::default(), structure, solved, given.pushes_sideways());
         foundations.push(laid.map_err(|_| "a foundation cannot be made")?.foundation);
     }
-    let mut least = f64::INFINITY;
+    let mut times = Vec::new();
     let mut last = None;
     for _ in 0..wanted.runs.max(1) {
         let start = seconds();
         let run = sim::run(&scene, &foundations, &mut |_| ControlFlow::Continue(()))?;
-        least = least.min(seconds() - start);
+        times.push(seconds() - start);
         last = Some(run);
     }
     let Some(run) = last else { return Ok(()) };
+    times.sort_by(f64::total_cmp);
+    let (least, median) = (times[0], times[times.len() / 2]);
     let errors = match wanted.against {
         Some(accuracy) => {
             let finer = sim::Scene { accuracy, ..scene.clone() };
@@ -88,10 +100,12 @@ fn time(case: &Case, known: &[Known], wanted: &Wanted) -> Outcome<()> {
         None => String::new(),
     };
     println!(
-        "{:12} {:9.0e} {:9.1} {:7} {:7} {:9} {:9.2} {:9.1e}{errors}",
+        "{:12} {:9.0e} {:10.1} {:9.1} {:7} {:7} {:7} {:9} {:9.2} {:9.1e}{errors}",
         case.label.as_deref().unwrap_or("scene"),
         scene.accuracy,
         1e3 * least,
+        1e3 * median,
+        times.len(),
         run.counts.steps,
         run.counts.stages,
         run.counts.rejected,

@@ -4,16 +4,32 @@
 //! [`pages`] makes the generated parts of the book from data that are kept in `docs/`. For development alone: no part of
 //! the program depends on it.
 
+mod bench;
 mod book;
 mod collect;
+mod error;
+mod excerpt;
 mod figure;
+mod figures;
+mod file;
+mod map;
+mod maps;
 mod number;
+mod origin;
 mod peers;
 mod record;
+mod roll;
+mod sheets;
 mod study;
+mod times;
 
-pub use book::{Error, Page, pages};
-pub use collect::{collect, excerpt, programs};
+pub use bench::{Bench, Known, Sitting, date, divan, machine, table};
+pub use book::{Page, pages};
+pub use collect::{collect, programs};
+pub use error::Error;
+pub use excerpt::{LARGEST, charts, excerpt};
 pub use figure::{FOLDER, Figure, figure};
-pub use number::{number, percent};
+pub use file::{folder, json, list, name, sources, text};
+pub use map::{FILE as MAPS, Finding, Map, Maps, Message, Method, Sums, excerpt as maps};
+pub use number::{number, percent, time};
 pub use record::{Record, Verdict};

@@ -18,6 +18,12 @@ pub fn number(value: f64, digits: usize) -> String {
     thousands(&format!("{rounded:.after$}"))
 }
 
+/// A count.
+#[must_use]
+pub fn whole(count: usize) -> String {
+    thousands(&count.to_string())
+}
+
 /// A comma before every three digits of what stands before the point, from five digits on.
 fn thousands(text: &str) -> String {
     let (sign, rest) = text.strip_prefix('-').map_or(("", text), |rest| ("-", rest));
@@ -33,6 +39,18 @@ fn thousands(text: &str) -> String {
         Some(part) => format!("{sign}{out}.{part}"),
         None => format!("{sign}{out}"),
     }
+}
+
+/// Seconds with three digits, in the unit that suits them.
+#[must_use]
+pub fn time(seconds: f64) -> String {
+    let (unit, by) = match seconds.abs() {
+        own if own < 0.9995e-6 => ("ns", 1e9),
+        own if own < 0.9995e-3 => ("us", 1e6),
+        own if own < 0.9995 => ("ms", 1e3),
+        _ => ("s", 1.0),
+    };
+    format!("{} {unit}", number(by * seconds, 3))
 }
 
 /// A share as a signed percentage, finer shares with a power of ten.
@@ -57,7 +75,7 @@ pub fn digits(value: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{digits, number, percent};
+    use super::{digits, number, percent, time};
 
     #[test]
     fn numbers_are_written_as_people_write_them() {
@@ -76,6 +94,19 @@ mod tests {
             (99.96, 3, "100"),
         ] {
             assert_eq!(number(value, count), text, "{value:e}");
+        }
+    }
+
+    #[test]
+    fn times_have_the_unit_that_suits_them() {
+        for (seconds, text) in [
+            (9.6e-8, "96.0 ns"),
+            (1.234e-6, "1.23 us"),
+            (0.99951e-6, "1.00 us"),
+            (0.0123, "12.3 ms"),
+            (20.0, "20.0 s"),
+        ] {
+            assert_eq!(time(seconds), text, "{seconds:e}");
         }
     }
 

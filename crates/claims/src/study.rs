@@ -1,6 +1,10 @@
 //! Tables of studies, from `docs/studies/*.json`.
 
+use std::path::Path;
+
 use serde_json::Value;
+
+use crate::excerpt::CHARTS;
 
 use crate::number::number;
 
@@ -142,6 +146,20 @@ pub fn memory(studies: &[Value]) -> String {
                     .filter(|_| is_told || text(own, "against") != "whole")
                     .map_or_else(String::new, error),
             );
+        }
+    }
+    out
+}
+
+/// Charts of the studies that `docs/studies` has, a heading a scene.
+pub fn charts(root: &Path, names: &[&str]) -> String {
+    let mut out = String::new();
+    for name in names {
+        for (_, ending) in CHARTS {
+            let path = format!("studies/{name}-{ending}.svg");
+            if root.join("docs").join(&path).is_file() {
+                out += &format!("![{name}: error against time, {ending}]({path})\n\n");
+            }
         }
     }
     out

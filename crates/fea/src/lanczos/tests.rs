@@ -1,3 +1,5 @@
+//! Eigenvalues beside those of dense matrices.
+
 use sprs::TriMat;
 
 use super::*;

@@ -1,3 +1,5 @@
+//! Shapes of uneven rails, piece by piece.
+
 use splines::Axis;
 
 use super::{Irregularity, Wave};

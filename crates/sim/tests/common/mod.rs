@@ -4,6 +4,7 @@
 
 pub mod crane;
 pub mod dormand;
+pub mod hinged;
 pub mod kutta;
 pub mod modes;
 pub mod parts;
