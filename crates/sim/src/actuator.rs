@@ -262,14 +262,17 @@ impl Pull {
     }
 
     /// The force of a drive at the rate that it gives itself, where it gives now `force` at the rate `r`, which every unit
-    /// of force lowers by `fall`: F = K (r - fall (F - force)), all that it can beyond its limit. `None`: no drive.
-    pub fn drive(&self, force: f64, r: f64, fall: f64, traction: f64) -> Option<Driven> {
-        let PullLaw::Drive { gain, .. } = self.law else { return None };
+    /// of force lowers by `fall`: F = K (r - fall (F - force)), all that it can beyond its limit. That of a brake at `r`.
+    pub fn give(&self, force: f64, r: f64, fall: f64, traction: f64) -> Pulled {
+        let PullLaw::Drive { gain, .. } = self.law else {
+            let (force, by_rate, by_traction) = self.at(r, traction);
+            return Pulled { force, by_rate, by_force: 0.0, by_traction };
+        };
         let stiffness = 1.0 + gain * fall.max(0.0);
         let wanted = force + (gain * r - force) / stiffness;
         let (limit, slips) = self.limit(traction);
-        Some(if wanted.abs() <= limit {
-            Driven {
+        if wanted.abs() <= limit {
+            Pulled {
                 force: wanted,
                 by_rate: gain / stiffness,
                 by_force: 1.0 - 1.0 / stiffness,
@@ -277,8 +280,8 @@ impl Pull {
             }
         } else {
             let by_traction = if slips { wanted.signum() } else { 0.0 };
-            Driven { force: limit.copysign(wanted), by_rate: 0.0, by_force: 0.0, by_traction }
-        })
+            Pulled { force: limit.copysign(wanted), by_rate: 0.0, by_force: 0.0, by_traction }
+        }
     }
 
     /// Force at the rate `r` with the `traction`, and its derivatives by both.
@@ -300,8 +303,8 @@ impl Pull {
     }
 }
 
-/// What a drive gives, see [`Pull::drive`], with its derivatives.
-pub(crate) struct Driven {
+/// What a drive or a brake gives, see [`Pull::give`], with its derivatives.
+pub(crate) struct Pulled {
     pub force: f64,
     pub by_rate: f64,
     pub by_force: f64,

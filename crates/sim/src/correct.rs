@@ -13,6 +13,7 @@
 
 use crate::Error;
 use crate::dense::{along, dot};
+use crate::drag::passing;
 use crate::solver::{Known, Solver};
 use crate::state::State;
 
@@ -57,14 +58,10 @@ impl Solver<'_> {
         for (k, a) in at.a.iter_mut().enumerate() {
             *a = self.free_a[k] + dot(&self.spread[k * count..(k + 1) * count], &self.pressing);
         }
-        let [moved, beside] = self.follow_accelerations(g, known, at);
-        for i in 0..system.normals.len() {
-            at.p[i] = self.geometry.approach(i, &at.q) - along(&self.geometry.compliance, i, &at.force);
-            at.p_rate[i] = (at.p[i] - known.p[i]) / g;
-        }
-        self.drag_end(g, &known.p, at);
-        let rise = self.update_heights(at);
-        Ok(Some([moved.max(rise), beside.max(rise).max(largest / size)]))
+        let [moved, beside] = self.arrive(g, known, at, |solver, i, at| {
+            solver.geometry.approach(i, &at.q) - along(&solver.geometry.compliance, i, &at.force)
+        });
+        Ok(Some([moved, beside.max(largest / size)]))
     }
 
     /// Puts into `answer` what the accelerations of `at` lack: Z (f - M a - R_f^T F).
@@ -109,7 +106,7 @@ impl Solver<'_> {
             }
             if system.drags().contains(&i) {
                 rate -= (give - known[normals + i - system.traction(0)]) / g;
-                rate += self.passing(i, at);
+                rate += passing(system, &self.geometry, at, i);
             }
             if is_lateral
                 && self.problem.asleep[i]

@@ -93,16 +93,8 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -
 pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
     for j in 0..n {
-        let pivot = (j..n).max_by(|&p, &q| a[p * n + j].abs().total_cmp(&a[q * n + j].abs())).unwrap_or(j);
-        let size = a[pivot * n + j].abs();
-        if !(size > 0.0 && size.is_finite()) {
-            return false;
-        }
-        if pivot != j {
-            let (above, below) = a.split_at_mut(pivot * n);
-            above[j * n + j..(j + 1) * n].swap_with_slice(&mut below[j..n]);
-            b.swap(pivot, j);
-        }
+        let Some(pivot) = exchange(a, j, n) else { return false };
+        b.swap(pivot, j);
         let (above, below) = a.split_at_mut((j + 1) * n);
         let row = &above[j * n..];
         let (head, tail) = b.split_at_mut(j + 1);

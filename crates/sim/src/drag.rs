@@ -63,12 +63,6 @@ impl Solver<'_> {
         }
     }
 
-    /// Rate of the rail under component `i` that its wheels pass over by their own way, x' dG/dx F.
-    pub fn passing(&self, i: usize, at: &State) -> f64 {
-        let own = own_treads(self.system, i, at);
-        own.map(|(tread, speed)| speed * along(&self.geometry.by_tread, tread, &at.force)).sum()
-    }
-
     /// Displacements of massless rails along x at the end of a stage, and their rates.
     pub fn drag_end(&self, g: f64, known: &[f64], at: &mut State) {
         let first = self.system.normals.len();
@@ -122,10 +116,13 @@ pub(crate) fn slip(system: &System, geometry: &Geometry, state: &State, i: usize
         return own;
     }
     let k = system.normals.len() + i - system.traction(0);
-    let way: f64 = own_treads(system, i, state)
-        .map(|(tread, speed)| speed * along(&geometry.by_tread, tread, &state.force))
-        .sum();
-    own - state.p_rate[k] + way
+    own - state.p_rate[k] + passing(system, geometry, state, i)
+}
+
+/// Rate of the rail under component `i` that its wheels pass over by their own way, x' dG/dx F.
+pub(crate) fn passing(system: &System, geometry: &Geometry, state: &State, i: usize) -> f64 {
+    let own = own_treads(system, i, state);
+    own.map(|(tread, speed)| speed * along(&geometry.by_tread, tread, &state.force)).sum()
 }
 
 /// The treads of component `i` with their speeds along the rail.

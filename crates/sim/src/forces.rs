@@ -15,6 +15,7 @@ const ITERATIONS: usize = 60;
 /// Share of Newton's change below which a smaller one is not tried. A brake on a rail that gives grips within 1e-6 of the
 /// forces on either side, and less in short steps.
 const SHORTEST: f64 = 1e-12;
+
 /// Matrices and free motion of one solution, over components, row-major.
 pub(crate) struct Problem {
     pub w: Vec<f64>,

@@ -67,15 +67,15 @@ impl Problem {
     fn guide(&mut self, system: &System, force: &[f64]) {
         for (index, &w) in system.laterals.iter().enumerate() {
             let i = system.lateral(index);
-            let kind = &system.scene.wheels[system.wheels[w].kind];
-            let Some(flange) = &kind.flange else { continue };
+            let Some(flange) = system.flange(index) else { continue };
             let overlap = if self.asleep[i] { 0.0 } else { flange.overlap(self.reach[i][0]) };
             if overlap == 0.0 {
                 self.idle(i, force[i]);
                 continue;
             }
             let normal = system.normals_of(w).next().unwrap_or(0);
-            let (share, by_height) = flange.share(kind.radius - self.reach[normal][0]);
+            let radius = system.scene.wheels[system.wheels[w].kind].radius;
+            let (share, by_height) = flange.share(radius - self.reach[normal][0]);
             let slope = Slope {
                 by_penetration: flange.stiffness * share,
                 by_rate: 0.0,
@@ -122,14 +122,11 @@ impl Problem {
                 }
                 self.act(i, force[i] - law, Slope::default());
                 by_traction
-            } else if let Some(driven) = pull.drive(force[i], self.reach[i][1], own, traction) {
-                self.grips.push((i, i, driven.by_force));
-                self.act(i, force[i] - driven.force, Slope { by_rate: driven.by_rate, ..Slope::default() });
-                driven.by_traction
             } else {
-                let (law, by_rate, by_traction) = pull.at(self.reach[i][1], traction);
-                self.act(i, force[i] - law, Slope { by_rate, ..Slope::default() });
-                by_traction
+                let given = pull.give(force[i], self.reach[i][1], own, traction);
+                self.grips.push((i, i, given.by_force));
+                self.act(i, force[i] - given.force, Slope { by_rate: given.by_rate, ..Slope::default() });
+                given.by_traction
             };
             for grip in pull.grips.iter().filter(|grip| force[grip.normal] > 0.0) {
                 self.grips.push((i, grip.normal, by_traction * grip.mu));

@@ -238,9 +238,9 @@ impl<'a> Solver<'a> {
     fn wake(&mut self, force: &[f64]) -> bool {
         let system = self.system;
         let mut woken = false;
-        for (index, &w) in system.laterals.iter().enumerate() {
+        for index in 0..system.laterals.len() {
             let i = system.lateral(index);
-            let Some(flange) = &system.scene.wheels[system.wheels[w].kind].flange else { continue };
+            let Some(flange) = system.flange(index) else { continue };
             if self.problem.asleep[i] && flange.overlap(self.problem.penetration(i, force)) != 0.0 {
                 self.problem.asleep[i] = false;
                 woken = true;
@@ -249,8 +249,27 @@ impl<'a> Solver<'a> {
         woken
     }
 
+    /// Ends a pass: puts what the accelerations and forces of `at` give there, with the `penetration` of each vertical
+    /// contact; returns the largest changes beside the freedoms themselves and beside their scales.
+    pub(crate) fn arrive(
+        &mut self,
+        g: f64,
+        known: &Known,
+        at: &mut State,
+        penetration: impl Fn(&Self, usize, &State) -> f64,
+    ) -> [f64; 2] {
+        let changes = self.follow_accelerations(g, known, at);
+        for i in 0..self.system.normals.len() {
+            at.p[i] = penetration(self, i, at);
+            at.p_rate[i] = (at.p[i] - known.p[i]) / g;
+        }
+        self.drag_end(g, &known.p, at);
+        let rise = self.update_heights(at);
+        changes.map(|change| change.max(rise))
+    }
+
     /// Largest of the changes from `at` to what its accelerations `at.a` give, beside their scales, and puts them there.
-    pub(crate) fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
+    fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
         let [mut moved, mut beside] = [0.0_f64; 2];
         for i in 0..self.system.freedoms {
             let v = known.v[i] + g * at.a[i];
@@ -364,15 +383,8 @@ impl<'a> Solver<'a> {
             let spread = &self.spread[k * count..(k + 1) * count];
             at.a[k] = self.free_a[k] - dot(spread, &self.pressing);
         }
-        let [mut moved, beside] = self.follow_accelerations(g, known, at);
-        for i in 0..system.normals.len() {
-            at.p[i] = self.problem.penetration(i, &at.force);
-            at.p_rate[i] = (at.p[i] - known.p[i]) / g;
-        }
-        self.drag_end(g, &known.p, at);
-        let rise = self.update_heights(at);
-        moved = moved.max(rise);
-        Ok(Pass::Moved([moved, beside.max(rise)]))
+        let changes = self.arrive(g, known, at, |solver, i, at| solver.problem.penetration(i, &at.force));
+        Ok(Pass::Moved(changes))
     }
 
     /// What a stage of the coefficient `g` puts into row `i` of the contact problem; `known` are penetrations.

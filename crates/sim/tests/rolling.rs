@@ -6,6 +6,7 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use common::hinged::Hinged;
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{
@@ -48,39 +49,6 @@ fn freely_rolling_bogie_keeps_its_energy_on_the_exact_surface_and_not_on_akispl(
     assert!(x.iter().any(|&x| x > 0.5 * SPAN), "it rolls through the sag");
     assert!(exact.audit.residual() < 1e-6, "{}", exact.audit.residual());
     assert!(akispl.audit.imbalance > 1e3 * exact.audit.imbalance);
-}
-
-/// Rigid lengths of 10 ft, hinged over springs: G = sum of h(x) h(z) / k, h the hats of the supports.
-struct Hinged;
-
-impl Compliance for Hinged {
-    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), splines::Error> {
-        let hat = |x: f64, support: i32| {
-            let from = 0.1 * x - f64::from(support);
-            if from.abs() < 1.0 { (1.0 - from.abs(), -0.1 * from.signum()) } else { (0.0, 0.0) }
-        };
-        for (i, p) in at.iter().enumerate() {
-            for (j, q) in at.iter().enumerate() {
-                let terms = (-1..8).map(|n| (hat(p.x, n), hat(q.x, n).0));
-                let (value, slope) =
-                    terms.fold((0.0, 0.0), |(v, s), ((h, d), other)| (v + h * other, s + d * other));
-                (out.value[(i, j)], out.slope[(i, j)]) = (2e-8 * value, 2e-8 * slope);
-            }
-        }
-        Ok(())
-    }
-
-    fn breaks(&self, _: usize) -> Vec<f64> {
-        (-1..8).map(|n| 10.0 * f64::from(n)).collect()
-    }
-
-    fn range(&self, _: usize) -> Option<[f64; 2]> {
-        Some([-10.0, 70.0])
-    }
-
-    fn is_symmetric(&self) -> bool {
-        true
-    }
 }
 
 #[test]

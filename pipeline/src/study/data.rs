@@ -21,6 +21,7 @@ pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
         "name": scene.name,
         "resolution": depth.resolution,
         "limit": depth.limit,
+        "until": study.until,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
         "lost": study.lost.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
         "auto": match &study.auto {

@@ -19,6 +19,8 @@ pub struct Depth {
     pub stations: Vec<usize>,
     /// Accuracies of references and, where structures have mass, their modes: one after the other until two runs agree.
     pub references: Vec<(f64, usize)>,
+    /// The same with elements a member, where modes do not agree.
+    pub meshes: Vec<(f64, usize)>,
     /// Most repetitions of a run.
     pub repetitions: usize,
     /// Seconds that a run may take, and all repetitions of a setting.
@@ -40,6 +42,7 @@ impl Depth {
             parts: vec![2, 4, 8, 16, 32, 64],
             stations: vec![5, 7, 13, 19, 37, 73, 145],
             references: vec![(1e-5, 8), (1e-6, 16), (1e-7, 32), (1e-8, 48), (1e-9, 64)],
+            meshes: vec![(1e-4, 2), (1e-5, 4), (1e-6, 8)],
             repetitions: 9,
             limit: 20.0,
             resolution: 1e-4,
@@ -58,6 +61,7 @@ impl Depth {
             parts: vec![2, 8, 32],
             stations: vec![7, 19, 73],
             references: vec![(1e-4, 4), (1e-5, 8), (1e-6, 16)],
+            meshes: vec![(1e-4, 2), (1e-5, 4)],
             repetitions: 3,
             limit: 5.0,
             resolution: 1e-2,

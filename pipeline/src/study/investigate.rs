@@ -11,7 +11,7 @@ use super::memory::{self, Memory};
 use super::misfit::misfits;
 use super::point::{Measured, Outcome, Point};
 use super::quantity::Quantity;
-use super::reference::{Reference, reference};
+use super::reference::{Detail, Reference, reference};
 use super::rig::{Rig, Workshop};
 use super::setting::{Against, Family, Setting};
 use super::spread::Spread;
@@ -27,10 +27,14 @@ use crate::summary;
 const BATCH: f64 = 2e-3;
 /// The most of them.
 const MOST: f64 = 200.0;
+/// Share of a scene's time that a study must tell of.
+const LEAST: f64 = 0.25;
 
 /// What a study found.
 #[derive(Clone, Debug)]
 pub struct Study {
+    /// When it ends, s, where its references tell nothing of what comes after; `None`: with the scene.
+    pub until: Option<f64>,
     /// What errors are measured against.
     pub references: Vec<Reference>,
     /// References that could not be run, and why.
@@ -66,7 +70,7 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
     let kinds = Kinds::of(scene, known);
     let mut workshop = Workshop::new(scene, known);
     progress.say("choosing foundations");
-    let (auto, chosen) = auto(scene, known, depth);
+    let (auto, mut chosen) = auto(scene, known, depth);
     let asks = scene.structures.iter().any(|structure| structure.auto);
     let mut own = match &chosen {
         Some(chosen) if asks => chosen.clone(),
@@ -75,45 +79,30 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
     own.structures.iter_mut().for_each(|structure| structure.auto = false);
 
     progress.say("running references");
-    let mut references: Vec<Reference> = Vec::new();
-    let mut lost: Vec<(Against, String)> = Vec::new();
-    let mut seen: Vec<Scene> = Vec::new();
-    let mut add = |against: Against, make: &dyn Fn(usize) -> Scene, workshop: &mut Workshop<'_>| {
-        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(2) };
-        let found = match seen.iter().position(|own| *own == plain) {
-            Some(at) => Reference { against, ..Reference::clone(&references[at]) },
-            None => match reference(workshop, against, make, depth) {
-                Ok(found) => found,
-                Err(Failure::Untrusted(why)) => {
-                    progress.say(&format!("reference \"{}\": {why}", against.word()));
-                    lost.push((against, why));
-                    return Ok(());
-                }
-                Err(other) => return Err(other),
-            },
-        };
-        seen.push(plain);
-        let told = Quantity::ALL.iter().filter(|own| found.resolves(**own).is_finite());
-        let told: Vec<String> =
-            told.map(|own| format!("{} from {:.1e}", own.name(), found.resolves(*own))).collect();
-        progress.say(&format!(
-            "reference \"{}\" tells errors of {} on: {}",
-            against.word(),
-            told.join(", "),
-            found.words[0]
-        ));
-        references.push(found);
-        Ok::<(), Failure>(())
-    };
-    if kinds.varies {
-        add(Against::Whole, &|modes| ladder::whole(&own, kinds, modes), &mut workshop)?;
-        add(Against::Massless, &|_| ladder::massless(&own), &mut workshop)?;
-    }
-    add(Against::Own, &|_| own.clone(), &mut workshop)?;
-
+    let (mut references, lost) = references(&own, kinds, &mut workshop, depth, progress)?;
     if references.is_empty() {
         let first = lost.into_iter().next().map(|(_, why)| why);
         return Err(Failure::Untrusted(first.unwrap_or_default()));
+    }
+    let until = until(&references, &own, depth);
+    let mut cut = scene.clone();
+    if let Some(time) = until {
+        progress.say(&format!("no reference tells what comes after t = {time} s: the study ends there"));
+        references.iter_mut().for_each(|reference| reference.cut(time));
+        for scene in [&mut own, &mut cut].into_iter().chain(&mut chosen) {
+            scene.end = time;
+        }
+    }
+    for reference in &references {
+        let told = Quantity::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
+        let told: Vec<String> =
+            told.map(|own| format!("{} from {:.1e}", own.name(), reference.resolves(*own))).collect();
+        progress.say(&format!(
+            "reference \"{}\" tells errors of {} on: {}",
+            reference.against.word(),
+            told.join(", "),
+            reference.words[0]
+        ));
     }
     let mut settings = ladder::settings(&own, known, kinds, depth);
     let (family, knob) = (Family::Written, "accuracy");
@@ -149,9 +138,64 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
         bar.set(index as u64 + 1);
     }
     drop(bar);
-    let mut study = Study { references, lost, points, auto };
-    time(&mut study, &rigs, scene, known, depth, progress);
+    let mut study = Study { until, references, lost, points, auto };
+    time(&mut study, &rigs, &cut, known, depth, progress);
     Ok(study)
+}
+
+/// References, and those that could not be run.
+type References = (Vec<Reference>, Vec<(Against, String)>);
+
+/// What errors of settings of `own` are measured against.
+fn references(
+    own: &Scene,
+    kinds: Kinds,
+    workshop: &mut Workshop<'_>,
+    depth: &Depth,
+    progress: &Progress,
+) -> Result<References, Failure> {
+    let whole = |detail: Detail| ladder::whole(own, kinds, detail);
+    let massless = |_| ladder::massless(own);
+    let written = |_| own.clone();
+    let all: [(Against, &dyn Fn(Detail) -> Scene, bool); 3] = [
+        (Against::Whole, &whole, kinds.has_mass && own.analysis == Analysis::Dynamic),
+        (Against::Massless, &massless, false),
+        (Against::Own, &written, false),
+    ];
+    let mut found: Vec<Reference> = Vec::new();
+    let mut lost = Vec::new();
+    let mut seen: Vec<Scene> = Vec::new();
+    for (against, make, meshes) in all {
+        if against != Against::Own && !kinds.varies {
+            continue;
+        }
+        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(Detail::Modes(2)) };
+        let same = seen.iter().position(|own| *own == plain);
+        let reference = match same {
+            Some(at) => Ok(Reference { against, ..Reference::clone(&found[at]) }),
+            None => reference(workshop, against, make, meshes, depth),
+        };
+        match reference {
+            Ok(reference) => {
+                seen.push(plain);
+                found.push(reference);
+            }
+            Err(Failure::Untrusted(why)) => {
+                progress.say(&format!("reference \"{}\": {why}", against.word()));
+                lost.push((against, why));
+            }
+            Err(other) => return Err(other),
+        }
+    }
+    Ok((found, lost))
+}
+
+/// When a study of `scene` ends before the scene does: where some reference tells deflections and wheel forces until then
+/// alone. `None`: all tell them to the end, or one of them for less than [`LEAST`] of it.
+fn until(references: &[Reference], scene: &Scene, depth: &Depth) -> Option<f64> {
+    let short = references.iter().filter(|reference| reference.asked() > depth.resolution);
+    let times = short.map(|reference| reference.horizon(depth.resolution).unwrap_or(0.0));
+    times.reduce(f64::min).filter(|time| *time >= LEAST * scene.end)
 }
 
 /// Runs a setting once, and compares it with the reference; ready to run again where it reached its end.

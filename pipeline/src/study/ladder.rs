@@ -3,6 +3,7 @@
 use sim::Method;
 
 use super::depth::Depth;
+use super::reference::Detail;
 use super::setting::{Family, Setting};
 use crate::cases::{Known, solved_of};
 use crate::link;
@@ -66,14 +67,19 @@ fn mesh(scene: &Scene, known: &[Known]) -> Scene {
     })
 }
 
-/// The structure with all that is known of it: so many modes and the static give of the others; without mass, the exact
-/// surface.
+/// The structure with all that is known of it, to such a detail; without mass, the exact surface.
 #[must_use]
-pub fn whole(scene: &Scene, kinds: Kinds, modes: usize) -> Scene {
-    match kinds.has_mass && scene.analysis == Analysis::Dynamic {
-        true => with(scene, |structure| Foundation::Modal { modes, damping: structure.damping }),
-        false => massless(scene),
+pub fn whole(scene: &Scene, kinds: Kinds, detail: Detail) -> Scene {
+    if !kinds.has_mass || scene.analysis != Analysis::Dynamic {
+        return massless(scene);
     }
+    with(scene, |structure| {
+        let damping = structure.damping;
+        match detail {
+            Detail::Modes(modes) => Foundation::Modal { modes, damping },
+            Detail::Mesh(elements) => Foundation::Full { elements, damping },
+        }
+    })
 }
 
 /// The structure without mass, exactly.

@@ -23,6 +23,13 @@ impl Trace {
         let least = NOTHING * force * length;
         self.columns.retain(|(_, quantity, values)| *quantity != Quantity::Moment || largest(values) > least);
     }
+
+    /// Leaves out all after `time`, s.
+    pub(super) fn cut(&mut self, time: f64) {
+        let count = self.time.iter().take_while(|own| **own <= time).count();
+        self.time.truncate(count);
+        self.columns.iter_mut().for_each(|(.., values)| values.truncate(count));
+    }
 }
 
 /// Errors of the columns of one group, relative to the largest value that the reference has in the group.
@@ -40,14 +47,41 @@ pub struct Misfit {
 /// e = max |a - b| / max |b| over columns and output times that both have; the extremes of a column are compared
 /// whenever they are.
 #[must_use]
-pub fn misfits(run: &Trace, reference: &Trace) -> [Option<Misfit>; 4] {
-    let common = run
-        .time
-        .iter()
-        .zip(&reference.time)
-        .take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9))
-        .count();
+pub fn misfits(run: &Trace, reference: &Trace) -> [Option<Misfit>; Quantity::COUNT] {
+    let common = common(run, reference);
     Quantity::ALL.map(|quantity| of(run, reference, quantity, common))
+}
+
+/// How many output times both have, from the first on.
+fn common(run: &Trace, reference: &Trace) -> usize {
+    let pairs = run.time.iter().zip(&reference.time);
+    pairs.take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9)).count()
+}
+
+/// The last output time until which `run` errs by no more than `wanted` in each of `groups`, as [`misfits`] has it for runs that
+/// end there. `None`: at none; or `run` lacks a column.
+#[must_use]
+pub fn horizon(run: &Trace, reference: &Trace, groups: &[Quantity], wanted: f64) -> Option<f64> {
+    let mut pairs = Vec::new();
+    for (name, group, values) in &reference.columns {
+        if let Some(at) = groups.iter().position(|own| own == group) {
+            let (_, _, found) = run.columns.iter().find(|(own, ..)| own == name)?;
+            pairs.push((at, found, values));
+        }
+    }
+    let mut worst = vec![[0.0_f64; 2]; groups.len()];
+    let mut last = None;
+    for (k, time) in reference.time.iter().enumerate().take(common(run, reference)) {
+        for (at, found, values) in &pairs {
+            let [error, scale] = &mut worst[*at];
+            *error = error.max((found[k] - values[k]).abs());
+            *scale = scale.max(values[k].abs());
+        }
+        if worst.iter().all(|[error, scale]| *error <= wanted * scale) {
+            last = Some(*time);
+        }
+    }
+    last
 }
 
 fn of(run: &Trace, reference: &Trace, quantity: Quantity, common: usize) -> Option<Misfit> {
@@ -87,11 +121,27 @@ mod tests {
     fn errors_are_relative_to_the_largest_value_of_the_group() {
         let reference = trace(&[0.0, 2.0, -4.0], &[10.0, 10.0, 10.0]);
         let run = trace(&[0.1, 2.0, -4.2], &[10.0, 9.0, 10.0]);
-        let [deflection, force, reaction, _] = misfits(&run, &reference);
+        let [deflection, force, lateral, reaction, _] = misfits(&run, &reference);
         let deflection = deflection.expect("a scale of 4");
         assert!((deflection.largest - 0.05).abs() < 1e-15 && (deflection.peak - 0.05).abs() < 1e-15);
         assert_eq!(force, Some(Misfit { largest: 0.1, peak: 0.1 }));
-        assert_eq!(reaction, None);
+        assert_eq!([lateral, reaction], [None, None]);
+    }
+
+    #[test]
+    fn horizon_is_the_last_time_until_which_runs_are_close() {
+        let reference = trace(&[0.0, 2.0, -4.0, 3.0], &[10.0, 10.0, 10.0, 10.0]);
+        let run = trace(&[0.0, 2.0, -4.1, 3.0], &[10.0, 10.0, 10.0, 9.0]);
+        let asked = [Quantity::Deflection, Quantity::WheelForce];
+        let until = |wanted: f64| horizon(&run, &reference, &asked, wanted);
+        assert_eq!(until(0.2), Some(reference.time[3]), "0.1 of the forces are within");
+        assert_eq!(until(0.05), Some(reference.time[2]), "a fortieth of the deflection is");
+        assert_eq!(until(0.01), Some(reference.time[1]));
+        assert_eq!(horizon(&run, &reference, &asked[..1], 0.05), Some(reference.time[3]));
+        let mut cut = reference.clone();
+        cut.cut(reference.time[2]);
+        assert_eq!((cut.time.len(), cut.columns[1].2.len()), (3, 3));
+        assert_eq!(misfits(&run, &cut)[1].map(|own| own.largest), Some(0.0));
     }
 
     #[test]

@@ -125,6 +125,9 @@ fn chart(
     if cost != Cost::Knob || what != knob {
         title += &format!(", {what}");
     }
+    if let Some(time) = study.until {
+        title += &format!(", until {time} s");
+    }
     let mut chart = Chart::new(title, x.log(), Axis::new("largest error / largest value", "").log());
     let mut families: Vec<Family> = Vec::new();
     for point in shown() {

@@ -30,7 +30,7 @@ pub enum Outcome {
 #[derive(Clone, Debug)]
 pub struct Measured {
     /// Errors, one a group.
-    pub errors: [Option<Misfit>; 4],
+    pub errors: [Option<Misfit>; Quantity::COUNT],
     /// Steps, stages, events.
     pub counts: sim::Counts,
     /// Freedoms of the foundations.

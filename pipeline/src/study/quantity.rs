@@ -9,8 +9,10 @@ use crate::units::Dimension;
 pub enum Quantity {
     /// Deflections of bodies, of rails under wheels, and of gauges.
     Deflection,
-    /// Forces of wheels on rails.
+    /// Vertical forces of wheels on rails.
     WheelForce,
+    /// Lateral ones: flanges that strike make them the most sensitive of all.
+    LateralForce,
     /// Forces of the ground, and sums of wheel forces by rail.
     Reaction,
     /// Moments of the ground and internal moments.
@@ -19,8 +21,17 @@ pub enum Quantity {
 
 impl Quantity {
     /// All of them, in the order of charts.
-    pub const ALL: [Quantity; 4] =
-        [Quantity::Deflection, Quantity::WheelForce, Quantity::Reaction, Quantity::Moment];
+    pub const ALL: [Quantity; Quantity::COUNT] = [
+        Quantity::Deflection,
+        Quantity::WheelForce,
+        Quantity::LateralForce,
+        Quantity::Reaction,
+        Quantity::Moment,
+    ];
+    /// How many they are.
+    pub const COUNT: usize = 5;
+    /// How many of the first a study must tell: deflections and vertical wheel forces.
+    pub const ASKED: usize = 2;
 
     /// Its word in files.
     #[must_use]
@@ -28,6 +39,7 @@ impl Quantity {
         match self {
             Quantity::Deflection => "deflection",
             Quantity::WheelForce => "wheel_force",
+            Quantity::LateralForce => "lateral_force",
             Quantity::Reaction => "reaction",
             Quantity::Moment => "moment",
         }
@@ -38,6 +50,7 @@ impl Quantity {
     pub const fn name(self) -> &'static str {
         match self {
             Quantity::WheelForce => "wheel force",
+            Quantity::LateralForce => "lateral wheel force",
             _ => self.word(),
         }
     }
@@ -65,7 +78,8 @@ impl Quantity {
             Dimension::LENGTH if ends(".deflection") || ends(".rail_deflection") || is_gauge() => {
                 Some(Quantity::Deflection)
             }
-            Dimension::FORCE if ends(".vertical") || ends(".lateral") => Some(Quantity::WheelForce),
+            Dimension::FORCE if ends(".vertical") => Some(Quantity::WheelForce),
+            Dimension::FORCE if ends(".lateral") => Some(Quantity::LateralForce),
             Dimension::FORCE if ends(".reaction") => Some(Quantity::Reaction),
             _ => None,
         }

@@ -4,7 +4,7 @@ use sim::{Method, Stepping};
 
 use super::cpu::limited;
 use super::depth::Depth;
-use super::misfit::{Trace, misfits};
+use super::misfit::{Trace, horizon, misfits};
 use super::quantity::Quantity;
 use super::rig::Workshop;
 use super::setting::{Against, Family, Setting};
@@ -21,6 +21,25 @@ const UNTOLD: f64 = 0.1;
 /// Difference at which nothing finer is tried.
 const CLOSE: f64 = 1e-9;
 
+/// How finely a structure with mass is resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Detail {
+    /// So many of its lowest natural modes, and the static give of all others.
+    Modes(usize),
+    /// All modes of a mesh of so many elements a member.
+    Mesh(usize),
+}
+
+impl Detail {
+    /// The same by half as many.
+    const fn half(self) -> Detail {
+        match self {
+            Detail::Modes(count) => Detail::Modes(count / 2),
+            Detail::Mesh(count) => Detail::Mesh(count / 2),
+        }
+    }
+}
+
 /// A converged run, and how far from it the one next to it is.
 #[derive(Clone, Debug)]
 pub struct Reference {
@@ -28,11 +47,13 @@ pub struct Reference {
     pub against: Against,
     /// The run itself.
     pub trace: Trace,
-    /// The two finest settings in words: the run's, and that of the one beside it.
+    /// The one beside it.
+    pub beside: Trace,
+    /// The two settings in words: the run's, and that of the one beside it.
     pub words: [String; 2],
     /// Largest difference of the two in each group.
-    pub difference: [Option<f64>; 4],
-    /// Largest differences of the pairs before, by the accuracy asked.
+    pub difference: [Option<f64>; Quantity::COUNT],
+    /// Largest differences of the pairs before in what a study must tell, by the accuracy asked.
     pub approach: Vec<(f64, f64)>,
 }
 
@@ -51,66 +72,108 @@ impl Reference {
         Some(self.resolves(quantity)).filter(|least| *least <= UNTOLD)
     }
 
-    /// The larger of those of deflections and wheel forces.
+    /// The larger of those of deflections and vertical wheel forces.
     #[must_use]
     pub fn asked(&self) -> f64 {
-        self.difference[..2].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
+        self.difference[..Quantity::ASKED].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
     }
 
-    /// The largest of those of all groups that it knows.
+    /// Until when it tells deflections and vertical wheel forces down to `resolution`: the last output time to which the two
+    /// runs are close enough. `None`: not even at the first.
     #[must_use]
-    pub fn resolution(&self) -> f64 {
-        self.difference.iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
+    pub fn horizon(&self, resolution: f64) -> Option<f64> {
+        horizon(&self.beside, &self.trace, &Quantity::ALL[..Quantity::ASKED], resolution / MARGIN)
     }
+
+    /// The same reference for the motion until `time`, s.
+    pub fn cut(&mut self, time: f64) {
+        self.trace.cut(time);
+        self.beside.cut(time);
+        self.difference = differences(&self.beside, &self.trace);
+    }
+}
+
+/// Largest difference of two runs in each group.
+fn differences(run: &Trace, reference: &Trace) -> [Option<f64>; Quantity::COUNT] {
+    misfits(run, reference).map(|own| own.map(|own| own.largest))
 }
 
 /// Runs two settings that differ in everything that can err, ever finer, until they agree: the scene that `make` gives for a
 /// number of modes by the method that "auto" takes, beside that of half the modes by SDIRK, at the same accuracy; a scene
-/// that only SDIRK integrates, at ten times the accuracy.
+/// that only SDIRK integrates, at ten times the accuracy. Where modes come no nearer than `depth.resolution`, as in
+/// buildings, whose lowest modes are those of single members, and `meshes`: the same by whole meshes.
 ///
 /// # Errors
 /// A scene that cannot start; no pair that ran to its end.
 pub fn reference(
     workshop: &mut Workshop<'_>,
     against: Against,
-    make: &dyn Fn(usize) -> Scene,
+    make: &dyn Fn(Detail) -> Scene,
+    meshes: bool,
     depth: &Depth,
 ) -> Result<Reference, Failure> {
-    let mut best: Option<Reference> = None;
-    let mut approach = Vec::new();
-    let wanted = (depth.resolution / MARGIN * 1e-2).max(CLOSE);
-    let mut why = String::new();
-    for &(accuracy, modes) in &depth.references {
-        let scenes = [make(modes), make(modes / 2)];
-        let [(fine, method), (other, second)] =
-            match pair(workshop, &scenes, accuracy, depth.limit * PATIENCE) {
-                Ok(Ok(pair)) => pair,
-                Ok(Err(stopped)) => {
-                    why = stopped;
-                    break;
-                }
-                // more modes than can be found: what was run before stands
-                Err(failure) if best.is_some() => {
-                    why = failure.words();
-                    break;
-                }
-                Err(failure) => return Err(failure),
-            };
-        let difference = misfits(&other, &fine).map(|own| own.map(|own| own.largest));
-        let largest = difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
-        approach.push((accuracy, largest));
-        let is_better = best.as_ref().is_none_or(|best| largest < best.resolution() / MARGIN);
-        if is_better {
-            let words = [method, second];
-            best = Some(Reference { against, trace: fine, words, difference, approach: Vec::new() });
-        }
-        if largest < wanted {
-            break;
-        }
+    let mut search = Search { best: None, approach: Vec::new(), why: String::new() };
+    let modes = depth.references.iter().map(|&(accuracy, modes)| (accuracy, Detail::Modes(modes)));
+    search.climb(workshop, against, make, modes, depth)?;
+    let is_near = search.best.as_ref().is_some_and(|best| best.asked() <= depth.resolution);
+    if meshes && !is_near {
+        let all = depth.meshes.iter().map(|&(accuracy, elements)| (accuracy, Detail::Mesh(elements)));
+        search.climb(workshop, against, make, all, depth)?;
     }
-    let untold = || Failure::Untrusted(format!("no reference could be run: {why}"));
-    let best = best.ok_or_else(untold)?;
-    Ok(Reference { approach, ..best })
+    let untold = || Failure::Untrusted(format!("no reference could be run: {}", search.why));
+    let best = search.best.ok_or_else(untold)?;
+    Ok(Reference { approach: search.approach, ..best })
+}
+
+/// The closest pair so far.
+struct Search {
+    best: Option<Reference>,
+    approach: Vec<(f64, f64)>,
+    /// Why it ended.
+    why: String,
+}
+
+impl Search {
+    /// Goes through `rungs` until a pair agrees or one of its runs exceeds its limit.
+    fn climb(
+        &mut self,
+        workshop: &mut Workshop<'_>,
+        against: Against,
+        make: &dyn Fn(Detail) -> Scene,
+        rungs: impl Iterator<Item = (f64, Detail)>,
+        depth: &Depth,
+    ) -> Result<(), Failure> {
+        let wanted = (depth.resolution / MARGIN * 1e-2).max(CLOSE);
+        for (accuracy, detail) in rungs {
+            let scenes = [make(detail), make(detail.half())];
+            let [(trace, method), (beside, second)] =
+                match pair(workshop, &scenes, accuracy, depth.limit * PATIENCE) {
+                    Ok(Ok(pair)) => pair,
+                    Ok(Err(stopped)) => {
+                        self.why = stopped;
+                        break;
+                    }
+                    // more modes than can be found: what was run before stands
+                    Err(failure) if self.best.is_some() => {
+                        self.why = failure.words();
+                        break;
+                    }
+                    Err(failure) => return Err(failure),
+                };
+            let difference = differences(&beside, &trace);
+            let words = [method, second];
+            let found = Reference { against, trace, beside, words, difference, approach: Vec::new() };
+            let largest = found.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
+            self.approach.push((accuracy, found.asked() / MARGIN));
+            if self.best.as_ref().is_none_or(|best| found.asked() < best.asked()) {
+                self.best = Some(found);
+            }
+            if largest < wanted {
+                break;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// A run's columns, and its setting in words.

@@ -3,6 +3,8 @@
 #![allow(dead_code)]
 
 pub mod crane;
+pub mod dormand;
+pub mod hinged;
 pub mod kutta;
 pub mod modes;
 pub mod parts;
