@@ -23,7 +23,12 @@ impl Sitting {
     #[must_use]
     pub fn text(&self) -> String {
         let head = json!({ "date": self.date, "machine": self.machine, "seconds": self.seconds });
-        let lines: Vec<String> = self.benches.iter().map(|own| json!(own).to_string()).collect();
+        let rounded = |value: f64| format!("{value:.3e}").parse().unwrap_or(value);
+        let lines = self.benches.iter().map(|own| {
+            let (fastest, median) = (rounded(own.fastest), rounded(own.median));
+            json!(Bench { fastest, median, ..own.clone() }).to_string()
+        });
+        let lines: Vec<String> = lines.collect();
         format!("{},\n\"benches\": {}}}\n", head.to_string().trim_end_matches('}'), list(&lines))
     }
 }

@@ -59,9 +59,10 @@ pub fn excerpt(folder: &Path, command: &str) -> Result<String, Error> {
         })
         .collect();
     Ok(format!(
-        "{{\n\"command\": {},\n\"name\": {},\n\"auto\": {},\n\"dearer_by_stages\": {},\n\"dearer_by_time\": {},\n\"auto_with_its_trials\": {},\n\"references\": {},\n\"settings\": {}}}\n",
+        "{{\n\"command\": {},\n\"name\": {},\n\"until\": {},\n\"auto\": {},\n\"dearer_by_stages\": {},\n\"dearer_by_time\": {},\n\"auto_with_its_trials\": {},\n\"references\": {},\n\"settings\": {}}}\n",
         json!(command),
         study["name"],
+        study["until"],
         study["auto"],
         study["dearer_by_stages"],
         timing["dearer"],

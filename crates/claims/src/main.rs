@@ -8,10 +8,12 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitCode};
+use std::process::{Command, ExitCode, Stdio};
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use claims::{Bench, Error, FOLDER, Known, MAPS, Sitting, charts, collect, excerpt, maps, pages, programs};
+use claims::{
+    Bench, Error, FOLDER, Known, MAPS, Program, Sitting, charts, collect, excerpt, maps, pages, programs,
+};
 
 const USAGE: &str =
     "usage: claims [figures | benches | study FOLDER NAME COMMAND | stability FOLDER [COMMAND]]";
@@ -96,25 +98,13 @@ fn stability(root: &Path, folder: &Path, command: &str) -> Result<(), Error> {
 
 /// Runs all benchmarks, builds first.
 fn benches(root: &Path) -> Result<(), Error> {
-    let mut all: Vec<(String, String)> = Vec::new();
-    let mut packages = claims::folder(&root.join("crates"))?;
-    packages.push(root.join("pipeline"));
-    for folder in packages {
-        let package =
-            if folder.ends_with("pipeline") { "girderway".to_owned() } else { claims::name(&folder) };
-        for path in claims::folder(&folder.join("benches"))? {
-            if path.extension().is_some_and(|own| own == "rs") {
-                all.push((package.clone(), claims::name(&path.with_extension(""))));
-            }
-        }
-    }
     let mut build = cargo(root);
-    build.args(["bench", "--no-run"]);
-    for (package, program) in &all {
-        build.args(["-p", package, "--bench", program]);
+    build.args(["bench", "--no-run", "--message-format", "json-render-diagnostics"]);
+    for (package, program) in claims::benches(root)? {
+        build.args(["-p", &package, "--bench", &program]);
     }
-    let status = build.status().map_err(|error| Error::Run(error.to_string()))?;
-    if !status.success() {
+    let output = build.stderr(Stdio::inherit()).output().map_err(|error| Error::Run(error.to_string()))?;
+    if !output.status.success() {
         return Err(Error::Run("the benchmarks do not build".to_owned()));
     }
     let read = |path: &str| fs::read_to_string(path).unwrap_or_default();
@@ -123,31 +113,30 @@ fn benches(root: &Path) -> Result<(), Error> {
     let days = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |own| own.as_secs() / 86_400);
     let start = Instant::now();
     let mut found = Vec::new();
-    for (package, program) in &all {
-        found.extend(bench(root, package, program)?);
+    for program in claims::built(&String::from_utf8_lossy(&output.stdout)) {
+        found.extend(bench(&program)?);
     }
     let seconds = start.elapsed().as_secs_f64().round();
     for (name, known) in claims::json::<Vec<(String, Known)>>(&root.join("docs/known_times.json"))? {
         let own = found.iter_mut().find(|own| own.name == name);
-        own.ok_or_else(|| Error::Run(format!("a time is known of {name}, which is no benchmark")))?.known =
-            Some(known);
+        let own = own.ok_or_else(|| Error::Run(format!("a time is known of {name}, which is no benchmark")));
+        own?.known = Some(known);
     }
     let sitting = Sitting { date: claims::date(days), machine, seconds, benches: found };
     put(&root.join("docs/benchmarks.json"), &sitting.text())
 }
 
-/// Runs one program of benchmarks.
-fn bench(root: &Path, package: &str, program: &str) -> Result<Vec<Bench>, Error> {
-    println!("{package}/{program}");
-    let output = cargo(root).args(["bench", "-p", package, "--bench", program]).output();
-    let output = output.map_err(|error| Error::Run(error.to_string()))?;
+/// Runs one program of benchmarks, as cargo does.
+fn bench(program: &Program) -> Result<Vec<Bench>, Error> {
+    println!("{}", program.name);
+    let output = Command::new(&program.path).arg("--bench").current_dir(&program.folder).output();
+    let output = output.map_err(|error| Error::file(&program.path, &error))?;
     let text = String::from_utf8_lossy(&output.stdout);
-    let name = format!("{package}/{program}");
-    let mut found = claims::divan(&text, &name);
-    found.extend(claims::table(&text, &name));
+    let mut found = claims::divan(&text, &program.name);
+    found.extend(claims::table(&text, &program.name));
     if !output.status.success() || found.is_empty() {
         let told = String::from_utf8_lossy(&output.stderr);
-        return Err(Error::Run(format!("{name} printed no times\n{told}{text}")));
+        return Err(Error::Run(format!("{} printed no times\n{told}{text}", program.name)));
     }
     Ok(found)
 }

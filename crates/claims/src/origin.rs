@@ -52,21 +52,21 @@ const ALL: [Origin; 8] = [
         what: "benchmarks",
         data: "docs/benchmarks.json",
         commands: &["cargo run -p claims -- benches"],
-        time: "4 minutes, and the release build",
+        time: "5 minutes, and the release build",
     },
     Origin {
         kind: "peers",
         what: "other codes side by side",
         data: "docs/peers.json",
         commands: &["python fea/bench_peers.py -o docs", "cargo run -p claims"],
-        time: "30 minutes",
+        time: "10 minutes",
     },
     Origin {
         kind: "frames",
         what: "frames beside other solvers",
         data: "docs/frames.csv",
         commands: &["python fea/bench_frames.py --csv docs/frames.csv", "cargo run -p claims"],
-        time: "15 minutes",
+        time: "10 minutes",
     },
     Origin {
         kind: "wheels",
@@ -77,7 +77,7 @@ const ALL: [Origin; 8] = [
             "python fea/wheels_chart.py docs/wheels.csv docs/wheels.svg",
             "cargo run -p claims",
         ],
-        time: "2 minutes",
+        time: "1 minute, and the release build",
     },
 ];
 

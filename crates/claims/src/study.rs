@@ -11,7 +11,7 @@ use crate::number::number;
 /// An error above which a run is of no use.
 const UNTOLD: f64 = 0.1;
 /// Quantities that errors are measured in.
-const QUANTITIES: [&str; 4] = ["deflection", "wheel_force", "reaction", "moment"];
+const QUANTITIES: [&str; 5] = ["deflection", "wheel_force", "lateral_force", "reaction", "moment"];
 
 fn text<'a>(value: &'a Value, key: &str) -> &'a str {
     value[key].as_str().unwrap_or_default()
@@ -19,6 +19,14 @@ fn text<'a>(value: &'a Value, key: &str) -> &'a str {
 
 fn list<'a>(value: &'a Value, key: &str) -> &'a [Value] {
     value[key].as_array().map(Vec::as_slice).unwrap_or_default()
+}
+
+/// Name of the scene, and until when it is told where that is not its end.
+fn scene(study: &Value) -> String {
+    let name = text(study, "name");
+    study["until"]
+        .as_f64()
+        .map_or_else(|| name.to_owned(), |time| format!("{name}, until {} s", number(time, 3)))
 }
 
 /// An error as the tables write it.
@@ -35,7 +43,7 @@ fn label(own: &Value) -> String {
 
 /// How much dearer the scene as written and the choice of "auto" are than the cheapest setting that errs no more.
 pub fn dearer(studies: &[Value]) -> String {
-    let mut out = "| scene | setting | by | deflection | wheel force | reaction | moment |\n|---|---|---|---|---|---|---|\n".to_owned();
+    let mut out = "| scene | setting | by | deflection | wheel force | lateral | reaction | moment |\n|---|---|---|---|---|---|---|---|\n".to_owned();
     for study in studies {
         // among methods alone where no reference tells what foundations err by
         let is_told = study["dearer_by_stages"]["as written"]["deflection"].is_number();
@@ -48,7 +56,7 @@ pub fn dearer(studies: &[Value]) -> String {
                     .map(|name| ratios[*name].as_f64().map_or_else(String::new, |value| number(value, 3)))
                     .collect();
                 if cells.iter().any(|cell| !cell.is_empty()) {
-                    let name = text(study, "name");
+                    let name = scene(study);
                     out += &format!("| {name} | {word} | {by} | {} |\n", cells.join(" | "));
                 }
             }
@@ -82,7 +90,7 @@ pub fn fronts(studies: &[Value]) -> String {
             };
             out += &format!(
                 "| {} | {} | {} | {} | {} | {} to {} | {} |\n",
-                text(study, "name"),
+                scene(study),
                 label(own),
                 told(error_of),
                 of(own, "wheel_force").map_or_else(String::new, error),
@@ -137,7 +145,7 @@ pub fn memory(studies: &[Value]) -> String {
             let foundations = own["memory"]["foundations"].as_f64().unwrap_or(0.0);
             out += &format!(
                 "| {} | {} | {} | {} | {} |\n",
-                text(study, "name"),
+                scene(study),
                 label(own),
                 number(1e-3 * foundations, 3),
                 number(1e-3 * run, 3),

@@ -52,7 +52,7 @@ fn rows(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> String {
     out
 }
 
-/// A function with two arguments, one of them a count: medians by it.
+/// A function with two arguments, one of them a count: shortest samples by it.
 fn grid(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> Option<String> {
     let mut entries = Vec::new();
     for own in all {
@@ -75,7 +75,7 @@ fn grid(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> Option<String> {
             columns.push(*column);
         }
     }
-    let mut out = format!("| {}, medians |", entries.first()?.0);
+    let mut out = format!("| {}, fastest |", entries.first()?.0);
     columns.iter().for_each(|column| out += &format!(" {column} |"));
     out += &format!("\n|---|{}\n", "---|".repeat(columns.len()));
     for line in lines {
@@ -85,7 +85,7 @@ fn grid(all: &[&Bench], rest: &impl Fn(&Bench) -> String) -> Option<String> {
             let known = own.and_then(|own| own.known.as_ref());
             let known =
                 known.map_or_else(String::new, |own| format!(" ({}: {})", own.source, time(own.value)));
-            out += &format!(" {}{known} |", own.map_or_else(String::new, |own| time(own.median)));
+            out += &format!(" {}{known} |", own.map_or_else(String::new, |own| time(own.fastest)));
         }
         out.push('\n');
     }
@@ -119,7 +119,7 @@ mod tests {
             tables(&own, "p/q"),
             "| benchmark | fastest | median | samples | known | median by known | source |\n|---|---|---|---|---|---|---|\n\
              | alone | 500 us | 1.00 ms | 9 | 2.00 ms | 0.50 | elsewhere |\n\n\
-             | fill, medians | 2 | 8 |\n|---|---|---|\n| Exact | 100 ns | 400 ns |\n| Akispl | 200 ns (elsewhere: 300 ns) |  |\n\n"
+             | fill, fastest | 2 | 8 |\n|---|---|---|\n| Exact | 50.0 ns | 200 ns |\n| Akispl | 100 ns (elsewhere: 300 ns) |  |\n\n"
         );
         assert!(sitting(&own).contains("5 benchmarks in 61 s"), "{}", sitting(&own));
     }

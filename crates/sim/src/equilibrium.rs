@@ -12,6 +12,8 @@ use crate::{Error, Freedom};
 const SWEEPS: usize = 60;
 /// Iterations on the forces of flanges.
 const FLANGES: usize = 60;
+/// Change of the freedoms, by the largest penetration, at which wheels are taken to be where they will stay.
+const SETTLED: f64 = 1e-9;
 /// Newton iterations on the laws of one active set.
 const ITERATIONS: usize = 50;
 /// Relative error of the balance beyond which the wheels cannot carry the weight.
@@ -22,7 +24,8 @@ impl Solver<'_> {
     /// the structures to static equilibrium at `at.t`, with the other freedoms where they are.
     ///
     /// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight and loads over the active set, in
-    /// sweeps that drop contacts that pull and add contacts that are pressed.
+    /// sweeps that drop contacts that pull and add contacts that are pressed; again where wheels are at other places then, or
+    /// their rails' slopes turn the bodies.
     ///
     /// # Errors
     /// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
@@ -36,9 +39,14 @@ impl Solver<'_> {
         // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
         let links = at.force[system.link(0)..].to_vec();
         for _ in 0..FLANGES {
+            let before = at.q.clone();
             self.balance(at)?;
+            let rests = !system.moves_freely || self.is_settled(&before, at);
             if flanges.is_empty() {
-                return Ok(());
+                if rests {
+                    return Ok(());
+                }
+                continue;
             }
             let taken = at.force[flanges.clone()].to_vec();
             if !self.instant(at)? {
@@ -46,11 +54,18 @@ impl Solver<'_> {
             }
             at.force[system.link(0)..].copy_from_slice(&links);
             let largest = at.force.iter().fold(self.system.gravity.amax(), |max, force| max.max(force.abs()));
-            if relaxation.step(&taken, &mut at.force[flanges.clone()]) <= 1e-12 * largest {
+            if relaxation.step(&taken, &mut at.force[flanges.clone()]) <= 1e-12 * largest && rests {
                 return Ok(());
             }
         }
         Err(none)
+    }
+
+    /// Whether the freedoms have stayed where they were `before`.
+    pub fn is_settled(&self, before: &DVector<f64>, at: &State) -> bool {
+        let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+        let pairs = before.iter().zip(at.q.iter());
+        pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
     }
 
     /// The balance under the flange forces of `at`.
@@ -194,8 +209,12 @@ impl<'a> Balance<'a> {
                 weight[j] += load.value.at(at.t);
             }
         }
+        // A rail pushes along itself where it slopes: on the hub, so that a body is turned.
+        let tilted =
+            |i: usize, k: usize| (geometry.force_rows[i * n + k] - geometry.rows[i * n + k]) * at.force[i];
         for (j, &k) in moving.iter().enumerate() {
-            weight[j] -= flanges().map(|l| geometry.rows[l * n + k] * at.force[l]).sum::<f64>();
+            weight[j] -= (0..count).map(|i| tilted(i, k)).sum::<f64>();
+            weight[j] -= flanges().map(|l| geometry.force_rows[l * n + k] * at.force[l]).sum::<f64>();
         }
         let each = weight.amax() / active.len().max(1) as f64;
         Ok(Balance {
