@@ -11,7 +11,7 @@ use super::memory::{self, Memory};
 use super::misfit::misfits;
 use super::point::{Measured, Outcome, Point};
 use super::quantity::Quantity;
-use super::reference::{Detail, Reference, reference};
+use super::reference::{Detail, Make, Reference, reference};
 use super::rig::{Rig, Workshop};
 use super::setting::{Against, Family, Setting};
 use super::spread::Spread;
@@ -157,7 +157,7 @@ fn references(
     let whole = |detail: Detail| ladder::whole(own, kinds, detail);
     let massless = |_| ladder::massless(own);
     let written = |_| own.clone();
-    let all: [(Against, &dyn Fn(Detail) -> Scene, bool); 3] = [
+    let all: [(Against, &Make<'_>, bool); 3] = [
         (Against::Whole, &whole, kinds.has_mass && own.analysis == Analysis::Dynamic),
         (Against::Massless, &massless, false),
         (Against::Own, &written, false),
@@ -238,7 +238,7 @@ fn measure(
         setup: rig.setup,
         memory: foundations.zip(ran.most).map(|(foundations, run)| Memory { foundations, run }),
     };
-    (Some((rig, seconds)), Outcome::Done(measured))
+    (Some((rig, seconds)), Outcome::Done(Box::new(measured)))
 }
 
 /// Lets "auto" choose every foundation that may vary: what it says, and the scene on its choice.

@@ -19,7 +19,7 @@ pub struct Point {
 #[derive(Clone, Debug)]
 pub enum Outcome {
     /// It ran to its end.
-    Done(Measured),
+    Done(Box<Measured>),
     /// It took longer than a setting may.
     Stopped,
     /// It could not be set up or did not reach its end; why.

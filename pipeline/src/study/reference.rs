@@ -40,6 +40,9 @@ impl Detail {
     }
 }
 
+/// What makes a scene of such a detail.
+pub type Make<'m> = dyn Fn(Detail) -> Scene + 'm;
+
 /// A converged run, and how far from it the one next to it is.
 #[derive(Clone, Debug)]
 pub struct Reference {
@@ -108,7 +111,7 @@ fn differences(run: &Trace, reference: &Trace) -> [Option<f64>; Quantity::COUNT]
 pub fn reference(
     workshop: &mut Workshop<'_>,
     against: Against,
-    make: &dyn Fn(Detail) -> Scene,
+    make: &Make<'_>,
     meshes: bool,
     depth: &Depth,
 ) -> Result<Reference, Failure> {
@@ -139,7 +142,7 @@ impl Search {
         &mut self,
         workshop: &mut Workshop<'_>,
         against: Against,
-        make: &dyn Fn(Detail) -> Scene,
+        make: &Make<'_>,
         rungs: impl Iterator<Item = (f64, Detail)>,
         depth: &Depth,
     ) -> Result<(), Failure> {
