@@ -22,8 +22,8 @@ const KINDS: [(&str, &[&str]); 5] = [
     ("published: in print or in a manual", &["published", "printed", "manual", "nafems", "standard"]),
     ("external: a prototype of others for this mechanics", &["prototype"]),
     (
-        "external: other codes",
-        &["scipy", "numba", "exudyn", "opensees", "pynite", "scikit-fem", "diffsol", "numpy"],
+        "external: other codes, and equations written out in Python",
+        &["scipy", "numba", "exudyn", "opensees", "pynite", "scikit-fem", "diffsol", "numpy", ".py"],
     ),
     ("converged: finer steps or meshes, another method", &["converged", "finer"]),
 ];
@@ -111,4 +111,53 @@ fn row(own: &Record) -> String {
         number(own.known, known)
     };
     format!("| {} | {} | {known} | {value} | {deviation} |\n", own.what, own.source)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{summary, tables};
+    use crate::record::{Record, Verdict};
+
+    fn record(source: &str, verdict: Verdict) -> Record {
+        Record {
+            section: "1 One".to_owned(),
+            what: "w, ft".to_owned(),
+            known: 2.0,
+            source: source.to_owned(),
+            ours: 2.5,
+            within: 0.3,
+            verdict,
+            why: if verdict == Verdict::Corrected { "counted".to_owned() } else { String::new() },
+            file: "f.rs".to_owned(),
+            test: "t".to_owned(),
+        }
+    }
+
+    #[test]
+    fn sources_are_counted_by_their_kinds_and_unknown_ones_by_name() {
+        let all = [
+            record("Closed form", Verdict::Below),
+            record("prototype", Verdict::Corrected),
+            record("fea/some.py", Verdict::Met),
+            record("hearsay", Verdict::Met),
+        ];
+        let told = summary(&all);
+        let row =
+            |begin: &str, end: &str| told.lines().any(|line| line.starts_with(begin) && line.ends_with(end));
+        assert!(
+            row("| analytic", "| 1 | 0 | 1 | 0 |") && row("| external: a prototype", "| 1 | 0 | 0 | 1 |"),
+            "{told}"
+        );
+        assert!(
+            row("| external: other", "| 1 | 1 | 0 | 0 |") && row("| hearsay", "| 1 | 1 | 0 | 0 |"),
+            "{told}"
+        );
+        assert!(row("| all", "| 4 | 2 | 1 | 1 |"), "{told}");
+    }
+
+    #[test]
+    fn figures_that_are_not_met_are_bold_and_say_why() {
+        let told = tables(&[record("prototype", Verdict::Corrected)]);
+        assert!(told.contains("| **+25 %** |") && told.contains("Not met: counted."), "{told}");
+    }
 }

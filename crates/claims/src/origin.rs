@@ -21,7 +21,7 @@ const ALL: [Origin; 8] = [
         what: "figures of others beside ours",
         data: "docs/claims.json",
         commands: &["cargo run -p claims -- figures"],
-        time: "3 minutes, and the build of the tests that hold them",
+        time: "2 minutes, and the build of the tests that hold them",
     },
     Origin {
         kind: "tests",
