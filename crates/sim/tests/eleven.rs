@@ -312,8 +312,7 @@ fn the_crane_moves_as_one_written_out_by_hand() {
             let what = |of: &str| format!("simulator, accuracy 1e-5: {of}");
             figure("prototype", &what("error of the northern wheels (Radau 5, 1e-4)"), 5.6e-6).below(error);
             let stages = run.counts.stages as f64;
-            figure("prototype", &what("stages (rates of LSODA, 1e-6)"), 28_426.0)
-                .below(stages);
+            figure("prototype", &what("stages (rates of LSODA, 1e-6)"), 28_426.0).below(stages);
         }
     }
 }
