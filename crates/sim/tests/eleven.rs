@@ -70,12 +70,10 @@ impl Runway {
     fn give(&self, x: f64, z: f64) -> [f64; 2] {
         let ((e, value, slope), (f, other, _)) = (Runway::shapes(x), Runway::shapes(z));
         let mut out = [0.0; 2];
-        for i in 0..4 {
-            for j in 0..4 {
-                let entry = self.compliance[(2 * e + i, 2 * f + j)] * other[j];
-                out[0] += value[i] * entry;
-                out[1] += slope[i] * entry;
-            }
+        for (j, other) in other.iter().enumerate() {
+            let column = |i: usize| self.compliance[(2 * e + i, 2 * f + j)] * other;
+            out[0] += (0..4).map(|i| value[i] * column(i)).sum::<f64>();
+            out[1] += (0..4).map(|i| slope[i] * column(i)).sum::<f64>();
         }
         if e == f {
             let l = COLUMNS[e + 1] - COLUMNS[e];
