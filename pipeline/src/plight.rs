@@ -2,7 +2,7 @@
 
 use sim::Error;
 
-use crate::scene::Scene;
+use crate::scene::{FREEDOMS, Scene};
 
 /// What the simulator says by index, said by name, with what to do where that is known.
 #[must_use]
@@ -28,14 +28,22 @@ pub fn words(error: &Error, scene: &Scene) -> String {
         }
         Error::Compliance { structure: s, source } => format!("{}: {source}", structure(*s)),
         Error::NoInertia { body: b, freedom } => format!(
-            "{} is free in {freedom:?}, and nothing has inertia there  hint: give `inertia` [roll, yaw, pitch], or take it \
-             out of `dof`",
-            body(*b)
+            "{} is free in {}, and nothing has inertia of its own there  hint: give `inertia` [roll, yaw, pitch] about the \
+             centre of mass, or take it out of `dof`",
+            body(*b),
+            FREEDOMS[*freedom as usize]
         ),
-        Error::NoEquilibrium { .. } => format!(
-            "{error}  hint: each centre of mass (`cg`, and what hangs or rides on the body) must lie between its wheels: \
-             look at `at` and `tree` of the trucks, or give the body a `start`"
-        ),
+        Error::NoEquilibrium { .. } => {
+            let carried = if scene.structures.iter().any(|one| one.on.is_some()) {
+                ", at `at` of the structures on bodies"
+            } else {
+                ""
+            };
+            format!(
+                "{error}  hint: each centre of mass (`cg`, and what hangs or rides on the body) must lie between its \
+                 wheels: look at `at` and `tree` of the trucks{carried}, or give the body a `start`"
+            )
+        }
         _ => error.to_string(),
     }
 }

@@ -1,13 +1,13 @@
 //! `summary.json`: what a run found, in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Predicted, Rung, Status, Tried};
+use sim::{Choice, Predicted, Rung, Status, Tried};
 
 use crate::cases::Outcome;
 use crate::fatigue;
 use crate::link;
 use crate::record::Record;
-use crate::scene::{Analysis, Event, Scene, stepper_word};
+use crate::scene::{Analysis, Event, Scene, Structure, stepper_word};
 use crate::units::Dimension;
 use crate::warning;
 
@@ -34,34 +34,9 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
 pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
     let Outcome { run, record, choices, .. } = outcome;
     let (word, why) = status(&run.status);
-    let structures: Map<String, Value> = scene
-        .structures
-        .iter()
-        .enumerate()
-        .map(|(s, structure)| {
-            let mut entry = json!({
-                "foundation": structure.foundation.word(),
-                "reading": structure.reading.word(),
-                "reason": "asked for",
-            });
-            if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
-                entry["foundation"] = json!(rung(choice.rung));
-                entry["reason"] = json!(link::reason(choice));
-                entry["tolerance"] = json!(structure.tolerance);
-                entry["estimate"] = json!(choice.estimate);
-                entry["tried"] = choice.tried.iter().map(tried).collect();
-                if let Some(own) = &choice.predicted {
-                    entry["predicted"] = predicted(own);
-                }
-                for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
-                    if !rungs.is_empty() {
-                        entry[key] = rungs.iter().map(|rung| link::word(*rung)).collect();
-                    }
-                }
-            }
-            (structure.name.clone(), entry)
-        })
-        .collect();
+    let structures = scene.structures.iter().enumerate();
+    let structures: Map<String, Value> =
+        structures.map(|(s, one)| (one.name.clone(), foundation(one, choices, s))).collect();
     let mut result = json!({
         "status": word,
         "analysis": match scene.analysis { Analysis::Dynamic => "dynamic", Analysis::QuasiStatic => "quasi-static" },
@@ -112,6 +87,31 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
             run.fired.iter().map(|fired| event(&scene.events[fired.rule], fired.time)).collect();
     }
     result
+}
+
+/// How structure `s` gives way, and why so.
+fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
+    let mut entry = json!({
+        "foundation": structure.foundation.word(),
+        "reading": structure.reading.word(),
+        "reason": "asked for",
+    });
+    if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
+        entry["foundation"] = json!(rung(choice.rung));
+        entry["reason"] = json!(link::reason(choice));
+        entry["tolerance"] = json!(structure.tolerance);
+        entry["estimate"] = json!(choice.estimate);
+        entry["tried"] = choice.tried.iter().map(tried).collect();
+        if let Some(own) = &choice.predicted {
+            entry["predicted"] = predicted(own);
+        }
+        for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
+            if !rungs.is_empty() {
+                entry[key] = rungs.iter().map(|rung| link::word(*rung)).collect();
+            }
+        }
+    }
+    entry
 }
 
 /// An event that happened.

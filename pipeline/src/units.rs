@@ -129,6 +129,9 @@ pub struct RawUnits {
 }
 
 impl Units {
+    /// Metre and newton.
+    pub const SI: Units = Units { length: Length::Metre, force: Force::Newton };
+
     /// Reads the member `units` of the document at `place`.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
@@ -288,7 +291,6 @@ mod tests {
 
     const FT_LBF: Units = Units { length: Length::Foot, force: Force::Pound };
     const IN_KIP: Units = Units { length: Length::Inch, force: Force::Kip };
-    const M_N: Units = Units { length: Length::Metre, force: Force::Newton };
     const MM_KN: Units = Units { length: Length::Millimetre, force: Force::Kilonewton };
 
     const ALL: [Dimension; 6] = [
@@ -302,7 +304,7 @@ mod tests {
 
     #[test]
     fn equal_units_have_a_factor_of_exactly_one() {
-        for units in [FT_LBF, IN_KIP, M_N, MM_KN] {
+        for units in [FT_LBF, IN_KIP, Units::SI, MM_KN] {
             for dimension in ALL {
                 assert_eq!(Scale { from: units, to: units }.factor(dimension).to_bits(), 1f64.to_bits());
             }
@@ -311,7 +313,7 @@ mod tests {
 
     #[test]
     fn factors_are_the_defining_values() {
-        let to_si = Scale { from: FT_LBF, to: M_N };
+        let to_si = Scale { from: FT_LBF, to: Units::SI };
         assert_eq!(to_si.factor(Dimension::LENGTH), 0.3048);
         assert_eq!(to_si.factor(Dimension::FORCE), 4.4482216152605);
         // pascals in a pound-force per square foot, from the definitions of the foot and the pound
@@ -328,8 +330,8 @@ mod tests {
 
     #[test]
     fn there_and_back_is_one_to_a_rounding() {
-        for from in [FT_LBF, IN_KIP, M_N, MM_KN] {
-            for to in [FT_LBF, IN_KIP, M_N, MM_KN] {
+        for from in [FT_LBF, IN_KIP, Units::SI, MM_KN] {
+            for to in [FT_LBF, IN_KIP, Units::SI, MM_KN] {
                 for dimension in ALL {
                     let there = Scale { from, to }.factor(dimension);
                     let back = Scale { from: to, to: from }.factor(dimension);
@@ -341,7 +343,7 @@ mod tests {
 
     #[test]
     fn power_law_of_exponent_one_is_a_stiffness() {
-        let scale = Scale { from: FT_LBF, to: M_N };
+        let scale = Scale { from: FT_LBF, to: Units::SI };
         assert_eq!(scale.power_law(1.0), scale.factor(Dimension::STIFFNESS));
         let cubic = scale.power_law(3.0);
         assert!((cubic / (4.4482216152605 / 0.3048f64.powi(3)) - 1.0).abs() < 1e-15);
@@ -350,7 +352,7 @@ mod tests {
     #[test]
     fn labels_read_as_an_engineer_writes_them() {
         assert_eq!(FT_LBF.label(Dimension::DAMPING), "lbf s/ft");
-        assert_eq!(M_N.label(Dimension::STRESS), "N/m^2");
+        assert_eq!(Units::SI.label(Dimension::STRESS), "N/m^2");
         assert_eq!(MM_KN.label(Dimension::FLEXIBILITY), "mm/kN");
         assert_eq!(FT_LBF.label(Dimension::NUMBER), "");
     }

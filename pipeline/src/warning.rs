@@ -1,6 +1,7 @@
 //! What a user should know before believing a run: where the limits of its method are near.
 
 mod sense;
+mod slip;
 mod taut;
 
 use std::f64::consts::PI;
@@ -53,6 +54,7 @@ fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<Strin
             all.extend(of_spec(spec).into_iter().map(|told| format!("{}: {told}", structure.name)));
         }
     }
+    all.extend(slip::of_scene(scene, record));
     let of_rail = |rail| Wheels { cast, record, rail };
     let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));
     for (rail, wheels) in each {

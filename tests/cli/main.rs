@@ -9,6 +9,7 @@ mod modes;
 mod rides;
 mod ropes;
 mod schema;
+mod slips;
 mod specs;
 mod stops;
 mod tables;

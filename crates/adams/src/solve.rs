@@ -54,24 +54,8 @@ impl Model {
     /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression that
     /// has no finite value; [`Error::Loop`] where no solution is found.
     pub fn solve(&self, state: &State) -> Result<Solution, Error> {
-        let guess: Vec<f64> = self.slots.iter().map(|slot| slot.guess).collect();
-        self.solve_values(state, guess)
-    }
-
-    /// The same, with the loops started from another solution.
-    ///
-    /// # Errors
-    /// Those of [`Model::solve`].
-    pub fn solve_from(&self, state: &State, guess: &Solution) -> Result<Solution, Error> {
-        if guess.values.len() != self.slots.len() {
-            return self.solve(state);
-        }
-        self.solve_values(state, guess.values.clone())
-    }
-
-    fn solve_values(&self, state: &State, guess: Vec<f64>) -> Result<Solution, Error> {
         let mut view = self.view::<f64>(state, 4.0)?;
-        view.values = guess;
+        view.values = self.slots.iter().map(|slot| slot.guess).collect();
         let mut dual: Option<View<'_, Dual>> = None;
         let mut iterations = 0;
         for block in &self.order {

@@ -7,7 +7,8 @@ use crate::dense::along;
 use crate::link::Hold;
 use crate::rule::Switches;
 use crate::scene::arm_rows;
-use crate::system::{Entry, System, WheelPoint};
+use crate::stand::WheelPoint;
+use crate::system::{Entry, System};
 use crate::way::Way;
 use crate::{Error, Freedom, Moving};
 

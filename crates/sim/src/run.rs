@@ -4,11 +4,11 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::acting::Acting;
 use crate::energy::Audit;
 use crate::history::History;
 use crate::passage;
 use crate::recorder::Recorder;
+use crate::samples::Samples;
 use crate::scene::Analysis;
 use crate::solver::Solver;
 use crate::state::State;
@@ -155,28 +155,13 @@ fn integrate(
     if !solver.settle(&mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
-    let mut recorder = Recorder::new(system);
-    recorder.record(system, &solver.geometry, &state)?;
+    let mut samples = Samples::new(solver, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
-    let mut breaks: Vec<f64> = scene
-        .bodies
-        .iter()
-        .filter_map(|body| body.motion.as_ref())
-        .flat_map(|profile| profile.breaks().iter().copied())
-        .chain(scene.actuators.breaks())
-        .filter(|&t| t > 0.0 && t < scene.end)
-        .collect();
-    breaks.push(scene.end);
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup();
     let mut stepper =
         Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
     stepper.fixed = stepping.step;
-    let mut sample = stepper.to.clone();
-    let mut begun = Acting::of(stepper.solver);
-    let mut after = begun.clone();
-    let mut next = 1_u64;
     let mut status = Status::Done;
+    let mut breaks = breaks(scene);
     let due = stepper.due()?;
     let (mut fired, ends) = stepper.act(due)?;
     if ends {
@@ -185,8 +170,7 @@ fn integrate(
     }
     'run: for limit in breaks {
         while stepper.to.t < limit * (1.0 - 1e-14) {
-            // A sample within the step belongs to where the step began.
-            begun.take(stepper.solver);
+            samples.begin(&stepper);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
@@ -198,24 +182,9 @@ fn integrate(
                     break 'run;
                 }
             }
-            let (from, to) = (stepper.from.t, stepper.to.t);
+            let to = stepper.to.t;
             let due = stepper.due()?;
-            after.take(stepper.solver);
-            while output_time(scene, next) <= to {
-                let t = output_time(scene, next);
-                let is_end = t >= to * (1.0 - 1e-14);
-                if is_end {
-                    sample.copy_from(&stepper.to);
-                } else {
-                    begun.give(stepper.solver);
-                    let share = (t - from) / (to - from);
-                    stepper.sample(share, &mut sample)?;
-                }
-                stepper.solver.settle(&mut sample)?;
-                recorder.record(system, &stepper.solver.geometry, &sample)?;
-                after.give(stepper.solver);
-                next += 1;
-            }
+            samples.take(&mut stepper)?;
             if !due.is_empty() {
                 let ends = match stepper.act(due) {
                     Ok((now, ends)) => {
@@ -228,9 +197,7 @@ fn integrate(
                     }
                 };
                 if ends {
-                    if output_time(scene, next - 1) < to {
-                        recorder.record(system, &stepper.solver.geometry, &stepper.to)?;
-                    }
+                    samples.close(&stepper)?;
                     status = ended(scene, &fired);
                     break 'run;
                 }
@@ -243,12 +210,28 @@ fn integrate(
     }
     Ok(Run {
         status,
-        history: recorder.history,
+        history: samples.history(),
         fired,
         audit: stepper.audit,
         counts: stepper.counts,
         method: Some(stepping.method),
     })
+}
+
+/// Times at which a step must end, in their order; the end of the scene is the last.
+fn breaks(scene: &Scene) -> Vec<f64> {
+    let mut breaks: Vec<f64> = scene
+        .bodies
+        .iter()
+        .filter_map(|body| body.motion.as_ref())
+        .flat_map(|profile| profile.breaks().iter().copied())
+        .chain(scene.actuators.breaks())
+        .filter(|&t| t > 0.0 && t < scene.end)
+        .collect();
+    breaks.push(scene.end);
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    breaks
 }
 
 /// Time of output `k`; the end itself where the product differs from it by rounding.

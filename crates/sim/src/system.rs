@@ -15,38 +15,10 @@ use crate::link::Link;
 use crate::matter::Block;
 use crate::ride::Rides;
 use crate::scene::arm_rows;
+use crate::stand::{Normal, Stand, WheelPoint};
 use crate::state::State;
 use crate::tie::Tie;
-use crate::{Error, Flange, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Profile, Scene};
-
-/// One physical wheel.
-pub(crate) struct WheelPoint<'a> {
-    pub body: usize,
-    pub contact: usize,
-    pub kind: usize,
-    /// Hub from the body's origin.
-    pub hub: [f64; 3],
-    /// Index of its spin among the freedoms.
-    pub spin: Option<usize>,
-    /// Its spin over time, where it is prescribed.
-    pub turn: Option<&'a Profile>,
-}
-
-/// One vertical contact component.
-pub(crate) struct Normal {
-    pub wheels: Range<usize>,
-    pub kind: usize,
-    pub contact: usize,
-    /// Which rigid part it presses on, where every part has its own force.
-    pub part: Option<usize>,
-}
-
-impl Normal {
-    /// Number of wheels that share the force.
-    pub fn count(&self) -> f64 {
-        self.wheels.len() as f64
-    }
-}
+use crate::{Error, Flange, Foundation, Freedom, Irregularity, Load, Mount, NormalLaw, Scene};
 
 /// One probe of a structure: which component it belongs to, and its signed weight there.
 pub(crate) struct Entry {
@@ -64,6 +36,9 @@ pub(crate) struct Tread {
     /// The first of them.
     pub wheel: usize,
 }
+
+/// Share of a freedom's mass below which what it moves by itself is rounding.
+const IDLE: f64 = 1e-13;
 
 /// The numbered scene.
 pub(crate) struct System<'a> {
@@ -142,45 +117,7 @@ impl<'a> System<'a> {
                 numbers
             })
             .collect();
-        let (mut wheels, mut normals, mut bearing) = (Vec::new(), Vec::new(), Vec::new());
-        for (index, contact) in scene.contacts.iter().enumerate() {
-            let first = wheels.len();
-            let kind = &scene.wheels[contact.wheel];
-            for (own, offset) in contact.offsets.iter().enumerate() {
-                let [x, y, z] = contact.at;
-                let mut turns = scene.actuators.turns.iter();
-                let turn =
-                    turns.find(|turn| (turn.contact, turn.wheel) == (index, own)).map(|turn| &turn.motion);
-                let spins = kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();
-                let spin = if spins { Some(next()) } else { None };
-                wheels.push(WheelPoint {
-                    body: contact.body,
-                    contact: index,
-                    kind: contact.wheel,
-                    hub: [x + offset, y, z],
-                    spin,
-                    turn,
-                });
-            }
-            let parts: Vec<Option<usize>> = match &foundations[contact.structure].parts {
-                Some(chains) => {
-                    let chain = chains
-                        .get(contact.rail)
-                        .ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
-                    (0..chain.count()).map(Some).collect()
-                }
-                None => vec![None],
-            };
-            bearing.push(normals.len()..normals.len() + parts.len());
-            for part in parts {
-                normals.push(Normal {
-                    wheels: first..wheels.len(),
-                    kind: contact.wheel,
-                    contact: index,
-                    part,
-                });
-            }
-        }
+        let Stand { wheels, normals, bearing } = Stand::new(scene, foundations, &mut next)?;
         let structure: Vec<Range<usize>> = foundations
             .iter()
             .map(|foundation| {
@@ -239,30 +176,36 @@ impl<'a> System<'a> {
                     && entries.iter().enumerate().all(|(i, e)| e.component == i && e.weight == -1.0)
             })
             .collect();
-        system.moves_freely = system
+        system.judge();
+        Ok(system)
+    }
+
+    /// Finds which simplifications hold.
+    fn judge(&mut self) {
+        self.moves_freely = self
             .wheels
             .iter()
-            .any(|wheel| !system.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
-        system.is_uneven = (0..system.wheels.len()).any(|w| system.irregularity(w).is_some());
-        system.constant_rows = !system.moves_freely
-            && !system.is_uneven
-            && system.laterals.is_empty()
-            && system.tractions.is_empty()
-            && system.pulls.is_empty()
-            && system.links.is_empty()
-            && foundations.iter().all(|foundation| foundation.structure.is_none());
+            .any(|wheel| !self.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
+        self.is_uneven = (0..self.wheels.len()).any(|w| self.irregularity(w).is_some());
+        self.constant_rows = !self.moves_freely
+            && !self.is_uneven
+            && self.laterals.is_empty()
+            && self.tractions.is_empty()
+            && self.pulls.is_empty()
+            && self.links.is_empty()
+            && self.foundations.iter().all(|foundation| foundation.structure.is_none());
+        let scene = self.scene;
         let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
-        system.linear_normals = laws().all(NormalLaw::is_linear);
+        self.linear_normals = laws().all(NormalLaw::is_linear);
         let ratio = |law: &NormalLaw| law.damping / law.stiffness;
         let grounded = laws().find(|law| !law.has_memory());
-        system.symmetric = !system.moves_freely
-            && foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
+        self.symmetric = !self.moves_freely
+            && self.foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
             && grounded.is_none_or(|first| {
                 laws().all(
                     |law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) },
                 )
             });
-        Ok(system)
     }
 
     /// Shape of the unloaded rail of wheel `w`, where it is uneven.
@@ -428,11 +371,11 @@ impl<'a> System<'a> {
             let sums = (&mut whole, &mut rest.clone());
             self.rides.add(self, (0.0, &rest, &rest), sums, &mut Vec::new());
         }
-        for (b, numbers) in self.freedom.iter().enumerate() {
-            for (number, freedom) in numbers.iter().zip(Freedom::ALL) {
-                let inertia = number.map_or(1.0, |number| whole[(number, number)]);
-                if !(inertia > 0.0 && inertia.is_finite()) {
-                    return Err(Error::NoInertia { body: b, freedom });
+        let own = self.freedom.iter().flatten().flatten().count();
+        if let Some(idle) = first_idle(&whole, own) {
+            for (body, numbers) in self.freedom.iter().enumerate() {
+                if let Some(k) = numbers.iter().position(|number| *number == Some(idle)) {
+                    return Err(Error::NoInertia { body, freedom: Freedom::ALL[k] });
                 }
             }
         }
@@ -493,6 +436,26 @@ impl<'a> System<'a> {
         }
         entries
     }
+}
+
+/// The first of `count` freedoms that moves no mass but what those before it move: where the factor L L^T of their mass
+/// ends.
+fn first_idle(mass: &DMatrix<f64>, count: usize) -> Option<usize> {
+    let mut factor = DMatrix::<f64>::zeros(count, count);
+    for i in 0..count {
+        for j in 0..=i {
+            let taken: f64 = (0..j).map(|k| factor[(i, k)] * factor[(j, k)]).sum();
+            let left = mass[(i, j)] - taken;
+            if j < i {
+                factor[(i, j)] = left / factor[(j, j)];
+            } else if left > IDLE * mass[(i, i)] && left.is_finite() {
+                factor[(i, i)] = left.sqrt();
+            } else {
+                return Some(i);
+            }
+        }
+    }
+    None
 }
 
 /// Adds the weight of a mass that moves with a body, given by its line of y and the body's displacements.

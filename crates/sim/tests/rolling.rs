@@ -192,6 +192,20 @@ fn body_that_overhangs_its_wheels_has_no_equilibrium() {
     }
 }
 
+/// A point mass 4 ft above its origin: x and pitch move it alike, m and 4 m, 4 m and 16 m. Height alone does not.
+#[test]
+fn freedoms_that_move_nothing_of_their_own_are_refused_by_name() {
+    let mut scene = rolling(1.0);
+    scene.bodies[0].inertia = [0.0; 3];
+    scene.bodies[0].cg = [0.0, 4.0, 0.0];
+    let refused = |freedom| Some(Error::NoInertia { body: 0, freedom });
+    assert_eq!(run(&scene, girder()).err(), refused(Freedom::Pitch));
+    scene.bodies[0].free[0] = false;
+    assert_eq!(run(&scene, girder()).map(|run| run.status), Ok(Status::Done));
+    scene.bodies[0].cg = [0.0; 3];
+    assert_eq!(run(&scene, girder()).err(), refused(Freedom::Pitch));
+}
+
 #[test]
 fn middle_wheel_hangs_free_over_a_sag_and_the_others_carry() {
     // A long rigid body on three wheels over midspan: the sagging rail leaves the middle wheel.

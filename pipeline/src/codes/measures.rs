@@ -7,7 +7,7 @@ use crate::layout::Layout;
 use crate::motion::Cast;
 use crate::record::Record;
 use crate::scene::{Along, Practice, Scene, across, end_stops, seat};
-use crate::units::{Dimension, Force, Length, Scale, Units};
+use crate::units::{Dimension, Scale, Units};
 
 /// A crane on two rails, in the units of its scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,7 +56,7 @@ pub struct Between {
 /// To metres and newtons.
 #[must_use]
 pub(super) fn to_si(units: Units) -> Scale {
-    Scale { from: units, to: Units { length: Length::Metre, force: Force::Newton } }
+    Scale { from: units, to: Units::SI }
 }
 
 impl Measures {

@@ -13,17 +13,16 @@ const KILOGRAM: u128 = 100_000_000;
 /// 4e-16.
 #[must_use]
 pub fn factor(units: Units) -> f64 {
-    let si = Units { length: Length::Metre, force: Force::Newton };
     match units.to_adams().mass {
         adams::Mass::Slug => {
             let slugs = Units { length: Length::Foot, force: Force::Pound };
             Scale { from: units, to: slugs }.factor(Dimension::MASS)
         }
         adams::Mass::Pound => {
-            let kilograms = Scale { from: units, to: si }.factor(Dimension::MASS);
+            let kilograms = Scale { from: units, to: Units::SI }.factor(Dimension::MASS);
             kilograms * (KILOGRAM as f64) / (POUND as f64)
         }
-        _ => Scale { from: units, to: si }.factor(Dimension::MASS),
+        _ => Scale { from: units, to: Units::SI }.factor(Dimension::MASS),
     }
 }
 

@@ -2,13 +2,12 @@
 
 use fea::{Component, Effect, Frame, Model};
 use nalgebra::Vector3;
-use sim::{Channel, History};
+use sim::Channel;
 
 use super::column::{Column, Kind};
 use super::line::{Lines, Part};
-use super::wheel_load::{WheelLoad, WheelLoads};
-use crate::link::{Laid, Solved};
-use crate::scene::Scene;
+use super::loaded::{Loaded, spread};
+use crate::link::Solved;
 use crate::units::Dimension;
 
 /// Sections along a rail, about.
@@ -33,14 +32,8 @@ pub struct Bending {
 ///
 /// # Errors
 /// What the frame refuses.
-pub(super) fn of(
-    scene: &Scene,
-    s: usize,
-    history: &History,
-    loads: &WheelLoads,
-    laid: &Laid,
-    solved: &Solved,
-) -> Result<Vec<Bending>, fea::Error> {
+pub(super) fn of(loaded: &Loaded<'_>, solved: &Solved) -> Result<Vec<Bending>, fea::Error> {
+    let Loaded { scene, s, history, laid, .. } = *loaded;
     let (model, rails) = (&solved.model, &solved.rails);
     let frame = Frame::new(model, rails)?;
     let line = frame.line()?;
@@ -68,12 +61,10 @@ pub(super) fn of(
     let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
     let mut now = vec![0.0; places.len()];
     let mut extremes = vec![[f64::NEG_INFINITY, f64::INFINITY]; places.len()];
-    let times = history.len().min(TIMES);
-    for row in (0..times).map(|k| k * (history.len() - 1) / (times - 1).max(1)) {
+    for row in spread(history.len(), TIMES) {
         let sample = history.sample(row);
-        let on: Vec<WheelLoad> = loads.at(sample).into_iter().filter(|load| load.structure == s).collect();
         let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
-        lines.at(on.iter(), acceleration, &mut now);
+        lines.at(loaded.on(row).iter(), acceleration, &mut now);
         for ((extreme, value), (_, _, sign)) in extremes.iter_mut().zip(&now).zip(&places) {
             let value = sign * value;
             *extreme = [extreme[0].max(value), extreme[1].min(value)];

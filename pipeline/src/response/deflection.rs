@@ -1,20 +1,21 @@
 //! How far rails sag between their supports, against the span.
 
+use practice::cmaa;
 use serde_json::{Value, json};
-use sim::{Channel, Foundation, History};
-use splines::{Axis, Error, Influence, Probe};
+use splines::{Axis, Error, Probe};
 
+use super::loaded::{Loaded, spread};
 use super::spans::spans;
-use super::wheel_load::{WheelLoad, WheelLoads};
-use crate::link::{Laid, Solved};
-use crate::scene::{Origin, Scene};
+use super::wheel_load::WheelLoad;
+use crate::link::Solved;
+use crate::scene::Origin;
 
 /// Places looked at within a span.
 const PLACES: usize = 7;
 /// Output times looked at for a span.
 const TIMES: usize = 64;
 /// Usual limits: span over deflection.
-const LIMITS: [f64; 2] = [600.0, 400.0];
+const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
 
 /// Largest deflection of a rail from the chord between the ends of a span.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,33 +73,19 @@ impl Deflection {
 ///
 /// # Errors
 /// A place beyond a rail.
-pub(super) fn of(
-    scene: &Scene,
-    s: usize,
-    history: &History,
-    loads: &WheelLoads,
-    laid: &Laid,
-    solved: Option<&Solved>,
-) -> Result<Vec<Deflection>, Error> {
-    let foundation = &laid.foundation;
-    let gives = foundation.compliance.is_some() || foundation.structure.is_some();
+pub(super) fn of(loaded: &Loaded<'_>, solved: Option<&Solved>) -> Result<Vec<Deflection>, Error> {
+    let Loaded { scene, s, history, laid, .. } = *loaded;
     let (Origin::Spec { spec, .. }, Some(solved), true, None) =
-        (&scene.structures[s].origin, solved, gives, &foundation.parts)
+        (&scene.structures[s].origin, solved, loaded.is_known(), &laid.foundation.parts)
     else {
         return Ok(Vec::new());
     };
-    let all: Vec<Vec<WheelLoad>> = (0..history.len())
-        .map(|i| loads.at(history.sample(i)).into_iter().filter(|load| load.structure == s).collect())
-        .collect();
+    let all: Vec<Vec<WheelLoad>> = (0..history.len()).map(|row| loaded.on(row)).collect();
     let lateral = all.iter().flatten().any(|load| load.force[2] != 0.0);
     let axes: &[(Axis, &'static str)] = match lateral {
         true => &[(Axis::Vertical, "vertical"), (Axis::Lateral, "lateral")],
         false => &[(Axis::Vertical, "vertical")],
     };
-    let start = history.channels().iter().position(|c| *c == Channel::Coordinate(s, 0));
-    if start.is_none() && foundation.structure.is_some() {
-        return Ok(Vec::new());
-    }
     let mut found = Vec::new();
     for (index, rail) in scene.rails.iter().enumerate().filter(|(_, rail)| rail.structure == s) {
         let own = scene.output.spans.iter().find(|(known, _)| *known == index);
@@ -119,22 +106,16 @@ pub(super) fn of(
                 let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail: rail.rail, x, axis }).collect();
                 let mut worst =
                     Deflection { rail: rail.name.clone(), direction, span, value: 0.0, x: from, time: 0.0 };
-                let count = rows.len().min(TIMES);
-                for row in (0..count).map(|k| rows[k * (rows.len() - 1) / (count - 1).max(1)]) {
-                    let sample = history.sample(row);
-                    let q = start.map_or(&[][..], |at| &sample[at..at + foundation.freedoms()]);
-                    let moved = match displacements(foundation, &probes, &all[row], q) {
-                        Ok(moved) => moved,
-                        // a direction that the structure does not resist has no sag
-                        Err(Error::Unstiffened { .. }) => break,
-                        Err(error) => return Err(error),
-                    };
+                for row in spread(rows.len(), TIMES).map(|k| rows[k]) {
+                    // a direction that the structure does not resist has no sag
+                    let Some(moved) = loaded.displacements(&probes, &all[row], row)? else { break };
+                    let time = history.sample(row)[0];
                     for (k, &x) in places.iter().enumerate().skip(1).take(PLACES) {
                         let share = k as f64 / (PLACES + 1) as f64;
                         let sag = (1.0 - share) * moved[0] + share * moved[PLACES + 1] - moved[k];
                         let value = if axis == Axis::Vertical { sag } else { sag.abs() };
                         if value > worst.value {
-                            worst = Deflection { value, x, time: sample[0], ..worst };
+                            worst = Deflection { value, x, time, ..worst };
                         }
                     }
                 }
@@ -143,45 +124,4 @@ pub(super) fn of(
         }
     }
     Ok(found)
-}
-
-/// G F + Phi q at the probes.
-pub(super) fn displacements(
-    foundation: &Foundation,
-    probes: &[Probe],
-    loads: &[WheelLoad],
-    q: &[f64],
-) -> Result<Vec<f64>, Error> {
-    let mut out = vec![0.0; probes.len()];
-    if let Some(compliance) = &foundation.compliance {
-        let mut at = probes.to_vec();
-        let mut forces = Vec::new();
-        for load in loads {
-            for (axis, force) in
-                [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
-            {
-                if force != 0.0 && (axis != Axis::Longitudinal || foundation.is_dragged) {
-                    at.push(Probe { rail: load.rail, x: load.x, axis });
-                    forces.push(force);
-                }
-            }
-        }
-        let mut influence = Influence::zeros(at.len());
-        compliance.fill(&at, &mut influence)?;
-        for (i, out) in out.iter_mut().enumerate() {
-            *out += forces
-                .iter()
-                .enumerate()
-                .map(|(j, force)| influence.value[(i, probes.len() + j)] * force)
-                .sum::<f64>();
-        }
-    }
-    if let (Some(structure), false) = (&foundation.structure, q.is_empty()) {
-        let (mut value, mut slope) = (vec![0.0; q.len()], vec![0.0; q.len()]);
-        for (out, probe) in out.iter_mut().zip(probes) {
-            structure.shapes.row(*probe, &mut value, &mut slope)?;
-            *out += value.iter().zip(q).map(|(phi, q)| phi * q).sum::<f64>();
-        }
-    }
-    Ok(out)
 }

@@ -3,16 +3,15 @@
 use fea::{Model, Rail};
 use nalgebra::Vector3;
 use serde_json::{Value, json};
-use sim::{Channel, History};
 use splines::{Axis, Error, Probe};
 
-use super::deflection::displacements;
+use super::loaded::{Loaded, spread};
 use super::spans::spans;
-use super::wheel_load::{WheelLoad, WheelLoads};
-use crate::link::{Laid, Solved};
-use crate::scene::{Origin, Scene};
+use super::wheel_load::WheelLoad;
+use crate::link::Solved;
+use crate::scene::Origin;
 use crate::spec::Form;
-use crate::units::{Dimension, Force, Length, Scale, Units};
+use crate::units::{Dimension, Scale, Units};
 
 /// Output times looked at.
 const TIMES: usize = 300;
@@ -63,32 +62,19 @@ impl Drift {
 ///
 /// # Errors
 /// A place beyond a rail.
-pub(super) fn of(
-    scene: &Scene,
-    s: usize,
-    history: &History,
-    loads: &WheelLoads,
-    laid: &Laid,
-    solved: Option<&Solved>,
-) -> Result<Vec<Drift>, Error> {
-    let foundation = &laid.foundation;
-    let gives = foundation.compliance.is_some() || foundation.structure.is_some();
-    let start = history.channels().iter().position(|c| *c == Channel::Coordinate(s, 0));
-    let is_known = start.is_some() || foundation.structure.is_none();
+pub(super) fn of(loaded: &Loaded<'_>, solved: Option<&Solved>) -> Result<Vec<Drift>, Error> {
+    let Loaded { scene, s, history, laid, .. } = *loaded;
     let own = &scene.structures[s];
     let (Origin::Spec { spec, .. }, Some(solved), true, None, None) =
-        (&own.origin, solved, gives && is_known, &foundation.parts, own.on)
+        (&own.origin, solved, loaded.is_known(), &laid.foundation.parts, own.on)
     else {
         return Ok(Vec::new());
     };
     if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
         return Ok(Vec::new());
     }
-    let count = history.len().min(TIMES);
-    let rows = (0..count).map(|k| k * (history.len() - 1) / (count - 1).max(1));
-    let all: Vec<(usize, Vec<WheelLoad>)> = rows
-        .map(|row| (row, loads.at(history.sample(row)).into_iter().filter(|l| l.structure == s).collect()))
-        .collect();
+    let all: Vec<(usize, Vec<WheelLoad>)> =
+        spread(history.len(), TIMES).map(|row| (row, loaded.on(row))).collect();
     let pushed = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
     let mut found = Vec::new();
     for rail in scene.rails.iter().filter(|rail| rail.structure == s && pushed) {
@@ -103,16 +89,11 @@ pub(super) fn of(
         let mut worst =
             Drift { rail: rail.name.clone(), x: columns[0], height, value: 0.0, time: 0.0, limits };
         for (row, on) in &all {
-            let sample = history.sample(*row);
-            let q = start.map_or(&[][..], |at| &sample[at..at + foundation.freedoms()]);
-            let moved = match displacements(foundation, &probes, on, q) {
-                Ok(moved) => moved,
-                Err(Error::Unstiffened { .. }) => break,
-                Err(error) => return Err(error),
-            };
+            let Some(moved) = loaded.displacements(&probes, on, *row)? else { break };
+            let time = history.sample(*row)[0];
             for (x, moved) in columns.iter().zip(moved) {
                 if moved.abs() > worst.value {
-                    worst = Drift { x: *x, value: moved.abs(), time: sample[0], ..worst };
+                    worst = Drift { x: *x, value: moved.abs(), time, ..worst };
                 }
             }
         }
@@ -126,8 +107,7 @@ pub(super) fn of(
 /// # Source
 /// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as a public program has it: loads without dynamic factors.
 fn limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
-    let metre = Scale { from: units, to: Units { length: Length::Metre, force: Force::Newton } }
-        .factor(Dimension::LENGTH);
+    let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
     let mut limits = vec![("EN 1993-6:2007", "Table 7.1 b: height/400", height / 400.0)];
     if let Ok(most) = practice::aist::drift(height * metre) {
         limits.push(("AIST TR-13", "5.3 (2021): height/400, at most 2 in", most / metre));

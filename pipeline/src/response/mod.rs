@@ -9,6 +9,7 @@ mod deflection;
 mod drift;
 mod envelope;
 mod line;
+mod loaded;
 mod natural;
 mod part_inertia;
 mod picture;
@@ -35,6 +36,7 @@ pub use sway::Sway;
 pub use uplift::Uplift;
 pub use wheel_load::{WheelLoad, WheelLoads};
 
+use loaded::Loaded;
 use serde_json::{Map, Value, json};
 use sim::{Channel, History};
 
@@ -155,10 +157,9 @@ impl Response {
             .map_err(Failure::untrusted)?;
         for (s, structure) in scene.structures.iter().enumerate() {
             let failed = |error: splines::Error| Failure::Untrusted(format!("{}: {error}", structure.name));
-            let found = deflection::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
-            response.deflections.extend(found);
-            let found = drift::of(scene, s, history, &loads, &laid[s], solved[s]).map_err(failed)?;
-            response.drifts.extend(found);
+            let loaded = Loaded { scene, s, history, loads: &loads, laid: &laid[s] };
+            response.deflections.extend(deflection::of(&loaded, solved[s]).map_err(failed)?);
+            response.drifts.extend(drift::of(&loaded, solved[s]).map_err(failed)?);
         }
         response.uplifts = uplift::all(cast, record);
         response.sways = sway::all(scene, record);
@@ -182,7 +183,8 @@ impl Response {
             let is_known = laid.foundation.freedoms() == 0 || laid.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
             let failed = |error| Failure::Untrusted(format!("{}: {error}", scene.structures[s].name));
-            self.bending.extend(bending::of(scene, s, history, &loads, laid, solved).map_err(failed)?);
+            let loaded = Loaded { scene, s, history, loads: &loads, laid };
+            self.bending.extend(bending::of(&loaded, solved).map_err(failed)?);
         }
         Ok(())
     }

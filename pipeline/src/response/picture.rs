@@ -22,6 +22,23 @@ const SAMPLES: usize = 241;
 #[must_use]
 pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Lines>]) -> Vec<Plate> {
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
+    let mut plates = reactions(runs, run, response);
+    for bending in &response.bending {
+        let rail = &run.scene.rails[bending.rail];
+        let supports = match &run.scene.structures[rail.structure].origin {
+            Origin::Spec { spec, .. } => spec
+                .model()
+                .map_or_else(|_| Vec::new(), |(m, rails)| super::spans(spec, &m, &rails, rail.rail)),
+            Origin::Tables { .. } => Vec::new(),
+        };
+        plates.push(moments(run, &rail.name, &bending.rows, &supports));
+    }
+    plates.extend(influences(run.scene, response, lines));
+    plates
+}
+
+/// Reactions of the ground in each direction, over time and run against run.
+fn reactions(runs: &[Labelled], run: &Labelled, response: &Response) -> Vec<Plate> {
     let scene = run.scene;
     let mut plates = Vec::new();
     // what a body holds is not held by the ground
@@ -51,48 +68,51 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Line
         let mut shown: Vec<&Column> = own.iter().take(CURVES).map(|(_, column)| *column).collect();
         shown.sort_by_key(|column| response.columns.iter().position(|known| known == *column));
         if !shown.is_empty() {
-            let title = format!("Reactions of the ground, {word}");
-            let mut chart = over_time(scene, &title, Dimension::FORCE);
-            for (index, column) in shown.iter().enumerate() {
-                let style = Style::in_turn(index);
-                chart = chart.with(Series::new(&column.name, style, run.record.points("time", &column.name)));
-            }
             let few = if own.len() > CURVES {
                 format!(", the largest {CURVES} of {}", own.len())
             } else {
                 String::new()
             };
-            let caption =
-                format!("Reactions over time, {word}{few} ({}); positive along their axes.", run.label);
-            plates.push(Plate::chart(format!("reactions-{word}"), caption, chart));
+            plates.push(together(run, &shown, word, &few));
         }
-        if runs.len() < 2 {
+        if runs.len() > 1 {
+            let hardest = own.iter().filter(|(reach, _)| *reach > 1e-3 * largest).take(SHOWN);
+            plates.extend(hardest.map(|(_, column)| compared(runs, scene, column)));
+        }
+    }
+    plates
+}
+
+/// Reactions of one direction over time.
+fn together(run: &Labelled, shown: &[&Column], word: &str, few: &str) -> Plate {
+    let title = format!("Reactions of the ground, {word}");
+    let mut chart = over_time(run.scene, &title, Dimension::FORCE);
+    for (index, column) in shown.iter().enumerate() {
+        let style = Style::in_turn(index);
+        chart = chart.with(Series::new(&column.name, style, run.record.points("time", &column.name)));
+    }
+    let caption = format!("Reactions over time, {word}{few} ({}); positive along their axes.", run.label);
+    Plate::chart(format!("reactions-{word}"), caption, chart)
+}
+
+/// One reaction over time in every run.
+fn compared(runs: &[Labelled], scene: &Scene, column: &Column) -> Plate {
+    let mut chart = over_time(scene, &format!("{}, run against run", column.name), column.dimension);
+    for (index, other) in runs.iter().enumerate() {
+        let points = other.record.points("time", &column.name);
+        if points.is_empty() {
             continue;
         }
-        for (_, column) in own.iter().filter(|(reach, _)| *reach > 1e-3 * largest).take(SHOWN) {
-            let mut chart = over_time(scene, &format!("{}, run against run", column.name), column.dimension);
-            for (index, other) in runs.iter().enumerate() {
-                let points = other.record.points("time", &column.name);
-                if points.is_empty() {
-                    continue;
-                }
-                let style = if index == 0 { Style::Line } else { Style::Dashed };
-                chart = chart.with(Series::new(&other.label, style, points));
-            }
-            let caption = format!("The reaction {} in every run.", column.name);
-            plates.push(Plate::chart(format!("reaction-{}", column.name), caption, chart));
-        }
+        let style = if index == 0 { Style::Line } else { Style::Dashed };
+        chart = chart.with(Series::new(&other.label, style, points));
     }
-    for bending in &response.bending {
-        let rail = &scene.rails[bending.rail];
-        let supports = match &scene.structures[rail.structure].origin {
-            Origin::Spec { spec, .. } => spec
-                .model()
-                .map_or_else(|_| Vec::new(), |(m, rails)| super::spans(spec, &m, &rails, rail.rail)),
-            Origin::Tables { .. } => Vec::new(),
-        };
-        plates.push(moments(run, &rail.name, &bending.rows, &supports));
-    }
+    let caption = format!("The reaction {} in every run.", column.name);
+    Plate::chart(format!("reaction-{}", column.name), caption, chart)
+}
+
+/// Influence lines of the named sections on every rail that moves them.
+fn influences(scene: &Scene, response: &Response, lines: &[Option<Lines>]) -> Vec<Plate> {
+    let mut plates = Vec::new();
     for (structure, lines) in scene.structures.iter().zip(lines) {
         let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
         let Ok((model, rails)) = spec.model() else { continue };

@@ -18,6 +18,8 @@ pub struct Body {
     pub name: String,
     /// Mass.
     pub mass: f64,
+    /// Whether the scene gives the mass itself, not the weight.
+    pub by_mass: bool,
     /// Moments of inertia about its centre of mass: roll, yaw, pitch (about x, y, z).
     pub inertia: [f64; 3],
     /// Centre of mass from the body's origin, in the rail frame.
@@ -64,18 +66,6 @@ impl Along {
     }
 }
 
-impl Body {
-    /// Position along the rail at `t` where that is known beforehand.
-    #[must_use]
-    pub fn known_x(&self, t: f64) -> Option<f64> {
-        match &self.motion {
-            Along::Held => Some(self.x0),
-            Along::Free | Along::Driven(_) => (t == 0.0).then_some(self.x0),
-            Along::Prescribed(travel) => Some(travel.at(t).x),
-        }
-    }
-}
-
 /// Words of a body's freedoms, in the order of [`Body::free`].
 pub const FREEDOMS: [&str; 6] = ["x", "y", "z", "roll", "yaw", "pitch"];
 
@@ -105,6 +95,7 @@ pub(super) fn read(
     Body {
         name: name.to_owned(),
         mass,
+        by_mass: raw.mass.is_some(),
         inertia,
         cg,
         free,

@@ -9,7 +9,7 @@ use super::{
 use crate::check::Check;
 use crate::fault::{Fault, Faults, number};
 use crate::place::Place;
-use crate::units::{Dimension, Force, Length, Scale, Units};
+use crate::units::{Dimension, Scale, Units};
 
 /// Relative error of the steps where the scene gives none.
 const ACCURACY: f64 = 1e-4;
@@ -25,7 +25,7 @@ pub(super) fn scene(raw: &RawScene, file: &str, files: &mut Files<'_>, faults: &
     let root = Place::root();
     crate::spec::format(&raw.format, FORMAT, &root, faults);
     let units = Units::read(&raw.units, &root, faults);
-    let known = units.unwrap_or(Units { length: Length::Metre, force: Force::Newton });
+    let known = units.unwrap_or(Units::SI);
     let mut check = Check { faults, scale: Scale { from: known, to: known } };
     let check = &mut check;
     let name = raw.name.clone().unwrap_or_else(|| crate::spec::stem(file));

@@ -11,7 +11,7 @@ use super::{adm, csv, expand, json, npz, view};
 use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
 use crate::source::Source;
-use crate::units::{Force, Length, Units};
+use crate::units::Units;
 
 /// A format of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -106,7 +106,7 @@ pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
     let parsed = parse(name, bytes)?;
     let units = parsed.units;
     let linear: Vec<Option<bool>> = parsed.drafts.iter().map(|draft| draft.linear).collect();
-    let any = Units { length: Length::Metre, force: Force::Newton };
+    let any = Units::SI;
     let set = parsed.set(units.unwrap_or(any));
     let said = |k: usize| if set.products.is_empty() { linear.get(k).copied().flatten() } else { None };
     let tables = expand(&set).tables.into_iter().enumerate().map(|(k, table)| (table, said(k))).collect();

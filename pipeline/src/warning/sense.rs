@@ -5,7 +5,7 @@ use fea::{Model, Rail, Section};
 use crate::fault::number;
 use crate::report::rounded;
 use crate::spec::{Form, Spec};
-use crate::units::{Dimension, Force, Length, Scale, Units};
+use crate::units::{Dimension, Scale, Units};
 
 /// Young's moduli of what structures are made of, rigid arms a hundred times as stiff as steel among them, N/m2.
 const MODULI: [f64; 2] = [2e9, 2e13];
@@ -16,12 +16,10 @@ const DENSITIES: [f64; 2] = [50.0, 4e4];
 /// Share of the shorter neighbour that a gap between two segments of a rail may have: seats over columns are less.
 const GAP: f64 = 0.5;
 
-const SI: Units = Units { length: Length::Metre, force: Force::Newton };
-
 /// What looks like a slip in a spec, in words.
 #[must_use]
 pub fn of_spec(spec: &Spec) -> Vec<String> {
-    let scale = Scale { from: spec.units, to: SI };
+    let scale = Scale { from: spec.units, to: Units::SI };
     let mut all = Vec::new();
     match &spec.form {
         Form::Girder(girder) => all.extend(modulus("the girder's `E`", girder.e, spec.units, scale)),
