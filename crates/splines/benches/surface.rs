@@ -57,7 +57,7 @@ fn jet(bencher: Bencher<'_, '_>, of: Of) {
 }
 
 /// Values and slopes of n vertical probes, 32 in apart or as close as the span asks.
-#[divan::bench(args = ALL, consts = [2, 8, 32, 100], sample_size = 100)]
+#[divan::bench(args = ALL, consts = [1, 2, 8, 32, 100], sample_size = 100)]
 fn fill<const N: usize>(bencher: Bencher<'_, '_>, of: Of) {
     let ready = of.ready();
     let pitch = f64::min(8.0 / 3.0, 60.0 / N as f64);
