@@ -69,11 +69,14 @@ impl Study {
 pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress) -> Result<Study, Failure> {
     let kinds = Kinds::of(scene, known);
     let mut workshop = Workshop::new(scene, known);
-    progress.say("choosing foundations");
-    let (auto, mut chosen) = auto(scene, known, depth);
     let asks = scene.structures.iter().any(|structure| structure.auto);
-    let mut own = match &chosen {
-        Some(chosen) if asks => chosen.clone(),
+    let choose = |scene: &Scene| {
+        progress.say("choosing foundations");
+        auto(scene, known, depth)
+    };
+    let first = asks.then(|| choose(scene));
+    let mut own = match &first {
+        Some((_, Some(chosen))) => chosen.clone(),
         _ => scene.clone(),
     };
     own.structures.iter_mut().for_each(|structure| structure.auto = false);
@@ -89,9 +92,12 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
     if let Some(time) = until {
         progress.say(&format!("no reference tells what comes after t = {time} s: the study ends there"));
         references.iter_mut().for_each(|reference| reference.cut(time));
-        for scene in [&mut own, &mut cut].into_iter().chain(&mut chosen) {
-            scene.end = time;
-        }
+        own.end = time;
+        cut.end = time;
+    }
+    let (auto, mut chosen) = first.unwrap_or_else(|| choose(&cut));
+    if let Some(chosen) = &mut chosen {
+        chosen.end = cut.end;
     }
     for reference in &references {
         let told = Quantity::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
