@@ -87,7 +87,7 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
         let first = lost.into_iter().next().map(|(_, why)| why);
         return Err(Failure::Untrusted(first.unwrap_or_default()));
     }
-    let until = until(&references, &own, depth);
+    let until = until(&references, own.end, depth.resolution);
     let mut cut = scene.clone();
     if let Some(time) = until {
         progress.say(&format!("no reference tells what comes after t = {time} s: the study ends there"));
@@ -196,12 +196,12 @@ fn references(
     Ok((found, lost))
 }
 
-/// When a study of `scene` ends before the scene does: where some reference tells deflections and wheel forces until then
-/// alone. `None`: all tell them to the end, or one of them for less than [`LEAST`] of it.
-fn until(references: &[Reference], scene: &Scene, depth: &Depth) -> Option<f64> {
-    let short = references.iter().filter(|reference| reference.asked() > depth.resolution);
-    let times = short.map(|reference| reference.horizon(depth.resolution).unwrap_or(0.0));
-    times.reduce(f64::min).filter(|time| *time >= LEAST * scene.end)
+/// When a study of a scene of so many seconds ends before it: where some reference tells deflections and wheel forces down
+/// to `resolution` until then alone. `None`: all tell them to the end, or one of them for less than [`LEAST`] of it.
+fn until(references: &[Reference], end: f64, resolution: f64) -> Option<f64> {
+    let short = references.iter().filter(|reference| reference.asked() > resolution);
+    let times = short.map(|reference| reference.horizon(resolution).unwrap_or(0.0));
+    times.reduce(f64::min).filter(|time| *time >= LEAST * end)
 }
 
 /// Runs a setting once, and compares it with the reference; ready to run again where it reached its end.
@@ -335,5 +335,48 @@ fn time(
     }
     if let Ok(auto) = &mut study.auto {
         auto.trials = Spread::of(&trials);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::misfit::{Trace, misfits};
+
+    /// Two runs of ten seconds whose wheel forces part by a tenth from `time` on.
+    fn parted(against: Against, time: usize) -> Reference {
+        let trace = |shift: f64| {
+            let force = |k: usize| if k < time { 1.0 } else { 1.0 + shift };
+            let columns = vec![
+                ("body.deflection".to_owned(), Quantity::Deflection, vec![1.0; 11]),
+                ("wheel.vertical".to_owned(), Quantity::WheelForce, (0..11).map(force).collect()),
+            ];
+            Trace { time: (0..11).map(|k| k as f64).collect(), columns }
+        };
+        let (trace, beside) = (trace(0.0), trace(0.1));
+        let difference = misfits(&beside, &trace).map(|own| own.map(|own| own.largest));
+        Reference { against, trace, beside, words: Default::default(), difference, approach: Vec::new() }
+    }
+
+    #[test]
+    fn a_study_ends_where_the_first_of_its_references_parts() {
+        let all = [parted(Against::Whole, 6), parted(Against::Massless, 8), parted(Against::Own, 11)];
+        assert_eq!(until(&all, 10.0, 1e-2), Some(5.0));
+        assert_eq!(until(&all[1..], 10.0, 1e-2), Some(7.0));
+        assert_eq!(until(&all[2..], 10.0, 1e-2), None, "they agree to the end");
+        assert_eq!(until(&all, 10.0, 1.1), None, "all that is asked for is told");
+        assert_eq!(
+            until(&[parted(Against::Own, 3)], 10.0, 1e-2),
+            None,
+            "a fifth of the time tells too little"
+        );
+    }
+
+    #[test]
+    fn a_reference_that_is_cut_tells_what_is_left() {
+        let mut own = parted(Against::Own, 6);
+        assert!((own.asked() - 1.0).abs() < 1e-12, "ten times a tenth");
+        own.cut(5.0);
+        assert_eq!((own.asked(), own.trace.time.len()), (0.0, 6));
     }
 }
