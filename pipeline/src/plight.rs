@@ -1,8 +1,18 @@
 //! Why a run could not go on, in the names of its scene.
 
-use sim::Error;
+use sim::{Error, Status};
 
 use crate::scene::{FREEDOMS, Scene};
+use crate::summary;
+
+/// Why a run did not reach its end, by name; `None` where it did.
+#[must_use]
+pub fn why(status: &Status, scene: &Scene) -> Option<String> {
+    match status {
+        Status::Refused(t, error) => Some(format!("at t = {t:.4} s: {}", words(error, scene))),
+        status => summary::status(status).1,
+    }
+}
 
 /// What the simulator says by index, said by name, with what to do where that is known.
 #[must_use]

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
-use sim::Status;
 
 use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
@@ -124,13 +123,7 @@ fn finish(
         output::print(&output::json(&result))?;
     }
     let failed = outcomes.iter().zip(&document.cases).find_map(|(outcome, case)| {
-        let why = match &outcome.run.status {
-            Status::Refused(t, error) => {
-                Some(format!("at t = {t:.4} s: {}", plight::words(error, &case.scene)))
-            }
-            status => summary::status(status).1,
-        };
-        why.map(|why| format!("{}: {why}", outcome.label))
+        plight::why(&outcome.run.status, &case.scene).map(|why| format!("{}: {why}", outcome.label))
     });
     failed.map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
 }

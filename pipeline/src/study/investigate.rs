@@ -19,9 +19,9 @@ use crate::cases::{Known, recorded};
 use crate::exit::Failure;
 use crate::link::{self, Trouble};
 use crate::motion::cast;
+use crate::plight;
 use crate::progress::Progress;
 use crate::scene::{Analysis, Scene};
-use crate::summary;
 
 /// Shorter runs than this are timed several at once.
 const BATCH: f64 = 2e-3;
@@ -220,13 +220,13 @@ fn measure(
     let ran = memory::held(|| limited(depth.limit, |watch| rig.run(watch)));
     let run = match ran.out {
         Ok(run) => run,
-        Err(error) => return refused(error.to_string()),
+        Err(error) => return refused(plight::words(&error, &setting.scene)),
     };
     let seconds = cpu::seconds() - start;
     match &run.status {
         sim::Status::Stopped => return (None, Outcome::Stopped),
         status if !status.is_complete() => {
-            return refused(summary::status(status).1.unwrap_or_default());
+            return refused(plight::why(status, &setting.scene).unwrap_or_default());
         }
         _ => {}
     }
@@ -283,7 +283,7 @@ fn choose(scene: &mut Scene, known: &[Known], limit: f64) -> Result<Vec<sim::Cho
     let found = limited(limit, |watch| link::choose(scene, &cast.scene, known, &recorded, watch));
     let found = found.map_err(|trouble| match trouble {
         Trouble::Foundation(failure) => failure.words(),
-        Trouble::Run(error) => error.to_string(),
+        Trouble::Run(error) => plight::words(&error, scene),
     })?;
     match found.run.status {
         sim::Status::Stopped => Err("it took longer than a setting may".to_owned()),

@@ -9,8 +9,8 @@ use super::quantity::Quantity;
 use super::rig::Workshop;
 use super::setting::{Against, Family, Setting};
 use crate::exit::Failure;
+use crate::plight;
 use crate::scene::{Analysis, Scene, stepper_word};
-use crate::summary;
 
 /// How much closer than the smallest error told the two finest runs must agree.
 pub const MARGIN: f64 = 10.0;
@@ -223,11 +223,10 @@ fn one(
     let run = match limited(limit, |watch| rig.run(watch)) {
         Ok(run) => run,
         Err(sim::Error::Method { .. }) => return Ok(Ok(None)),
-        Err(error) => return Err(Failure::untrusted(error)),
+        Err(error) => return Err(Failure::Untrusted(plight::words(&error, &setting.scene))),
     };
     if !run.status.is_complete() {
-        let (_, why) = summary::status(&run.status);
-        return Ok(Err(why.unwrap_or_default()));
+        return Ok(Err(plight::why(&run.status, &setting.scene).unwrap_or_default()));
     }
     let mut trace = workshop.trace(&rig, &run)?;
     let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
