@@ -45,14 +45,14 @@ const ALL: [Origin; 8] = [
         what: "charts, fronts, costs of scenes",
         data: "docs/studies",
         commands: &["girderway study SCENE -o OUT", "cargo run -p claims -- study OUT NAME COMMAND"],
-        time: "2 to 30 minutes a scene",
+        time: "5 seconds to 10 minutes a scene",
     },
     Origin {
         kind: "benches",
         what: "benchmarks",
         data: "docs/benchmarks.json",
         commands: &["cargo run -p claims -- benches"],
-        time: "5 minutes, and the release build",
+        time: "2 minutes, and the release build",
     },
     Origin {
         kind: "peers",
