@@ -65,6 +65,7 @@ impl Samples {
         }
         Ok(())
     }
+
     /// All samples.
     pub fn history(self) -> History {
         self.recorder.history

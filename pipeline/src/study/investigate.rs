@@ -88,17 +88,15 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
         return Err(Failure::Untrusted(first.unwrap_or_default()));
     }
     let until = until(&references, own.end, depth.resolution);
-    let mut cut = scene.clone();
     if let Some(time) = until {
         progress.say(&format!("no reference tells what comes after t = {time} s: the study ends there"));
         references.iter_mut().for_each(|reference| reference.cut(time));
-        own.end = time;
-        cut.end = time;
     }
-    let (auto, mut chosen) = first.unwrap_or_else(|| choose(&cut));
-    if let Some(chosen) = &mut chosen {
-        chosen.end = cut.end;
-    }
+    let end = until.unwrap_or(scene.end);
+    let scene = &Scene { end, ..scene.clone() };
+    own.end = end;
+    let (auto, chosen) = first.unwrap_or_else(|| choose(scene));
+    let chosen = chosen.map(|chosen| Scene { end, ..chosen });
     for reference in &references {
         let told = Quantity::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
         let told: Vec<String> =
@@ -145,7 +143,7 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, progress: &Progress)
     }
     drop(bar);
     let mut study = Study { until, references, lost, points, auto };
-    time(&mut study, &rigs, &cut, known, depth, progress);
+    time(&mut study, &rigs, scene, known, depth, progress);
     Ok(study)
 }
 
@@ -341,7 +339,7 @@ fn time(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::misfit::{Trace, misfits};
+    use crate::study::misfit::Trace;
 
     /// Two runs of ten seconds whose wheel forces part by a tenth from `time` on.
     fn parted(against: Against, time: usize) -> Reference {
@@ -353,9 +351,7 @@ mod tests {
             ];
             Trace { time: (0..11).map(|k| k as f64).collect(), columns }
         };
-        let (trace, beside) = (trace(0.0), trace(0.1));
-        let difference = misfits(&beside, &trace).map(|own| own.map(|own| own.largest));
-        Reference { against, trace, beside, words: Default::default(), difference, approach: Vec::new() }
+        Reference::new(against, trace(0.0), trace(0.1), Default::default())
     }
 
     #[test]

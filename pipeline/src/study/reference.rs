@@ -61,6 +61,13 @@ pub struct Reference {
 }
 
 impl Reference {
+    /// `trace` as the reference, which tells as much as it is close to `beside`; `words`: the settings of both.
+    #[must_use]
+    pub fn new(against: Against, trace: Trace, beside: Trace, words: [String; 2]) -> Reference {
+        let difference = differences(&beside, &trace);
+        Reference { against, trace, beside, words, difference, approach: Vec::new() }
+    }
+
     /// The smallest error that it can tell in a group; infinite where it does not know the group.
     #[must_use]
     pub fn resolves(&self, quantity: Quantity) -> f64 {
@@ -163,9 +170,7 @@ impl Search {
                     }
                     Err(failure) => return Err(failure),
                 };
-            let difference = differences(&beside, &trace);
-            let words = [method, second];
-            let found = Reference { against, trace, beside, words, difference, approach: Vec::new() };
+            let found = Reference::new(against, trace, beside, [method, second]);
             let largest = found.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
             self.approach.push((accuracy, found.asked() / MARGIN));
             if self.best.as_ref().is_none_or(|best| found.asked() < best.asked()) {

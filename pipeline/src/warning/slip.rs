@@ -25,7 +25,7 @@ pub(super) fn of_scene(scene: &Scene, record: &Record) -> Vec<String> {
         all.extend(heavy(scene, b, body));
         all.extend(idle(scene, body));
     }
-    all.extend(scene.structures.iter().enumerate().flat_map(|(s, _)| beside(scene, s)));
+    all.extend((0..scene.structures.len()).filter_map(|s| beside(scene, s)));
     all.extend(stretched(scene, record));
     all
 }
