@@ -6,12 +6,12 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use girderway::cases::{Known, solved_of, specs};
-use girderway::link::{Spectra, laid, solve};
-use girderway::motion::cast;
-use girderway::scene::{Case, Document};
-use girderway::study::cpu::seconds;
+use formats::motion::cast;
+use formats::scene::{Case, Document};
+use foundations::{Known, solved_of, specs};
+use foundations::{Spectra, laid, solve};
 use sim::{Channel, Freedom, Run};
+use study::cpu::seconds;
 
 /// What the command line asks for.
 struct Wanted {

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use crate::appraisal::Manner;
-use crate::crosscheck::Quantity;
-use crate::deck::Form;
-use crate::import::rail::triple;
-use crate::import::{fix, rail};
-use crate::units::{Force, Length};
+use deck::Form;
+use formats::block::GridBlock;
+use formats::units::{Force, Length};
+use import::rail::triple;
+use import::{fix, rail};
+use study::appraisal::Manner;
 
 /// From a beam spec to influence tables, simulation, plots and report.
 #[derive(Debug, Parser)]
@@ -190,7 +190,7 @@ pub struct Splines {
     /// Reading that must keep the tolerance: writes tables at the fewest stations with which it does; with --check a
     /// larger error is a failure [default with --check: akispl]
     #[arg(long, requires = "tolerance")]
-    pub reading: Option<Manner>,
+    pub reading: Option<TableReading>,
     /// Error allowed, of the largest coefficient; of the factored form without a reading, that at the stations
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub tolerance: Option<f64>,
@@ -223,6 +223,36 @@ pub enum TableForm {
     Factored,
 }
 
+/// Words of the readings of tables.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TableReading {
+    /// AKISPL along the load, linear along the deflection
+    Akispl,
+    /// The mean of AKISPL with load and deflection exchanged
+    Symmetrised,
+    /// CUBSPL along the load, linear along the deflection
+    Cubspl,
+    /// Natural splines along both
+    Natural,
+    /// Products of one-curve CUBSPLs
+    Factored,
+    /// The beam behind the values
+    Exact,
+}
+
+impl From<TableReading> for Manner {
+    fn from(reading: TableReading) -> Manner {
+        match reading {
+            TableReading::Akispl => Manner::Akispl,
+            TableReading::Symmetrised => Manner::Symmetrised,
+            TableReading::Cubspl => Manner::Cubspl,
+            TableReading::Natural => Manner::Natural,
+            TableReading::Factored => Manner::Factored,
+            TableReading::Exact => Manner::Exact,
+        }
+    }
+}
+
 /// Words of the directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Direction {
@@ -244,12 +274,12 @@ impl From<Direction> for splines::Axis {
     }
 }
 
-impl From<Direction> for Quantity {
-    fn from(direction: Direction) -> Quantity {
+impl From<Direction> for GridBlock {
+    fn from(direction: Direction) -> GridBlock {
         match direction {
-            Direction::Vertical => Quantity::Vertical,
-            Direction::Lateral => Quantity::Lateral,
-            Direction::Longitudinal => Quantity::Longitudinal,
+            Direction::Vertical => GridBlock::Vertical,
+            Direction::Lateral => GridBlock::Lateral,
+            Direction::Longitudinal => GridBlock::Longitudinal,
         }
     }
 }
@@ -270,13 +300,37 @@ pub struct Deck {
     pub output: Option<PathBuf>,
     /// How the rails' give is read [default: factored; akispl where the scene reads a structure by it]
     #[arg(long)]
-    pub form: Option<Form>,
+    pub form: Option<DeckForm>,
     /// Execute the deck and compare its forces with the simulator's; status 1 where they differ
     #[arg(long)]
     pub check: bool,
     /// Random states of the check
     #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(1..))]
     pub states: u32,
+}
+
+/// Words of the forms of decks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DeckForm {
+    /// AKISPL of a family: N^2 look-ups for N wheels; neither symmetric nor conservative off the stations
+    Akispl,
+    /// The mean of AKISPL(x, z) and AKISPL(z, x): 2 N^2 look-ups, symmetric
+    Symmetrised,
+    /// Products of r curves read by CUBSPL: r N curves, symmetric, positive, with the force along the rail
+    Factored,
+    /// The paper's own expressions with what is loose in them, for comparison alone
+    Paper,
+}
+
+impl From<DeckForm> for Form {
+    fn from(form: DeckForm) -> Form {
+        match form {
+            DeckForm::Akispl => Form::Akispl,
+            DeckForm::Symmetrised => Form::Symmetrised,
+            DeckForm::Factored => Form::Factored,
+            DeckForm::Paper => Form::Paper,
+        }
+    }
 }
 
 /// Arguments of `import`.

@@ -2,7 +2,9 @@
 
 use std::process::ExitCode;
 
-use crate::diagnostic::Diagnostic;
+use formats::diagnostic::Diagnostic;
+use formats::spec::SolveError;
+use formats::tables::WriteError;
 
 /// Exit status of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,17 +65,6 @@ impl Failure {
         Failure::Untrusted(error.to_string())
     }
 
-    /// What went wrong, in one line.
-    #[must_use]
-    pub(crate) fn words(&self) -> String {
-        match self {
-            Failure::Input(diagnostics) => {
-                diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
-            }
-            Failure::Differs(message) | Failure::Untrusted(message) => message.clone(),
-        }
-    }
-
     /// What standard error shows: a line for each error, or one JSON object.
     #[must_use]
     pub fn report(&self, json: bool) -> String {
@@ -113,5 +104,50 @@ impl From<Box<Diagnostic>> for Failure {
 impl From<Vec<Diagnostic>> for Failure {
     fn from(diagnostics: Vec<Diagnostic>) -> Self {
         Failure::Input(diagnostics)
+    }
+}
+
+impl From<SolveError> for Failure {
+    fn from(error: SolveError) -> Self {
+        match error {
+            SolveError::Input(diagnostics) => Failure::Input(diagnostics),
+            SolveError::Untrusted(message) => Failure::Untrusted(message),
+        }
+    }
+}
+
+impl From<WriteError> for Failure {
+    fn from(error: WriteError) -> Self {
+        Failure::untrusted(error)
+    }
+}
+
+impl From<results::Error> for Failure {
+    fn from(error: results::Error) -> Self {
+        Failure::untrusted(error)
+    }
+}
+
+impl From<foundations::Error> for Failure {
+    fn from(error: foundations::Error) -> Self {
+        Failure::untrusted(error)
+    }
+}
+
+impl From<deck::Error> for Failure {
+    fn from(error: deck::Error) -> Self {
+        match error {
+            deck::Error::Refused(diagnostic) => Failure::from(diagnostic),
+            other => Failure::untrusted(other),
+        }
+    }
+}
+
+impl From<study::Error> for Failure {
+    fn from(error: study::Error) -> Self {
+        match error {
+            study::Error::Input(diagnostics) => Failure::Input(diagnostics),
+            other => Failure::untrusted(other),
+        }
     }
 }

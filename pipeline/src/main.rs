@@ -5,9 +5,9 @@ use std::panic;
 use std::process::ExitCode;
 
 use clap::Parser;
+use formats::diagnostic::Diagnostic;
 use girderway::cli::{Cli, Command};
 use girderway::commands;
-use girderway::diagnostic::Diagnostic;
 use girderway::exit::{Exit, Failure};
 
 fn main() -> ExitCode {

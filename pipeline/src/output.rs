@@ -7,11 +7,11 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use tempfile::NamedTempFile;
 
-use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
-use crate::inputs::sha256;
 use crate::manifest::{MANIFEST, Manifest, Output};
 use crate::progress::Progress;
+use formats::diagnostic::Diagnostic;
+use formats::inputs::sha256;
 
 /// Writes a file whole or not at all: into a temporary file beside it, to the disk, then under its name.
 ///
@@ -252,7 +252,7 @@ impl Folder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::inputs::Inputs;
+    use formats::inputs::Inputs;
     use serde_json::json;
 
     fn commit(path: &Path, files: &[(&str, &str)]) {

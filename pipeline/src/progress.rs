@@ -5,6 +5,8 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use study::{Observer, Steps};
+
 use crate::cli::Global;
 
 /// Messages and bars on standard error.
@@ -68,6 +70,22 @@ impl Bar {
     /// Moves a bar to `position`.
     pub fn set(&self, position: u64) {
         self.0.set_position(position);
+    }
+}
+
+impl Observer for Progress {
+    fn say(&self, message: &str) {
+        Progress::say(self, message);
+    }
+
+    fn begin(&self, message: &str, steps: u64) -> Box<dyn Steps> {
+        Box::new(self.bar(message, steps))
+    }
+}
+
+impl Steps for Bar {
+    fn reach(&self, step: u64) {
+        self.set(step);
     }
 }
 

@@ -1,8 +1,8 @@
 //! Couplings of the two girderways left out: what stays the same, and what a rail gives then.
 
-use girderway::cases::specs;
-use girderway::link::solve;
-use girderway::scene::Document;
+use formats::scene::Document;
+use foundations::solve;
+use foundations::specs;
 use serde_json::{Value, json};
 use splines::{Axis, Compliance, Influence, Probe};
 

@@ -1,10 +1,9 @@
 //! Reactions of a building that has mass, while it is struck by a rope that breaks.
 
-use girderway::cases::{Known, simulate, solved_of, specs};
-use girderway::cli::Global;
-use girderway::link::{self, Motion, Spectra, solve};
-use girderway::progress::Progress;
-use girderway::scene::Document;
+use formats::scene::Document;
+use foundations::{Known, solved_of, specs};
+use foundations::{Motion, Spectra, solve};
+use results::cases::simulate;
 use serde_json::json;
 use sim::Channel;
 
@@ -31,11 +30,11 @@ fn columns_of_a_building_with_mass_carry_wheel_forces_less_its_inertia() {
         .into_iter()
         .map(|(_, _, spec)| Known { spec: spec.clone(), solved: solve(spec).expect("it stands") })
         .collect();
-    let global = Global { quiet: true, json: false, threads: None };
-    let outcomes = simulate(&document, &known, Some(1), &Progress::new(global)).expect("it runs");
+    let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
     let structure = &document.cases[0].scene.structures[0];
-    let laid = link::laid(&mut Spectra::default(), structure, solved_of(&known, &structure.origin), true)
-        .expect("a foundation");
+    let laid =
+        foundations::laid(&mut Spectra::default(), structure, solved_of(&known, &structure.origin), true)
+            .expect("a foundation");
     let Some(Motion::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
     let (record, history) = (&outcomes[0].record, &outcomes[0].run.history);
     let all = |begin: &str, end: &str| -> Vec<&Vec<f64>> {

@@ -1,6 +1,7 @@
 //! Frames in OpenSees and PyNite, solids of gmsh and scikit-fem.
 
-use girderway::crosscheck::{Grid, Peer, Quantity, Station, ask};
+use formats::block::GridBlock;
+use girderway::crosscheck::{Grid, Peer, Station, ask};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -46,7 +47,7 @@ fn mill_girderway_agrees_with_both_frame_codes() {
         let result = result(&output);
         assert!(output.status.success(), "{result:#}");
         for code in ["OpenSees", "PyNite"] {
-            for quantity in Quantity::ALL {
+            for quantity in GridBlock::ALL {
                 let relative = difference(&result, code, quantity.name());
                 assert!(relative < 1e-8, "{theory}, {code}, {quantity}: {relative:e}");
             }
@@ -65,7 +66,7 @@ fn a_frame_with_everything_agrees_with_both_frame_codes() {
     let output = crosscheck(&spec, &[]);
     let result = result(&output);
     assert!(output.status.success(), "{result:#}");
-    for quantity in Quantity::ALL {
+    for quantity in GridBlock::ALL {
         let relative = ["OpenSees", "PyNite"].map(|code| difference(&result, code, quantity.name()));
         assert!(relative[0] < 5e-8 && relative[1] < 1e-10, "{quantity}: {relative:?}");
     }
@@ -131,13 +132,13 @@ fn frame_codes_reproduce_the_closed_forms_of_the_papers_girder() {
     let question = json!({ "spec": spec, "theory": "euler-bernoulli" });
     let mut vertical: Grid = PAPER.iter().map(|row| row.to_vec()).collect();
     for peer in [Peer::OpenSees, Peer::PyNite] {
-        let ours = [(Quantity::Vertical, vertical.clone())];
+        let ours = [(GridBlock::Vertical, vertical.clone())];
         let outcome = ask(peer, &question, &ours, &stations, environment, &mut |_| {});
         let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
         assert!(outcome.agrees() && outcome.differences[0].relative < 1e-11, "{}", outcome.table(&[]));
     }
     vertical[2][4] *= 1.0 + 1e-6;
-    let ours = [(Quantity::Vertical, vertical)];
+    let ours = [(GridBlock::Vertical, vertical)];
     let outcome = ask(Peer::PyNite, &question, &ours, &stations, environment, &mut |_| {});
     let outcome = outcome.unwrap_or_else(|error| panic!("{error}"));
     assert!(!outcome.agrees(), "{}", outcome.table(&[]));

@@ -2,7 +2,8 @@
 //!
 //! Needs Python 3.11 with venv, and PyPI the first time; the environment stays in the target directory.
 
-use girderway::crosscheck::{Environment, Girder, Outcome, Quantity, crosscheck};
+use formats::block::GridBlock;
+use girderway::crosscheck::{Environment, Girder, Outcome, crosscheck};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -105,7 +106,7 @@ pub fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("python")
 }
 
-fn compare(girder: &Girder, ours: &[(Quantity, Grid)], tolerance: f64) -> Option<Outcome> {
+fn compare(girder: &Girder, ours: &[(GridBlock, Grid)], tolerance: f64) -> Option<Outcome> {
     match crosscheck(girder, ours, tolerance, environment()?, &mut |_| {}) {
         Ok(outcome) => Some(outcome),
         Err(error) => panic!("{error}"),
@@ -162,7 +163,7 @@ fn scikit_fem_reproduces_the_closed_forms_of_the_papers_girder() {
     }
     let zero = grid(&girder.stations, |_, _| 0.0);
     let ours =
-        [(Quantity::Vertical, vertical), (Quantity::Lateral, lateral), (Quantity::VerticalLateral, zero)];
+        [(GridBlock::Vertical, vertical), (GridBlock::Lateral, lateral), (GridBlock::VerticalLateral, zero)];
     let Some(outcome) = compare(&girder, &ours, 1e-11) else { return };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
     assert_eq!(outcome.differences.len(), 3, "{}", outcome.table(&[]));
@@ -178,7 +179,7 @@ fn scikit_fem_reproduces_the_longitudinal_closed_forms_at_the_supports() {
         &girder.stations,
         |x, z| if x == z { bending / 3.0 } else { -bending / 6.0 } + x.min(z) / 4.32e9,
     );
-    let Some(outcome) = compare(&girder, &[(Quantity::Longitudinal, longitudinal)], 1e-12) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::Longitudinal, longitudinal)], 1e-12) else { return };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
 }
 
@@ -188,7 +189,7 @@ fn longitudinal_load_at_the_rail_head_bends_the_span_as_a_moment() {
     // a moment that turns the end upwards. Source: analytic, end moment on a simply supported span.
     let girder = Girder { overhangs: [0.0; 2], stations: vec![0.0, 30.0, 60.0], ..paper() };
     let zero = grid(&girder.stations, |_, _| 0.0);
-    let Some(outcome) = compare(&girder, &[(Quantity::VerticalLongitudinal, zero)], 1e-9) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::VerticalLongitudinal, zero)], 1e-9) else { return };
     let worst = &outcome.differences[0];
     let expected = HEIGHT * 3600.0 / (16.0 * EI);
     assert_eq!(worst.at[0], 30.0, "midspan moves most");
@@ -214,7 +215,7 @@ fn scikit_fem_reproduces_the_two_span_girder() {
         (true, false) => far,
         (false, _) => 0.0,
     });
-    let Some(outcome) = compare(&girder, &[(Quantity::Vertical, vertical)], 1e-12) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::Vertical, vertical)], 1e-12) else { return };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
 }
 
@@ -227,7 +228,7 @@ fn scikit_fem_reproduces_the_girder_that_shears() {
     for (row, bending) in vertical.iter_mut().zip(&PAPER) {
         row.iter_mut().zip(bending).for_each(|(entry, bending)| *entry += bending);
     }
-    let Some(outcome) = compare(&girder, &[(Quantity::Vertical, vertical)], 1e-11) else { return };
+    let Some(outcome) = compare(&girder, &[(GridBlock::Vertical, vertical)], 1e-11) else { return };
     assert!(outcome.agrees(), "{}", outcome.table(&[]));
 }
 
@@ -236,7 +237,7 @@ fn many_stations_cost_no_digits() {
     // Reads of 181 stations stay within the tolerance, though a mesh of 180 elements would not.
     let stations: Vec<f64> = (0..=180).map(|i| -15.0 + 0.5 * f64::from(i)).collect();
     let vertical = grid(&stations, |x, z| pinned(60.0, x, z, |r| r.powi(3) / (12.0 * EI)));
-    let Some(outcome) = compare(&Girder { stations, ..paper() }, &[(Quantity::Vertical, vertical)], 1e-9)
+    let Some(outcome) = compare(&Girder { stations, ..paper() }, &[(GridBlock::Vertical, vertical)], 1e-9)
     else {
         return;
     };
@@ -247,7 +248,7 @@ fn many_stations_cost_no_digits() {
 fn a_wrong_grid_is_found() {
     let mut vertical: Grid = PAPER.iter().map(|row| row.to_vec()).collect();
     vertical[2][4] += 3e-9 * 1.3665862020710885e-07;
-    let Some(outcome) = compare(&paper(), &[(Quantity::Vertical, vertical)], 1e-9) else { return };
+    let Some(outcome) = compare(&paper(), &[(GridBlock::Vertical, vertical)], 1e-9) else { return };
     assert!(!outcome.agrees());
     assert_eq!(outcome.differences[0].at, [15.0, 45.0]);
 }

@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use adams::{DataSet, Model};
-use girderway::deck::Form;
-use girderway::units::{Force, Length};
+use deck::Form;
+use formats::units::{Force, Length};
 
 use super::{FORMS, Loaded, example, scene};
 

@@ -8,11 +8,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adams::DataSet;
-use girderway::cases::{Known, specs};
-use girderway::deck::check::{Report, check};
-use girderway::deck::{Form, deck, plan};
-use girderway::link;
-use girderway::scene::Document;
+use deck::check::{Report, check};
+use deck::{Form, deck, plan};
+use formats::scene::Document;
+use foundations::{Known, specs};
 
 /// Forms that are right; the paper's is not meant to be.
 const FORMS: [Form; 3] = [Form::Akispl, Form::Symmetrised, Form::Factored];
@@ -42,7 +41,7 @@ impl Loaded {
         let document = Document::open(path).expect("a valid scene");
         let solve = |spec: &Arc<_>| Known {
             spec: Arc::clone(spec),
-            solved: link::solve(spec).expect("a structure that stands"),
+            solved: foundations::solve(spec).expect("a structure that stands"),
         };
         let known = specs(&document).into_iter().map(|(_, _, spec)| solve(spec)).collect();
         Loaded { document, known }

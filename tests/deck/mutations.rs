@@ -1,7 +1,7 @@
 //! Decks that are wrong must be told from the simulator.
 
 use adams::{DataSet, Statement, Value};
-use girderway::deck::Form;
+use deck::Form;
 
 use super::{Loaded, example, scene};
 
@@ -126,7 +126,7 @@ fn masses_in_another_unit_and_other_motions_are_caught_by_the_path() {
     let faster = changed(&loaded, Form::Akispl, "MOTION", 1, |one| replace(one, "5.0*TIME", "5.001*TIME"));
     for text in [heavier, faster] {
         let report = loaded.check(Form::Akispl, &text, 20);
-        assert!(report.forces.iter().all(girderway::deck::check::Difference::holds));
+        assert!(report.forces.iter().all(deck::check::Difference::holds));
         assert!(report.path.is_some_and(|path| !path.holds()));
     }
 }

@@ -1,8 +1,8 @@
 //! NASTRAN bulk data: published displacements, formats that mean the same, cards by hand.
 
 use fea::Kind;
-use girderway::import::Options;
-use girderway::units::{Force, Length};
+use formats::units::{Force, Length};
+use import::Options;
 use serde_json::json as value;
 
 use super::{deck, displacements, frame, from_memory, json, plain, text, told};

@@ -1,9 +1,9 @@
 //! Decks and meshes with random damage: refused with a place, or taken; never a panic, never a number that is none.
 
-use girderway::import::Options;
-use girderway::source::Source;
-use girderway::spec::Spec;
-use girderway::units::Length;
+use formats::source::Source;
+use formats::spec::Spec;
+use formats::units::Length;
+use import::Options;
 
 use super::{deck, from_memory, plain, text, told};
 
@@ -78,10 +78,7 @@ fn damaged(text: &str, dice: &mut Dice) -> String {
 }
 
 /// Takes a damaged text, and says whether it was taken; what is taken must be a sound spec.
-fn taken(
-    result: Result<girderway::import::Imported, Vec<girderway::diagnostic::Diagnostic>>,
-    damaged: &str,
-) -> bool {
+fn taken(result: Result<import::Imported, Vec<formats::diagnostic::Diagnostic>>, damaged: &str) -> bool {
     match result {
         Ok(imported) => {
             let source = Source { name: "spec.json".to_owned(), text: imported.text };

@@ -8,11 +8,11 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use girderway::diagnostic::Diagnostic;
-use girderway::import::{Imported, Options, import};
-use girderway::source::Source;
-use girderway::spec::{Form, Frame, Spec};
-use girderway::units::{Force, Length};
+use formats::diagnostic::Diagnostic;
+use formats::source::Source;
+use formats::spec::{Form, Frame, Spec};
+use formats::units::{Force, Length};
+use import::{Imported, Options, import};
 use nalgebra::DVector;
 use serde_json::Value;
 

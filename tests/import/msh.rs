@@ -1,10 +1,10 @@
 //! Meshes written by gmsh.
 
 use fea::Kind;
-use girderway::diagnostic::Diagnostic;
-use girderway::import::{Imported, Options, import};
-use girderway::source::Source;
-use girderway::units::Length;
+use formats::diagnostic::Diagnostic;
+use formats::source::Source;
+use formats::units::Length;
+use import::{Imported, Options, import};
 use serde_json::json as value;
 
 use super::{folder, frame, json, text, told};

@@ -3,11 +3,11 @@
 use std::fs;
 
 use fea::Frame;
-use girderway::grid::Grid;
-use girderway::grid_file;
-use girderway::scene::Document;
-use girderway::source::Source;
-use girderway::spec::Spec;
+use formats::grid::Grid;
+use formats::grid_file;
+use formats::scene::Document;
+use formats::source::Source;
+use formats::spec::Spec;
 
 use super::base;
 
@@ -98,7 +98,7 @@ fn damaged_specs_are_refused_or_give_finite_grids() {
                     solved += 1;
                 }
                 Err(error) => {
-                    let told = spec.refuse(&damaged, &error).report(false);
+                    let told = girderway::exit::Failure::from(spec.refuse(&damaged, &error)).report(false);
                     assert!(told.contains(name), "{told}");
                 }
             }

@@ -2,11 +2,10 @@
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
-use girderway::cases::{Known, Outcome, simulate, solved_of, specs};
-use girderway::cli::Global;
-use girderway::link::{self, Laid, Motion, Spectra, solve};
-use girderway::progress::Progress;
-use girderway::scene::Document;
+use formats::scene::Document;
+use foundations::{Known, solved_of, specs};
+use foundations::{Laid, Motion, Spectra, solve};
+use results::cases::{Outcome, simulate};
 use serde_json::{Value, json};
 use sim::Channel;
 use splines::{Axis, Probe};
@@ -62,8 +61,7 @@ fn ran(document: Document) -> Ran {
         .into_iter()
         .map(|(_, _, spec)| Known { spec: spec.clone(), solved: solve(spec).expect("it stands") })
         .collect();
-    let global = Global { quiet: true, json: false, threads: None };
-    let outcomes = simulate(&document, &known, Some(1), &Progress::new(global)).expect("it runs");
+    let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
     Ran { document, known, outcomes }
 }
 
@@ -90,8 +88,13 @@ impl Ran {
     /// The foundation of the one structure of a case, laid again.
     fn laid(&self, case: usize) -> Laid {
         let structure = &self.document.cases[case].scene.structures[0];
-        link::laid(&mut Spectra::default(), structure, solved_of(&self.known, &structure.origin), false)
-            .expect("a foundation")
+        foundations::laid(
+            &mut Spectra::default(),
+            structure,
+            solved_of(&self.known, &structure.origin),
+            false,
+        )
+        .expect("a foundation")
     }
 }
 

@@ -156,8 +156,9 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
     given["compare"] = json!([]);
     let ran = run(&given, &spec);
     let structure = &ran.document.cases[0].scene.structures[0];
-    let laid = link::laid(&mut Spectra::default(), structure, solved_of(&ran.known, &structure.origin), true)
-        .expect("a foundation");
+    let laid =
+        foundations::laid(&mut Spectra::default(), structure, solved_of(&ran.known, &structure.origin), true)
+            .expect("a foundation");
     let Some(Motion::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
     let record = &ran.outcomes[0].record;
     let history = &ran.outcomes[0].run.history;

@@ -3,11 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use girderway::crosscheck::Quantity;
-use girderway::link::{Solved, solve};
-use girderway::source::Source;
-use girderway::spec::Spec;
-use girderway::tables;
+use formats::block::GridBlock;
+use formats::source::Source;
+use formats::spec::Spec;
+use formats::tables;
+use foundations::{Solved, solve};
 use serde_json::{Value, json};
 
 fn root() -> PathBuf {
@@ -36,7 +36,7 @@ fn all_98_printed_entries_are_met_within_one_unit_of_their_last_digit() {
     // the digits of examples/bogie/printed.adm: see its comment
     let printed = adams::tables::read(&text("examples/bogie/printed.adm")).expect("our own file");
     let mut entries = 0;
-    for (id, quantity) in [(6, Quantity::Vertical), (7, Quantity::Lateral)] {
+    for (id, quantity) in [(6, GridBlock::Vertical), (7, GridBlock::Lateral)] {
         let table = &printed.splines.iter().find(|spline| spline.id == id).expect("the table").curves;
         let grid = solved.grid.block(quantity).expect("the girder resists it");
         for (row, column) in (0..7).flat_map(|row| (0..7).map(move |column| (row, column))) {
@@ -59,8 +59,9 @@ fn tables_read_back_bit_for_bit() {
     let written = adams::tables::write(&set).expect("tables");
     assert!(written.lines().all(|line| line.len() <= 79 && line.is_ascii()));
     let read = adams::tables::read(&written).expect("what was written");
-    assert_eq!(read.splines.len(), Quantity::ALL.len());
-    for (id, spline, quantity) in (6..).zip(&read.splines).zip(Quantity::ALL).map(|((id, s), q)| (id, s, q)) {
+    assert_eq!(read.splines.len(), GridBlock::ALL.len());
+    for (id, spline, quantity) in (6..).zip(&read.splines).zip(GridBlock::ALL).map(|((id, s), q)| (id, s, q))
+    {
         assert_eq!(spline.id, id);
         let grid = solved.grid.block(quantity).expect("the girder resists it");
         for row in 0..7 {

@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use girderway::link::{Solved, solve};
-use girderway::source::Source;
-use girderway::spec::Spec;
+use formats::source::Source;
+use formats::spec::Spec;
+use foundations::{Solved, solve};
 use sim::{
     Actuators, Analysis, Body, Contact, Damper, Freedom, Given, Load, NormalLaw, Profile, Scene, Schedule,
     Wheel,

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use duty::{Duty, duty};
-use girderway::link::{Spectra, Trouble, modes_of, rung_of};
+use foundations::{Error, Spectra, modes_of, rung_of};
 use sim::{Choice, Foundation, Ladder, Reason, Run, Rung, Scene, choose, distance};
 
 /// What the rules of the selector were fitted to, and what they were not.
@@ -33,13 +33,13 @@ const RUNGS: [Rung; 9] = [
 struct Rungs<'a>(&'a Duty, Spectra);
 
 impl Ladder for Rungs<'_> {
-    type Error = Trouble;
+    type Error = Error;
 
-    fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Trouble> {
+    fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Error> {
         Ok(modes_of(&self.0.solved, count)?)
     }
 
-    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Trouble> {
+    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Error> {
         Ok(rung_of(&mut self.1, &self.0.solved, rung, self.0.damping, 1)?)
     }
 }

@@ -5,14 +5,12 @@
 mod command;
 mod stability;
 
-use girderway::cases::{Known, specs};
-use girderway::cli::Global;
-use girderway::link::solve;
-use girderway::progress::Progress;
-use girderway::scene::{Document, Reading};
-use girderway::study::{Against, Depth, Family, Outcome, Quantity, Study, study};
+use formats::scene::{Document, Reading};
+use foundations::solve;
+use foundations::{Known, specs};
 use serde_json::{Value, json};
 use sim::Method;
+use study::{Against, Depth, Family, Outcome, Quantity, Silent, Study, study};
 
 /// The paper's girder; `mass` by length, where it has one.
 fn girder(mass: Option<f64>) -> Value {
@@ -63,13 +61,12 @@ fn conduct(scene: &Value, spec: &Value, depth: &Depth) -> Study {
         std::fs::write(folder.path().join(name), value.to_string()).expect("writable");
     }
     let document = Document::open(&folder.path().join("scene.json")).expect("a scene without faults");
-    let solved = |spec: &std::sync::Arc<girderway::spec::Spec>| Known {
+    let solved = |spec: &std::sync::Arc<formats::spec::Spec>| Known {
         spec: std::sync::Arc::clone(spec),
         solved: solve(spec).expect("a girder that stands"),
     };
     let known: Vec<Known> = specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
-    let progress = Progress::new(Global { quiet: true, ..Global::default() });
-    study(document.scene(), &known, depth, &progress).expect("a reference")
+    study(document.scene(), &known, depth, &Silent).expect("a reference")
 }
 
 /// Values and errors along a family, in their order.

@@ -3,12 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use girderway::cases::{Known, specs};
-use girderway::cli::Global;
-use girderway::link::solve;
-use girderway::progress::Progress;
-use girderway::scene::Document;
-use girderway::study::stability::{Map, Subject, Verdict, maps};
+use formats::scene::Document;
+use foundations::solve;
+use foundations::{Known, specs};
+use study::Silent;
+use study::stability::{Map, Subject, Verdict, maps};
 
 fn found(map: &Map, what: &str) -> f64 {
     // beta 10 is not beta 100
@@ -41,8 +40,7 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
         .map(|(_, _, spec)| Known { spec: Arc::clone(spec), solved: solve(spec).expect("it stands") })
         .collect::<Vec<_>>();
     let subject = Subject::of(document.scene(), &known).expect("a truck on a girder");
-    let progress = Progress::new(Global { quiet: true, ..Global::default() });
-    let (maps, absent) = maps(&subject, true, &progress);
+    let (maps, absent) = maps(&subject, true, &Silent);
     let names: Vec<&str> = absent.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["ties"], "{absent:?}");
     let map =

@@ -1,6 +1,6 @@
 //! Files with random damage: refused or taken, never a panic, never a number that is none.
 
-use girderway::tables::{Format, expand, factor, read, round, write};
+use formats::tables::{Format, expand, factor, read, round, write};
 use splines::Rank;
 
 use super::{Dice, ENDINGS, FT_LBF, bytes, data, random_factored, random_set};
@@ -63,7 +63,7 @@ fn tried(name: &str, bytes: &[u8]) -> bool {
         }
         Ok(set) => set,
     };
-    let finite = |set: &girderway::tables::TableSet| {
+    let finite = |set: &formats::tables::TableSet| {
         set.tables.iter().all(|table| table.curves.y().iter().flatten().all(|value| value.is_finite()))
     };
     assert!(finite(&set));

@@ -1,6 +1,6 @@
 //! `--digits`: what rounding did is reported, and right.
 
-use girderway::tables::{Unrounded, read, round};
+use formats::tables::{Unrounded, read, round};
 use serde_json::Value;
 
 use super::{Dice, bogie_grid, bytes, folder, girderway, random_set, table, told};
@@ -46,7 +46,7 @@ fn rounding_is_that_of_the_decimal_expansion_and_its_report_is_right() {
             checked += 1;
             let mut largest = 0.0_f64;
             for (table, new) in set.tables.iter().zip(&rounded.tables) {
-                let lists = |t: &girderway::tables::Table| {
+                let lists = |t: &formats::tables::Table| {
                     [t.curves.x(), t.curves.z(), &t.curves.y().concat()].concat()
                 };
                 for (given, new) in lists(table).into_iter().zip(lists(new)) {
@@ -96,7 +96,7 @@ fn the_program_reports_rounding_to_people_and_to_programs() {
         .map(|name| read(name, &bytes(&folder.path().join(name)), None).expect("our own file"));
     let at = &rounding["at"];
     let id = u32::try_from(at["id"].as_u64().expect("an id")).expect("small");
-    let value = |set: &girderway::tables::TableSet| {
+    let value = |set: &formats::tables::TableSet| {
         let curves = &set.find(id).expect("the table").curves;
         let place = |list: &[f64], x: &Value| {
             list.iter().position(|one| Some(*one) == x.as_f64()).expect("a station")

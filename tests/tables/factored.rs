@@ -1,6 +1,6 @@
 //! The factored form: what it says of its error is true.
 
-use girderway::tables::{expand, factor, read};
+use formats::tables::{expand, factor, read};
 use serde_json::Value;
 use splines::Rank;
 

@@ -1,8 +1,8 @@
 //! Files as other programs write them.
 
-use girderway::diagnostic::Diagnostic;
-use girderway::tables::{TableSet, read};
-use girderway::units::{Force, Length, Units};
+use formats::diagnostic::Diagnostic;
+use formats::tables::{TableSet, read};
+use formats::units::{Force, Length, Units};
 
 use super::{FT_LBF, bytes, data};
 

@@ -1,9 +1,9 @@
 //! Tables of grids: which there are, under which numbers, of one rail and of several.
 
-use girderway::crosscheck::Quantity;
-use girderway::grid::{Grid, GridRail};
-use girderway::tables::{Format, TableSet, data_set, expand, factor, only, read, write};
-use girderway::units::{Force, Length, Units};
+use formats::block::GridBlock;
+use formats::grid::{Grid, GridRail};
+use formats::tables::{Format, TableSet, data_set, expand, factor, only, read, write};
+use formats::units::{Force, Length, Units};
 use nalgebra::DMatrix;
 use splines::Rank;
 
@@ -25,9 +25,9 @@ fn grid(rails: usize) -> Grid {
         theory: None,
         rails: (0..rails).map(|index| GridRail { name: name(index), stations: stations(index) }).collect(),
         blocks: vec![
-            (Quantity::Vertical, block(0, 0)),
-            (Quantity::Lateral, block(1, 1)),
-            (Quantity::VerticalLateral, block(0, 1)),
+            (GridBlock::Vertical, block(0, 0)),
+            (GridBlock::Lateral, block(1, 1)),
+            (GridBlock::VerticalLateral, block(0, 1)),
         ],
         certificate: None,
         effects: None,
@@ -102,13 +102,13 @@ fn coupled_directions_of_two_rails_share_their_curves() {
 #[test]
 fn directions_choose_tables_and_the_curves_of_their_products() {
     let set = TableSet::of_grid(&grid(2));
-    let lateral = only(&set, &[Quantity::Lateral]);
+    let lateral = only(&set, &[GridBlock::Lateral]);
     assert_eq!(ids(&lateral), [7, 13, 25]);
     let factored = factor(&set, Rank::Full).expect("one structure").set;
-    let lateral = only(&factored, &[Quantity::Lateral]);
+    let lateral = only(&factored, &[GridBlock::Lateral]);
     assert_eq!((lateral.products.len(), lateral.tables.len()), (3, factored.tables.len() / 2));
-    assert_eq!(only(&factored, &[Quantity::Vertical, Quantity::Lateral]), factored);
-    assert!(only(&set, &[Quantity::Longitudinal]).tables.is_empty());
+    assert_eq!(only(&factored, &[GridBlock::Vertical, GridBlock::Lateral]), factored);
+    assert!(only(&set, &[GridBlock::Longitudinal]).tables.is_empty());
 }
 
 /// Ranges that a file of tables alone does not tell apart.

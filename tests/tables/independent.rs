@@ -1,7 +1,7 @@
 //! A second reader of data sets, made for these tests alone: it knows lines that begin with a comma, and
 //! nothing of the crate that writes them.
 
-use girderway::tables::{Format, write};
+use formats::tables::{Format, write};
 
 use super::{Dice, random_set};
 

@@ -15,9 +15,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use adams::Curves;
-use girderway::crosscheck::Quantity;
-use girderway::tables::{Product, Table, TableSet};
-use girderway::units::{Force, Length, Units};
+use formats::block::GridBlock;
+use formats::tables::{Product, Table, TableSet};
+use formats::units::{Force, Length, Units};
 use tempfile::TempDir;
 
 const FT_LBF: Units = Units { length: Length::Foot, force: Force::Pound };
@@ -63,18 +63,18 @@ impl Dice {
     }
 }
 
-fn table(id: u32, name: &str, quantity: Option<Quantity>, curves: Curves) -> Table {
+fn table(id: u32, name: &str, quantity: Option<GridBlock>, curves: Curves) -> Table {
     Table { id, name: name.to_owned(), quantity, rails: None, curves }
 }
 
 /// Tables of any doubles, some with quantities, in shapes of every kind.
 fn random_set(dice: &mut Dice) -> TableSet {
     let tables = vec![
-        table(6, "bridge_rail_vertical", Some(Quantity::Vertical), dice.curves(5, 5)),
+        table(6, "bridge_rail_vertical", Some(GridBlock::Vertical), dice.curves(5, 5)),
         table(
             10,
             "bridge_rail_vertical_longitudinal",
-            Some(Quantity::VerticalLongitudinal),
+            Some(GridBlock::VerticalLongitudinal),
             dice.curves(4, 7),
         ),
         table(31, "spare", None, dice.curves(1, 4)),
@@ -97,10 +97,10 @@ fn random_factored(dice: &mut Dice) -> TableSet {
     let product =
         |name: &str, quantity, terms| Product { name: name.to_owned(), quantity, rails: None, terms };
     let products = vec![
-        product("a_vertical", Some(Quantity::Vertical), (0..4).map(|k| [id(k), id(k)]).collect()),
+        product("a_vertical", Some(GridBlock::Vertical), (0..4).map(|k| [id(k), id(k)]).collect()),
         product(
             "a_vertical_lateral",
-            Some(Quantity::VerticalLateral),
+            Some(GridBlock::VerticalLateral),
             (0..4).map(|k| [id(k + 4), id(k)]).collect(),
         ),
         product("nothing", None, Vec::new()),

@@ -5,8 +5,8 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use formats::tables::{Format, read, write};
 use girderway::crosscheck::Environment;
-use girderway::tables::{Format, read, write};
 
 use super::{Dice, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told};
 

@@ -2,8 +2,8 @@
 
 use std::io::{Cursor, Write};
 
-use girderway::tables::read;
-use girderway::units::Units;
+use formats::tables::read;
+use formats::units::Units;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
@@ -267,7 +267,7 @@ fn units_are_never_guessed_nor_overruled() {
     let set = refusal(
         "plain.npz",
         &bytes(&data("plain.npz")),
-        Some(Units { length: girderway::units::Length::Metre, ..FT_LBF }),
+        Some(Units { length: formats::units::Length::Metre, ..FT_LBF }),
     );
     assert_eq!(set, "plain.npz: says its units itself: ft and lbf, got m and lbf  hint: leave the units out");
     let adm = "t\nSPLINE/6, X=0,1,2,3, Y=1,2,3,4\nEND\n";

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use girderway::scene::{Document, Origin};
+use formats::scene::{Document, Origin};
 
 use super::{ENDINGS, bogie_grid, folder, girderway, told};
 

@@ -5,15 +5,14 @@
 use std::sync::Arc;
 
 use fea::{Girder, Section, Theory};
-use girderway::cases::{Known, Outcome, simulate, specs};
-use girderway::cli::Global;
-use girderway::link::solve;
-use girderway::progress::Progress;
-use girderway::scene::Document;
-use girderway::spec::{Form, Spec};
-use girderway::track::{Ties, on_ground, on_structure};
-use girderway::units::{Force, Length, Units};
+use formats::scene::Document;
+use formats::spec::{Form, Spec};
+use formats::track::{Ties, on_ground, on_structure};
+use formats::units::{Force, Length, Units};
+use foundations::solve;
+use foundations::{Known, specs};
 use nalgebra::DMatrix;
+use results::cases::{Outcome, simulate};
 use sim::{Reason, Rung};
 use splines::{Axis, Compliance, Influence, Probe, Surface};
 
@@ -162,8 +161,7 @@ fn run(scene: &str, girder: &str) -> Vec<Outcome> {
         .into_iter()
         .map(|(_, _, spec)| Known { spec: Arc::clone(spec), solved: solve(spec).expect("it stands") })
         .collect();
-    let quiet = Progress::new(Global { quiet: true, ..Global::default() });
-    simulate(&document, &known, None, &quiet).expect("runs")
+    simulate(&document, &known, None, &|_| ()).expect("runs")
 }
 
 /// A cart over ties whose foundation is left to the program.

@@ -3,9 +3,9 @@
 
 use std::ops::ControlFlow;
 
-use girderway::link::{full_of, solve};
-use girderway::source::Source;
-use girderway::spec::Spec;
+use formats::source::Source;
+use formats::spec::Spec;
+use foundations::{full_of, solve};
 use sim::{Channel, Damper, Foundation, Freedom, Gauge, Run, Scene, Status};
 use splines::{Axis, Probe};
 

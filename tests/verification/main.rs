@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use common::bogie;
 use fea::{Girder, Theory};
-use girderway::link::parts_of;
+use foundations::parts_of;
 use sim::{Analysis, Channel, Damper, Foundation, Freedom};
 
 fn girder() -> Girder {

@@ -3,11 +3,10 @@
 use std::fs;
 use std::sync::Arc;
 
-use girderway::cases::{Known, Outcome, simulate, specs};
-use girderway::cli::Global;
-use girderway::link::solve;
-use girderway::progress::Progress;
-use girderway::scene::Document;
+use formats::scene::Document;
+use foundations::solve;
+use foundations::{Known, specs};
+use results::cases::{Outcome, simulate};
 
 const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
     "girder": {"spans": [40], "E": 2e11, "A": 0.01, "I_vertical": 1e-3}, "stations": [0, 20, 40]}"#;
@@ -32,8 +31,7 @@ fn run(structure: &str, dof: &str, wheel: &str, scene: &str, survey: &str) -> Ou
         .into_iter()
         .map(|(_, _, spec)| Known { spec: Arc::clone(spec), solved: solve(spec).expect("it stands") })
         .collect();
-    let quiet = Progress::new(Global { quiet: true, ..Global::default() });
-    simulate(&document, &known, None, &quiet).expect("runs").remove(0)
+    simulate(&document, &known, None, &|_| ()).expect("runs").remove(0)
 }
 
 fn column(outcome: &Outcome, name: &str) -> Vec<f64> {

@@ -2,7 +2,7 @@
 
 mod common;
 #[allow(dead_code)]
-#[path = "../../../pipeline/src/study/stability/steppers.rs"]
+#[path = "../../study/src/stability/steppers.rs"]
 mod steppers;
 
 use common::{GRAVITY, SPAN, give};

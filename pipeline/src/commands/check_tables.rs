@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use crate::appraisal::{Findings, Manner, Settings, Subject, json, picture, text};
-use crate::chart::stack;
 use crate::cli::{Global, Splines};
-use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
+use formats::diagnostic::Diagnostic;
+use report::chart::stack;
+use study::appraisal::{Findings, Manner, Settings, Subject, json, picture, text};
 
 /// Reads the grid or the tables, tells the findings on standard output, draws them where a file is named.
 ///
@@ -25,7 +25,9 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
         load: args.load,
         spacing: args.spacing,
         beyond: args.beyond,
-        judged: args.tolerance.map(|tolerance| (args.reading.unwrap_or(Manner::Akispl), tolerance)),
+        judged: args
+            .tolerance
+            .map(|tolerance| (args.reading.map_or(Manner::Akispl, Manner::from), tolerance)),
     };
     let mut all = Vec::with_capacity(subject.items.len());
     let bar = progress.bar("checking", subject.items.len() as u64);

@@ -4,17 +4,17 @@ use fea::{Girder, Theory};
 use serde_json::{Value, json};
 
 use crate::cli::{Crosscheck, Global};
-use crate::crosscheck::{self, Comparison, Environment, Error, Grid, Outcome, Peer, Quantity, Station, plot};
-use crate::diagnostic::Diagnostic;
+use crate::crosscheck::{self, Comparison, Environment, Error, Grid, Outcome, Peer, Station, plot};
 use crate::exit::{Exit, Failure};
-use crate::inputs::Inputs;
-use crate::link;
 use crate::manifest::Manifest;
 use crate::output::{self, Folder};
 use crate::progress::Progress;
-use crate::source::Source;
-use crate::spec::{Form, Spec, theory_word};
-use crate::units::Dimension;
+use formats::block::GridBlock;
+use formats::diagnostic::Diagnostic;
+use formats::inputs::Inputs;
+use formats::source::Source;
+use formats::spec::{Form, Spec, theory_word};
+use formats::units::Dimension;
 
 /// Effective shear area of a solid rectangle by its area.
 const RECTANGLE: f64 = 5.0 / 6.0;
@@ -69,7 +69,7 @@ struct Check<'a> {
 }
 
 /// Grids of a spec between its stations.
-type Grids = Vec<(Quantity, Grid)>;
+type Grids = Vec<(GridBlock, Grid)>;
 
 impl<'a> Check<'a> {
     fn new(source: &'a Source, spec: Spec) -> Result<Self, Failure> {
@@ -88,7 +88,7 @@ impl<'a> Check<'a> {
     }
 
     fn solve(&self, spec: &Spec) -> Result<Grids, Failure> {
-        let solved = link::solve(spec).map_err(|error| spec.refuse(self.source, &error))?;
+        let solved = foundations::solve(spec).map_err(|error| spec.refuse(self.source, &error))?;
         let block = |block: &nalgebra::DMatrix<f64>| {
             block.row_iter().map(|row| row.iter().copied().collect()).collect::<Grid>()
         };

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::run::solve_all;
-use crate::cases::specs;
 use crate::cli::{Deck as Arguments, Global};
-use crate::deck::{self, Form, check};
-use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use crate::scene::Document;
+use deck::{self, Form, check};
+use formats::diagnostic::Diagnostic;
+use formats::scene::Document;
+use foundations::specs;
 
 /// Writes the data set to the file named, with its command file beside it, or to standard output.
 ///
@@ -30,6 +30,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let known = solve_all(&document, &specs(&only), &progress)?;
     let form = args
         .form
+        .map(Form::from)
         .unwrap_or_else(|| Form::of_readings(scene.structures.iter().map(|structure| structure.reading)));
     let file = args.scene.display().to_string();
     let plan = deck::plan(scene, &known, form, &file)?;

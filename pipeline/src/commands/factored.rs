@@ -4,12 +4,12 @@ use serde_json::{Map, Value, json};
 use splines::{Rank, Surface};
 
 use crate::cli::Splines;
-use crate::diagnostic::Diagnostic;
 use crate::exit::Failure;
-use crate::grid::GridRail;
-use crate::inputs::Input;
 use crate::progress::Progress;
-use crate::tables::{self, TableSet};
+use formats::diagnostic::Diagnostic;
+use formats::grid::GridRail;
+use formats::inputs::Input;
+use formats::tables::{self, TableSet};
 
 /// The tables in the factored form; its error told on standard error and, for programs, in `told`.
 ///

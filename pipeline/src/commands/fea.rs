@@ -1,19 +1,18 @@
 //! `girderway fea`: the influence grid of a beam spec.
 
 use crate::cli::{Fea, Global};
-use crate::coupling::Coupling;
 use crate::exit::{Exit, Failure};
-use crate::fault::{Fault, Faults};
-use crate::grid_file::{self, LARGEST};
-use crate::inputs::Inputs;
-use crate::link;
-use crate::modes_file::{self, ACCURACY};
 use crate::output;
-use crate::place::Place;
 use crate::progress::Progress;
-use crate::source::Source;
-use crate::spec::Spec;
-use crate::warning;
+use formats::coupling::Coupling;
+use formats::fault::{Fault, Faults};
+use formats::grid_file::{self, LARGEST};
+use formats::inputs::Inputs;
+use formats::modes_file::{self, ACCURACY};
+use formats::place::Place;
+use formats::source::Source;
+use formats::spec::Spec;
+use results::warning;
 
 /// Unknowns from which the size of a system is worth a line.
 const LARGE: usize = 1000;
@@ -30,7 +29,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = link::solve_to(&spec, args.accuracy, LARGEST);
+    let solved = foundations::solve_to(&spec, args.accuracy, LARGEST);
     drop(stage);
     let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
@@ -64,7 +63,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
 /// What modes refuse: a spec without mass by what it lacks, all else as the solver's refusals.
 fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
     if *error != fea::Error::NoMass {
-        return spec.refuse(source, error);
+        return spec.refuse(source, error).into();
     }
     let root = Place::root();
     let fault = if spec.girder().is_some() {

@@ -3,16 +3,16 @@
 use serde_json::{Map, Value};
 use splines::{Axis, Surface};
 
-use crate::appraisal::Manner;
 use crate::cli::Splines;
-use crate::crosscheck::Quantity;
 use crate::exit::Failure;
-use crate::fault::{Fault, Faults};
-use crate::grid::{self, Grid};
-use crate::place::Place;
 use crate::progress::Progress;
-use crate::source::Source;
-use crate::stations::{self, Goal};
+use formats::block::GridBlock;
+use formats::fault::{Fault, Faults};
+use formats::grid::{self, Grid};
+use formats::place::Place;
+use formats::source::Source;
+use study::appraisal::Manner;
+use study::stations::{self, Goal};
 
 /// The grid at the fewest stations that keep the tolerance; told on standard error and, for programs, in `told`.
 ///
@@ -39,7 +39,7 @@ pub(super) fn chosen(
         axes = if manner == Manner::Exact { vec![Axis::Vertical] } else { stations::usual(grid) };
     }
     for axis in &axes {
-        let direct = Quantity::ALL.into_iter().find(|quantity| grid::axes(*quantity) == (*axis, *axis));
+        let direct = GridBlock::ALL.into_iter().find(|quantity| grid::axes(*quantity) == (*axis, *axis));
         if direct.is_none_or(|quantity| grid.block(quantity).is_none()) {
             let wrong = format!("has no {} grid", stations::word(*axis));
             return Err(refuse(Fault::new(&root.key("influence"), wrong)));

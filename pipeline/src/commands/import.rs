@@ -2,10 +2,10 @@
 
 use crate::cli::{Global, Import};
 use crate::exit::{Exit, Failure};
-use crate::import::{Options, import};
-use crate::inputs::Inputs;
 use crate::output;
 use crate::progress::Progress;
+use formats::inputs::Inputs;
+use import::{Options, import};
 
 /// Reads the model, writes the beam spec to the file named or to standard output; what was left out is said on
 /// standard error.

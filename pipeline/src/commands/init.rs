@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::cli::{Global, Init, Starter};
-use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
+use formats::diagnostic::Diagnostic;
 
 /// Files by their names, the scene first.
 type Files = &'static [(&'static str, &'static str)];

@@ -5,22 +5,24 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use crate::cases::{Known, Outcome, simulate, solved_of, specs};
 use crate::cli::{Global, Scene as Arguments};
 use crate::clock::Clock;
 use crate::exit::{Exit, Failure};
-use crate::inputs::Input;
-use crate::link::{self, Solved};
 use crate::manifest::Manifest;
 use crate::output::{self, Folder};
-use crate::pictures::{self, Labelled, Plate};
 use crate::progress::Progress;
-use crate::record::peak;
-use crate::response::{self, Comparison, Response};
-use crate::scene::{Document, Scene};
-use crate::spec::Spec;
-use crate::threads::side_by_side;
-use crate::{animation, fatigue, grid_file, plight, story, summary, tables, warning};
+use formats::inputs::Input;
+use formats::scene::{Document, Scene};
+use formats::spec::Spec;
+use formats::{grid_file, tables};
+use foundations::{Known, Solved, solved_of, specs};
+use report::pictures::{self, Labelled, Plate};
+use report::{animation, story};
+use results::cases::{Outcome, simulate};
+use results::record::peak;
+use results::response::{Comparison, Response};
+use results::threads::side_by_side;
+use results::{fatigue, plight, summary, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -46,7 +48,9 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
 
     let known = structures(&document, &path, &progress)?;
     clock.lap("fea");
-    let outcomes = simulate(&document, &known, global.threads, &progress)?;
+    let bar = progress.bar("simulating", 1000);
+    let outcomes = simulate(&document, &known, global.threads, &|share| bar.set((1000.0 * share) as u64))?;
+    drop(bar);
     clock.lap("simulation");
 
     for ((name, ..), entry) in specs(&document).iter().zip(&known) {
@@ -111,7 +115,7 @@ fn finish(
     for (outcome, case) in outcomes.iter().zip(&document.cases) {
         for choice in &outcome.choices {
             let name = &scene.structures[choice.structure].name;
-            progress.say(&format!("{}: {name}: {}", outcome.label, crate::link::reason(choice)));
+            progress.say(&format!("{}: {name}: {}", outcome.label, foundations::reason(choice)));
         }
         for warning in warning::of_case(&case.scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
@@ -142,11 +146,12 @@ pub(super) fn solve_all(
     let mut known: Vec<Known> = Vec::new();
     let stage = progress.stage("solving the structures");
     for &(_, file, spec) in specs {
-        let solved =
-            link::solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
-                Some(Ok(source)) => spec.refuse(&source, &error),
+        let solved = foundations::solve(spec).map_err(|error| {
+            match document.inputs.find(file).map(Input::source) {
+                Some(Ok(source)) => Failure::from(spec.refuse(&source, &error)),
                 _ => Failure::untrusted(error),
-            })?;
+            }
+        })?;
         known.push(Known { spec: Arc::clone(spec), solved });
     }
     drop(stage);
@@ -200,11 +205,11 @@ fn plates(
         .collect();
     let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].cast)?.into_iter().collect();
     plates.extend(pictures::travel(&labelled[0], &fired));
-    plates.extend(response::rails(&labelled, comparison));
+    plates.extend(report::rails(&labelled, comparison));
     plates.extend(pictures::paths(&labelled));
     plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
-    plates.extend(response::pictures(&labelled, &responses, &outcomes[0].lines));
+    plates.extend(report::responses(&labelled, &responses, &outcomes[0].lines));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solved_of(known, &structure.origin) else { continue };
         plates.extend(

@@ -4,7 +4,7 @@ use crate::cli::{Format, Global, Schema};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use crate::schema;
+use formats::schema;
 
 /// Writes the schema to the file named or to standard output.
 ///

@@ -6,17 +6,17 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::run::job;
-use crate::cases::{Known, specs};
 use crate::cli::{Global, Scene as Arguments};
-use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
-use crate::grid_file;
-use crate::inputs::Inputs;
-use crate::link::Solved;
 use crate::manifest::MANIFEST;
 use crate::progress::Progress;
-use crate::scene::Document;
-use crate::spec::Spec;
+use formats::diagnostic::Diagnostic;
+use formats::grid_file;
+use formats::inputs::Inputs;
+use formats::scene::Document;
+use formats::spec::Spec;
+use foundations::Solved;
+use foundations::{Known, specs};
 
 /// Simulates on the grids of the output folder, and writes the folder anew.
 ///
@@ -32,7 +32,7 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<Known>, 
     for (name, file, spec) in specs(document) {
         // ties belong to the scene, which may have changed
         if !spec.pads().is_empty() {
-            let solved = crate::link::solve(spec).map_err(Failure::untrusted)?;
+            let solved = foundations::solve(spec).map_err(Failure::untrusted)?;
             known.push(Known { spec: Arc::clone(spec), solved });
             continue;
         }

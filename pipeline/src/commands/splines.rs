@@ -7,17 +7,18 @@ use splines::Surface;
 use super::factored::factored;
 use super::{check_tables, fewest};
 use crate::cli::{Global, Splines, TableForm};
-use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
-use crate::fault::{Fault, Faults};
-use crate::grid::{Grid, GridRail};
-use crate::grid_file;
-use crate::inputs::{Input, Inputs};
 use crate::output;
-use crate::place::Place;
 use crate::progress::Progress;
-use crate::tables::{self, Format, TableSet};
-use crate::units::Units;
+use formats::diagnostic::Diagnostic;
+use formats::fault::{Fault, Faults};
+use formats::grid::{Grid, GridRail};
+use formats::grid_file;
+use formats::inputs::{Input, Inputs};
+use formats::place::Place;
+use formats::tables::{self, Format, TableSet};
+use formats::units::Units;
+use study::appraisal::Manner;
 
 /// Reads a grid or tables, writes the tables in the format of the file's ending, as an ADAMS data set to
 /// standard output.
@@ -110,7 +111,7 @@ fn given(
         let fault = Diagnostic::of_file(&input.shown, "a grid says its units itself");
         return Err(fault.hint("leave out --length and --force").into());
     }
-    if let Some(wanted) = args.reading.zip(args.tolerance) {
+    if let Some(wanted) = args.reading.map(Manner::from).zip(args.tolerance) {
         grid = fewest::chosen(args, wanted, &source, (&grid, surface.as_ref()), progress, told_more)?;
     }
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {

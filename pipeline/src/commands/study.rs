@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::run::solve_all;
-use crate::cases::{Known, specs};
 use crate::cli::{Global, Study as Arguments};
-use crate::diagnostic::Diagnostic;
 use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
 use crate::output::{self, Folder};
 use crate::progress::Progress;
-use crate::scene::{Case, Document};
-use crate::study::stability::{self, Subject, Verdict};
-use crate::study::{self, Depth, Family, Point, Study};
+use formats::diagnostic::Diagnostic;
+use formats::scene::{Case, Document};
+use foundations::{Known, specs};
+use study::stability::{self, Subject, Verdict};
+use study::{self, Depth, Family, Point, Study};
 
 /// Runs a scene on a ladder of settings, measures errors and times, and draws them.
 ///

@@ -1,6 +1,6 @@
 //! What a cross-check refuses, and what can go wrong around it.
 
-use super::girder::Quantity;
+use formats::block::GridBlock;
 use std::path::PathBuf;
 
 /// Why two codes were not compared.
@@ -22,7 +22,7 @@ pub enum Error {
     #[error("the {quantity} grid is not {stations} x {stations}")]
     Shape {
         /// The grid.
-        quantity: Quantity,
+        quantity: GridBlock,
         /// Number of stations.
         stations: usize,
     },
@@ -30,7 +30,7 @@ pub enum Error {
     #[error("entry {row}, {column} of the {quantity} grid is not finite")]
     NotFinite {
         /// The grid.
-        quantity: Quantity,
+        quantity: GridBlock,
         /// Row, from 0.
         row: usize,
         /// Column, from 0.

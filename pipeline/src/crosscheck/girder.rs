@@ -2,64 +2,6 @@
 
 use super::error::Error;
 use serde::Serialize;
-use std::fmt;
-
-/// One block of an influence grid.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
-    /// Vertical deflection from vertical loads.
-    Vertical,
-    /// Lateral deflection from lateral loads.
-    Lateral,
-    /// Longitudinal displacement from longitudinal loads.
-    Longitudinal,
-    /// Vertical deflection from lateral loads.
-    VerticalLateral,
-    /// Vertical deflection from longitudinal loads.
-    VerticalLongitudinal,
-    /// Lateral deflection from longitudinal loads.
-    LateralLongitudinal,
-}
-
-impl Quantity {
-    /// All six, direct grids first.
-    pub const ALL: [Quantity; 6] = [
-        Quantity::Vertical,
-        Quantity::Lateral,
-        Quantity::Longitudinal,
-        Quantity::VerticalLateral,
-        Quantity::VerticalLongitudinal,
-        Quantity::LateralLongitudinal,
-    ];
-
-    /// Name of the grid in grid files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Quantity::Vertical => "vertical",
-            Quantity::Lateral => "lateral",
-            Quantity::Longitudinal => "longitudinal",
-            Quantity::VerticalLateral => "vertical_lateral",
-            Quantity::VerticalLongitudinal => "vertical_longitudinal",
-            Quantity::LateralLongitudinal => "lateral_longitudinal",
-        }
-    }
-
-    /// The direct grids of the directions of deflection and of load.
-    pub fn direct(self) -> [Quantity; 2] {
-        match self {
-            Quantity::VerticalLateral => [Quantity::Vertical, Quantity::Lateral],
-            Quantity::VerticalLongitudinal => [Quantity::Vertical, Quantity::Longitudinal],
-            Quantity::LateralLongitudinal => [Quantity::Lateral, Quantity::Longitudinal],
-            direct => [direct, direct],
-        }
-    }
-}
-
-impl fmt::Display for Quantity {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
 
 /// A straight uniform girder, continuous over its supports, in consistent units.
 ///

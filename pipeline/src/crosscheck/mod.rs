@@ -13,7 +13,7 @@ pub mod run;
 
 pub use environment::Environment;
 pub use error::Error;
-pub use girder::{Girder, Quantity};
+pub use girder::Girder;
 pub use outcome::{Comparison, Difference, Outcome};
 pub use peer::{Answer, Measure, Peer};
 pub use run::{Grid, Station, again, ask, crosscheck, influence};

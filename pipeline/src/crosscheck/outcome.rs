@@ -1,8 +1,8 @@
 //! Differences between codes.
 
-use super::girder::Quantity;
 use super::peer::{Measure, Peer};
 use super::run::{Grid, Station};
+use formats::block::GridBlock;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
@@ -10,7 +10,7 @@ use std::fmt::Write as _;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Which grid.
-    pub quantity: Quantity,
+    pub quantity: GridBlock,
     /// Number of entries compared.
     pub entries: usize,
     /// What the difference is measured by, see [`Measure`].
@@ -31,7 +31,7 @@ pub struct Difference {
 
 impl Difference {
     /// No entry compared yet.
-    pub(super) fn none(quantity: Quantity) -> Difference {
+    pub(super) fn none(quantity: GridBlock) -> Difference {
         Difference {
             quantity,
             entries: 0,
@@ -62,13 +62,13 @@ pub struct Outcome {
     /// One a compared grid.
     pub differences: Vec<Difference>,
     /// Grids that only one side has.
-    pub skipped: Vec<Quantity>,
+    pub skipped: Vec<GridBlock>,
     /// Stations compared.
     pub stations: Vec<Station>,
     /// What a reader should know.
     pub notes: Vec<String>,
     /// The other code's grids.
-    pub theirs: Vec<(Quantity, Grid)>,
+    pub theirs: Vec<(GridBlock, Grid)>,
     /// Indices of the stations compared among all.
     pub chosen: Vec<usize>,
 }

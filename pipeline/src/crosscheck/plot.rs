@@ -1,7 +1,7 @@
 //! Pictures of differences.
 
 use super::outcome::Outcome;
-use crate::chart::{Axis, Chart, Series, Style};
+use report::chart::{Axis, Chart, Series, Style};
 
 /// Differences below this are drawn here: a logarithmic axis has no zero.
 const LEAST: f64 = 1e-17;

@@ -2,9 +2,10 @@
 
 use super::environment::Environment;
 use super::error::Error;
-use super::girder::{Girder, Quantity};
+use super::girder::Girder;
 use super::outcome::{Difference, Outcome};
 use super::peer::{Answer, FLOOR, Measure, Peer};
+use formats::block::GridBlock;
 use serde::Serialize;
 
 /// A square grid: row deflection, column load.
@@ -35,7 +36,7 @@ pub fn influence(
 /// As [`influence`]; [`Error::Shape`] and [`Error::NotFinite`] for grids that cannot be compared.
 pub fn crosscheck(
     girder: &Girder,
-    ours: &[(Quantity, Grid)],
+    ours: &[(GridBlock, Grid)],
     tolerance: f64,
     environment: &Environment,
     say: &mut dyn FnMut(&str),
@@ -58,14 +59,14 @@ pub fn crosscheck(
 pub fn ask(
     peer: Peer,
     question: &impl Serialize,
-    ours: &[(Quantity, Grid)],
+    ours: &[(GridBlock, Grid)],
     stations: &[Station],
     environment: &Environment,
     say: &mut dyn FnMut(&str),
 ) -> Result<Outcome, Error> {
     check(ours, stations.len())?;
     let answer = peer.ask(question, environment, say)?;
-    let mut theirs: Vec<(Quantity, Grid)> = Quantity::ALL
+    let mut theirs: Vec<(GridBlock, Grid)> = GridBlock::ALL
         .into_iter()
         .filter_map(|q| Some((q, answer.influence.get(q.name())?.clone()?)))
         .collect();
@@ -102,7 +103,7 @@ pub fn ask(
 
 /// Grids between some of the stations.
 #[must_use]
-pub fn part(grids: &[(Quantity, Grid)], chosen: &[usize]) -> Vec<(Quantity, Grid)> {
+pub fn part(grids: &[(GridBlock, Grid)], chosen: &[usize]) -> Vec<(GridBlock, Grid)> {
     let pick = |row: &Vec<f64>| chosen.iter().map(|j| row[*j]).collect();
     grids
         .iter()
@@ -110,7 +111,7 @@ pub fn part(grids: &[(Quantity, Grid)], chosen: &[usize]) -> Vec<(Quantity, Grid
         .collect()
 }
 
-fn check(grids: &[(Quantity, Grid)], stations: usize) -> Result<(), Error> {
+fn check(grids: &[(GridBlock, Grid)], stations: usize) -> Result<(), Error> {
     for (quantity, grid) in grids {
         let quantity = *quantity;
         if grid.len() != stations || grid.iter().any(|row| row.len() != stations) {
@@ -133,7 +134,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn new(quantity: Quantity, grids: &[(Quantity, Grid)], measure: Measure) -> Scale {
+    fn new(quantity: GridBlock, grids: &[(GridBlock, Grid)], measure: Measure) -> Scale {
         let find = |q| grids.iter().find(|(known, _)| *known == q).map(|(_, grid)| grid);
         let largest = |q| find(q).into_iter().flatten().flatten().fold(0.0, |a: f64, v: &f64| a.max(v.abs()));
         let [row, column] = quantity.direct();
@@ -165,14 +166,14 @@ impl Scale {
 
 /// Differences of the grids that both sides have, and the quantities that only one has.
 pub(super) fn compare(
-    ours: &[(Quantity, Grid)],
-    theirs: &[(Quantity, Grid)],
+    ours: &[(GridBlock, Grid)],
+    theirs: &[(GridBlock, Grid)],
     stations: &[Station],
     measure: Measure,
-) -> (Vec<Difference>, Vec<Quantity>) {
-    let find = |side: &'_ [(Quantity, Grid)], q| side.iter().position(|(other, _)| *other == q);
+) -> (Vec<Difference>, Vec<GridBlock>) {
+    let find = |side: &'_ [(GridBlock, Grid)], q| side.iter().position(|(other, _)| *other == q);
     let (mut differences, mut skipped) = (Vec::new(), Vec::new());
-    for quantity in Quantity::ALL {
+    for quantity in GridBlock::ALL {
         let (a, b) = match (find(ours, quantity), find(theirs, quantity)) {
             (Some(i), Some(j)) => (&ours[i].1, &theirs[j].1),
             (None, None) => continue,
@@ -217,6 +218,6 @@ pub(super) fn compare(
 
 /// The differences of other grids of ours from the answer that an outcome holds.
 #[must_use]
-pub fn again(outcome: &Outcome, ours: &[(Quantity, Grid)]) -> Vec<Difference> {
+pub fn again(outcome: &Outcome, ours: &[(GridBlock, Grid)]) -> Vec<Difference> {
     compare(&part(ours, &outcome.chosen), &outcome.theirs, &outcome.stations, outcome.peer.measure()).0
 }

@@ -2,6 +2,7 @@
 
 use super::run::compare;
 use super::*;
+use formats::block::GridBlock;
 use std::path::PathBuf;
 
 fn girder() -> Girder {
@@ -25,12 +26,12 @@ fn nowhere() -> Environment {
 #[test]
 fn largest_difference_is_found_with_its_place() {
     let stations = [(0, 0.0), (0, 10.0)];
-    let ours = vec![(Quantity::Vertical, vec![vec![4.0, 1.0], vec![1.0, 2.0]])];
+    let ours = vec![(GridBlock::Vertical, vec![vec![4.0, 1.0], vec![1.0, 2.0]])];
     let mut theirs = ours.clone();
     theirs[0].1[1][0] += 1e-3;
-    theirs.push((Quantity::Lateral, vec![vec![0.0; 2]; 2]));
+    theirs.push((GridBlock::Lateral, vec![vec![0.0; 2]; 2]));
     let (found, skipped) = compare(&ours, &theirs, &stations, Measure::Largest);
-    assert_eq!(skipped, [Quantity::Lateral]);
+    assert_eq!(skipped, [GridBlock::Lateral]);
     assert_eq!((found.len(), found[0].at, found[0].entries), (1, [10.0, 0.0], 4));
     assert!((found[0].relative - 2.5e-4).abs() < 1e-15);
 }
@@ -39,11 +40,11 @@ fn largest_difference_is_found_with_its_place() {
 fn coupling_is_measured_by_its_direct_grids() {
     let grid = |v: f64| vec![vec![v]];
     let theirs = vec![
-        (Quantity::Vertical, grid(4.0)),
-        (Quantity::Lateral, grid(9.0)),
-        (Quantity::VerticalLateral, grid(0.0)),
+        (GridBlock::Vertical, grid(4.0)),
+        (GridBlock::Lateral, grid(9.0)),
+        (GridBlock::VerticalLateral, grid(0.0)),
     ];
-    let ours = vec![(Quantity::VerticalLateral, grid(0.6))];
+    let ours = vec![(GridBlock::VerticalLateral, grid(0.6))];
     let (found, _) = compare(&ours, &theirs, &[(0, 0.0)], Measure::Largest);
     assert!((found[0].relative - 0.1).abs() < 1e-15, "0.6 of sqrt(4 x 9)");
 }
@@ -57,7 +58,7 @@ fn nothing_compared_is_no_agreement() {
         theory: None,
         tolerance: 1e-9,
         differences: vec![],
-        skipped: vec![Quantity::Lateral],
+        skipped: vec![GridBlock::Lateral],
         stations: vec![(0, 0.0)],
         notes: vec![],
         theirs: vec![],
@@ -74,7 +75,7 @@ fn nothing_compared_is_no_agreement() {
         ours: 1.0,
         theirs: 1.0,
         profile: vec![0.0],
-        ..Difference::none(Quantity::Vertical)
+        ..Difference::none(GridBlock::Vertical)
     });
     assert!(outcome.agrees());
     outcome.differences[0].relative = 2e-9;
@@ -110,8 +111,8 @@ fn unusable_girders_are_refused_before_python_starts() {
 #[test]
 fn grids_of_another_size_are_refused() {
     let grid = vec![vec![0.0; 2]; 2];
-    let run = |grid| crosscheck(&girder(), &[(Quantity::Vertical, grid)], 1e-9, &nowhere(), &mut |_| {});
-    assert!(matches!(run(grid), Err(Error::Shape { quantity: Quantity::Vertical, stations: 3 })));
+    let run = |grid| crosscheck(&girder(), &[(GridBlock::Vertical, grid)], 1e-9, &nowhere(), &mut |_| {});
+    assert!(matches!(run(grid), Err(Error::Shape { quantity: GridBlock::Vertical, stations: 3 })));
     let mut grid = vec![vec![0.0; 3]; 3];
     grid[1][2] = f64::NAN;
     assert!(matches!(run(grid), Err(Error::NotFinite { row: 1, column: 2, .. })));

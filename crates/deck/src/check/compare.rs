@@ -1,0 +1,182 @@
+//! Components of every GFORCE against the simulator's.
+
+use adams::{Argument, DataSet, Model, Solution, State, Value};
+use nalgebra::DMatrix;
+use sim::Foundation;
+use splines::{Axis, Influence, Probe};
+
+use super::states::Case;
+use super::step;
+use crate::Error;
+use crate::ids::{Slot, number, variable};
+use crate::{Form, Plan};
+
+/// Components of a wheel's force, in the order of GFORCE.
+pub const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "TX", "TY", "TZ"];
+
+/// Differences over many states.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// What was compared.
+    pub what: &'static str,
+    /// States.
+    pub states: usize,
+    /// Largest difference asked for, of the largest force of all states (moments by the largest wheel's radius);
+    /// `None`: it is told, not judged.
+    pub asked: Option<f64>,
+    /// Largest difference of each component, of the same.
+    pub worst: [f64; 6],
+    /// Largest force of all states.
+    pub largest: f64,
+    /// Why the deck gave no forces, the first of such states; the number of them.
+    pub failed: Option<(String, usize)>,
+}
+
+impl Difference {
+    /// Largest of the components.
+    #[must_use]
+    pub fn largest_of_all(&self) -> f64 {
+        self.worst.iter().fold(0.0, |most, value| most.max(*value))
+    }
+
+    /// Whether it is as small as asked, with forces at every state.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.asked.is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
+    }
+}
+
+/// What the simulator has the deck find at one state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wanted {
+    /// Each wheel's GFORCE: on the wheel, in the frame of its rail.
+    pub forces: Vec<[f64; 6]>,
+    /// VARIABLEs by identifier: a first guess where the deck's own does not lead to a solution.
+    pub variables: Vec<(u32, f64)>,
+}
+
+/// What the simulator has the deck find at `case`.
+///
+/// Displacements of rails, and the forces along them from their slopes, are those of the tables' own values and
+/// derivatives.
+///
+/// # Errors
+/// What the tables refuse.
+pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Result<Wanted, Error> {
+    let forces = &case.forces;
+    let (mut out, mut variables) = (Vec::with_capacity(plan.wheels.len()), Vec::new());
+    for (w, wheel) in plan.wheels.iter().enumerate() {
+        let depth = forces.penetration[wheel.contact];
+        let arm = plan.kind(w).radius - depth;
+        let (down, side, along) = (forces.vertical[w], forces.lateral[w], forces.traction[w]);
+        out.push([-along, down, -side, arm * side, 0.0, -arm * along]);
+        variables.push((variable(w, Slot::Penetration), depth));
+        variables.push((variable(w, Slot::Press), down));
+        variables.push((variable(w, Slot::Flange), side));
+        variables.push((variable(w, Slot::Traction), along));
+        if let Some(id) = plan.contacts[wheel.contact].diff {
+            variables.push((step::variable(id), depth));
+        }
+    }
+    for (s, foundation) in foundations.iter().enumerate() {
+        let Some(compliance) = &foundation.compliance else { continue };
+        let (mut probes, mut loads) = (Vec::new(), Vec::new());
+        for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
+            let x = place(case, wheel.body, wheel.hub);
+            let mut add = |axis: Axis, load: f64, slot: Slot| {
+                probes.push(Probe { rail: wheel.rail, x, axis });
+                loads.push((w, load, slot));
+            };
+            add(Axis::Vertical, -forces.vertical[w], Slot::Rise);
+            if plan.kind(w).flange.is_some() {
+                add(Axis::Lateral, forces.lateral[w], Slot::Shift);
+            }
+        }
+        let mut influence = Influence::zeros(probes.len());
+        compliance.fill(&probes, &mut influence)?;
+        for (i, &(w, own, slot)) in loads.iter().enumerate() {
+            let of = |matrix: &DMatrix<f64>| -> f64 {
+                loads.iter().enumerate().map(|(j, (_, load, _))| matrix[(i, j)] * load).sum()
+            };
+            let moved = of(&influence.value);
+            variables.push((variable(w, slot), moved));
+            if slot == Slot::Shift {
+                variables.push((variable(w, Slot::Sideways), side(plan, case, w) - moved));
+            }
+            if plan.form == Form::Factored {
+                out[w][0] += own * of(&influence.slope);
+            }
+        }
+    }
+    Ok(Wanted { forces: out, variables })
+}
+
+/// Rail coordinate of a wheel.
+fn place(case: &Case, body: usize, hub: [f64; 3]) -> f64 {
+    let [x, _, _, _, yaw, pitch] = case.instant.displacement[body];
+    x + hub[0] + yaw * hub[2] - pitch * hub[1]
+}
+
+/// Lateral displacement of a wheel where it touches its rail.
+fn side(plan: &Plan<'_>, case: &Case, w: usize) -> f64 {
+    let wheel = &plan.wheels[w];
+    let [_, _, z, roll, yaw, _] = case.instant.displacement[wheel.body];
+    let arm = plan.kind(w).radius - case.forces.penetration[wheel.contact];
+    z + roll * (wheel.hub[1] - arm) - yaw * wheel.hub[0]
+}
+
+/// Solves the data set at `state` from its own initial values; where that fails, from those of the simulator.
+///
+/// A first guess decides whether Newton's method converges, not to what: a wrong deck has other solutions.
+fn solve(set: &DataSet, model: &Model, state: &State, wanted: &Wanted) -> Result<Solution, adams::Error> {
+    model.solve(state).or_else(|error| {
+        let mut set = set.clone();
+        for statement in set.statements.iter_mut().filter(|one| one.keyword == "VARIABLE") {
+            let known = wanted.variables.iter().find(|(id, _)| statement.id == Some(*id));
+            let Some((_, value)) = known else { continue };
+            statement.arguments.retain(|argument| argument.name != "IC");
+            let argument = Argument { name: "IC".to_owned(), value: Value::Numbers(vec![*value]) };
+            statement.arguments.push(argument);
+        }
+        Model::new(&set).and_then(|model| model.solve(state)).map_err(|_| error)
+    })
+}
+
+/// Compares the forces of the data set at `states` with those wanted there.
+///
+/// # Errors
+/// A data set that cannot be executed.
+pub fn compare(
+    plan: &Plan<'_>,
+    set: &DataSet,
+    (what, asked): (&'static str, Option<f64>),
+    wanted: &[Wanted],
+    states: impl Iterator<Item = State>,
+) -> Result<Difference, Error> {
+    let model = Model::new(set)?;
+    let mut out = Difference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
+    let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
+    let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
+    for (state, wanted) in states.zip(wanted) {
+        out.states += 1;
+        let solution = match solve(set, &model, &state, wanted) {
+            Ok(solution) => solution,
+            Err(error) => {
+                let (_, count) = out.failed.get_or_insert_with(|| (error.to_string(), 0));
+                *count += 1;
+                continue;
+            }
+        };
+        for (w, wanted) in wanted.forces.iter().enumerate() {
+            let found = solution.loads.get(&("GFORCE", number(w))).map(|load| load.components);
+            for (k, wanted) in wanted.iter().enumerate() {
+                let found = found.map_or(f64::MAX, |components| components[k]);
+                out.worst[k] = out.worst[k].max(scaled(k, (found - wanted).abs()));
+                out.largest = out.largest.max(scaled(k, wanted.abs()));
+            }
+        }
+    }
+    let scale = out.largest.max(f64::MIN_POSITIVE);
+    out.worst = out.worst.map(|worst| worst / scale);
+    Ok(out)
+}

@@ -1,0 +1,105 @@
+//! The quasi-static path of the deck against the simulator's sweep.
+
+use std::ops::ControlFlow;
+
+use adams::Model;
+use sim::{Analysis, Channel, Foundation, Freedom, Status};
+
+use crate::Error;
+use crate::Plan;
+use crate::ids::number;
+
+/// Places compared along the path, the first left out.
+const PLACES: u32 = 40;
+/// Largest difference of heights and forces, of the largest: ADAMS turns parts by finite rotations, the simulator by
+/// small ones.
+const ASKED: f64 = 1e-4;
+
+/// How far the two paths are apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Places compared.
+    pub places: usize,
+    /// Largest difference of the height of a body's origin.
+    pub height: f64,
+    /// Largest sinking.
+    pub deepest: f64,
+    /// Largest difference of a wheel's vertical force.
+    pub force: f64,
+    /// Largest vertical force.
+    pub largest: f64,
+    /// Why one of the two has no path.
+    pub failed: Option<String>,
+}
+
+impl Path {
+    /// Largest difference asked for, of the largest sinking and force.
+    #[must_use]
+    pub fn asked(&self) -> f64 {
+        ASKED
+    }
+
+    /// The larger of both relative differences.
+    #[must_use]
+    pub fn relative(&self) -> [f64; 2] {
+        let of = |difference: f64, most: f64| if difference == 0.0 { 0.0 } else { difference / most };
+        [of(self.height, self.deepest), of(self.force, self.largest)]
+    }
+
+    /// Whether the paths are as close as asked.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.failed.is_none() && self.relative().iter().all(|value| *value <= ASKED)
+    }
+}
+
+/// Compares static equilibria along the prescribed motion; `None` where a body is free along its rail, and so has
+/// none.
+///
+/// # Errors
+/// A scene that the simulator refuses.
+pub(super) fn path(
+    plan: &Plan<'_>,
+    model: &Model,
+    foundations: &[Foundation],
+) -> Result<Option<Path>, Error> {
+    if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
+        return Ok(None);
+    }
+    let mut scene = plan.cast.scene.clone();
+    scene.analysis = Analysis::QuasiStatic;
+    scene.output_dt = scene.end / f64::from(PLACES);
+    let run = sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
+    let mut out = Path { places: 0, height: 0.0, deepest: 0.0, force: 0.0, largest: 0.0, failed: None };
+    if let Status::StepTooSmall(t) | Status::Refused(t, _) = run.status {
+        out.failed = Some(format!("the simulator stopped at t = {t}"));
+        return Ok(Some(out));
+    }
+    let times = run.history.column(Channel::Time);
+    let found = match model.path(&times) {
+        Ok(found) => found,
+        Err(error) => {
+            out.failed = Some(error.to_string());
+            return Ok(Some(out));
+        }
+    };
+    out.places = times.len();
+    for (b, body) in plan.bodies.iter().enumerate() {
+        let wanted = run.history.column(Channel::Displacement(b, Freedom::Y));
+        for (one, wanted) in found.iter().zip(wanted) {
+            let y = one.state.parts.get(&body.part).map_or(f64::MAX, |pose| pose.origin[1]);
+            out.height = out.height.max((y - body.datum[0] - wanted).abs());
+            out.deepest = out.deepest.max(wanted.abs());
+        }
+    }
+    for w in 0..plan.wheels.len() {
+        let wanted = run.history.column(Channel::Vertical(w));
+        for (one, wanted) in found.iter().zip(wanted) {
+            let load = one.solution.loads.get(&("GFORCE", number(w)));
+            let down = load.map_or(f64::MAX, |load| load.components[1]);
+            out.force = out.force.max((down - wanted).abs());
+            out.largest = out.largest.max(wanted.abs());
+        }
+    }
+    Ok(Some(out))
+}

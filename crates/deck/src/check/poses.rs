@@ -1,0 +1,95 @@
+//! The simulator's states as states of the deck's parts.
+
+use std::collections::BTreeMap;
+
+use adams::{Pose, State};
+use nalgebra::{Matrix3, Vector3};
+
+use super::states::Case;
+use super::step;
+use crate::Plan;
+use crate::start;
+
+/// How the simulator's small rotations become the parts' rotations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turns {
+    /// I + theta x, with the rate theta' x: what the simulator computes with.
+    Small,
+    /// The rotation by the vector theta, as ADAMS turns parts.
+    Finite,
+}
+
+/// A part that carries all rails and turns about itself.
+#[derive(Clone, Copy, Debug)]
+pub struct Carrier {
+    /// Its PART.
+    pub part: u32,
+    /// Its motion.
+    pub pose: Pose,
+}
+
+/// The state of the deck's parts at `case`, one step before it for penetrations: see [`step`].
+#[must_use]
+pub fn state(plan: &Plan<'_>, case: &Case, turns: Turns, carrier: Option<Carrier>) -> State {
+    let mut parts = BTreeMap::new();
+    let instant = &case.instant;
+    let bodies: Vec<Pose> = (0..plan.bodies.len()).map(|b| body(plan, case, b, turns)).collect();
+    for (own, pose) in plan.bodies.iter().zip(&bodies) {
+        parts.insert(own.part, *pose);
+    }
+    for (w, wheel) in plan.wheels.iter().enumerate() {
+        let Some((part, _)) = wheel.spin else { continue };
+        let body = &bodies[wheel.body];
+        let hub = Vector3::from(wheel.hub);
+        let spin = Vector3::new(body.spin[0], body.spin[1], instant.spin[w]);
+        let (origin, velocity) = (body.origin + body.rotation * hub, body.velocity + body.rate * hub);
+        parts.insert(part, Pose::moving(origin, body.rotation, velocity, spin));
+    }
+    if let Some(carrier) = carrier {
+        for pose in parts.values_mut() {
+            *pose = carried(&carrier.pose, pose);
+        }
+        parts.insert(carrier.part, carrier.pose);
+    }
+    let lengths = step::lengths(plan);
+    let mut differentials = BTreeMap::new();
+    for (c, contact) in plan.contacts.iter().enumerate() {
+        if let Some(id) = contact.diff {
+            differentials.insert(id, case.forces.penetration[c] - lengths[c] * case.rate[c]);
+        }
+    }
+    State { time: instant.time, parts, differentials }
+}
+
+fn body(plan: &Plan<'_>, case: &Case, b: usize, turns: Turns) -> Pose {
+    let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
+    let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[b];
+    let [height, side] = plan.bodies[b].datum;
+    let origin = Vector3::new(x, height + y, side + z);
+    let velocity = Vector3::new(vx, vy, vz);
+    let (turn, spin) = (Vector3::new(roll, yaw, pitch), Vector3::new(by_roll, by_yaw, by_pitch));
+    match turns {
+        Turns::Small => Pose {
+            origin,
+            rotation: Matrix3::identity() + turn.cross_matrix(),
+            velocity,
+            rate: spin.cross_matrix(),
+            spin,
+        },
+        Turns::Finite => {
+            let rows = start::rotation([roll, yaw, pitch]);
+            Pose::moving(origin, Matrix3::from_fn(|i, j| rows[i][j]), velocity, spin)
+        }
+    }
+}
+
+/// A pose given in the axes of a carrier, in ground.
+fn carried(by: &Pose, pose: &Pose) -> Pose {
+    Pose {
+        origin: by.origin + by.rotation * pose.origin,
+        rotation: by.rotation * pose.rotation,
+        velocity: by.velocity + by.rate * pose.origin + by.rotation * pose.velocity,
+        rate: by.rate * pose.rotation + by.rotation * pose.rate,
+        spin: by.spin + by.rotation * pose.spin,
+    }
+}

@@ -1,0 +1,68 @@
+//! The deck's differential equations as one backward Euler step, the way a stiff integrator solves them.
+//!
+//! Penetrations alone hardly fix forces: where wheels are close, G F = e - p is nearly singular, and tables read by
+//! AKISPL may even have negative eigenvalues. Within a step, DIF1 = (DIF - past)/h, and G + 1/(k + c/h) is sound.
+
+use adams::{DataSet, Statement, Value};
+
+use crate::Plan;
+use crate::plan::ContactPlan;
+
+/// Identifiers of the VARIABLEs that stand for DIF.
+const FIRST: u32 = 900_000_000;
+
+/// Identifier of the VARIABLE that stands for DIF(`id`).
+#[must_use]
+pub const fn variable(id: u32) -> u32 {
+    FIRST + id
+}
+
+/// Share of c/k that a step takes where the damper is ramped.
+const RAMPED: f64 = 0.3;
+
+/// Length of the step of each contact, c/k, in which the damper counts as much as the spring; less where it is ramped:
+/// a steep ramp then leaves one solution.
+#[must_use]
+pub fn lengths(plan: &Plan<'_>) -> Vec<f64> {
+    let length = |contact: &ContactPlan| {
+        let law = &plan.kind(contact.wheels.start).normal;
+        let share = if law.depth > 0.0 { RAMPED } else { 1.0 };
+        share * law.damping / law.stiffness
+    };
+    plan.contacts.iter().map(length).collect()
+}
+
+/// Replaces every implicit DIFF: its DIF is then the value before the step, and a VARIABLE takes its place in
+/// expressions.
+pub fn discretise(plan: &Plan<'_>, set: &mut DataSet) {
+    for (contact, length) in plan.contacts.iter().zip(lengths(plan)) {
+        let Some(id) = contact.diff else { continue };
+        let implicit = |one: &&mut Statement| {
+            one.keyword == "DIFF" && one.id == Some(id) && one.get("IMPLICIT").is_some()
+        };
+        let Some(diff) = set.statements.iter_mut().find(implicit) else { continue };
+        let Some(Value::Function(residual)) = diff.get("FUNCTION").cloned() else { continue };
+        diff.arguments.retain(|argument| argument.name == "IC");
+        *diff = diff.clone().function("FUNCTION", "0.0");
+        let start = match diff.get("IC") {
+            Some(Value::Numbers(all)) => all.first().copied().unwrap_or_default(),
+            _ => 0.0,
+        };
+        let own = variable(id);
+        let now = format!("VARVAL({own})");
+        let rate = format!("(({now}-PAST({id}))/{})", adams::number::write(length));
+        let replaced = |text: &str| {
+            let text = text.replace(' ', "");
+            let text = text.replace(&format!("DIF1({id})"), &rate).replace(&format!("DIF({id})"), &now);
+            text.replace(&format!("PAST({id})"), &format!("DIF({id})"))
+        };
+        for argument in set.statements.iter_mut().flat_map(|one| &mut one.arguments) {
+            if let Value::Function(text) = &mut argument.value {
+                *text = replaced(text);
+            }
+        }
+        let function = format!("{now}-({})", replaced(&residual));
+        set.statements
+            .push(Statement::new("VARIABLE", own).numbers("IC", &[start]).function("FUNCTION", function));
+    }
+}

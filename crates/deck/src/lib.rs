@@ -1,0 +1,62 @@
+//! A scene as a complete ADAMS/Solver data set, and its comparison with the simulator.
+//!
+//! Every wheel is a GFORCE between its centre and a FLOATING marker on ground, in the frame of its rail. The rail's
+//! displacement under it is a VARIABLE that reads the SPLINEs with the forces of all wheels; ADAMS solves the loop of
+//! displacements and forces in its own Newton iteration.
+
+pub mod check;
+pub mod contact;
+mod error;
+mod expression;
+mod form;
+pub mod give;
+pub mod ids;
+mod joints;
+pub mod mass;
+mod name;
+mod parts;
+pub mod plan;
+mod remark;
+mod request;
+mod solver;
+pub mod start;
+mod travel;
+
+use adams::DataSet;
+
+pub use error::Error;
+pub use form::Form;
+pub use plan::{Plan, plan};
+
+use foundations::Known;
+
+/// A data set and the command file beside it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deck {
+    /// The statements.
+    pub set: DataSet,
+    /// The command file.
+    pub commands: String,
+}
+
+/// The deck of a plan; `model` is the name of its file, without the ending.
+///
+/// # Errors
+/// Tables that are no SPLINE.
+pub fn deck(plan: &Plan<'_>, known: &[Known], model: &str) -> Result<Deck, Error> {
+    let (mut markers, mut ids) = (plan.markers, plan.splines);
+    let mut statements = solver::head(plan);
+    statements.extend(parts::statements(plan));
+    statements.extend(joints::statements(plan, &mut markers));
+    for give in &plan.gives {
+        statements.extend(give.splines()?);
+    }
+    statements.extend(contact::statements(plan));
+    statements.extend(request::statements(plan, known, &mut ids)?);
+    statements.extend(solver::tail(plan));
+    name::distinct(&mut statements);
+    let wheels = plan.wheels.len();
+    let s = if wheels == 1 { "" } else { "s" };
+    let title = format!("{}: {wheels} wheel{s}, form {}", plan.scene.name, plan.form.word());
+    Ok(Deck { set: DataSet { title, statements }, commands: solver::commands(plan, model) })
+}

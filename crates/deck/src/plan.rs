@@ -1,0 +1,353 @@
+//! Everything of a deck by number: parts, markers, wheels, contacts, tables.
+
+use std::ops::Range;
+
+use sim::Foundation;
+use splines::Axis;
+
+use super::form::Form;
+use super::give::{Give, Way};
+use super::ids::{Next, number};
+use super::start::Start;
+use crate::Error;
+use formats::diagnostic::Diagnostic;
+use formats::motion::{Cast, cast};
+use formats::scene::{self, Along, Scene};
+use foundations::{Known, solved_of};
+
+/// Identifier of the ground part.
+pub const GROUND: u32 = 1;
+
+/// A scene, numbered.
+pub struct Plan<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// How tables are read.
+    pub form: Form,
+    /// The simulator's scene.
+    pub cast: Cast,
+    /// What each structure gives.
+    pub gives: Vec<Give>,
+    /// Bodies, in the scene's order.
+    pub bodies: Vec<BodyPlan>,
+    /// Frames of rails in ground: one a rail, more where trucks disagree about where the rail is.
+    pub datums: Vec<Datum>,
+    /// Wheels, in the simulator's order.
+    pub wheels: Vec<WheelPlan>,
+    /// Contacts, in the simulator's order.
+    pub contacts: Vec<ContactPlan>,
+    /// The state at time 0.
+    pub start: Start,
+    /// Next free marker.
+    pub markers: Next,
+    /// Next free SPLINE.
+    pub splines: Next,
+}
+
+/// A body.
+pub struct BodyPlan {
+    /// PART.
+    pub part: u32,
+    /// Height and side in ground of its origin where its wheels just touch.
+    pub datum: [f64; 2],
+    /// MARKER at its origin.
+    pub origin: u32,
+    /// MARKER at its centre of mass.
+    pub cm: u32,
+    /// MARKER in ground where its y, z and rotations are zero, at rail coordinate 0.
+    pub track: u32,
+}
+
+/// The frame of a rail.
+pub struct Datum {
+    /// MARKER in ground.
+    pub marker: u32,
+    /// The scene's rail.
+    pub rail: usize,
+    /// Height and side in ground.
+    pub at: [f64; 2],
+}
+
+/// A wheel.
+pub struct WheelPlan {
+    /// `<truck>.wheel<n>`.
+    pub name: String,
+    /// Its body.
+    pub body: usize,
+    /// Its contact.
+    pub contact: usize,
+    /// Its kind.
+    pub kind: usize,
+    /// Its structure.
+    pub structure: usize,
+    /// Its rail within the structure.
+    pub rail: usize,
+    /// Its rail's frame, an index into the datums.
+    pub datum: usize,
+    /// Its centre from the body's origin.
+    pub hub: [f64; 3],
+    /// MARKER on the body at its centre.
+    pub marker: u32,
+    /// PART of its own and the MARKER of its centre there, where its spin is a freedom.
+    pub spin: Option<(u32, u32)>,
+    /// MARKER on the body at the tread under its centre, where the body rolls and the wheel has a flange.
+    pub tread: Option<u32>,
+    /// FLOATING MARKER on ground.
+    pub float: u32,
+}
+
+impl WheelPlan {
+    /// The marker that the force acts on.
+    #[must_use]
+    pub fn centre(&self) -> u32 {
+        self.spin.map_or(self.marker, |(_, marker)| marker)
+    }
+}
+
+/// A contact: one wheel, or the wheels of equalisers.
+pub struct ContactPlan {
+    /// Its wheels.
+    pub wheels: Range<usize>,
+    /// DIFF of its penetration, where a damper acts between wheel and a rail that gives.
+    pub diff: Option<u32>,
+}
+
+impl Plan<'_> {
+    /// The direction of vertical or lateral forces of wheel `w`.
+    #[must_use]
+    pub fn way(&self, w: usize, axis: Axis) -> Way {
+        (self.wheels[w].rail, axis)
+    }
+
+    /// The simulator's kind of wheel `w`.
+    #[must_use]
+    pub fn kind(&self, w: usize) -> &sim::Wheel {
+        &self.cast.scene.wheels[self.wheels[w].kind]
+    }
+
+    /// MARKER of the frame of wheel `w`'s rail.
+    #[must_use]
+    pub fn datum(&self, w: usize) -> u32 {
+        self.datums[self.wheels[w].datum].marker
+    }
+
+    /// Foundations that read the deck's tables as the deck does.
+    ///
+    /// # Errors
+    /// What the tables refuse.
+    pub fn foundations(&self) -> Result<Vec<Foundation>, Error> {
+        self.gives.iter().map(Give::foundation).collect()
+    }
+}
+
+/// Numbers a scene; `file` names it in errors.
+///
+/// # Errors
+/// A foundation that a deck cannot have, tables that do not fit, a scene that cannot start.
+pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Result<Plan<'a>, Error> {
+    refuse_actuators(scene, file)?;
+    let cast = cast(scene)?;
+    let mut splines = Next::from(6);
+    let gives = gives(scene, &cast, known, form, file, &mut splines)?;
+    let mut foundations = Vec::new();
+    for give in &gives {
+        foundations.push(give.foundation()?);
+    }
+    let start = Start::of(&cast.scene, &foundations)?;
+    let mut markers = Next::from(1);
+    let mut bodies: Vec<BodyPlan> = (0..scene.bodies.len())
+        .map(|b| BodyPlan {
+            part: number(b) + GROUND,
+            datum: [0.0; 2],
+            origin: markers.take(),
+            cm: markers.take(),
+            track: markers.take(),
+        })
+        .collect();
+    let (datums, of_truck) = datums(scene, &mut bodies, &mut markers);
+    let contacts: Vec<ContactPlan> = contacts(&cast, &gives);
+    let mut parts = Next::from(number(scene.bodies.len()) + GROUND);
+    let mut wheels = Vec::new();
+    let mut trucks = scene.trucks.iter().zip(&of_truck).flat_map(|(truck, &datum)| {
+        let count: usize = truck.tree.iter().map(|node| node.wheels().len()).sum();
+        std::iter::repeat_n(datum, count)
+    });
+    for (c, contact) in contacts.iter().enumerate() {
+        let given = &cast.scene.contacts[c];
+        for (w, offset) in contact.wheels.clone().zip(&given.offsets) {
+            let kind = &cast.scene.wheels[given.wheel];
+            let [x, y, z] = given.at;
+            let rolls = cast.scene.bodies[given.body].free[3];
+            wheels.push(WheelPlan {
+                name: cast.wheels[w].name.clone(),
+                body: given.body,
+                contact: c,
+                kind: given.wheel,
+                structure: given.structure,
+                rail: given.rail,
+                datum: trucks.next().unwrap_or_default(),
+                hub: [x + offset, y, z],
+                marker: markers.take(),
+                spin: cast.wheels[w].spins.then(|| (parts.take(), markers.take())),
+                tread: (rolls && kind.flange.is_some()).then(|| markers.take()),
+                float: markers.take(),
+            });
+        }
+    }
+    Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
+}
+
+/// Refuses ropes, stops, events, drives, brakes, loads, uneven rails and pinned bodies, which a deck does not have yet.
+fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
+    let refuse = |why: String, hint: &str| Err(Error::from(Diagnostic::of_file(file, why).hint(hint)));
+    if let Some(rope) = scene.ropes.first() {
+        let why = format!("a deck cannot have ropes: \"{}\"", rope.name);
+        return refuse(
+            why,
+            "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
+        );
+    }
+    if let Some(spin) = scene.spins.first() {
+        let why = format!("a deck cannot have prescribed spins: truck \"{}\"", scene.trucks[spin.truck].name);
+        return refuse(why, "leave the motion out, and add a MOTION to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.longitudinal) {
+        let why = format!("a deck cannot have give along its rails: structure \"{}\"", structure.name);
+        return refuse(why, "leave `longitudinal` out");
+    }
+    if let Some(event) = scene.events.first() {
+        let why = format!("a deck cannot have events: \"{}\"", event.name);
+        return refuse(why, "leave `events` out, and add a SENSOR to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| !structure.irregularities.is_empty()) {
+        let why = format!("a deck cannot have uneven rails: structure \"{}\"", structure.name);
+        return refuse(why, "leave `irregularities` out");
+    }
+    if let Some(stop) = scene.stops.first() {
+        let why = format!("a deck cannot have stops: \"{}\"", stop.name);
+        return refuse(why, "leave `stops` out, and add an SFORCE with IMPACT to the deck by hand");
+    }
+    if let Some(body) = scene.bodies.iter().find(|body| body.in_space) {
+        let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);
+        return refuse(why, "leave it out, and add a PART to the deck by hand");
+    }
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.on.is_some()) {
+        let why = format!("structure \"{}\": a deck cannot have structures on bodies", structure.name);
+        return refuse(why, "leave out the trolley, and put its mass into the bridge");
+    }
+    for body in &scene.bodies {
+        if body.pinned.is_some() {
+            let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);
+            return refuse(
+                why,
+                "model its mass with the body that carries it, and give the truck a nested `tree`",
+            );
+        }
+        let what = match (&body.motion, body.brake) {
+            (Along::Driven(_), _) => "drive",
+            (_, Some(_)) => "brake",
+            _ => continue,
+        };
+        let why = format!("body \"{}\": a deck cannot have its {what}", body.name);
+        return refuse(why, "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand");
+    }
+    match scene.loads.first() {
+        Some(load) => {
+            let why = format!("body \"{}\": a deck cannot have its load", scene.bodies[load.body].name);
+            refuse(why, "leave `loads` out, and add an SFORCE to the deck by hand")
+        }
+        None => Ok(()),
+    }
+}
+
+/// What the structures give; refuses those that a deck cannot have.
+fn gives(
+    scene: &Scene,
+    cast: &Cast,
+    known: &[Known],
+    form: Form,
+    file: &str,
+    splines: &mut Next,
+) -> Result<Vec<Give>, Error> {
+    let mut out = Vec::new();
+    let mut factors = 0;
+    for (s, structure) in scene.structures.iter().enumerate() {
+        let refuse = |why: String, hint: &str| {
+            let place = format!("structure \"{}\": {why}", structure.name);
+            Error::from(Diagnostic::of_file(file, place).hint(hint))
+        };
+        let mut ways: Vec<Way> = Vec::new();
+        for contact in cast.scene.contacts.iter().filter(|contact| contact.structure == s) {
+            ways.push((contact.rail, Axis::Vertical));
+            if cast.scene.wheels[contact.wheel].flange.is_some() {
+                ways.push((contact.rail, Axis::Lateral));
+            }
+        }
+        match structure.foundation {
+            scene::Foundation::Influence if !ways.is_empty() => {
+                let sheets = foundations::sheets(structure, solved_of(known, &structure.origin))?;
+                let give =
+                    Give::new(structure, ways, &sheets, form, splines, &mut factors).map_err(|why| {
+                        refuse(
+                            why,
+                            "a deck needs tables of at least four stations in every direction of its wheels",
+                        )
+                    })?;
+                out.push(give);
+            }
+            scene::Foundation::Rigid | scene::Foundation::Influence => out.push(Give::rigid(structure, form)),
+            scene::Foundation::Parts { .. }
+            | scene::Foundation::Modal { .. }
+            | scene::Foundation::Full { .. }
+            | scene::Foundation::Ties { .. } => {
+                let why = format!("a deck cannot have the foundation \"{}\"", structure.foundation.word());
+                return Err(refuse(why, "use \"influence\" or \"rigid\""));
+            }
+        }
+    }
+    Ok(out)
+}
+
+/// Where rails and bodies stand in ground: each body as its first truck's rail has it; a rail that another body
+/// needs elsewhere gets one more frame. Returns the frames, and the frame of each truck.
+fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut Next) -> (Vec<Datum>, Vec<usize>) {
+    let mut datums: Vec<Datum> = Vec::new();
+    let mut of_truck = vec![0; scene.trucks.len()];
+    for (b, body) in bodies.iter_mut().enumerate() {
+        let trucks = || scene.trucks.iter().enumerate().filter(move |(_, truck)| truck.body == b);
+        let below = |truck: &scene::Truck| [truck.at[1] - scene.wheels[truck.wheel].radius, truck.at[2]];
+        let fixed = trucks().find_map(|(_, truck)| {
+            let datum = datums.iter().find(|datum| datum.rail == truck.rail)?;
+            let [y, z] = below(truck);
+            Some([datum.at[0] - y, datum.at[1] - z])
+        });
+        let free = || trucks().next().map(|(_, truck)| below(truck).map(|value| 0.0 - value));
+        body.datum = fixed.or_else(free).unwrap_or_default();
+        for (t, truck) in trucks() {
+            let [y, z] = below(truck);
+            let at = [body.datum[0] + y, body.datum[1] + z];
+            let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * (1.0 + b.abs());
+            let same = |datum: &Datum| {
+                datum.rail == truck.rail && near(datum.at[0], at[0]) && near(datum.at[1], at[1])
+            };
+            of_truck[t] = datums.iter().position(same).unwrap_or_else(|| {
+                datums.push(Datum { marker: markers.take(), rail: truck.rail, at });
+                datums.len() - 1
+            });
+        }
+    }
+    (datums, of_truck)
+}
+
+fn contacts(cast: &Cast, gives: &[Give]) -> Vec<ContactPlan> {
+    let mut first = 0;
+    let mut out = Vec::new();
+    for (c, contact) in cast.scene.contacts.iter().enumerate() {
+        let wheels = first..first + contact.offsets.len();
+        first = wheels.end;
+        let remembers = cast.scene.wheels[contact.wheel].normal.has_memory();
+        let diff = (remembers && gives[contact.structure].gives()).then(|| number(c));
+        out.push(ContactPlan { wheels, diff });
+    }
+    out
+}

@@ -1,0 +1,190 @@
+//! REQUEST statements: wheels, bodies, what the girders carry, what their supports take.
+
+use adams::{Statement, Value};
+use splines::Axis;
+
+use super::contact;
+use super::expression::{Sum, value};
+use super::give::{Load, spline};
+use super::ids::{Next, Slot, variable};
+use super::name::plain;
+use super::plan::Plan;
+use super::remark;
+use crate::Error;
+use formats::effect::{Ground, Reaction};
+use formats::scene::Along;
+use foundations::{Known, solved_of};
+
+/// Reactions in one REQUEST: their names must fit on a line.
+const MOST: usize = 4;
+/// A reaction per unit load below which it counts as none.
+const NONE: f64 = 1e-9;
+
+/// All of them, and the SPLINEs that they read.
+///
+/// # Errors
+/// Influence lines that are no SPLINE.
+pub(super) fn statements(
+    plan: &Plan<'_>,
+    known: &[Known],
+    splines: &mut Next,
+) -> Result<Vec<Statement>, Error> {
+    let mut ids = Next::from(1);
+    let mut out = Vec::new();
+    for w in 0..plan.wheels.len() {
+        out.push(wheel(plan, w, ids.take()));
+    }
+    for b in 0..plan.bodies.len() {
+        out.push(body(plan, b, ids.take()));
+    }
+    let mut said = false;
+    for (r, rail) in plan.scene.rails.iter().enumerate() {
+        let on = |w: &usize| plan.datums[plan.wheels[*w].datum].rail == r;
+        let wheels: Vec<usize> = (0..plan.wheels.len()).filter(on).collect();
+        if wheels.is_empty() {
+            continue;
+        }
+        let [mut down, mut side] = [Sum::default(), Sum::default()];
+        for w in wheels {
+            down.add(
+                false,
+                &value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, Slot::Press)),
+            );
+            if plan.kind(w).flange.is_some() {
+                side.add(false, &value(variable(w, Slot::Flange)));
+            }
+        }
+        let parts = vec![("down".to_owned(), down.text()), ("lateral".to_owned(), side.text())];
+        let mut statement = request(ids.take(), &format!("carried_by_{}", rail.name), parts);
+        if !std::mem::replace(&mut said, true) {
+            statement = statement.remark(remark::REACTION);
+        }
+        out.push(statement);
+    }
+    for s in 0..plan.gives.len() {
+        reactions(plan, known, s, splines, &mut ids, &mut out)?;
+    }
+    Ok(out)
+}
+
+/// A REQUEST of named expressions.
+fn request(id: u32, name: &str, parts: Vec<(String, String)>) -> Statement {
+    let quoted: Vec<String> = parts.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+    let mut statement = Statement::new("REQUEST", id)
+        .named(plain(name))
+        .with("CNAMES", Value::Word(quoted.join(", ")))
+        .word("RESULTS_NAME", &plain(name));
+    for (k, (_, text)) in parts.into_iter().enumerate() {
+        statement = statement.function(&format!("F{}", k + 1), text);
+    }
+    statement
+}
+
+fn wheel(plan: &Plan<'_>, w: usize, id: u32) -> Statement {
+    let own = &plan.wheels[w];
+    let first = plan.contacts[own.contact].wheels.start;
+    let mut parts = Vec::new();
+    let mut add = |name: &str, at: usize, slot| parts.push((name.to_owned(), value(variable(at, slot))));
+    add("place", w, Slot::Place);
+    add("penetr", first, Slot::Penetration);
+    add("down", first, Slot::Press);
+    if plan.gives[own.structure].gives() {
+        add("rise", w, Slot::Rise);
+    }
+    if plan.kind(w).flange.is_some() {
+        add("sideways", w, Slot::Sideways);
+        add("flange", w, Slot::Flange);
+    }
+    if own.spin.is_some() {
+        add("traction", w, Slot::Traction);
+    }
+    request(id, &format!("wheel_{}", own.name), parts)
+}
+
+fn body(plan: &Plan<'_>, b: usize, id: u32) -> Statement {
+    let own = &plan.bodies[b];
+    let (i, j) = (own.origin, own.track);
+    let name = &plan.scene.bodies[b].name;
+    let mut parts = Vec::new();
+    for (word, function) in [("x", "DX"), ("y", "DY"), ("z", "DZ")] {
+        parts.push((word.to_owned(), format!("{function}({i},{j},{j})")));
+    }
+    for (k, (word, function)) in [("roll", "AX"), ("yaw", "AY"), ("pitch", "AZ")].into_iter().enumerate() {
+        if plan.scene.bodies[b].free[3 + k] {
+            parts.push((word.to_owned(), format!("{function}({i},{j})")));
+        }
+    }
+    if matches!(plan.scene.bodies[b].motion, Along::Prescribed(_)) {
+        parts.push(("drive".to_owned(), format!("MOTION({},0,2,{j})", super::ids::number(b))));
+    }
+    request(id, &format!("motion_of_{name}"), parts)
+}
+
+/// Reactions of the ground on structure `s`, from their influence lines at the stations.
+fn reactions(
+    plan: &Plan<'_>,
+    known: &[Known],
+    s: usize,
+    splines: &mut Next,
+    ids: &mut Next,
+    out: &mut Vec<Statement>,
+) -> Result<(), Error> {
+    let structure = &plan.scene.structures[s];
+    let effects = solved_of(known, &structure.origin).and_then(|solved| solved.grid.effects.as_ref());
+    let Some(effects) = effects.filter(|_| plan.gives[s].gives()) else { return Ok(()) };
+    let loads = contact::loads(plan, s);
+    let mut named = Vec::new();
+    for reaction in &effects.reactions {
+        let name = label(reaction);
+        let mut sum = Sum::default();
+        let mut lines: Vec<(super::give::Way, u32)> = Vec::new();
+        for load in &loads {
+            let Some(line) = line(plan, s, reaction, load) else { continue };
+            let known = lines.iter().find(|(way, _)| *way == load.way).map(|(_, id)| *id);
+            let id = match known {
+                Some(id) => id,
+                None => {
+                    let id = splines.take();
+                    let rail = &structure.rails[load.way.0];
+                    let full = format!(
+                        "{}_{name}_from_{}_{}",
+                        structure.name,
+                        rail.name,
+                        super::give::word(load.way.1)
+                    );
+                    out.push(spline(id, &full, rail.stations.clone(), Vec::new(), vec![line])?);
+                    lines.push((load.way, id));
+                    id
+                }
+            };
+            sum.add(load.negative, &format!("{}*AKISPL({},0,{id})", load.force, load.place));
+        }
+        if !lines.is_empty() {
+            named.push((name, sum.text()));
+        }
+    }
+    for (k, parts) in named.chunks(MOST).enumerate() {
+        out.push(request(ids.take(), &format!("reactions_of_{}_{}", structure.name, k + 1), parts.to_vec()));
+    }
+    Ok(())
+}
+
+/// A reaction's influence line along the rail of a load; `None` where the load causes none.
+fn line(plan: &Plan<'_>, s: usize, reaction: &Reaction, load: &Load) -> Option<Vec<f64>> {
+    let (rail, axis): (usize, Axis) = load.way;
+    let rails = &plan.scene.structures[s].rails;
+    let first: usize = rails[..rail].iter().map(|rail| rail.stations.len()).sum();
+    let (_, all) = reaction.lines.iter().find(|(known, _)| *known == axis)?;
+    let own = all.get(first..first + rails[rail].stations.len())?;
+    own.iter().any(|value| value.abs() > NONE).then(|| own.to_vec())
+}
+
+/// Such as `uy_60` for a girder, `uy_p12` for a frame.
+fn label(reaction: &Reaction) -> String {
+    let place = match reaction.at {
+        Ground::Along(x) => plain(&format!("{x}")),
+        Ground::Point(point) => format!("p{point}"),
+    };
+    let spring = if reaction.spring.is_some() { "_spring" } else { "" };
+    format!("{}_{}{spring}", reaction.dof, place.chars().take(8).collect::<String>())
+}

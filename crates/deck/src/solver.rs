@@ -1,0 +1,47 @@
+//! What the solver is told: UNITS, ACCGRAV, INTEGRATOR, OUTPUT, and the command file.
+
+use adams::Statement;
+
+use super::plan::Plan;
+use super::remark;
+use formats::scene::Analysis;
+
+/// Largest ERROR, where the scene asks for less accuracy.
+const LARGEST: f64 = 1e-3;
+
+/// UNITS and gravity.
+pub(super) fn head(plan: &Plan<'_>) -> Vec<Statement> {
+    let mut units = plan.scene.units.to_adams().statement().remark(remark::UNITS);
+    if plan.form == super::Form::Paper {
+        units = units.remark(remark::PAPER);
+    }
+    let gravity = Statement::lone("ACCGRAV")
+        .numbers("IGRAV", &[0.0])
+        .numbers("JGRAV", &[-plan.scene.gravity])
+        .numbers("KGRAV", &[0.0]);
+    vec![units, gravity]
+}
+
+/// Integrator and output.
+pub(super) fn tail(plan: &Plan<'_>) -> Vec<Statement> {
+    let integrator = Statement::lone("INTEGRATOR")
+        .remark(remark::INTEGRATOR)
+        .flag("GSTIFF")
+        .flag("SI2")
+        .numbers("ERROR", &[plan.scene.accuracy.min(LARGEST)])
+        .numbers("HMAX", &[plan.scene.dt]);
+    let output = Statement::lone("OUTPUT").flag("REQSAVE").flag("GRSAVE");
+    let results = Statement::lone("RESULTS").flag("XRF");
+    vec![integrator, output, results]
+}
+
+/// The command file that runs the data set `model`, a file name without its ending.
+pub(super) fn commands(plan: &Plan<'_>, model: &str) -> String {
+    let (end, dt) = (adams::number::write(plan.scene.end), adams::number::write(plan.scene.dt));
+    // no static analysis first: the wheels start settled, and a body that is free along its rail has no statics
+    let simulate = match plan.scene.analysis {
+        Analysis::Dynamic => "SIMULATE/DYNAMIC",
+        Analysis::QuasiStatic => "SIMULATE/STATIC",
+    };
+    format!("file/model={model}\n{simulate}, END={end}, DTOUT={dt}\nstop\n")
+}

@@ -1,0 +1,124 @@
+//! The state at time 0, as the simulator finds it: wheels that have settled.
+
+use std::ops::ControlFlow;
+
+use sim::{Channel, Foundation, Freedom};
+
+use crate::Error;
+
+/// Numbers at time 0.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start {
+    /// Six displacements a body; x is its rail coordinate.
+    pub displacement: Vec<[f64; 6]>,
+    /// Speed along the rail, a body.
+    pub speed: Vec<f64>,
+    /// Rail coordinate, a wheel.
+    pub place: Vec<f64>,
+    /// Penetration, a wheel.
+    pub penetration: Vec<f64>,
+    /// Downward displacement of the rail, a wheel.
+    pub give: Vec<f64>,
+    /// Vertical force, a wheel.
+    pub vertical: Vec<f64>,
+    /// Flange force, a wheel.
+    pub lateral: Vec<f64>,
+    /// Friction, a wheel.
+    pub traction: Vec<f64>,
+}
+
+impl Start {
+    /// The first sample of a run that is stopped there.
+    ///
+    /// # Errors
+    /// A scene that cannot start.
+    pub fn of(scene: &sim::Scene, foundations: &[Foundation]) -> Result<Start, Error> {
+        let run = sim::run(scene, foundations, &mut |_| ControlFlow::Break(())).map_err(Error::Start)?;
+        let history = &run.history;
+        let at = |channel: Channel| history.column(channel).first().copied().unwrap_or_default();
+        let bodies = 0..scene.bodies.len();
+        let count: usize = scene.contacts.iter().map(|contact| contact.offsets.len()).sum();
+        let of_wheels = |channel: fn(usize) -> Channel| (0..count).map(|w| at(channel(w))).collect();
+        Ok(Start {
+            displacement: bodies
+                .clone()
+                .map(|b| Freedom::ALL.map(|freedom| at(Channel::Displacement(b, freedom))))
+                .collect(),
+            speed: bodies.map(|b| at(Channel::Speed(b, Freedom::X))).collect(),
+            place: of_wheels(Channel::Place),
+            penetration: of_wheels(Channel::Penetration),
+            give: of_wheels(Channel::Give),
+            vertical: of_wheels(Channel::Vertical),
+            lateral: of_wheels(Channel::Lateral),
+            traction: of_wheels(Channel::Traction),
+        })
+    }
+}
+
+/// Rotation matrix by the rotation vector `a`: Rodrigues' formula.
+#[must_use]
+pub fn rotation(a: [f64; 3]) -> [[f64; 3]; 3] {
+    let [x, y, z] = a;
+    let squared = x * x + y * y + z * z;
+    let angle = squared.sqrt();
+    let (s, c) = if angle < 1e-4 {
+        (1.0 - squared / 6.0, 0.5 - squared / 24.0)
+    } else {
+        (angle.sin() / angle, (1.0 - angle.cos()) / squared)
+    };
+    let cross = [[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]];
+    let mut out = [[0.0; 3]; 3];
+    for (i, row) in out.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            let twice: f64 = (0..3).map(|k| cross[i][k] * cross[k][j]).sum();
+            *entry = f64::from(u8::from(i == j)) + s * cross[i][j] + c * twice;
+        }
+    }
+    out
+}
+
+/// Angles of the body-fixed 3-1-3 rotations that make the rotation matrix `r`.
+#[must_use]
+pub fn euler(r: [[f64; 3]; 3]) -> [f64; 3] {
+    let tilt = r[0][2].hypot(r[1][2]);
+    if tilt == 0.0 {
+        return [r[1][0].atan2(r[0][0]), 0.0, 0.0];
+    }
+    [r[0][2].atan2(-r[1][2]), tilt.atan2(r[2][2]), r[2][0].atan2(r[2][1])]
+}
+
+/// The vector `v` turned by `r`.
+#[must_use]
+pub fn turned(r: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+    r.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{euler, rotation, turned};
+
+    fn times(a: [[f64; 3]; 3], b: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
+        std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
+    }
+
+    #[test]
+    fn angles_3_1_3_make_the_rotation_again() {
+        for vector in [[0.0, 0.0, 0.02], [0.01, -0.03, 0.02], [1.0, -0.4, 0.7], [0.0, 0.0, -2.0], [0.0; 3]] {
+            let r = rotation(vector);
+            let [a, b, c] = euler(r);
+            let about_z = |t: f64| rotation([0.0, 0.0, t]);
+            let again = times(times(about_z(a), rotation([b, 0.0, 0.0])), about_z(c));
+            for (row, other) in r.iter().zip(again) {
+                for (one, two) in row.iter().zip(other) {
+                    assert!((one - two).abs() < 1e-14, "{vector:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_small_rotation_is_its_cross_product() {
+        let turned = turned(rotation([0.0, 0.0, 1e-6]), [2.0, 1.0, 0.0]);
+        assert!((turned[0] - (2.0 - 1e-6)).abs() < 1e-11 && (turned[1] - (1.0 + 2e-6)).abs() < 1e-11);
+    }
+}

@@ -1,0 +1,176 @@
+//! How strongly the directions of a structure are coupled, and what leaving that out costs.
+
+use nalgebra::DMatrix;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Value, json};
+
+use crate::block::GridBlock;
+use crate::fault::number;
+use crate::grid::Grid;
+
+crate::object::objects!(RawCoupling, RawDropped, RawChange);
+
+/// Side load of the comparison, as a share of the wheel load.
+pub const SIDE_LOAD: f64 = 0.1;
+
+/// Below this share of the largest entry a station is held: its give is rounding.
+const HELD: f64 = 1e-9;
+
+/// A coupling below this says nothing worth a line.
+const SLIGHT: f64 = 1e-3;
+
+/// Size of the couplings of a grid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) over all pairs of stations, in 0..=1 but for
+    /// rounding, of each coupling that the grid has.
+    pub largest: Vec<(GridBlock, f64)>,
+    /// What dropping the coupling of vertical and lateral costs.
+    pub cost: Option<Cost>,
+}
+
+/// Change of a deflection under its own load when the coupling is dropped.
+///
+/// A wheel load F and a side load of [`SIDE_LOAD`] F at a station move it vertically by
+/// G_vv F + G_vl 0.1 F and sideways by G_ll 0.1 F + G_lv F; the second terms are dropped. Relative to the first.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cost {
+    /// Vertical deflection.
+    pub vertical: Change,
+    /// Lateral deflection.
+    pub lateral: Change,
+}
+
+/// A relative change over the stations that move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Change {
+    /// Median.
+    pub median: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+impl Coupling {
+    /// The couplings of a grid; `None` where it has none.
+    #[must_use]
+    pub fn of(grid: &Grid) -> Option<Coupling> {
+        let mut largest = Vec::new();
+        for (quantity, block) in &grid.blocks {
+            let [row, column] = quantity.direct();
+            if row == column {
+                continue;
+            }
+            if let (Some(a), Some(b)) = (grid.block(row), grid.block(column)) {
+                largest.push((*quantity, share(block, a, b)));
+            }
+        }
+        let blocks =
+            [GridBlock::Vertical, GridBlock::Lateral, GridBlock::VerticalLateral].map(|q| grid.block(q));
+        let cost = match blocks {
+            [Some(vertical), Some(lateral), Some(coupling)] => {
+                let vertical = change(coupling, vertical, SIDE_LOAD);
+                let lateral = change(coupling, lateral, 1.0 / SIDE_LOAD);
+                vertical.zip(lateral).map(|(vertical, lateral)| Cost { vertical, lateral })
+            }
+            _ => None,
+        };
+        (!largest.is_empty()).then_some(Coupling { largest, cost })
+    }
+
+    /// The member `coupling` of a grid file.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let mut object = serde_json::Map::new();
+        for (quantity, share) in &self.largest {
+            object.insert(quantity.name().to_owned(), json!(share));
+        }
+        if let Some(cost) = &self.cost {
+            let change = |change: Change| json!({ "median": change.median, "largest": change.largest });
+            let dropped = json!({
+                "side_load": SIDE_LOAD, "vertical": change(cost.vertical), "lateral": change(cost.lateral),
+            });
+            object.insert("dropped".to_owned(), dropped);
+        }
+        Value::Object(object)
+    }
+
+    /// One line for people, where there is a coupling to speak of.
+    #[must_use]
+    pub fn line(&self) -> Option<String> {
+        let (_, share) = self.largest.iter().find(|(quantity, _)| *quantity == GridBlock::VerticalLateral)?;
+        let cost = self.cost.filter(|_| *share >= SLIGHT)?;
+        let percent = |change: Change| {
+            format!("{:.1} % (median; at most {:.1} %)", 100.0 * change.median, 100.0 * change.largest)
+        };
+        Some(format!(
+            "coupling: vertical-lateral reaches {share:.3} of sqrt(Gvv Gll); under a side load of {} of the wheel \
+             load, dropping it moves the lateral deflection by {}, the vertical by {}",
+            number(SIDE_LOAD),
+            percent(cost.lateral),
+            percent(cost.vertical),
+        ))
+    }
+}
+
+/// Stations that move.
+fn moving(block: &DMatrix<f64>) -> impl Fn(usize) -> bool + '_ {
+    let least = HELD * block.diagonal().amax();
+    move |i| block[(i, i)] > least
+}
+
+fn share(coupling: &DMatrix<f64>, row: &DMatrix<f64>, column: &DMatrix<f64>) -> f64 {
+    let (up, side) = (moving(row), moving(column));
+    let mut largest = 0.0_f64;
+    for i in (0..row.nrows()).filter(|&i| up(i)) {
+        for j in (0..row.nrows()).filter(|&j| side(j)) {
+            largest = largest.max(coupling[(i, j)].abs() / (row[(i, i)].sqrt() * column[(j, j)].sqrt()));
+        }
+    }
+    largest
+}
+
+/// |coupling| `factor` / direct at the stations that move.
+fn change(coupling: &DMatrix<f64>, direct: &DMatrix<f64>, factor: f64) -> Option<Change> {
+    let moves = moving(direct);
+    let stations = (0..direct.nrows()).filter(|&i| moves(i));
+    let mut changes: Vec<f64> = stations.map(|i| coupling[(i, i)].abs() * factor / direct[(i, i)]).collect();
+    changes.sort_by(f64::total_cmp);
+    let n = changes.len();
+    let largest = *changes.last()?;
+    Some(Change { median: 0.5 * (changes[(n - 1) / 2] + changes[n / 2]), largest })
+}
+
+/// The member `coupling` as it stands in the file: it follows from the grids.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawCoupling {
+    #[serde(rename = "vertical_lateral")]
+    _vertical_lateral: Option<f64>,
+    #[serde(rename = "vertical_longitudinal")]
+    _vertical_longitudinal: Option<f64>,
+    #[serde(rename = "lateral_longitudinal")]
+    _lateral_longitudinal: Option<f64>,
+    #[serde(rename = "dropped")]
+    _dropped: Option<RawDropped>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawDropped {
+    #[serde(rename = "side_load")]
+    _side_load: f64,
+    #[serde(rename = "vertical")]
+    _vertical: RawChange,
+    #[serde(rename = "lateral")]
+    _lateral: RawChange,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawChange {
+    #[serde(rename = "median")]
+    _median: f64,
+    #[serde(rename = "largest")]
+    _largest: f64,
+}

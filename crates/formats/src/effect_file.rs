@@ -1,0 +1,201 @@
+//! Member `effects` of a grid file: influence lines at the stations, both ways.
+
+use std::fmt::Write;
+
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::{Map, Value, json};
+use splines::Axis;
+
+use crate::effect::{COMPONENTS, Effects, Ground, Lines, Reaction, Section};
+use crate::fault::{Fault, Faults};
+use crate::place::Place;
+use crate::spec::Spot;
+use crate::units::Units;
+
+crate::object::objects!(RawEffects, RawUnits, RawReaction, RawSection, RawLines);
+
+const AXES: [(&str, Axis); 3] =
+    [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
+
+/// The member `effects` as it stands in the file.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+pub(crate) struct RawEffects {
+    /// For people: they follow from the units of the file.
+    #[serde(rename = "units")]
+    _units: Option<RawUnits>,
+    reactions: Option<Vec<RawReaction>>,
+    sections: Option<Vec<RawSection>>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+struct RawUnits {
+    #[serde(rename = "force")]
+    _force: Option<String>,
+    #[serde(rename = "moment")]
+    _moment: Option<String>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+struct RawReaction {
+    x: Option<f64>,
+    point: Option<usize>,
+    dof: Option<String>,
+    spring: Option<usize>,
+    vertical: Option<Vec<f64>>,
+    lateral: Option<Vec<f64>>,
+    longitudinal: Option<Vec<f64>>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+struct RawSection {
+    name: Option<String>,
+    x: Option<f64>,
+    cell: Option<[usize; 2]>,
+    at: Option<f64>,
+    #[serde(rename = "N")]
+    n: Option<RawLines>,
+    #[serde(rename = "Vy")]
+    vy: Option<RawLines>,
+    #[serde(rename = "Vz")]
+    vz: Option<RawLines>,
+    #[serde(rename = "Mx")]
+    mx: Option<RawLines>,
+    #[serde(rename = "My")]
+    my: Option<RawLines>,
+    #[serde(rename = "Mz")]
+    mz: Option<RawLines>,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
+struct RawLines {
+    vertical: Option<Vec<f64>>,
+    lateral: Option<Vec<f64>>,
+    longitudinal: Option<Vec<f64>>,
+}
+
+/// The member as text, one reaction or section a line.
+pub fn write(effects: &Effects, units: Units) -> String {
+    let (force, length) = (units.force.word(), units.length.word());
+    let own = json!({ "force": format!("{force}/{force}"), "moment": format!("{force} {length}/{force}") });
+    let mut text = format!("{{\n    \"units\": {own}");
+    let mut list = |key: &str, items: Vec<Value>| {
+        // writing to a string cannot fail
+        let _ = write!(text, ",\n    \"{key}\": [");
+        for (index, item) in items.iter().enumerate() {
+            let _ = write!(text, "{}\n      {item}", if index > 0 { "," } else { "" });
+        }
+        let _ = write!(text, "{}]", if items.is_empty() { "" } else { "\n    " });
+    };
+    list("reactions", effects.reactions.iter().map(reaction).collect());
+    list("sections", effects.sections.iter().map(section).collect());
+    text.push_str("\n  }");
+    text
+}
+
+fn reaction(reaction: &Reaction) -> Value {
+    let mut object = Map::new();
+    match reaction.at {
+        Ground::Along(x) => object.insert("x".into(), json!(x)),
+        Ground::Point(point) => object.insert("point".into(), json!(point)),
+    };
+    object.insert("dof".into(), json!(reaction.dof));
+    if let Some(spring) = reaction.spring {
+        object.insert("spring".into(), json!(spring));
+    }
+    object.extend(lines(&reaction.lines));
+    Value::Object(object)
+}
+
+fn section(section: &Section) -> Value {
+    let mut object = Map::new();
+    object.insert("name".into(), json!(section.name));
+    match section.at {
+        Spot::Along(x) => {
+            object.insert("x".into(), json!(x));
+        }
+        Spot::Cell(cell, at) => {
+            object.insert("cell".into(), json!(cell));
+            object.insert("at".into(), json!(at));
+        }
+    }
+    for ((word, _), own) in COMPONENTS.iter().zip(&section.lines) {
+        object.insert((*word).to_owned(), Value::Object(lines(own)));
+    }
+    Value::Object(object)
+}
+
+fn lines(lines: &Lines) -> Map<String, Value> {
+    let named = AXES.iter().filter_map(|(word, axis)| {
+        let (_, line) = lines.iter().find(|(known, _)| known == axis)?;
+        Some(((*word).to_owned(), json!(line)))
+    });
+    named.collect()
+}
+
+impl RawEffects {
+    /// The effects of a file with `size` stations.
+    pub fn effects(&self, size: usize, place: &Place<'_>, faults: &mut Faults) -> Effects {
+        let mut effects = Effects::default();
+        let list = place.key("reactions");
+        for (index, raw) in self.reactions.iter().flatten().enumerate() {
+            let at = list.index(index);
+            let ground = match (raw.x, raw.point) {
+                (Some(x), None) => Some(Ground::Along(x)),
+                (None, Some(point)) => Some(Ground::Point(point)),
+                _ => {
+                    faults.add(Fault::new(&at, "must have one of `x` and `point`"));
+                    None
+                }
+            };
+            let dof = faults.need(&raw.dof, &at, "dof").cloned();
+            let lines = read([&raw.vertical, &raw.lateral, &raw.longitudinal], size, &at, faults);
+            if let (Some(at), Some(dof)) = (ground, dof) {
+                effects.reactions.push(Reaction { at, dof, spring: raw.spring, lines });
+            }
+        }
+        let list = place.key("sections");
+        for (index, raw) in self.sections.iter().flatten().enumerate() {
+            let at = list.index(index);
+            let spot = match (raw.x, raw.cell.zip(raw.at)) {
+                (Some(x), None) => Some(Spot::Along(x)),
+                (None, Some((cell, share))) => Some(Spot::Cell(cell, share)),
+                _ => {
+                    faults.add(Fault::new(&at, "must have either `x`, or `cell` and `at`"));
+                    None
+                }
+            };
+            let name = faults.need(&raw.name, &at, "name").cloned();
+            let all = [&raw.n, &raw.vy, &raw.vz, &raw.mx, &raw.my, &raw.mz];
+            let lines = std::array::from_fn(|k| {
+                let word = COMPONENTS[k].0;
+                let own = faults.need(all[k], &at, word).map(|own| {
+                    read([&own.vertical, &own.lateral, &own.longitudinal], size, &at.key(word), faults)
+                });
+                own.unwrap_or_default()
+            });
+            if let (Some(at), Some(name)) = (spot, name) {
+                effects.sections.push(Section { name, at, lines });
+            }
+        }
+        effects
+    }
+}
+
+fn read(all: [&Option<Vec<f64>>; 3], size: usize, place: &Place<'_>, faults: &mut Faults) -> Lines {
+    let mut lines = Lines::new();
+    for ((word, axis), line) in AXES.iter().zip(all) {
+        let Some(line) = line else { continue };
+        if line.len() != size {
+            let expected = format!("must have {size} numbers, one for each station");
+            faults.add(Fault::new(&place.key(word), expected).got(line.len()));
+        }
+        lines.push((*axis, line.clone()));
+    }
+    lines
+}

@@ -1,0 +1,338 @@
+//! Grid files: `girderway-grid/1`, written with all digits and read back bit for bit.
+
+use std::fmt::Write;
+
+use fea::Certificate;
+use nalgebra::DMatrix;
+use schemars::JsonSchema;
+use serde::Deserialize;
+use serde_json::json;
+use splines::Surface;
+
+use crate::block::GridBlock;
+use crate::coupling::{Coupling, RawCoupling};
+use crate::diagnostic::Diagnostic;
+use crate::effect_file::{self, RawEffects};
+use crate::fault::{Fault, Faults, number};
+use crate::grid::{Grid, GridRail};
+use crate::modes_file::RawModes;
+use crate::place::Place;
+use crate::source::Source;
+use crate::spec::THEORIES;
+use crate::surface_file::{self, RawSurface};
+use crate::units::{RawUnits, Units};
+
+crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
+
+/// The word of the format, with its version.
+pub const FORMAT: &str = "girderway-grid/1";
+/// Freedoms of the largest surface that `fea` writes: some 170 MB of text.
+pub const LARGEST: usize = 3000;
+
+/// The text of a grid file: one row of a matrix a line, every number in the fewest digits that give it back.
+/// With `surface`, the influence between the stations too, exactly.
+#[must_use]
+pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
+    let mut head = serde_json::Map::new();
+    head.insert("format".into(), json!(FORMAT));
+    head.insert("name".into(), json!(grid.name));
+    head.insert("units".into(), grid.units.json());
+    if let Some(theory) = &grid.theory {
+        head.insert("theory".into(), json!(theory));
+    }
+    let rails: Vec<_> =
+        grid.rails.iter().map(|rail| json!({ "name": rail.name, "stations": rail.stations })).collect();
+    head.insert("rails".into(), json!(rails));
+    if let Some(certificate) = &grid.certificate {
+        let precision = if certificate.extended { "double-double" } else { "double" };
+        let object = json!({
+            "condition": certificate.condition,
+            "error_bound": certificate.error_bound,
+            "precision": precision,
+        });
+        head.insert("certificate".into(), object);
+    }
+    if let Some(coupling) = Coupling::of(grid) {
+        head.insert("coupling".into(), coupling.json());
+    }
+    if !grid.notes.is_empty() {
+        head.insert("notes".into(), json!(grid.notes));
+    }
+    let mut text = String::from("{\n");
+    for (key, value) in &head {
+        // writing to a string cannot fail
+        let _ = writeln!(text, "  \"{key}\": {value},");
+    }
+    text.push_str("  \"influence\": {");
+    for (index, (quantity, block)) in grid.blocks.iter().enumerate() {
+        let comma = if index > 0 { "," } else { "" };
+        let _ = write!(text, "{comma}\n    \"{quantity}\": [");
+        for (row, numbers) in block.row_iter().enumerate() {
+            let comma = if row > 0 { "," } else { "" };
+            let numbers: Vec<f64> = numbers.iter().copied().collect();
+            let _ = write!(text, "{comma}\n      {}", json!(numbers));
+        }
+        text.push_str("\n    ]");
+    }
+    text.push_str("\n  }");
+    if let Some(effects) = &grid.effects {
+        let _ = write!(text, ",\n  \"effects\": {}", effect_file::write(effects, grid.units));
+    }
+    if let Some(surface) = surface {
+        let _ = write!(text, ",\n  \"surface\": {}", surface_file::to_json(surface));
+    }
+    text.push_str("\n}\n");
+    text
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawGrid {
+    format: Option<String>,
+    name: Option<String>,
+    units: Option<RawUnits>,
+    theory: Option<String>,
+    rails: Option<Vec<RawRail>>,
+    certificate: Option<RawCertificate>,
+    /// Follows from the grids.
+    #[serde(rename = "coupling")]
+    _coupling: Option<RawCoupling>,
+    #[serde(default)]
+    notes: Vec<String>,
+    influence: Option<RawInfluence>,
+    effects: Option<RawEffects>,
+    surface: Option<RawSurface>,
+    modes: Option<RawModes>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawRail {
+    name: Option<String>,
+    stations: Option<Vec<f64>>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawCertificate {
+    condition: f64,
+    error_bound: f64,
+    #[serde(default)]
+    precision: Precision,
+}
+
+/// In what the stiffness was formed and factored.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+enum Precision {
+    #[default]
+    Double,
+    DoubleDouble,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawInfluence {
+    vertical: Option<Vec<Vec<f64>>>,
+    lateral: Option<Vec<Vec<f64>>>,
+    longitudinal: Option<Vec<Vec<f64>>>,
+    vertical_lateral: Option<Vec<Vec<f64>>>,
+    vertical_longitudinal: Option<Vec<Vec<f64>>>,
+    lateral_longitudinal: Option<Vec<Vec<f64>>>,
+}
+
+impl RawInfluence {
+    fn block(&self, quantity: GridBlock) -> Option<&Vec<Vec<f64>>> {
+        match quantity {
+            GridBlock::Vertical => self.vertical.as_ref(),
+            GridBlock::Lateral => self.lateral.as_ref(),
+            GridBlock::Longitudinal => self.longitudinal.as_ref(),
+            GridBlock::VerticalLateral => self.vertical_lateral.as_ref(),
+            GridBlock::VerticalLongitudinal => self.vertical_longitudinal.as_ref(),
+            GridBlock::LateralLongitudinal => self.lateral_longitudinal.as_ref(),
+        }
+    }
+}
+
+/// Reads a grid file, and its exact surface where it has one.
+///
+/// # Errors
+/// The first syntax or type error, or everything else that is wrong: a block of another size than the stations,
+/// a direct grid that is not symmetric to the last bit.
+pub fn read(source: &Source) -> Result<(Grid, Option<Surface>), Vec<Diagnostic>> {
+    let raw: RawGrid = source.parse(FORMAT).map_err(|error| vec![*error])?;
+    let mut faults = Faults::default();
+    let grid = check(&raw, source, &mut faults);
+    let place = Place::root();
+    let surface = raw.surface.as_ref().and_then(|raw| raw.surface(&place.key("surface"), &mut faults));
+    match grid {
+        Some(grid) if faults.0.is_empty() => Ok((grid, surface)),
+        _ => Err(source.diagnose(&faults)),
+    }
+}
+
+fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
+    let root = Place::root();
+    crate::spec::format(&raw.format, FORMAT, &root, faults);
+    let units = Units::read(&raw.units, &root, faults);
+    if let Some(theory) = &raw.theory {
+        faults.word(theory, &root.key("theory"), &THEORIES);
+    }
+    let rails = read_rails(raw, &root, faults);
+    let size = rails.iter().map(|rail| rail.stations.len()).sum();
+    if let Some(modes) = &raw.modes {
+        modes.check(size, &root.key("modes"), faults);
+    }
+    let influence = faults.need(&raw.influence, &root, "influence")?;
+    let at = root.key("influence");
+    let mut blocks = Vec::new();
+    for quantity in GridBlock::ALL {
+        let Some(rows) = influence.block(quantity) else { continue };
+        let place = at.key(quantity.name());
+        if let Some(block) = square(rows, size, &place, faults) {
+            if quantity.direct() == [quantity; 2] {
+                symmetric(&block, &place, faults);
+            }
+            blocks.push((quantity, block));
+        }
+    }
+    if blocks.is_empty() && faults.0.is_empty() {
+        faults.add(Fault::new(&at, "must have at least one grid"));
+    }
+    let effects = raw.effects.as_ref().map(|raw| raw.effects(size, &root.key("effects"), faults));
+    let certificate = raw.certificate.as_ref();
+    let certificate = certificate.map(|given| Certificate {
+        condition: given.condition,
+        error_bound: given.error_bound,
+        extended: given.precision == Precision::DoubleDouble,
+    });
+    Some(Grid {
+        name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
+        units: units?,
+        theory: raw.theory.clone(),
+        rails,
+        blocks,
+        certificate,
+        effects,
+        notes: raw.notes.clone(),
+    })
+}
+
+fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridRail> {
+    let list = root.key("rails");
+    let mut rails: Vec<GridRail> = Vec::new();
+    let given = faults.need(&raw.rails, root, "rails").map(Vec::as_slice).unwrap_or_default();
+    for (index, raw) in given.iter().enumerate() {
+        let at = list.index(index);
+        let name = faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let stations = faults.need(&raw.stations, &at, "stations").cloned().unwrap_or_default();
+        faults.increasing(&stations, &at.key("stations"));
+        if rails.iter().any(|rail| rail.name == name) {
+            faults.add(
+                Fault::new(&at.key("name"), "must differ from the other rails").got(format!("\"{name}\"")),
+            );
+        }
+        rails.push(GridRail { name, stations });
+    }
+    if rails.iter().all(|rail| rail.stations.is_empty()) && faults.0.is_empty() {
+        faults.add(Fault::new(&list, "must have at least one station"));
+    }
+    rails
+}
+
+fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults) -> Option<DMatrix<f64>> {
+    if rows.len() != size {
+        let fault = Fault::new(place, format!("must have {size} rows, one for each station")).got(rows.len());
+        faults.add(fault);
+        return None;
+    }
+    let wrong = rows.iter().position(|row| row.len() != size);
+    if let Some(row) = wrong {
+        let fault = Fault::new(&place.index(row), format!("must have {size} numbers, one for each station"));
+        faults.add(fault.got(rows[row].len()));
+        return None;
+    }
+    Some(DMatrix::from_fn(size, size, |row, column| rows[row][column]))
+}
+
+fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
+    for row in 0..block.nrows() {
+        for column in 0..row {
+            if block[(row, column)] != block[(column, row)] {
+                let line = place.index(row);
+                let expected =
+                    format!("must be symmetric: [{column}][{row}] is {}", number(block[(column, row)]));
+                let fault = Fault::new(&line.index(column), expected).got(number(block[(row, column)]));
+                faults.add(fault.hint("a displacement at i from a load at j is the same as at j from i"));
+                return;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::effect::{Effects, Ground, Reaction, Section};
+    use crate::spec::Spot;
+    use crate::units::{Force, Length};
+    use splines::Axis;
+
+    fn grid() -> Grid {
+        let block = DMatrix::from_row_slice(2, 2, &[1.0 / 3.0 * 1e-8, 2.5e-310, 2.5e-310, 1e-7]);
+        Grid {
+            name: "two \"stations\"".to_owned(),
+            units: Units { length: Length::Foot, force: Force::Kip },
+            theory: Some("timoshenko".to_owned()),
+            rails: vec![GridRail { name: "north".to_owned(), stations: vec![0.1, 0.30000000000000004] }],
+            blocks: vec![(GridBlock::Vertical, block.clone()), (GridBlock::VerticalLateral, block * 2.0)],
+            certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0, extended: true }),
+            effects: None,
+            notes: vec!["no longitudinal grids".to_owned()],
+        }
+    }
+
+    fn source(text: String) -> Source {
+        Source { name: "grid.json".to_owned(), text }
+    }
+
+    #[test]
+    fn what_is_written_is_read_back_bit_for_bit() {
+        let mut given = grid();
+        given.blocks.insert(1, (GridBlock::Lateral, given.blocks[0].1.clone()));
+        let lines = |k: f64| vec![(Axis::Vertical, vec![k / 3.0, -1.0]), (Axis::Lateral, vec![0.1 * k, 0.0])];
+        let reaction = |at, spring| Reaction { at, dof: "uy".to_owned(), spring, lines: lines(1.0) };
+        let section = |at| Section {
+            name: "mid \"span\"".to_owned(),
+            at,
+            lines: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(lines),
+        };
+        given.effects = Some(Effects {
+            reactions: vec![reaction(Ground::Point(3), None), reaction(Ground::Along(0.1), Some(2))],
+            sections: vec![section(Spot::Cell([1, 2], 0.3)), section(Spot::Along(1.0 / 3.0))],
+        });
+        for grid in [grid(), given] {
+            let (read, surface) = read(&source(write(&grid, None))).expect("our own file");
+            assert_eq!(read, grid);
+            assert!(surface.is_none());
+        }
+    }
+
+    #[test]
+    fn an_unsymmetric_direct_grid_is_refused_by_its_first_pair() {
+        let mut given = grid();
+        given.blocks[0].1[(1, 0)] = f64::from_bits(2.5e-310f64.to_bits() + 1);
+        let wrong = read(&source(write(&given, None))).expect_err("one bit differs");
+        assert_eq!(wrong.len(), 1);
+        assert_eq!(wrong[0].path, "influence.vertical[1][0]");
+    }
+
+    #[test]
+    fn a_block_of_another_size_than_the_stations_is_refused() {
+        let mut given = grid();
+        given.rails[0].stations.push(0.5);
+        let wrong = read(&source(write(&given, None))).expect_err("three stations, two rows");
+        let paths: Vec<&str> = wrong.iter().map(|found| found.path.as_str()).collect();
+        assert_eq!(paths, ["influence.vertical", "influence.vertical_lateral"]);
+    }
+}

@@ -1,0 +1,153 @@
+//! What the solver refuses, back at its place in the file.
+
+use fea::{Error, Freedom, Item};
+
+use super::{Form, Spec};
+use crate::diagnostic::Diagnostic;
+use crate::fault::{Fault, Faults};
+use crate::place::{Path, Step};
+use crate::source::Source;
+
+/// Why the frame of a spec has no solution, in the words of the spec.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SolveError {
+    /// An entry of the file cannot be used.
+    Input(Vec<Diagnostic>),
+    /// The numbers cannot be trusted: a mechanism, a hopeless condition, too large a system.
+    Untrusted(String),
+}
+
+impl Spec {
+    /// A solver's error in the words of the spec: an unusable entry is an input error with its place, a
+    /// mechanism or a hopeless condition means that the numbers cannot be trusted.
+    #[must_use]
+    pub fn refuse(&self, source: &Source, error: &Error) -> SolveError {
+        match error {
+            Error::Invalid { item, fault } => {
+                let fault = Fault {
+                    path: self.path(*item),
+                    at_key: false,
+                    expected: fault.to_string(),
+                    found: None,
+                    hint: None,
+                };
+                SolveError::Input(source.diagnose(&Faults(vec![fault])))
+            }
+            Error::Mechanism { point, freedom } => SolveError::Untrusted(format!(
+                "{}: mechanism: nothing holds {} in {freedom} ({})",
+                source.name,
+                self.point(*point),
+                meaning(*freedom)
+            )),
+            Error::Ill { condition, bound, asked, point, freedom } => SolveError::Untrusted(format!(
+                "{}: condition {condition:.1e} bounds the relative error by {bound:.1e}, asked \
+                 {asked:.1e}; weakest is {} in {freedom} ({})  hint: lengthen or join the shortest members, one a span is \
+                 best, or ask less with --accuracy",
+                source.name,
+                self.point(*point),
+                meaning(*freedom)
+            )),
+            Error::Released { member, end, freedom } => SolveError::Untrusted(format!(
+                "{}: mechanism: releases of {} leave {freedom} free at its end {}",
+                source.name,
+                self.path(Item::Member(*member)),
+                if *end == 0 { "a" } else { "b" }
+            )),
+            Error::Memory { quantity, bytes, most } => SolveError::Untrusted(format!(
+                "{}: the {quantity} would take {:.1} GB of memory, {:.1} GB are allowed  hint: {}",
+                source.name,
+                *bytes as f64 / 1e9,
+                *most as f64 / 1e9,
+                "let the rails cover only what carriages reach, or join members"
+            )),
+            Error::Factor { .. }
+            | Error::NoRails
+            | Error::Rail(_)
+            | Error::NoMass
+            | Error::TooManyModes { .. }
+            | Error::Modes { .. } => SolveError::Untrusted(format!("{}: {error}", source.name)),
+        }
+    }
+
+    fn path(&self, item: Item) -> Path {
+        let key = |word: &str| Step::Key(word.to_owned());
+        let list = |word: &str, index: usize| Path(vec![key(word), Step::Index(index)]);
+        match (&self.form, item) {
+            (Form::Girder(_), Item::Span(index)) => {
+                Path(vec![key("girder"), key("spans"), Step::Index(index)])
+            }
+            (Form::Girder(_), Item::Overhang(index)) => {
+                Path(vec![key("girder"), key("overhangs"), Step::Index(index)])
+            }
+            (Form::Girder(_), Item::Station { station, .. }) => list("stations", station),
+            (_, Item::Effect(index)) => list("effects", index),
+            (Form::Girder(_), _) => Path(vec![key("girder")]),
+            (Form::Frame(_), Item::Up) => Path(vec![key("up")]),
+            (Form::Frame(_), Item::Point(index)) => list("points", index),
+            (Form::Frame(_), Item::Section(index)) => list("sections", index),
+            (Form::Frame(frame), Item::Support(index)) => {
+                list("supports", frame.supports.get(index).copied().unwrap_or(index))
+            }
+            (Form::Frame(_), Item::Spring(index)) => list("springs", index),
+            (Form::Frame(_), Item::Link(index)) => list("links", index),
+            (Form::Frame(_), Item::Mass(index)) => list("masses", index),
+            (Form::Frame(frame), Item::Member(index)) => match frame.cells.get(index) {
+                Some(&[block, cell]) => {
+                    Path(vec![key("cells"), Step::Index(block), key("data"), Step::Index(cell)])
+                }
+                None => Path(vec![key("cells")]),
+            },
+            (Form::Frame(_), Item::Rail(rail)) => self.rail_path(rail, None),
+            (Form::Frame(_), Item::Segment { rail, segment }) => {
+                self.rail_path(rail, Some(("segments", segment)))
+            }
+            (Form::Frame(_), Item::Station { rail, station }) => {
+                self.rail_path(rail, Some(("stations", station)))
+            }
+            (Form::Frame(_), Item::Span(_) | Item::Overhang(_) | Item::Girder) => Path::default(),
+        }
+    }
+
+    fn rail_path(&self, rail: usize, below: Option<(&str, usize)>) -> Path {
+        let mut steps = vec![Step::Key("rails".to_owned())];
+        if let Form::Frame(frame) = &self.form {
+            steps.extend(frame.rails.get(rail).map(|(name, _)| Step::Key(name.clone())));
+        }
+        if let Some((key, index)) = below {
+            steps.extend([Step::Key(key.to_owned()), Step::Index(index)]);
+        }
+        Path(steps)
+    }
+
+    /// A point as users know it: by index, coordinates and the set it is in; of a girder, by its place.
+    fn point(&self, index: usize) -> String {
+        let unit = self.units.length.word();
+        match &self.form {
+            Form::Girder(girder) => match girder.frame() {
+                Ok((model, _)) if index < model.points.len() => {
+                    format!("the girder at x = {} {unit}", model.points[index][0])
+                }
+                _ => "the girder".to_owned(),
+            },
+            Form::Frame(frame) => {
+                let place = frame.model.points.get(index).copied().unwrap_or_default();
+                let set = frame.point_sets.iter().find(|(_, points)| points.contains(&index));
+                let set = set.map_or_else(String::new, |(name, _)| format!(" of \"{name}\""));
+                let kind =
+                    if index < frame.points { format!("point {index}{set}") } else { "a cut".to_owned() };
+                format!("{kind} at [{}, {}, {}] {unit}", place[0], place[1], place[2])
+            }
+        }
+    }
+}
+
+const fn meaning(freedom: Freedom) -> &'static str {
+    match freedom {
+        Freedom::Ux => "displacement along x",
+        Freedom::Uy => "displacement along y",
+        Freedom::Uz => "displacement along z",
+        Freedom::Rx => "rotation about x",
+        Freedom::Ry => "rotation about y",
+        Freedom::Rz => "rotation about z",
+    }
+}

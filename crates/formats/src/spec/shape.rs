@@ -1,0 +1,136 @@
+//! Sections given by their plates: the member `shape` of a section.
+
+use super::raw::{RawSection, RawShape};
+use crate::check::Check;
+use crate::fault::{Fault, number};
+use crate::place::Place;
+use crate::shape::properties;
+use crate::units::{Dimension, Length};
+
+/// Keys of dimensions, in the order of [`Kind::dimensions`].
+const KEYS: [&str; 8] =
+    ["height", "width", "flange", "web", "lower_width", "lower_flange", "diameter", "wall"];
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    I,
+    Box,
+    Tube,
+    Bar,
+}
+
+impl Kind {
+    const WORDS: [(&'static str, Kind); 4] =
+        [("I", Kind::I), ("box", Kind::Box), ("tube", Kind::Tube), ("bar", Kind::Bar)];
+
+    /// Keys that it needs, and those that it may have.
+    const fn keys(self) -> (&'static [&'static str], &'static [&'static str]) {
+        match self {
+            Kind::I => (&["height", "width", "flange", "web"], &["lower_width", "lower_flange"]),
+            Kind::Box => (&["height", "width", "flange", "web"], &[]),
+            Kind::Tube => (&["diameter", "wall"], &[]),
+            Kind::Bar => (&["height", "width"], &[]),
+        }
+    }
+}
+
+/// Fills in what the section leaves out and its shape says, in the units of the file.
+///
+/// y is along the height: Iz = int y^2 dA, Iy = int z^2 dA.
+pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) -> RawSection {
+    let mut section = raw.numbers();
+    let Some(shape) = &raw.shape else { return section };
+    let place = at.key("shape");
+    let Some(found) = read(shape, &place, check) else {
+        // the fault is told; no key is missing besides
+        for number in [&mut section.area, &mut section.iy, &mut section.iz, &mut section.j] {
+            number.get_or_insert(1.0);
+        }
+        return section;
+    };
+    let [area, iy, iz, j, asy, asz] = found;
+    section.area.get_or_insert(area);
+    section.iy.get_or_insert(iy);
+    section.iz.get_or_insert(iz);
+    section.j.get_or_insert(j);
+    section.asy.get_or_insert(asy);
+    section.asz.get_or_insert(asz);
+    section
+}
+
+/// A, Iy, Iz, J, Asy, Asz.
+fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6]> {
+    let kind = check.faults.need(&raw.kind, at, "kind")?;
+    let kind = check.faults.word(kind, &at.key("kind"), &Kind::WORDS)?;
+    let given = [
+        raw.height,
+        raw.width,
+        raw.flange,
+        raw.web,
+        raw.lower_width,
+        raw.lower_flange,
+        raw.diameter,
+        raw.wall,
+    ];
+    let before = check.faults.0.len();
+    let (needed, optional) = kind.keys();
+    let mut dimensions = [0.0; 8];
+    for (index, key) in KEYS.iter().enumerate() {
+        let place = at.key(key);
+        match given[index] {
+            Some(value) if needed.contains(key) || optional.contains(key) => {
+                dimensions[index] = check.positive(value, &place, Dimension::NUMBER, "a dimension");
+            }
+            Some(_) => {
+                let known: Vec<&str> = needed.iter().chain(optional).copied().collect();
+                let fault = Fault::new(&place, format!("`{key}` is none of the dimensions of this kind"));
+                check.faults.add(fault.at_key().hint(format!("it has {}", known.join(", "))));
+            }
+            None if needed.contains(key) => {
+                let fault = Fault::new(at, format!("missing key `{key}`"));
+                check.faults.add(fault.hint(format!("this kind has {}", needed.join(", "))));
+            }
+            None => {}
+        }
+    }
+    let own = match &raw.length {
+        Some(word) => {
+            let words = Length::ALL.map(|unit| (unit.word(), unit));
+            check.faults.word(word, &at.key("length"), &words)
+        }
+        None => Some(check.scale.from.length),
+    };
+    if check.faults.0.len() > before {
+        return None;
+    }
+    let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = dimensions;
+    let or = |own: f64, other: f64| if own > 0.0 { own } else { other };
+    let found = match kind {
+        Kind::I => {
+            let lower = [or(lower_width, width), or(lower_flange, flange)];
+            properties("I", &[height, lower[0], width, web, lower[1], flange])
+        }
+        Kind::Box => properties("BOX", &[width, height, flange, web]),
+        Kind::Tube => properties("TUBE2", &[0.5 * diameter, wall]),
+        Kind::Bar => properties("BAR", &[width, height]),
+    };
+    let Ok(found) = found else {
+        let listed: Vec<String> =
+            dimensions.iter().filter(|value| **value > 0.0).map(|value| number(*value)).collect();
+        let fault = Fault::new(at, "its plates must leave room between each other").got(listed.join(", "));
+        check.faults.add(
+            fault.hint("all dimensions are in the one unit `length`, that of the file where there is none"),
+        );
+        return None;
+    };
+    let unit = own.map_or(1.0, |own| own.in_units_of(check.scale.from.length));
+    let [square, fourth] = [unit.powi(2), unit.powi(4)];
+    Some([
+        found.area * square,
+        found.i2 * fourth,
+        found.i1 * fourth,
+        found.j * fourth,
+        found.k1 * found.area * square,
+        found.k2 * found.area * square,
+    ])
+}

@@ -1,0 +1,259 @@
+//! The chain of rigid parts and beams of a straight girder.
+
+use std::sync::Arc;
+
+use fea::{Girder, Link, Member, Model, Support};
+use nalgebra::{DMatrix, DVector};
+use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
+use splines::{Cell, Flexibility, Line, Surface};
+
+use super::mount::Push;
+use super::{Laid, window};
+use crate::Error;
+use formats::scene::{Handover, On};
+
+/// Smallest stiffness kept, relative to the most compliant combination of the parts' freedoms.
+const RIGID: f64 = 1e-13;
+
+/// `count` rigid parts of equal length, beams between their centres, supports on the parts above them; where
+/// the girder has mass, each part has its share, and the chain's natural modes are damped by the share `damping` of
+/// critical. Where wheels do not push sideways, parts with mass move in the vertical plane alone.
+///
+/// # Errors
+/// What the FE model refuses.
+pub fn foundation(
+    girder: &Girder,
+    count: usize,
+    handover: Handover,
+    damping: f64,
+    push: Push,
+) -> Result<Laid, Error> {
+    let ends = part_ends(girder, count);
+    let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or(Error::Windows)?;
+    let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+    let nodal = nodal_compliance(girder, &ends, &centres)?;
+    let line = Arc::new(line(girder, &ends, &centres)?);
+    let range = chain.range();
+    let mut breaks = chain.breaks();
+    breaks.sort_by(f64::total_cmp);
+    breaks.dedup();
+    let mut foundation =
+        Foundation { rails: vec![Extent { range: Some(range), breaks }], ..Foundation::default() };
+    let mut parts = None;
+    let separate = matches!(handover, Handover::PerPart { .. });
+    if separate {
+        foundation.parts = Some(vec![chain.clone()]);
+    }
+    if let Some(mass) = girder.mass_per_length {
+        let motion = Motion::new(girder, mass, &ends, &nodal, push.lateral);
+        foundation.on = push.on.map(|on| motion.mount(&centres, on));
+        let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
+        parts = Some(super::Motion::Parts(chain_of));
+        let shapes = PartShapes { line, basis: motion.basis.clone(), chains: vec![chain], separate };
+        foundation.structure = Some(motion.structure(shapes, damping));
+    } else {
+        let surface = Surface::new(line, nodal)?;
+        foundation.compliance = Some(if separate {
+            Box::new(surface)
+        } else {
+            Box::new(BlendedParts { surface, chains: vec![chain] })
+        });
+    }
+    Ok(Laid { foundation, motion: parts })
+}
+
+/// Rigid parts with mass, and how they move.
+pub struct RigidParts {
+    /// Ends of the parts along the girder, increasing.
+    pub ends: Vec<f64>,
+    /// Motion of the parts' centres, six each (displacements, rotations), by the structure's freedoms.
+    pub basis: DMatrix<f64>,
+}
+
+/// Ends of `count` parts of equal length over the girder with its overhangs.
+fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
+    let (from, to) = (-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]);
+    (0..=count).map(|j| from + (to - from) * j as f64 / count as f64).collect()
+}
+
+/// Compliance of the parts' centres, six freedoms each.
+fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Error> {
+    let (whole, _) = girder.frame()?;
+    let mut model =
+        Model { up: whole.up, theory: whole.theory, sections: whole.sections.clone(), ..Model::default() };
+    model.points = centres.iter().map(|&x| [x, 0.0, 0.0]).collect();
+    for j in 1..centres.len() {
+        model.members.push(Member::beam([j - 1, j], 0, model.up));
+    }
+    for support in &whole.supports {
+        let [x, ..] = whole.points[support.point];
+        let part = ends[1..ends.len() - 1].partition_point(|&end| end < x);
+        model.points.push([x, 0.0, 0.0]);
+        let point = model.points.len() - 1;
+        model.links.push(Link { from: part, to: point });
+        model.supports.push(Support { point, fix: support.fix });
+    }
+    let points: Vec<usize> = (0..centres.len()).collect();
+    let (mut nodal, _) = fea::nodal(&model, &points)?;
+    // Freedoms that nothing resists are not the parts' to give.
+    for i in 0..nodal.nrows() {
+        if !nodal[(i, i)].is_finite() {
+            nodal[(i, i)] = 0.0;
+        }
+    }
+    Ok(nodal)
+}
+
+/// Every part as a rigid arm on a rail of its own, over the whole length.
+fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Error> {
+    let [from, to] = [ends[0], ends[ends.len() - 1]];
+    let cells = centres.iter().enumerate().map(|(j, centre)| Cell {
+        rail: j,
+        x: [from, to],
+        ends: [j, j],
+        length: to - from,
+        frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+        offset: [from - centre, girder.rail_height, 0.0],
+        flexibility: Flexibility::default(),
+        carrier: None,
+    });
+    Ok(Line::new(cells.collect())?)
+}
+
+/// Moment of inertia of a part about its axis by its mass: a thin bar resists twist a little.
+#[must_use]
+pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
+    let polar = girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
+    polar.max(1e-6 * length * length)
+}
+
+/// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports
+/// hold is left out, K = diag(1/compliance), M = basis^T (lumped masses) basis.
+struct Motion {
+    /// States of the parts (six each) x freedoms.
+    basis: DMatrix<f64>,
+    /// Masses and inertias of the states.
+    lumped: DVector<f64>,
+    mass: DMatrix<f64>,
+    /// Diagonal of K.
+    stiffness: DVector<f64>,
+}
+
+impl Motion {
+    fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> Motion {
+        // Rotations are scaled by a part's length, so that one eigenproblem measures all freedoms alike.
+        let length = ends[1] - ends[0];
+        let wanted: &[usize] = if lateral { &[1, 5, 2, 3, 4] } else { &[1, 5] };
+        let used: Vec<usize> = (0..nodal.nrows()).filter(|i| wanted.contains(&(i % 6))).collect();
+        let scale = |i: usize| if i % 6 < 3 { 1.0 } else { length };
+        let scaled = DMatrix::from_fn(used.len(), used.len(), |r, c| {
+            scale(used[r]) * nodal[(used[r], used[c])] * scale(used[c])
+        });
+        let eigen = scaled.symmetric_eigen();
+        let largest = eigen.eigenvalues.max();
+        let kept: Vec<usize> = (0..used.len()).filter(|&k| eigen.eigenvalues[k] > RIGID * largest).collect();
+        let mut basis = DMatrix::zeros(nodal.nrows(), kept.len());
+        for (r, &i) in used.iter().enumerate() {
+            for (k, &mode) in kept.iter().enumerate() {
+                basis[(i, k)] = eigen.eigenvectors[(r, mode)] / scale(i);
+            }
+        }
+        let part = mass * length;
+        let roll = roll_inertia(girder, length);
+        let lumped = |i: usize| match i % 6 {
+            0..=2 => part,
+            3 => part * roll,
+            _ => part * length * length / 12.0,
+        };
+        let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));
+        let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
+        let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
+        Motion { mass: basis.transpose() * weighted, stiffness, basis, lumped }
+    }
+
+    /// Mass of the parts as one, and the momentum of their freedoms: R^T M R and basis^T M R, R the motion of the parts
+    /// about their `centres` by the six of the body that carries them.
+    fn mount(&self, centres: &[f64], on: On) -> Mount {
+        let motion = DMatrix::from_fn(6 * centres.len(), 6, |i, k| {
+            let (x, axis) = (centres[i / 6], i % 6);
+            match (axis, k) {
+                (1, 5) => x,
+                (2, 4) => -x,
+                _ => f64::from(u8::from(axis == k)),
+            }
+        });
+        let weighted = DMatrix::from_fn(motion.nrows(), 6, |i, k| self.lumped[i] * motion[(i, k)]);
+        let (total, own) = (motion.transpose() * &weighted, self.basis.transpose() * &weighted);
+        let total = std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)]));
+        let line = |k: usize| Mount::moved_load(&std::array::from_fn(|i| own[(k, i)]), on.at);
+        Mount {
+            body: on.body,
+            rails: Vec::new(),
+            mass: Mount::moved(&total, on.at),
+            coupling: (0..own.nrows()).map(line).collect(),
+        }
+    }
+
+    /// C that damps every natural mode by the share `zeta` of critical: 2 zeta K^1/2 (K^-1/2 M K^-1/2)^1/2 K^1/2.
+    fn damping(&self, zeta: f64) -> DMatrix<f64> {
+        let size = self.mass.nrows();
+        if zeta == 0.0 {
+            return DMatrix::zeros(size, size);
+        }
+        let root = self.stiffness.map(f64::sqrt);
+        let scaled = DMatrix::from_fn(size, size, |r, c| self.mass[(r, c)] / (root[r] * root[c]));
+        let eigen = scaled.symmetric_eigen();
+        let periods = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
+        let middle = &eigen.eigenvectors * DMatrix::from_diagonal(&periods) * eigen.eigenvectors.transpose();
+        DMatrix::from_fn(size, size, |r, c| zeta * root[r] * (middle[(r, c)] + middle[(c, r)]) * root[c])
+    }
+
+    /// As a structure of the simulation, every mode damped by the share `damping` of critical.
+    fn structure(&self, shapes: PartShapes, damping: f64) -> Structure {
+        Structure {
+            dynamics: Dynamics::Matrices {
+                mass: self.mass.clone(),
+                damping: self.damping(damping),
+                stiffness: DMatrix::from_diagonal(&self.stiffness),
+            },
+            shapes: Box::new(shapes),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Analytic: natural modes phi of M and K, scaled to phi^T M phi = 1, have phi^T C phi = 2 zeta omega.
+    #[test]
+    fn every_natural_mode_of_the_parts_has_the_damping_asked_for() {
+        let girder = Girder {
+            spans: vec![30.0, 50.0],
+            e: 4.32e9,
+            i_vertical: 10.0,
+            mass_per_length: Some(20.0),
+            ..Girder::default()
+        };
+        let ends = part_ends(&girder, 7);
+        let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
+        let nodal = nodal_compliance(&girder, &ends, &centres).expect("it stands");
+        let motion = Motion::new(&girder, 20.0, &ends, &nodal, false);
+        let zeta = 0.03;
+        let damping = motion.damping(zeta);
+
+        let lower = motion.mass.clone().cholesky().expect("masses are positive").l();
+        let inverse = lower.try_inverse().expect("masses are positive");
+        let whitened = &inverse * DMatrix::from_diagonal(&motion.stiffness) * inverse.transpose();
+        let eigen = whitened.symmetric_eigen();
+        let modes = inverse.transpose() * &eigen.eigenvectors;
+        let modal = modes.transpose() * damping * &modes;
+        let highest = eigen.eigenvalues.max().sqrt();
+        for r in 0..modal.nrows() {
+            for c in 0..modal.ncols() {
+                let wanted = if r == c { 2.0 * zeta * eigen.eigenvalues[r].sqrt() } else { 0.0 };
+                assert!((modal[(r, c)] - wanted).abs() < 1e-9 * zeta * highest, "{r} {c}: {}", modal[(r, c)]);
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! Structures of a scene, solved once for all that is made of them.
+
+use std::sync::Arc;
+
+use fea::Frame;
+use formats::grid::Grid;
+use formats::scene::{Document, Origin};
+use formats::spec::Spec;
+use splines::Surface;
+
+/// A structure's FE model, solved.
+pub struct Solved {
+    /// The model.
+    pub model: fea::Model,
+    /// Its rails.
+    pub rails: Vec<fea::Rail>,
+    /// Exact influence surface; `None` where it is larger than asked for.
+    pub surface: Option<Surface>,
+    /// Grids at the stations.
+    pub grid: Grid,
+    /// The girder, where the structure is one.
+    pub girder: Option<fea::Girder>,
+    /// How large the system was; `None` where it was solved by an earlier run.
+    pub size: Option<Size>,
+}
+
+/// Size of a system of equations.
+#[derive(Clone, Copy, Debug)]
+pub struct Size {
+    /// Unknown freedoms.
+    pub unknowns: usize,
+    /// Bytes of its factor.
+    pub bytes: u64,
+}
+
+impl std::fmt::Display for Size {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} unknowns, a factor of {:.3} MB", self.unknowns, self.bytes as f64 / 1e6)
+    }
+}
+
+/// Solves a spec: grid at its stations and exact surface.
+///
+/// # Errors
+/// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
+pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
+    solve_to(spec, fea::ACCURACY, usize::MAX)
+}
+
+/// The same, with compliances whose relative error bound is at most `accuracy`, and without a surface of more than
+/// `most` freedoms.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solved, fea::Error> {
+    let (model, rails) = spec.model()?;
+    let frame = Frame::accurate(&model, &rails, accuracy)?;
+    let mut grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    let freedoms = 6 * frame.line()?.states();
+    let surface = if freedoms <= most {
+        Some(frame.surface()?.surface)
+    } else {
+        grid.notes.push(format!(
+            "no surface: the compliance of {freedoms} freedoms at the ends of the rails' cells is too large for a file"
+        ));
+        None
+    };
+    let size = Some(Size { unknowns: frame.unknowns(), bytes: frame.bytes() });
+    Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned(), size })
+}
+
+/// A spec that was solved, and what came of it.
+pub struct Known {
+    /// The spec.
+    pub spec: Arc<Spec>,
+    /// Its grids and surface.
+    pub solved: Solved,
+}
+
+/// Every different spec of the document, once: the name of its tables (the structure's, with the label of the
+/// comparison that brings it), its file, and itself.
+#[must_use]
+pub fn specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
+    let mut all: Vec<(String, &str, &Arc<Spec>)> = Vec::new();
+    for case in &document.cases {
+        for structure in &case.scene.structures {
+            let Origin::Spec { file, spec } = &structure.origin else { continue };
+            let is_new = all.iter().all(|(_, _, known)| *known != spec);
+            let of_scene = case.label.is_none();
+            if is_new || (of_scene && all.iter().all(|(name, ..)| *name != structure.name)) {
+                let name = match &case.label {
+                    Some(label) => format!("{}-{label}", structure.name),
+                    None => structure.name.clone(),
+                };
+                all.push((name, file, spec));
+            }
+        }
+    }
+    all
+}
+
+/// The solution of a structure that has a spec.
+#[must_use]
+pub fn solved_of<'a>(known: &'a [Known], origin: &Origin) -> Option<&'a Solved> {
+    match origin {
+        Origin::Spec { spec, .. } => {
+            known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solved)
+        }
+        Origin::Tables { .. } => None,
+    }
+}

@@ -1,0 +1,232 @@
+//! Cards: a name and its fields, from lines in small, large or free field.
+
+use super::field::number;
+use super::line::Line;
+use crate::findings::{Finding, Findings, Spot};
+
+/// A field of a card, where it stands.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Field {
+    /// Where it begins.
+    pub at: Spot,
+    /// Its text without blanks around it, in capital letters; empty where it is blank.
+    pub text: String,
+}
+
+/// One card with its continuations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Card {
+    /// Its name in capital letters, without the `*` of large fields.
+    pub name: String,
+    /// Where it begins.
+    pub at: Spot,
+    /// Fields after the name, eight a line; continuation markers are left out.
+    pub fields: Vec<Field>,
+}
+
+/// One line, taken apart.
+struct Parts {
+    head: String,
+    fields: Vec<Field>,
+    tail: String,
+    large: bool,
+}
+
+/// Joins lines to cards.
+#[must_use]
+pub fn cards(lines: &[Line], findings: &mut Findings) -> Vec<Card> {
+    let mut cards: Vec<Card> = Vec::new();
+    let mut tail = String::new();
+    // whether the lines since the last card belong to one that could not be read
+    let mut lost = true;
+    for line in lines {
+        let Some(parts) = take_apart(line, findings) else {
+            lost = true;
+            continue;
+        };
+        let marker = parts.head.trim_start_matches(['+', '*']).trim();
+        let continues = parts.head.is_empty() || parts.head.starts_with(['+', '*']);
+        if !continues {
+            let name = parts.head.trim_end_matches('*').trim_end().to_owned();
+            lost = !plain(&name);
+            if lost {
+                let finding = Finding::new(line.at, "", "must be the name of a card").got(&parts.head);
+                let hint = "a name is letters and digits; `=` and `/` are not read";
+                findings.error(finding.hint(hint));
+            } else {
+                cards.push(Card { name, at: line.at, fields: parts.fields });
+            }
+            tail = parts.tail;
+            continue;
+        }
+        let card = match cards.last_mut() {
+            Some(card) if !lost => card,
+            _ => {
+                if cards.is_empty() {
+                    let finding = Finding::new(line.at, "", "continues no card");
+                    findings.error(
+                        finding.hint("a line that begins with blanks, `+` or `*` continues the one above"),
+                    );
+                }
+                continue;
+            }
+        };
+        if line.gap && parts.head.is_empty() {
+            let finding = Finding::new(line.at, &card.name, "must not continue over a blank line");
+            findings.error(finding.hint("mark a blank continuation with + in its first column"));
+        }
+        let expected = tail.trim_start_matches(['+', '*']).trim();
+        if !expected.is_empty() && !marker.is_empty() && expected != marker {
+            let finding =
+                Finding::new(line.at, &card.name, format!("must continue with the marker {expected}"));
+            findings.error(finding.got(marker).hint("put each continuation right after its card"));
+        }
+        let whole = if parts.large { 4 } else { 8 };
+        while card.fields.len() % whole != 0 {
+            card.fields.push(Field { at: line.at, text: String::new() });
+        }
+        card.fields.extend(parts.fields);
+        tail = parts.tail;
+    }
+    cards
+}
+
+fn plain(name: &str) -> bool {
+    name.starts_with(|c: char| c.is_ascii_uppercase()) && name.chars().all(|c| c.is_ascii_alphanumeric())
+}
+
+fn take_apart(line: &Line, findings: &mut Findings) -> Option<Parts> {
+    if line.text.contains(',') { free(line, findings) } else { Some(fixed(line)) }
+}
+
+/// Small or large field: columns 1 to 8, then eight of eight or four of sixteen, then the marker.
+fn fixed(line: &Line) -> Parts {
+    let chars: Vec<char> = line.text.chars().take(80).collect();
+    let cut = |from: usize, to: usize| {
+        let part: String =
+            chars.get(from.min(chars.len())..to.min(chars.len())).into_iter().flatten().collect();
+        let blanks = part.chars().take_while(|c| *c == ' ').count();
+        Field { at: Spot { column: from + blanks + 1, ..line.at }, text: part.trim().to_uppercase() }
+    };
+    let head = cut(0, 8).text;
+    let large = head.ends_with('*') || head.starts_with('*');
+    let width = if large { 16 } else { 8 };
+    let fields = (0..64 / width).map(|k| cut(8 + k * width, 8 + (k + 1) * width)).collect();
+    Parts { head, fields, tail: cut(72, 80).text, large }
+}
+
+/// Free field: parts between commas; eight of them, or four where the name has its `*`, then the marker.
+fn free(line: &Line, findings: &mut Findings) -> Option<Parts> {
+    let mut fields = Vec::new();
+    let mut column = 1;
+    for part in line.text.split(',') {
+        let blanks = part.chars().take_while(|c| *c == ' ').count();
+        let at = Spot { column: column + blanks, ..line.at };
+        fields.push(Field { at, text: part.trim().to_uppercase() });
+        column += part.chars().count() + 1;
+    }
+    let head = fields.remove(0).text;
+    let large = head.ends_with('*') || head.starts_with('*');
+    let count = if large { 4 } else { 8 };
+    while fields.last().is_some_and(|field| field.text.is_empty()) {
+        fields.pop();
+    }
+    let tail = if fields.len() > count { fields[count].text.clone() } else { String::new() };
+    let marker = tail.is_empty() || tail.starts_with('+') || number(&tail).is_none();
+    if fields.len() > count + 1 || !marker {
+        let what = if large { "four fields in a line of large fields" } else { "eight fields in a line" };
+        let finding = Finding::new(fields[count].at, &head, format!("has more than {what}"));
+        findings.error(finding.hint("go on in the next line, which begins with a comma or +"));
+        return None;
+    }
+    fields.resize(count, Field { at: line.at, text: String::new() });
+    Some(Parts { head, fields, tail, large })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> (Vec<Card>, Findings) {
+        let mut findings = Findings::default();
+        let lines: Vec<Line> = text
+            .lines()
+            .enumerate()
+            .map(|(index, text)| Line {
+                at: Spot { file: 0, line: index + 1, column: 1 },
+                text: text.to_owned(),
+                gap: false,
+            })
+            .collect();
+        (cards(&lines, &mut findings), findings)
+    }
+
+    /// Texts of the fields without the blanks at the end.
+    fn texts(card: &Card) -> Vec<&str> {
+        let mut texts: Vec<&str> = card.fields.iter().map(|field| field.text.as_str()).collect();
+        while texts.last().is_some_and(|text| text.is_empty()) {
+            texts.pop();
+        }
+        texts
+    }
+
+    #[test]
+    fn one_card_reads_the_same_in_every_format() {
+        let wanted = ["5", "1", "10", "20", "0.", "1.", "0.", "", "456", "", "", "", "", "1.5"];
+        for text in [
+            "CBAR           5       1      10      20      0.      1.      0.        +A\n+A           456                                     1.5",
+            "cbar    5       1       10      20      0.      1.      0.\n        456                                     1.5",
+            "CBAR,5,1,10,20,0.,1.,0.,,+A\n+A,456,,,,,1.5",
+            "CBAR,5,1,10,20,0.,1.,0.\n,456,,,,,1.5",
+            "cbar , 5, 1 ,10,20,0.,1.,0.,\n+,456,,,,,1.5",
+            "CBAR*                  5               1              10              20*A\n*A                    0.              1.              0.                *B\n*B                   456                                                *C\n*C                                   1.5",
+            "CBAR*,5,1,10,20,*A\n*A,0.,1.,0.,,*B\n*B,456,,,,*C\n*C,,1.5",
+            "CBAR*                  5               1              10              20\n*                     0.              1.              0.\n+            456                                     1.5",
+        ] {
+            let (cards, findings) = read(text);
+            assert!(!findings.wrong(), "{text}: {:?}", findings.errors());
+            assert_eq!(cards.len(), 1, "{text}");
+            assert_eq!((cards[0].name.as_str(), texts(&cards[0])), ("CBAR", wanted.to_vec()), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_large_card_of_one_line_may_be_continued_in_small_fields() {
+        let (cards, findings) = read("GRID*                  1                              2.\n+       7");
+        assert!(!findings.wrong());
+        assert_eq!(texts(&cards[0]), ["1", "", "2.", "", "", "", "", "", "7"]);
+    }
+
+    #[test]
+    fn fields_know_their_columns() {
+        let (cards, _) = read("GRID           1              2.\nGRID, 2,,3.");
+        assert_eq!(cards[0].fields[0].at.column, 16);
+        assert_eq!(cards[0].fields[2].at.column, 31);
+        assert_eq!(cards[1].fields[0].at, Spot { file: 0, line: 2, column: 7 });
+        assert_eq!(cards[1].fields[2].at.column, 10);
+    }
+
+    #[test]
+    fn what_stands_beyond_column_80_is_a_comment() {
+        let text = format!("{:<80}12345", "GRID    1");
+        assert_eq!(texts(&read(&text).0[0]), ["1"]);
+    }
+
+    #[test]
+    fn lost_continuations_are_refused() {
+        for (text, told) in [
+            ("+A      1", "continues no card"),
+            (
+                "GRID    1                                                               +A\n+B      1",
+                "must continue with the marker A",
+            ),
+            ("GRID,1,,0.,0.,0.,,,,7", "has more than eight fields in a line"),
+            ("GRID*,1,,0.,0.,,0.", "has more than four fields in a line of large fields"),
+            ("=       1", "must be the name of a card"),
+            ("GR.ID   1", "must be the name of a card"),
+        ] {
+            let errors = read(text).1.errors();
+            assert_eq!(errors.first().map(|error| error.expected.as_str()), Some(told), "{text}");
+        }
+    }
+}

@@ -1,0 +1,288 @@
+//! A deck: which cards it has, sorted by what they are.
+
+use std::collections::BTreeMap;
+
+use super::card::{Card, cards};
+use super::element::{self, Element};
+use super::field::{Number, number};
+use super::fields::Fields;
+use super::grid::{self, Grid, System};
+use super::line::Line;
+use super::lump::{self, Mass, Spring};
+use super::material::{Material, material};
+use super::property::{self, Property};
+use super::rigid::{self, Rigid};
+use super::support::{self, Hold};
+use crate::findings::{Finding, Findings, Spot};
+
+/// Cards that change nothing of a structure at rest, or nothing that a beam spec says: left out with a warning.
+const LEFT_OUT: &[&str] = &[
+    "PARAM", "DEBUG", "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD", "PLOAD", "PLOAD1",
+    "PLOAD2", "PLOAD4", "PLOADX1", "SLOAD", "GRAV", "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPRB",
+    "TEMPP1", "DAREA", "DLOAD", "DELAY", "DPHASE", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "LSEQ", "TABLED1",
+    "TABLED2", "TABLED3", "TABLED4", "TABLEM1", "TABDMP1", "TABRND1", "RANDPS", "EIGR", "EIGRL", "EIGC",
+    "EIGB", "FREQ", "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TSTEPNL", "NLPARM", "NLPCI", "ASET",
+    "ASET1", "OMIT", "OMIT1", "USET", "USET1", "SET1", "SET3", "PLOTEL", "SEQGP", "CBARAO", "ECHOON",
+    "ECHOOFF", "DCONADD", "MATT1",
+];
+
+/// Properties and materials of elements that are refused themselves.
+const UNUSED: &[&str] = &[
+    "PSHELL", "PSOLID", "PCOMP", "PCOMPG", "PSHEAR", "PBUSH", "PGAP", "PMASS", "MAT2", "MAT8", "MAT9",
+    "MAT10",
+];
+
+/// A deck, card by card.
+#[derive(Debug, Default)]
+pub struct Deck {
+    /// GRID by number.
+    pub grids: BTreeMap<u64, Grid>,
+    /// GRDSET.
+    pub defaults: grid::Defaults,
+    /// CORD2R by number.
+    pub systems: BTreeMap<u64, System>,
+    /// MAT1 by number.
+    pub materials: BTreeMap<u64, Material>,
+    /// PBAR, PBARL, PBEAM, PBEAML and PROD by number.
+    pub properties: BTreeMap<u64, Property>,
+    /// CBAR, CBEAM, CROD and CONROD by number.
+    pub elements: BTreeMap<u64, Element>,
+    /// RBE2 and RBAR.
+    pub rigid: Vec<Rigid>,
+    /// CONM2.
+    pub masses: Vec<Mass>,
+    /// CELAS1 and CELAS2.
+    pub springs: Vec<Spring>,
+    /// PELAS by number.
+    pub stiffness: BTreeMap<u64, (Spot, f64)>,
+    /// SPC and SPC1.
+    pub holds: Vec<Hold>,
+    /// SPCADD by number.
+    pub adds: BTreeMap<u64, Vec<u64>>,
+    /// Whether there is case control.
+    pub controlled: bool,
+    /// Sets that case control chooses.
+    pub control: Vec<(u64, Spot)>,
+    /// Factor of all masses.
+    pub wtmass: Option<f64>,
+}
+
+impl Deck {
+    /// Sorts the lines of a deck; cards named in `skip` are left out without a word.
+    pub fn new(lines: &[Line], skip: &[String], findings: &mut Findings) -> Deck {
+        let mut deck = Deck::default();
+        let bulk = deck.control(lines, skip, findings);
+        let cards = cards(bulk, findings);
+        let cards: Vec<&Card> = cards.iter().filter(|card| !skip.contains(&card.name)).collect();
+        // defaults first: they hold for the cards before them too
+        let mut bars = element::Defaults::default();
+        let mut beams = element::Defaults::default();
+        let mut seen: BTreeMap<&str, Spot> = BTreeMap::new();
+        for card in &cards {
+            let slot = match card.name.as_str() {
+                "BAROR" => &mut bars,
+                "BEAMOR" => &mut beams,
+                "GRDSET" => {
+                    let mut fields = Fields { card, findings };
+                    deck.defaults = grid::defaults(&mut fields).unwrap_or_default();
+                    once(&mut seen, card, findings);
+                    continue;
+                }
+                _ => continue,
+            };
+            *slot = element::defaults(&mut Fields { card, findings }).unwrap_or_default();
+            once(&mut seen, card, findings);
+        }
+        let mut left_out: BTreeMap<&str, (Spot, usize)> = BTreeMap::new();
+        let mut unknown: BTreeMap<&str, (Spot, usize)> = BTreeMap::new();
+        for card in &cards {
+            let mut fields = Fields { card, findings };
+            match card.name.as_str() {
+                "CBAR" => deck.element(element::bar(&mut fields, &bars), findings),
+                "CBEAM" => deck.element(element::bar(&mut fields, &beams), findings),
+                "BAROR" | "BEAMOR" | "GRDSET" => {}
+                "PARAM" if fields.text(1) == "WTMASS" => deck.weight(&mut fields),
+                name if deck.take(name, &mut fields) => {}
+                name if LEFT_OUT.contains(&name) || UNUSED.contains(&name) => count(&mut left_out, card),
+                _ => count(&mut unknown, card),
+            }
+        }
+        for (name, (at, number)) in left_out {
+            findings.warn(Finding::new(at, name, format!("left out, {}", cards_of(number))));
+        }
+        for (name, (at, number)) in unknown {
+            let hint = format!("{}; if it does not matter, add --skip {name}", advice(name));
+            findings
+                .error(Finding::new(at, name, format!("cannot be taken, {}", cards_of(number))).hint(hint));
+        }
+        deck
+    }
+
+    /// Reads executive and case control; gives the bulk data.
+    fn control<'l>(&mut self, lines: &'l [Line], skip: &[String], findings: &mut Findings) -> &'l [Line] {
+        let word = |line: &Line, n: usize| {
+            let mut words = line.text.split([' ', '=', ',', '(']).filter(|word| !word.is_empty());
+            words.nth(n).unwrap_or_default().to_ascii_uppercase()
+        };
+        let begins: Vec<usize> = (0..lines.len()).filter(|&k| word(&lines[k], 0) == "BEGIN").collect();
+        let Some(&begin) = begins.first() else {
+            if let Some(line) = lines.iter().find(|line| word(line, 0) == "CEND") {
+                findings.error(
+                    Finding::new(line.at, "CEND", "must be followed by BEGIN BULK")
+                        .hint("bulk data follow BEGIN BULK; a deck of bulk data alone has neither"),
+                );
+                return &[];
+            }
+            return lines;
+        };
+        for &other in &begins[1..] {
+            findings.error(
+                Finding::new(lines[other].at, "BEGIN", "must stand once")
+                    .hint("superelements cannot be taken"),
+            );
+        }
+        self.controlled = lines[..begin].iter().any(|line| word(line, 0) == "CEND");
+        for line in &lines[..begin] {
+            let key = word(line, 0);
+            let set = match number(&word(line, 1)) {
+                Some(Number::Integer(set)) if set > 0 => u64::try_from(set).ok(),
+                _ => None,
+            };
+            match (key.as_str(), set) {
+                ("SPC", Some(set)) => self.control.push((set, line.at)),
+                ("SPC", None) => {
+                    findings.error(
+                        Finding::new(line.at, "SPC", "must be a whole number above 0").got(word(line, 1)),
+                    );
+                }
+                ("MPC", _) if skip.iter().all(|name| name != "MPC") => {
+                    let hint = "constraints by equations cannot be taken; rigid links are RBE2 and RBAR; to leave them out, add --skip MPC";
+                    findings.error(Finding::new(line.at, "MPC", "cannot be taken").hint(hint));
+                }
+                _ => {}
+            }
+        }
+        &lines[begin + 1..]
+    }
+
+    fn weight(&mut self, fields: &mut Fields<'_, '_>) {
+        if let Some(value) = property::positive(fields, 2, "WTMASS") {
+            if self.wtmass.is_some() {
+                fields.refuse(2, "WTMASS", "must stand once", "");
+            }
+            self.wtmass = Some(value);
+        }
+    }
+
+    fn element(&mut self, read: Option<(u64, Element)>, findings: &mut Findings) {
+        let Some((id, element)) = read else { return };
+        let (kind, card) = (element.kind.clone(), element.card);
+        put(&mut self.elements, id, element, |other| other.card, card, &kind, findings);
+    }
+
+    /// Takes a card that belongs to a structure; false where it is none.
+    fn take(&mut self, name: &str, fields: &mut Fields<'_, '_>) -> bool {
+        let at = fields.card.at;
+        match name {
+            "GRID" => {
+                if let Some((id, grid)) = grid::grid(fields) {
+                    put(&mut self.grids, id, grid, |other| other.card, at, name, fields.findings);
+                }
+            }
+            "CORD2R" => {
+                if let Some((id, system)) = grid::system(fields) {
+                    put(&mut self.systems, id, system, |other| other.card, at, name, fields.findings);
+                }
+            }
+            "MAT1" => {
+                if let Some((id, found)) = material(fields) {
+                    put(&mut self.materials, id, found, |other| other.card, at, name, fields.findings);
+                }
+            }
+            "PBAR" | "PBARL" | "PBEAM" | "PBEAML" | "PROD" => {
+                let read = match name {
+                    "PBAR" => property::bar(fields),
+                    "PBEAM" => property::beam(fields),
+                    "PROD" => property::rod(fields),
+                    _ => property::shaped(fields),
+                };
+                if let Some((id, found)) = read {
+                    put(&mut self.properties, id, found, |other| other.card, at, name, fields.findings);
+                }
+            }
+            "CROD" | "CONROD" => {
+                let read = if name == "CROD" { element::rod(fields) } else { element::own_rod(fields) };
+                self.element(read, fields.findings);
+            }
+            "RBE2" => self.rigid.extend(rigid::rbe2(fields)),
+            "RBAR" => self.rigid.extend(rigid::rbar(fields)),
+            "CONM2" => self.masses.extend(lump::mass(fields)),
+            "CELAS1" | "CELAS2" => self.springs.extend(lump::spring(fields)),
+            "PELAS" => {
+                for (id, card, k) in property::springs(fields) {
+                    put(&mut self.stiffness, id, (card, k), |other| other.0, at, name, fields.findings);
+                }
+            }
+            "SPC" => self.holds.extend(support::spc(fields)),
+            "SPC1" => self.holds.extend(support::spc1(fields)),
+            "SPCADD" => {
+                if let Some((set, parts)) = support::spcadd(fields)
+                    && self.adds.insert(set, parts).is_some()
+                {
+                    fields.refuse(1, "SID", "must differ from the other sets of SPCADD", "");
+                }
+            }
+            _ => return false,
+        }
+        true
+    }
+}
+
+/// Puts an entry under a number that no other has.
+fn put<T>(
+    map: &mut BTreeMap<u64, T>,
+    id: u64,
+    entry: T,
+    card: impl Fn(&T) -> Spot,
+    at: Spot,
+    name: &str,
+    findings: &mut Findings,
+) {
+    if let Some(other) = map.get(&id) {
+        let other = card(other);
+        let file =
+            if other.file == at.file { String::new() } else { format!(" of {}", findings.files[other.file]) };
+        let expected = format!("must not stand there twice: line {}{file} has this number", other.line);
+        findings.error(Finding::new(at, format!("{name} {id}"), expected));
+        return;
+    }
+    map.insert(id, entry);
+}
+
+fn once<'c>(seen: &mut BTreeMap<&'c str, Spot>, card: &'c Card, findings: &mut Findings) {
+    if let Some(other) = seen.insert(&card.name, card.at) {
+        let expected = format!("must stand once; line {} has one", other.line);
+        findings.error(Finding::new(card.at, &card.name, expected));
+    }
+}
+
+fn count<'c>(counts: &mut BTreeMap<&'c str, (Spot, usize)>, card: &'c Card) {
+    counts.entry(&card.name).or_insert((card.at, 0)).1 += 1;
+}
+
+fn cards_of(number: usize) -> String {
+    if number == 1 { "1 card".to_owned() } else { format!("{number} cards") }
+}
+
+fn advice(name: &str) -> &'static str {
+    match name {
+        "CORD1R" | "CORD1C" | "CORD1S" | "CORD2C" | "CORD2S" => "systems are CORD2R, given by points",
+        "MPC" | "MPCADD" | "RBE1" | "RBE3" | "RROD" | "RJOINT" => "rigid links are RBE2 and RBAR with 123456",
+        "CBUSH" | "CELAS3" | "CELAS4" => "springs are CELAS1 and CELAS2",
+        "CONM1" | "CMASS1" | "CMASS2" => "masses are CONM2",
+        "SPCD" | "SPCOFF" | "SPCOFF1" => "supports are SPC and SPC1",
+        "CBEND" | "CTUBE" | "CBEAM3" | "CBAR3" => "members are CBAR, CBEAM, CROD and CONROD",
+        _ if name.starts_with('C') => "a beam spec has members, links, masses and springs to ground",
+        _ => "this card is not known",
+    }
+}

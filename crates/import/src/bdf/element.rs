@@ -1,0 +1,150 @@
+//! CBAR, CBEAM, CROD, CONROD, BAROR and BEAMOR: members.
+
+use super::field::{Number, number};
+use super::fields::Fields;
+use super::property::{Property, rod_from};
+use crate::findings::Spot;
+
+/// Where local y of a member points.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Orientation {
+    /// A vector from end A.
+    Vector([f64; 3]),
+    /// From grid GA to this one.
+    Grid(u64),
+}
+
+/// How a member knows its property.
+#[derive(Clone, Debug)]
+pub enum Section {
+    /// By number.
+    Number(u64),
+    /// Its own.
+    Own(Box<Property>),
+}
+
+/// A member as its card has it.
+#[derive(Clone, Debug)]
+pub struct Element {
+    /// Where its card is.
+    pub card: Spot,
+    /// Name of its card.
+    pub kind: String,
+    /// Its property.
+    pub section: Section,
+    /// Its grids.
+    pub grids: [u64; 2],
+    /// Where local y points; `None` for rods.
+    pub orientation: Option<Orientation>,
+    /// Freedoms let go at ends A and B.
+    pub pins: [[bool; 6]; 2],
+    /// Offsets of ends A and B, global.
+    pub offsets: [[f64; 3]; 2],
+}
+
+/// What BAROR and BEAMOR give to blank fields.
+#[derive(Clone, Debug, Default)]
+pub struct Defaults {
+    property: Option<u64>,
+    orientation: Option<Orientation>,
+    frame: Option<String>,
+}
+
+/// Reads BAROR or BEAMOR.
+pub fn defaults(card: &mut Fields<'_, '_>) -> Option<Defaults> {
+    let property = if card.blank(2) { Some(None) } else { card.id(2, "PID").map(Some) };
+    let orientation = orientation(card)?;
+    let frame = (!card.blank(8)).then(|| card.text(8).to_owned());
+    card.end(9);
+    Some(Defaults { property: property?, orientation, frame })
+}
+
+/// Fields 5 to 7: a vector, or a grid; `Some(None)` where all are blank.
+fn orientation(card: &mut Fields<'_, '_>) -> Option<Option<Orientation>> {
+    if (5..8).all(|index| card.blank(index)) {
+        return Some(None);
+    }
+    if card.blank(6) && card.blank(7) && matches!(number(card.text(5)), Some(Number::Integer(_))) {
+        return card.id(5, "G0").map(|grid| Some(Orientation::Grid(grid)));
+    }
+    card.vector(5, ["X1", "X2", "X3"]).map(|vector| Some(Orientation::Vector(vector)))
+}
+
+/// Reads CBAR or CBEAM.
+pub fn bar(card: &mut Fields<'_, '_>, defaults: &Defaults) -> Option<(u64, Element)> {
+    let id = card.id(1, "EID")?;
+    let property = card.id_or(2, "PID", defaults.property.unwrap_or(id));
+    let grids = ends(card, 3);
+    let given = orientation(card).map(|given| given.or(defaults.orientation));
+    if given == Some(None) {
+        card.refuse(5, "X1", "is missing", "give the orientation as vector X1, X2, X3 or grid G0");
+    }
+    let frame =
+        if card.blank(8) { defaults.frame.clone().unwrap_or_default() } else { card.text(8).to_owned() };
+    // the first letter: displacement or basic system, which are the same here
+    if !matches!(frame.as_str(), "" | "GGG" | "BGG") {
+        let hint = "offsets and orientation in the element's own system cannot be taken; use GGG";
+        card.refuse(8, "OFFT", "must be GGG, BGG or blank", hint);
+    }
+    let pins = [(9, "PA"), (10, "PB")].map(|(index, name)| card.freedoms(index, name));
+    let from = card.vector(11, ["W1A", "W2A", "W3A"]);
+    let to = card.vector(14, ["W1B", "W2B", "W3B"]);
+    let mut last = 17;
+    if card.card.name == "CBEAM" {
+        let warping = "warping of the section cannot be taken";
+        card.zero(17, "SA", warping);
+        card.zero(18, "SB", warping);
+        last = 19;
+    }
+    card.end(last);
+    let [a, b] = pins;
+    let element = Element {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        section: Section::Number(property?),
+        grids: grids?,
+        orientation: given?,
+        pins: [a?, b?],
+        offsets: [from?, to?],
+    };
+    element.orientation.is_some().then_some((id, element))
+}
+
+fn ends(card: &mut Fields<'_, '_>, first: usize) -> Option<[u64; 2]> {
+    let a = card.id(first, "GA");
+    let b = card.id(first + 1, "GB");
+    let (a, b) = (a?, b?);
+    if a == b {
+        card.refuse(first + 1, "GB", "must differ from GA", "");
+    }
+    (a != b).then_some([a, b])
+}
+
+/// Reads CROD.
+pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
+    let id = card.id(1, "EID")?;
+    let property = card.id_or(2, "PID", id);
+    let grids = ends(card, 3);
+    card.end(5);
+    Some((id, plain(card, Section::Number(property?), grids?)))
+}
+
+/// Reads CONROD, a rod with its own property.
+pub fn own_rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
+    let id = card.id(1, "EID")?;
+    let grids = ends(card, 2);
+    let property = rod_from(card, 4);
+    Some((id, plain(card, Section::Own(Box::new(property?)), grids?)))
+}
+
+fn plain(card: &Fields<'_, '_>, section: Section, grids: [u64; 2]) -> Element {
+    Element {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        section,
+        grids,
+        orientation: None,
+        pins: [[false; 6]; 2],
+        offsets: [[0.0; 3]; 2],
+    }
+}

@@ -1,0 +1,191 @@
+//! GRID, GRDSET and CORD2R: points and the systems that they are given in.
+
+use std::collections::BTreeMap;
+
+use super::fields::Fields;
+use crate::findings::{Finding, Findings, Spot};
+use formats::vector::{cross, dot, minus, unit};
+
+/// A point as its card has it.
+#[derive(Clone, Debug)]
+pub struct Grid {
+    /// Where its card is.
+    pub card: Spot,
+    /// Coordinates in the system `cp`.
+    pub at: [f64; 3],
+    /// System of the coordinates; `None` where blank.
+    pub cp: Option<u64>,
+    /// System of the displacements; `None` where blank.
+    pub cd: Option<u64>,
+    /// Freedoms held; `None` where blank.
+    pub fix: Option<[bool; 6]>,
+    /// Places of `cp` and `cd`.
+    pub spots: [Spot; 2],
+}
+
+/// What GRDSET gives to blank fields of GRID.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Defaults {
+    cp: u64,
+    cd: u64,
+    fix: [bool; 6],
+}
+
+/// A rectangular system.
+#[derive(Clone, Debug)]
+pub struct System {
+    /// Where its card is.
+    pub card: Spot,
+    /// The system that its points are given in.
+    pub reference: u64,
+    /// Origin, a point of its z axis, a point of its x-z plane.
+    pub points: [[f64; 3]; 3],
+}
+
+/// Origin and axes in the basic system.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    origin: [f64; 3],
+    axes: [[f64; 3]; 3],
+}
+
+const BASIC: Frame = Frame { origin: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+
+impl Frame {
+    /// A point of this system in the basic one; the same bits where this is the basic one.
+    fn basic(&self, at: [f64; 3]) -> [f64; 3] {
+        if self.axes == BASIC.axes {
+            return [0, 1, 2].map(|k| self.origin[k] + at[k]);
+        }
+        [0, 1, 2].map(|k| {
+            self.origin[k] + at[0] * self.axes[0][k] + at[1] * self.axes[1][k] + at[2] * self.axes[2][k]
+        })
+    }
+
+    /// Whether its axes are those of the basic system.
+    fn parallel(&self) -> bool {
+        (0..3).all(|k| dot(self.axes[k], BASIC.axes[k]) > 1.0 - 1e-15)
+    }
+}
+
+/// Reads GRID.
+pub fn grid(card: &mut Fields<'_, '_>) -> Option<(u64, Grid)> {
+    let id = card.id(1, "ID")?;
+    let cp = if card.blank(2) { Some(None) } else { card.whole(2, "CP").map(Some) };
+    let at = card.vector(3, ["X1", "X2", "X3"]);
+    let cd = match card.text(6) {
+        "" => Some(None),
+        "-1" => {
+            card.refuse(6, "CD", "must not be -1", "points of a fluid cannot be taken");
+            None
+        }
+        _ => card.whole(6, "CD").map(Some),
+    };
+    let fix = if card.blank(7) { Some(None) } else { card.freedoms(7, "PS").map(Some) };
+    card.zero(8, "SEID", "superelements cannot be taken");
+    card.end(9);
+    let spots = [card.at(2), card.at(6)];
+    Some((id, Grid { card: card.card.at, at: at?, cp: cp?, cd: cd?, fix: fix?, spots }))
+}
+
+/// Reads GRDSET.
+pub fn defaults(card: &mut Fields<'_, '_>) -> Option<Defaults> {
+    let cp = card.whole(2, "CP");
+    let cd = card.whole(6, "CD");
+    let fix = card.freedoms(7, "PS");
+    card.zero(8, "SEID", "superelements cannot be taken");
+    card.end(9);
+    Some(Defaults { cp: cp?, cd: cd?, fix: fix? })
+}
+
+/// Reads CORD2R.
+pub fn system(card: &mut Fields<'_, '_>) -> Option<(u64, System)> {
+    let id = card.id(1, "CID")?;
+    let reference = card.whole(2, "RID");
+    let a = card.vector(3, ["A1", "A2", "A3"]);
+    let b = card.vector(6, ["B1", "B2", "B3"]);
+    let c = card.vector(9, ["C1", "C2", "C3"]);
+    card.end(12);
+    Some((id, System { card: card.card.at, reference: reference?, points: [a?, b?, c?] }))
+}
+
+/// A point in the basic system.
+#[derive(Clone, Copy, Debug)]
+pub struct Resolved {
+    /// Coordinates.
+    pub at: [f64; 3],
+    /// Freedoms that its own card holds.
+    pub fix: [bool; 6],
+}
+
+/// Takes all points to the basic system.
+pub fn resolve(
+    grids: &BTreeMap<u64, Grid>,
+    defaults: Defaults,
+    systems: &BTreeMap<u64, System>,
+    findings: &mut Findings,
+) -> BTreeMap<u64, Resolved> {
+    let frames = frames(systems, findings);
+    let mut resolved = BTreeMap::new();
+    for (&id, grid) in grids {
+        let [cp, cd] = [grid.cp.unwrap_or(defaults.cp), grid.cd.unwrap_or(defaults.cd)];
+        let known = |system: u64, at: Spot, name: &str, findings: &mut Findings| {
+            if !systems.contains_key(&system) && system != 0 {
+                let finding =
+                    Finding::new(at, format!("GRID {id}: {name}"), "must be 0 or the number of a CORD2R");
+                findings.error(finding.got(system));
+            }
+            frames.get(&system).copied()
+        };
+        let place = known(cp, grid.spots[0], "CP", findings);
+        let turned = known(cd, grid.spots[1], "CD", findings);
+        if turned.is_some_and(|frame| !frame.parallel()) {
+            let about = format!("GRID {id}: CD");
+            let finding =
+                Finding::new(grid.spots[1], about, "must be a system with the axes of the basic one");
+            findings
+                .error(finding.got(cd).hint("supports and springs of a beam spec are along the global axes"));
+        }
+        let Some(frame) = place else { continue };
+        let at = frame.basic(grid.at);
+        if at.iter().all(|part| part.is_finite()) {
+            resolved.insert(id, Resolved { at, fix: grid.fix.unwrap_or(defaults.fix) });
+        } else {
+            findings.error(Finding::new(grid.card, format!("GRID {id}"), "must lie at finite coordinates"));
+        }
+    }
+    resolved
+}
+
+/// Frames of all systems, whatever their order.
+fn frames(systems: &BTreeMap<u64, System>, findings: &mut Findings) -> BTreeMap<u64, Frame> {
+    let mut frames = BTreeMap::from([(0, BASIC)]);
+    let mut left: Vec<(&u64, &System)> = systems.iter().collect();
+    while !left.is_empty() {
+        let before = left.len();
+        left.retain(|(id, system)| {
+            let Some(reference) = frames.get(&system.reference) else { return true };
+            let [a, b, c] = system.points.map(|point| reference.basic(point));
+            let z = unit(minus(b, a));
+            let y = z.and_then(|z| unit(cross(z, minus(c, a))));
+            match (y, z) {
+                (Some(y), Some(z)) => {
+                    frames.insert(**id, Frame { origin: a, axes: [cross(y, z), y, z] });
+                }
+                _ => {
+                    let expected = "its three points must not lie on one line";
+                    findings.error(Finding::new(system.card, format!("CORD2R {id}"), expected));
+                }
+            }
+            false
+        });
+        if left.len() == before {
+            for (id, system) in left.drain(..) {
+                let about = format!("CORD2R {id}: RID");
+                let expected = "must lead to the basic system, which is 0";
+                findings.error(Finding::new(system.card, about, expected).got(system.reference));
+            }
+        }
+    }
+    frames
+}

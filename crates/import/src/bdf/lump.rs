@@ -1,0 +1,106 @@
+//! CONM2, CELAS1 and CELAS2: masses and springs at grids.
+
+use super::field::{Number, number};
+use super::fields::Fields;
+use crate::findings::Spot;
+
+/// A mass at a grid, before WTMASS.
+#[derive(Clone, Debug)]
+pub struct Mass {
+    /// Where its grid is named.
+    pub at: Spot,
+    /// Name and number of its card.
+    pub label: String,
+    /// Its grid.
+    pub grid: u64,
+    /// Mass.
+    pub mass: f64,
+    /// Inertias about the global axes through the centre of mass.
+    pub inertia: [f64; 3],
+    /// To the centre of mass: from the grid, or from the global origin.
+    pub offset: [f64; 3],
+    /// Whether the offset is from the global origin.
+    pub absolute: bool,
+}
+
+/// A spring between a freedom of a grid and another, or ground.
+#[derive(Clone, Debug)]
+pub struct Spring {
+    /// Where its card is.
+    pub card: Spot,
+    /// Name and number of its card.
+    pub label: String,
+    /// Its stiffness, or the number of a PELAS with its place.
+    pub stiffness: Stiffness,
+    /// Ends: grid and index of the freedom; `None` is ground.
+    pub ends: [Option<(u64, usize)>; 2],
+}
+
+/// How a spring knows its stiffness.
+#[derive(Clone, Copy, Debug)]
+pub enum Stiffness {
+    /// Its own.
+    Own(f64),
+    /// By the number of a PELAS.
+    Number(u64),
+}
+
+/// Reads CONM2.
+pub fn mass(card: &mut Fields<'_, '_>) -> Option<Mass> {
+    card.id(1, "EID")?;
+    let grid = card.id(2, "G");
+    let absolute = card.text(3) == "-1";
+    if !absolute {
+        card.zero(3, "CID", "masses in another system than the basic one cannot be taken")?;
+    }
+    let mass = card.not_negative(4, "M");
+    let offset = card.vector(5, ["X1", "X2", "X3"]);
+    let inertia = [(9, "I11"), (11, "I22"), (14, "I33")].map(|(index, name)| card.not_negative(index, name));
+    let products = "a beam spec has principal inertias about the global axes";
+    let products =
+        [(10, "I21"), (12, "I31"), (13, "I32")].map(|(index, name)| card.zero(index, name, products));
+    card.end(15);
+    let [x, y, z] = inertia;
+    products.into_iter().collect::<Option<Vec<_>>>()?;
+    Some(Mass {
+        at: card.at(2),
+        label: card.label(),
+        grid: grid?,
+        mass: mass?,
+        inertia: [x?, y?, z?],
+        offset: offset?,
+        absolute,
+    })
+}
+
+/// Reads CELAS1 or CELAS2.
+pub fn spring(card: &mut Fields<'_, '_>) -> Option<Spring> {
+    let id = card.id(1, "EID")?;
+    let stiffness = if card.card.name == "CELAS1" {
+        card.id_or(2, "PID", id).map(Stiffness::Number)
+    } else {
+        card.real(2, "K").map(Stiffness::Own)
+    };
+    let mut ends = [None; 2];
+    for (end, first) in [3, 5].into_iter().enumerate() {
+        if card.blank(first) || number(card.text(first)) == Some(Number::Integer(0)) {
+            continue;
+        }
+        let grid = card.id(first, "G")?;
+        let freedom = match number(card.text(first + 1)) {
+            Some(Number::Integer(c @ 1..=6)) => usize::try_from(c - 1).ok(),
+            _ => None,
+        };
+        let Some(freedom) = freedom else {
+            card.refuse(first + 1, "C", "must be one digit from 1 to 6", "");
+            return None;
+        };
+        ends[end] = Some((grid, freedom));
+    }
+    card.end(9);
+    if ends == [None; 2] {
+        card.refuse(3, "G1", "is missing", "a spring needs a grid");
+        return None;
+    }
+    Some(Spring { card: card.card.at, label: card.label(), stiffness: stiffness?, ends })
+}

@@ -1,0 +1,53 @@
+//! MAT1.
+
+use super::fields::Fields;
+use crate::findings::Spot;
+
+/// A material.
+#[derive(Clone, Debug)]
+pub struct Material {
+    /// Where its card is.
+    pub card: Spot,
+    /// Young's modulus.
+    pub e: f64,
+    /// Shear modulus, where it is known.
+    pub g: Option<f64>,
+    /// Mass per volume, before WTMASS.
+    pub density: f64,
+}
+
+/// Reads MAT1; of E, G and NU any two give the third: E = 2 (1 + NU) G.
+pub fn material(card: &mut Fields<'_, '_>) -> Option<(u64, Material)> {
+    let id = card.id(1, "MID")?;
+    let e = card.optional(2, "E");
+    let g = card.optional(3, "G");
+    let nu = card.optional(4, "NU");
+    let density = card.not_negative(5, "RHO");
+    let (e, g, nu, density) = (e?, g?, nu?, density?);
+    for (index, name, value) in [(2, "E", e), (3, "G", g)] {
+        if value.is_some_and(|value| value <= 0.0) {
+            card.refuse(index, name, "must be positive", "leave it blank where E, G and NU have a third");
+            return None;
+        }
+    }
+    if nu.is_some_and(|nu| !(nu > -1.0 && nu <= 0.5)) {
+        card.refuse(4, "NU", "must be above -1 and up to 0.5", "");
+        return None;
+    }
+    let ratio = |nu: f64| 2.0 * (1.0 + nu);
+    let (e, g) = match (e, g, nu) {
+        (Some(e), Some(g), _) => (e, Some(g)),
+        (Some(e), None, Some(nu)) => (e, Some(e / ratio(nu))),
+        (Some(e), None, None) => (e, None),
+        (None, Some(g), Some(nu)) => (ratio(nu) * g, Some(g)),
+        (None, ..) => {
+            card.refuse(2, "E", "is missing", "give E, or G and NU");
+            return None;
+        }
+    };
+    let finite = e.is_finite() && g.is_none_or(|g| g.is_finite() && g > 0.0);
+    if !finite {
+        card.refuse(2, "E", "must give moduli that a double can hold", "");
+    }
+    finite.then_some((id, Material { card: card.card.at, e, g, density }))
+}

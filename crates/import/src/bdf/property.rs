@@ -1,0 +1,322 @@
+//! PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS: what elements resist with.
+
+use super::fields::Fields;
+use crate::findings::Spot;
+use formats::fault::nearest;
+use formats::shape::{Refusal, SHAPES, dimensions, properties};
+
+/// A property of bars, beams or rods.
+#[derive(Clone, Debug)]
+pub struct Property {
+    /// Where its card is.
+    pub card: Spot,
+    /// Name of its card.
+    pub kind: String,
+    /// Its material.
+    pub material: u64,
+    /// Area.
+    pub area: f64,
+    /// Second moments for bending in planes 1 and 2; zeros for rods.
+    pub bending: [f64; 2],
+    /// Torsion constant.
+    pub j: f64,
+    /// Shear factors of planes 1 and 2; 0 is rigid in shear.
+    pub shear: [f64; 2],
+    /// Further mass per length, before WTMASS.
+    pub nsm: f64,
+    /// What it is at end B of a tapered beam; it varies linearly between the ends.
+    pub end: Option<Box<Property>>,
+}
+
+const NO_PRODUCT: &str = "give the principal second moments, and turn the orientation of the elements";
+
+/// Reads PROD.
+pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+    let id = card.id(1, "PID")?;
+    Some((id, rod_from(card, 2)?))
+}
+
+/// The property of a rod whose fields MID, A, J, C, NSM begin at `first`, and end the card.
+pub fn rod_from(card: &mut Fields<'_, '_>, first: usize) -> Option<Property> {
+    let material = card.id(first, "MID");
+    let area = positive(card, first + 1, "A");
+    let j = card.not_negative(first + 2, "J");
+    let nsm = card.not_negative(first + 4, "NSM");
+    card.end(first + 5);
+    Some(Property {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        material: material?,
+        area: area?,
+        bending: [0.0; 2],
+        j: j?,
+        shear: [0.0; 2],
+        nsm: nsm?,
+        end: None,
+    })
+}
+
+/// A real number above 0.
+pub fn positive(card: &mut Fields<'_, '_>, index: usize, name: &str) -> Option<f64> {
+    let value = card.real(index, name)?;
+    if value <= 0.0 {
+        card.refuse(index, name, "must be positive", "");
+    }
+    (value > 0.0).then_some(value)
+}
+
+/// Reads PBAR.
+pub fn bar(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+    let id = card.id(1, "PID")?;
+    let material = card.id(2, "MID");
+    let area = positive(card, 3, "A");
+    let bending = [(4, "I1"), (5, "I2")].map(|(index, name)| card.not_negative(index, name));
+    let j = card.not_negative(6, "J");
+    let nsm = card.not_negative(7, "NSM");
+    let shear = [(17, "K1"), (18, "K2")].map(|(index, name)| card.not_negative(index, name));
+    let product = card.zero(19, "I12", NO_PRODUCT);
+    card.end(20);
+    let [i1, i2] = bending;
+    let [k1, k2] = shear;
+    product?;
+    let property = Property {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        material: material?,
+        area: area?,
+        bending: [i1?, i2?],
+        j: j?,
+        shear: [k1?, k2?],
+        nsm: nsm?,
+        end: None,
+    };
+    whole(card, &property).then_some((id, property))
+}
+
+/// Whether a bar bends in both planes, or in none.
+fn whole(card: &mut Fields<'_, '_>, property: &Property) -> bool {
+    let [i1, i2] = property.bending.map(|value| value > 0.0);
+    let hint = "give both second moments, or neither for a bar that only changes its length";
+    if i1 != i2 {
+        let (index, name) = if i1 { (5, "I2") } else { (4, "I1") };
+        card.refuse(index, name, "must be positive where the other plane bends", hint);
+    } else if !i1 && property.j > 0.0 {
+        card.refuse(4, "I1", "must be positive where J is", hint);
+        return false;
+    }
+    i1 == i2
+}
+
+const STATIONS: &str = "beams vary linearly from end A to end B: cut others at their stations";
+
+/// Reads PBEAM; between its ends it must vary linearly.
+pub fn beam(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+    let id = card.id(1, "PID")?;
+    let material = card.id(2, "MID");
+    let own = stiffness(card, 3, None);
+    let nsm = card.not_negative(8, "NSM");
+    let (own, nsm) = (own?, nsm?);
+    let rows = card.card.fields.len().div_ceil(8);
+    let station = |card: &Fields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
+    let blank = |card: &Fields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
+    // the second row has places for stresses, unless stations begin at once
+    let mut row = if station(card, 1) { 1 } else { 2 };
+    let mut other = own;
+    while row < rows && station(card, row) {
+        let first = 8 * row;
+        let x = card.real(first + 2, "X/XB")?;
+        let values = stiffness(card, first + 3, Some(own))?;
+        if card.optional(first + 8, "NSM")?.is_some_and(|value| value != nsm) {
+            card.refuse(first + 8, "NSM", "must be that of end A", "the further mass cannot vary");
+            return None;
+        }
+        if x == 1.0 {
+            other = values;
+        } else if values != own {
+            card.refuse(first + 2, "X/XB", "must be 1. where a beam is tapered", STATIONS);
+            return None;
+        }
+        row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) { 2 } else { 1 };
+    }
+    let first = 8 * row;
+    let shear = [(first + 1, "K1"), (first + 2, "K2")]
+        .map(|(index, name)| if card.blank(index) { Some(1.0) } else { card.not_negative(index, name) });
+    let relief = "shear relief of tapered beams cannot be taken";
+    let relief = [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
+    let apart = "give the neutral axis as offset of the elements";
+    let apart =
+        (first + 13..first + 17).map(|index| card.zero(index, "N", apart)).collect::<Option<Vec<_>>>();
+    let lost = [first + 5, first + 6, first + 9, first + 10, first + 11, first + 12];
+    if let Some(index) = lost.into_iter().find(|index| !card.blank(*index) && card.text(*index) != "0.") {
+        let fault = card.fault(index, "", "inertia and offset of the further mass are left out");
+        card.findings.warn(fault);
+    }
+    card.end(first + 17);
+    let [k1, k2] = shear;
+    relief.into_iter().collect::<Option<Vec<_>>>()?;
+    apart?;
+    let (material, shear) = (material?, [k1?, k2?]);
+    let property = |[area, i1, i2, j]: [f64; 4]| Property {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        material,
+        area,
+        bending: [i1, i2],
+        j,
+        shear,
+        nsm,
+        end: None,
+    };
+    let mut found = property(own);
+    found.end = (other != own).then(|| Box::new(property(other)));
+    let tapered = found.end.is_none() || own.iter().chain(&other).all(|value| *value > 0.0);
+    if !tapered {
+        card.refuse(3, "A", "must be positive like I1, I2 and J at both ends of a tapered beam", "");
+    }
+    (tapered && spread(card, &found, 8) && whole(card, &found)).then_some((id, found))
+}
+
+/// A, I1, I2 and J from a field on, with I12 between; those that are blank are `own`.
+fn stiffness(card: &mut Fields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
+    let mut number = |index: usize, name: &str, k: usize| match own {
+        Some(own) if card.blank(index) => Some(own[k]),
+        _ if k == 0 => positive(card, index, name),
+        _ => card.not_negative(index, name),
+    };
+    let values = [
+        number(first, "A", 0),
+        number(first + 1, "I1", 1),
+        number(first + 2, "I2", 2),
+        number(first + 4, "J", 3),
+    ];
+    card.zero(first + 3, "I12", NO_PRODUCT)?;
+    let [a, i1, i2, j] = values;
+    Some([a?, i1?, i2?, j?])
+}
+
+/// Reads PBARL or PBEAML; between its ends a beam must vary linearly.
+pub fn shaped(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+    let id = card.id(1, "PID")?;
+    let material = card.id(2, "MID");
+    if !card.blank(3) && card.text(3) != "MSCBML0" {
+        card.refuse(3, "GROUP", "must be MSCBML0 or blank", "");
+        return None;
+    }
+    let shape = card.text(4).to_owned();
+    let Some(count) = dimensions(&shape) else {
+        let known = SHAPES.map(|(name, _)| name);
+        let hint = match nearest(&shape, &known) {
+            Some(near) => format!("did you mean {near}? known: {}", known.join(", ")),
+            None => format!("known: {}; others as PBAR or PBEAM", known.join(", ")),
+        };
+        card.refuse(4, "TYPE", "is not known", &hint);
+        return None;
+    };
+    let mut dimensions = Vec::new();
+    for k in 0..count {
+        dimensions.push(card.real(9 + k, &format!("DIM{}", k + 1))?);
+    }
+    let nsm = card.not_negative(9 + count, "NSM")?;
+    let other = if card.card.name == "PBARL" {
+        card.end(10 + count);
+        None
+    } else {
+        stations(card, &dimensions, nsm)?
+    };
+    let material = material?;
+    let mut property = section(card, &shape, &dimensions, material, nsm)?;
+    if let Some(other) = other {
+        property.end = Some(Box::new(section(card, &shape, &other, material, nsm)?));
+    }
+    spread(card, &property, 9 + count).then_some((id, property))
+}
+
+/// Whether the further mass can be spread over the area.
+fn spread(card: &mut Fields<'_, '_>, property: &Property, index: usize) -> bool {
+    let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
+    if varies && property.nsm > 0.0 {
+        let hint = "give the further mass as CONM2";
+        card.refuse(index, "NSM", "must be 0 where the area of a beam varies", hint);
+    }
+    !varies || property.nsm == 0.0
+}
+
+/// The property of a shape.
+fn section(
+    card: &mut Fields<'_, '_>,
+    shape: &str,
+    dimensions: &[f64],
+    material: u64,
+    nsm: f64,
+) -> Option<Property> {
+    let section = match properties(shape, dimensions) {
+        Ok(section) => section,
+        Err(Refusal::Oblique) => {
+            card.refuse(4, "TYPE", "must have its principal axes along y and z", NO_PRODUCT);
+            return None;
+        }
+        Err(Refusal::Dimensions | Refusal::Unknown) => {
+            let hint = "some of them leave no room for others";
+            card.refuse(9, "DIM1", "must begin dimensions of a section", hint);
+            return None;
+        }
+    };
+    Some(Property {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        material,
+        area: section.area,
+        bending: [section.i1, section.i2],
+        j: section.j,
+        shear: [section.k1, section.k2],
+        nsm,
+        end: None,
+    })
+}
+
+/// The dimensions of a PBEAML at end B, where they differ from those at end A.
+fn stations(card: &mut Fields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
+    let count = dimensions.len();
+    let last = card.last();
+    let mut first = 10 + count;
+    let mut other = None;
+    while first <= last {
+        if !matches!(card.text(first), "" | "YES" | "NO") {
+            card.refuse(first, "SO", "must be YES or NO", "");
+            return None;
+        }
+        let x = card.real_or(first + 1, "X/XB", 1.0)?;
+        let mut here = Vec::new();
+        for (k, own) in dimensions.iter().enumerate() {
+            here.push(card.real_or(first + 2 + k, &format!("DIM{}", k + 1), *own)?);
+        }
+        if card.optional(first + 2 + count, "NSM")?.is_some_and(|value| value != nsm) {
+            card.refuse(first + 2 + count, "NSM", "must be that of end A", "the further mass cannot vary");
+            return None;
+        }
+        if here != dimensions {
+            if x != 1.0 {
+                card.refuse(first + 1, "X/XB", "must be 1. where a beam is tapered", STATIONS);
+                return None;
+            }
+            other = Some(here);
+        }
+        first += 3 + count;
+    }
+    Some(other)
+}
+
+/// Reads PELAS: one or two springs.
+pub fn springs(card: &mut Fields<'_, '_>) -> Vec<(u64, Spot, f64)> {
+    let mut springs = Vec::new();
+    for first in [1, 5] {
+        if first == 5 && card.blank(5) {
+            continue;
+        }
+        let id = card.id(first, "PID");
+        let k = card.real(first + 1, "K");
+        springs.extend(id.zip(k).map(|(id, k)| (id, card.card.at, k)));
+    }
+    card.end(9);
+    springs
+}

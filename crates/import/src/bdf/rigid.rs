@@ -1,0 +1,80 @@
+//! RBE2 and RBAR: rigid links.
+
+use super::field::{Number, number};
+use super::fields::Fields;
+use crate::findings::Spot;
+
+/// Links from one grid to others.
+#[derive(Clone, Debug)]
+pub struct Rigid {
+    /// Name and number of its card.
+    pub label: String,
+    /// The grid that leads.
+    pub from: (u64, Spot),
+    /// The grids that follow.
+    pub to: Vec<(u64, Spot)>,
+}
+
+const WHOLE: [bool; 6] = [true; 6];
+const PARTIAL: &str = "links that leave freedoms of their ends free cannot be taken";
+
+/// Reads RBE2.
+pub fn rbe2(card: &mut Fields<'_, '_>) -> Option<Rigid> {
+    card.id(1, "EID")?;
+    let from = card.id(2, "GN");
+    let fix = card.freedoms(3, "CM")?;
+    let mut last = card.last();
+    // the coefficient of thermal expansion may stand at the end
+    if matches!(number(card.text(last)), Some(Number::Real(_))) {
+        last -= 1;
+    }
+    let mut to = Vec::new();
+    for index in 4..=last {
+        if !card.blank(index) {
+            to.push((card.id(index, "GM")?, card.at(index)));
+        }
+    }
+    if fix != WHOLE {
+        card.refuse(3, "CM", "must be 123456", PARTIAL);
+        return None;
+    }
+    if to.is_empty() {
+        card.refuse(4, "GM1", "is missing", "name the grids that follow");
+        return None;
+    }
+    Some(Rigid { label: card.label(), from: (from?, card.at(2)), to })
+}
+
+/// Reads RBAR.
+pub fn rbar(card: &mut Fields<'_, '_>) -> Option<Rigid> {
+    card.id(1, "EID")?;
+    let a = card.id(2, "GA");
+    let b = card.id(3, "GB");
+    let leads = [(4, "CNA"), (5, "CNB")].map(|(index, name)| card.freedoms(index, name));
+    let follows = [(6, "CMA"), (7, "CMB")].map(|(index, name)| card.freedoms(index, name));
+    card.end(9);
+    let [Some(leads_a), Some(leads_b)] = leads else { return None };
+    let [Some(follows_a), Some(follows_b)] = follows else { return None };
+    let none = [false; 6];
+    // all of one end lead; nothing said of the followers means all of the other end
+    let [leading, following] = match (leads_a == WHOLE, leads_b == WHOLE) {
+        (true, false) if leads_b == none && follows_a == none => [a, b],
+        (false, true) if leads_a == none && follows_b == none => [b, a],
+        _ => {
+            card.refuse(4, "CNA", "must be 123456, with CNB blank, or the other way round", PARTIAL);
+            return None;
+        }
+    };
+    let follows = if leads_a == WHOLE { follows_b } else { follows_a };
+    if follows != none && follows != WHOLE {
+        card.refuse(if leads_a == WHOLE { 7 } else { 6 }, "CM", "must be 123456 or blank", PARTIAL);
+        return None;
+    }
+    let (leading, following) = (leading?, following?);
+    if leading == following {
+        card.refuse(3, "GB", "must differ from GA", "");
+        return None;
+    }
+    let at = card.at(2);
+    Some(Rigid { label: card.label(), from: (leading, at), to: vec![(following, at)] })
+}

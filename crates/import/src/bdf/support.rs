@@ -1,0 +1,156 @@
+//! SPC, SPC1, SPCADD: what holds the grids.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::fields::Fields;
+use crate::findings::{Finding, Findings, Spot};
+
+/// Freedoms of some grids held by a set.
+#[derive(Clone, Debug)]
+pub struct Hold {
+    /// Number of the set.
+    pub set: u64,
+    /// Where its card is.
+    pub card: Spot,
+    /// Grids, each with the place where it is named.
+    pub grids: Vec<(u64, Spot)>,
+    /// Ranges of grids: those of them that exist are meant.
+    pub ranges: Vec<[u64; 2]>,
+    /// Freedoms.
+    pub fix: [bool; 6],
+}
+
+/// Reads SPC: up to two grids.
+pub fn spc(card: &mut Fields<'_, '_>) -> Vec<Hold> {
+    let mut holds = Vec::new();
+    let Some(set) = card.id(1, "SID") else { return holds };
+    for first in [2, 5] {
+        if first == 5 && (5..8).all(|index| card.blank(index)) {
+            continue;
+        }
+        let grid = card.id(first, "G");
+        let fix = card.freedoms(first + 1, "C");
+        let moved = card.zero(first + 2, "D", "supports that move cannot be taken");
+        if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
+            let grids = vec![(grid, card.at(first))];
+            holds.push(Hold { set, card: card.card.at, grids, ranges: Vec::new(), fix });
+        }
+    }
+    card.end(8);
+    holds
+}
+
+/// Reads SPC1: a list of grids, or a range.
+pub fn spc1(card: &mut Fields<'_, '_>) -> Option<Hold> {
+    let set = card.id(1, "SID")?;
+    let fix = card.freedoms(2, "C")?;
+    let last = card.last();
+    let mut hold = Hold { set, card: card.card.at, grids: Vec::new(), ranges: Vec::new(), fix };
+    let mut index = 3;
+    while index <= last {
+        if card.blank(index) {
+            index += 1;
+            continue;
+        }
+        let at = card.at(index);
+        let from = card.id(index, "G")?;
+        if card.text(index + 1) == "THRU" {
+            let to = card.id(index + 2, "G")?;
+            if to < from {
+                card.refuse(index + 2, "G", "must not be below the grid before THRU", "");
+                return None;
+            }
+            hold.ranges.push([from, to]);
+            index += 3;
+        } else {
+            hold.grids.push((from, at));
+            index += 1;
+        }
+    }
+    if hold.grids.is_empty() && hold.ranges.is_empty() {
+        card.refuse(3, "G1", "is missing", "name the grids that the set holds");
+    }
+    Some(hold)
+}
+
+/// Reads SPCADD: a set of sets.
+pub fn spcadd(card: &mut Fields<'_, '_>) -> Option<(u64, Vec<u64>)> {
+    let set = card.id(1, "SID")?;
+    let mut parts = Vec::new();
+    for index in 2..=card.last() {
+        if !card.blank(index) {
+            parts.push(card.id(index, "S")?);
+        }
+    }
+    Some((set, parts))
+}
+
+/// The sets that hold the structure.
+///
+/// `asked`: by the user; `controlled`: whether the deck has case control; `control`: what that chooses, with its place.
+/// Where neither chooses, the only one.
+pub fn chosen(
+    holds: &[Hold],
+    adds: &BTreeMap<u64, Vec<u64>>,
+    asked: Option<u64>,
+    controlled: bool,
+    control: &[(u64, Spot)],
+    findings: &mut Findings,
+) -> BTreeSet<u64> {
+    let plain: BTreeSet<u64> = holds.iter().map(|hold| hold.set).collect();
+    let known: Vec<String> = plain.iter().chain(adds.keys()).map(u64::to_string).collect();
+    let list =
+        if known.is_empty() { "there is none".to_owned() } else { format!("there is {}", known.join(", ")) };
+    let selected: BTreeSet<u64> = control.iter().map(|(set, _)| *set).collect();
+    let first = control.first().map_or(Spot::default(), |(_, at)| *at);
+    let (set, at) = match (asked, selected.len()) {
+        (Some(set), _) => (set, Spot::default()),
+        (None, 1) => (*selected.first().unwrap_or(&0), first),
+        (None, 0) => {
+            let tops: Vec<u64> = if adds.is_empty() {
+                plain.iter().copied().collect()
+            } else {
+                adds.keys().copied().collect()
+            };
+            match tops.as_slice() {
+                [] => return BTreeSet::new(),
+                [only] => {
+                    if controlled {
+                        let at = holds.first().map_or(first, |hold| hold.card);
+                        let told =
+                            format!("set {only} is taken: case control chooses none, and there is no other");
+                        findings.warn(Finding::new(at, "SPC", told));
+                    }
+                    (*only, Spot::default())
+                }
+                _ => {
+                    let at = holds.first().map_or(first, |hold| hold.card);
+                    let finding =
+                        Finding::new(at, "SPC", "must be chosen: case control chooses none of several sets");
+                    findings.error(finding.hint(format!("add --spc N; {list}")));
+                    return BTreeSet::new();
+                }
+            }
+        }
+        (None, _) => {
+            let finding = Finding::new(first, "SPC", "must be the same in all subcases");
+            findings.error(finding.hint(format!("choose with --spc N; {list}")));
+            return BTreeSet::new();
+        }
+    };
+    if let Some(parts) = adds.get(&set) {
+        for part in parts.iter().filter(|part| !plain.contains(part)) {
+            findings.error(Finding::new(
+                at,
+                format!("SPCADD {set}"),
+                format!("names set {part}, which is not there"),
+            ));
+        }
+        return parts.iter().copied().collect();
+    }
+    if !plain.contains(&set) {
+        let finding = Finding::new(at, "SPC", "must be the number of a set of SPC, SPC1 or SPCADD").got(set);
+        findings.error(finding.hint(list));
+    }
+    BTreeSet::from([set])
+}

@@ -1,0 +1,237 @@
+//! Sections of a mesh file: names, entities, nodes, line cells.
+
+use std::collections::BTreeMap;
+
+use super::text::{Record, Section, sections};
+use crate::findings::{Finding, Findings, Spot};
+
+const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format msh41 -o NEW.msh";
+
+/// What of a mesh a frame needs.
+#[derive(Debug, Default)]
+pub struct Mesh {
+    /// Name of each physical group by dimension and number.
+    pub names: BTreeMap<(u64, u64), String>,
+    /// Physical groups of each entity by dimension and number.
+    pub groups: BTreeMap<(u64, u64), Vec<u64>>,
+    /// Coordinates of each node.
+    pub nodes: BTreeMap<u64, [f64; 3]>,
+    /// Nodes of each entity of dimension 0.
+    pub points: BTreeMap<u64, Vec<u64>>,
+    /// Line cells by number: curve, nodes, place.
+    pub lines: BTreeMap<u64, (u64, [u64; 2], Spot)>,
+}
+
+impl Mesh {
+    /// Reads a mesh; what is wrong is among the findings.
+    pub fn read(text: &str, findings: &mut Findings) -> Mesh {
+        let mut mesh = Mesh::default();
+        // the first line says what the others are
+        if !plain_41(text, findings) {
+            return mesh;
+        }
+        let mut seen = Vec::new();
+        for mut section in sections(text, findings) {
+            if seen.contains(&section.name) {
+                findings.error(Finding::new(section.at, format!("${}", section.name), "must stand once"));
+                continue;
+            }
+            seen.push(section.name);
+            // a section that breaks off has said why
+            let _whole = match section.name {
+                "PhysicalNames" => mesh.read_names(&mut section, findings),
+                "Entities" => mesh.read_entities(&mut section, findings),
+                "Nodes" => mesh.read_nodes(&mut section, findings),
+                "Elements" => mesh.read_elements(&mut section, findings),
+                "PartitionedEntities" => {
+                    let finding = Finding::new(section.at, "$PartitionedEntities", "cannot be taken");
+                    findings.error(finding.hint("write the mesh without partitions"));
+                    None
+                }
+                _ => Some(()),
+            };
+        }
+        for needed in ["Entities", "Nodes", "Elements"] {
+            if !seen.contains(&needed) && !findings.wrong() {
+                let at = Spot { file: 0, line: 1, column: 1 };
+                findings.error(Finding::new(at, format!("${needed}"), "is missing").hint(CONVERT));
+            }
+        }
+        mesh
+    }
+
+    fn read_names(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+        let count = section.next(findings)?.whole(0, "number of names", findings)?;
+        for _ in 0..count {
+            let record = section.next(findings)?;
+            let dimension = record.whole(0, "dimension", findings)?;
+            let tag = record.tag(1, "physical group", findings)?;
+            let name = record.line.split_once('"').and_then(|(_, rest)| rest.strip_suffix('"'));
+            let Some(name) = name.filter(|name| !name.is_empty()) else {
+                findings.error(Finding::new(record.at, "name", "must stand between quotation marks"));
+                return None;
+            };
+            if self.names.insert((dimension, tag), name.to_owned()).is_some() {
+                findings.error(Finding::new(record.at, "physical group", "has two names").got(tag));
+            }
+        }
+        Some(())
+    }
+
+    fn read_entities(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+        let head = section.next(findings)?;
+        let names = ["points", "curves", "surfaces", "volumes"];
+        let mut counts = [0; 4];
+        for (index, name) in names.into_iter().enumerate() {
+            counts[index] = head.whole(index, name, findings)?;
+        }
+        for (dimension, count) in (0..).zip(counts) {
+            // a point has its three coordinates, everything else its box
+            let before = if dimension == 0 { 4 } else { 7 };
+            for _ in 0..count {
+                let record = section.next(findings)?;
+                let tag = record.tag(0, "entity", findings)?;
+                let groups = record.whole(before, "number of physical groups", findings)?;
+                let mut list = Vec::new();
+                for index in (before + 1..).take(usize::try_from(groups).unwrap_or(usize::MAX)) {
+                    list.push(record.tag(index, "physical group", findings)?);
+                }
+                if self.groups.insert((dimension, tag), list).is_some() {
+                    findings.error(Finding::new(record.at, "entity", "stands there twice").got(tag));
+                }
+            }
+        }
+        Some(())
+    }
+
+    fn read_nodes(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+        let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
+        for _ in 0..blocks {
+            let head = section.next(findings)?;
+            let dimension = head.whole(0, "dimension", findings)?;
+            let entity = head.tag(1, "entity", findings)?;
+            let count = head.whole(3, "number of nodes", findings)?;
+            let mut tags = Vec::new();
+            for _ in 0..count {
+                let record = section.next(findings)?;
+                tags.push((record.whole(0, "node", findings)?, record.at));
+            }
+            for (tag, at) in tags {
+                let record = section.next(findings)?;
+                let mut place = [0.0; 3];
+                for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
+                    place[axis] = record.real(axis, name, findings)?;
+                }
+                if self.nodes.insert(tag, place).is_some() {
+                    findings.error(Finding::new(at, "node", "stands there twice").got(tag));
+                }
+                if dimension == 0 {
+                    self.points.entry(entity).or_default().push(tag);
+                }
+            }
+        }
+        Some(())
+    }
+
+    fn read_elements(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+        let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
+        let mut others: BTreeMap<u64, (Spot, u64)> = BTreeMap::new();
+        for _ in 0..blocks {
+            let head = section.next(findings)?;
+            let dimension = head.whole(0, "dimension", findings)?;
+            let entity = head.tag(1, "entity", findings)?;
+            let kind = head.whole(2, "type of element", findings)?;
+            let count = head.whole(3, "number of elements", findings)?;
+            for _ in 0..count {
+                let record = section.next(findings)?;
+                match kind {
+                    LINE => self.line(entity, &record, findings)?,
+                    POINT if dimension == 0 => {
+                        let node = record.whole(1, "node", findings)?;
+                        let points = self.points.entry(entity).or_default();
+                        if !points.contains(&node) {
+                            points.push(node);
+                        }
+                    }
+                    _ => others.entry(kind).or_insert((record.at, 0)).1 += 1,
+                }
+            }
+        }
+        for (kind, (at, count)) in others {
+            let name = kind_name(kind);
+            let about = format!("elements of type {kind}");
+            if matches!(kind, 8 | 26..=28) {
+                let hint = "mesh with Mesh.ElementOrder = 1";
+                findings.error(
+                    Finding::new(at, about, format!("{name} cannot be taken: members have two nodes"))
+                        .hint(hint),
+                );
+            } else {
+                findings.warn(Finding::new(at, about, format!("{name} are left out, {count} of them")));
+            }
+        }
+        Some(())
+    }
+
+    fn line(&mut self, curve: u64, record: &Record<'_>, findings: &mut Findings) -> Option<()> {
+        let tag = record.whole(0, "element", findings)?;
+        let nodes = [record.whole(1, "node", findings)?, record.whole(2, "node", findings)?];
+        if nodes[0] == nodes[1] {
+            findings.error(Finding::new(record.at, format!("element {tag}"), "must join two nodes"));
+        }
+        if self.lines.insert(tag, (curve, nodes, record.at)).is_some() {
+            findings.error(Finding::new(record.at, "element", "stands there twice").got(tag));
+        }
+        Some(())
+    }
+}
+
+const LINE: u64 = 1;
+const POINT: u64 = 15;
+
+const fn kind_name(kind: u64) -> &'static str {
+    match kind {
+        2 | 9 | 20..=25 => "triangles",
+        3 | 10 | 16 => "quadrangles",
+        4 | 11 | 29..=31 => "tetrahedra",
+        5 | 12 | 17 => "hexahedra",
+        6 | 13 | 18 => "prisms",
+        7 | 14 | 19 => "pyramids",
+        8 | 26..=28 => "lines of more than two nodes",
+        15 => "points",
+        _ => "elements of other kinds",
+    }
+}
+
+/// Whether the file says that it is text in format 4.1.
+fn plain_41(text: &str, findings: &mut Findings) -> bool {
+    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
+    let at = |line: usize| Spot { file: 0, line: line + 1, column: 1 };
+    let first = lines.next();
+    if first.is_none_or(|(_, line)| line.trim() != "$MeshFormat") {
+        let line = first.map_or(0, |(line, _)| line);
+        findings
+            .error(Finding::new(at(line), "", "must begin with $MeshFormat").hint("is this a gmsh mesh?"));
+        return false;
+    }
+    let (line, format) = lines.next().unwrap_or((1, ""));
+    let words: Vec<&str> = format.split_ascii_whitespace().collect();
+    let refuse = |expected: &str, found: &str| {
+        Finding::new(at(line), "$MeshFormat", expected).got(found).hint(CONVERT)
+    };
+    match words.as_slice() {
+        ["4.1", "0", ..] => true,
+        ["4.1", "1", ..] => {
+            findings.error(refuse("must be a mesh in text", "a binary mesh"));
+            false
+        }
+        [version, ..] => {
+            findings.error(refuse("must be version 4.1", version));
+            false
+        }
+        [] => {
+            findings.error(refuse("must be version 4.1", "nothing"));
+            false
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! Meshes of gmsh, format 4.1 in text: line cells become members.
+//!
+//! # Source
+//! Gmsh reference manual, section "MSH file format".
+
+mod mesh;
+mod sections;
+mod text;
+
+use std::collections::BTreeMap;
+
+pub use sections::{FORMAT, Sections};
+
+use super::findings::{Finding, Findings};
+use super::structure::{Member, Point, Structure};
+use formats::vector::{minus, parallel};
+use mesh::Mesh;
+
+/// Reads a mesh into `empty`, a structure that has its name, units and up; `factor`: its unit of length in that of
+/// the structure.
+#[must_use]
+pub fn read(
+    text: &str,
+    factor: f64,
+    groups: &Sections,
+    empty: Structure,
+    findings: &mut Findings,
+) -> Structure {
+    let mesh = Mesh::read(text, findings);
+    let mut structure = empty;
+    if findings.wrong() {
+        return structure;
+    }
+    structure.materials.clone_from(&groups.materials);
+    structure.sections.clone_from(&groups.sections);
+    let index = points(&mesh, factor, &mut structure);
+    let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    let mut told = Vec::new();
+    for (&id, &(curve, nodes, at)) in &mesh.lines {
+        let about = format!("element {id}");
+        let [a, b] = nodes.map(|node| index.get(&node).copied());
+        let (Some(a), Some(b)) = (a, b) else {
+            let missing = nodes.into_iter().find(|node| !index.contains_key(node)).unwrap_or_default();
+            findings.error(Finding::new(at, about, "names a node that is not there").got(missing));
+            continue;
+        };
+        let names: Vec<&str> = names(&mesh, 1, curve);
+        let known: Vec<&str> =
+            names.iter().filter(|name| groups.groups.contains_key(**name)).copied().collect();
+        let &[name] = known.as_slice() else {
+            // once a curve
+            if !told.contains(&curve) {
+                told.push(curve);
+                let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
+                let expected = format!(
+                    "must be in one physical group that is a section or in `members`, {}",
+                    list(&names)
+                );
+                let hint = format!("in the sections file: {}", known.join(", "));
+                findings.error(Finding::new(at, format!("curve {curve}"), expected).hint(hint));
+            }
+            continue;
+        };
+        let group = &groups.groups[name];
+        let along = minus(structure.points[b].at, structure.points[a].at);
+        let orientation = group.orientation.or(structure.up);
+        if along == [0.0; 3] {
+            findings.error(Finding::new(at, about, "must have a length"));
+            continue;
+        }
+        if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
+            if !told.contains(&curve) {
+                told.push(curve);
+                let hint = format!("give \"{name}\" an `orientation` in `members` of the sections file");
+                findings.error(
+                    Finding::new(at, about, "must have an orientation that is not along it").hint(hint),
+                );
+            }
+            continue;
+        }
+        for name in names {
+            sets.entry(name).or_default().push(structure.members.len());
+        }
+        structure.members.push(Member {
+            id,
+            points: [a, b],
+            truss: group.truss,
+            section: group.section,
+            section_b: None,
+            orientation: if group.truss { None } else { group.orientation },
+            offsets: [[0.0; 3]; 2],
+            releases: group.releases,
+        });
+    }
+    if structure.members.is_empty() && !findings.wrong() {
+        let at = super::findings::Spot { file: 0, line: 1, column: 1 };
+        let hint = "mesh the curves (gmsh -1), and put them in physical groups";
+        findings.error(Finding::new(at, "", "has no line cells").hint(hint));
+    }
+    structure.cell_sets = sets.into_iter().map(|(name, set)| (name.to_owned(), set)).collect();
+    structure
+}
+
+fn list(names: &[&str]) -> String {
+    if names.is_empty() {
+        "and is in none with a name".to_owned()
+    } else {
+        format!("and is in {}", names.join(", "))
+    }
+}
+
+/// Names of the physical groups of an entity.
+fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
+    let groups = mesh.groups.get(&(dimension, entity)).into_iter().flatten();
+    groups.filter_map(|group| mesh.names.get(&(dimension, *group)).map(String::as_str)).collect()
+}
+
+/// Nodes of line cells and of physical points, in the order of their numbers, with sets for the latter.
+fn points(mesh: &Mesh, factor: f64, structure: &mut Structure) -> BTreeMap<u64, usize> {
+    let mut named: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
+    for (entity, nodes) in &mesh.points {
+        for name in names(mesh, 0, *entity) {
+            named.entry(name).or_default().extend(nodes);
+        }
+    }
+    let mut used: Vec<u64> = mesh.lines.values().flat_map(|(_, nodes, _)| *nodes).collect();
+    used.extend(named.values().flatten());
+    used.sort_unstable();
+    used.dedup();
+    let mut index = BTreeMap::new();
+    for node in used {
+        if let Some(at) = mesh.nodes.get(&node) {
+            index.insert(node, structure.points.len());
+            structure.points.push(Point { name: String::new(), at: at.map(|part| part * factor) });
+        }
+    }
+    for (name, mut nodes) in named {
+        nodes.sort_unstable();
+        nodes.dedup();
+        let set: Vec<usize> = nodes.iter().filter_map(|node| index.get(node).copied()).collect();
+        structure.point_sets.push((name.to_owned(), set));
+    }
+    index
+}

@@ -1,0 +1,251 @@
+//! The sections file: what the physical groups of a mesh are made of.
+
+use std::collections::BTreeMap;
+
+use serde::Deserialize;
+
+use crate::structure::{Material, Section};
+use formats::check::Check;
+use formats::diagnostic::Diagnostic;
+use formats::entries::Entries;
+use formats::fault::{Fault, Faults, nearest};
+use formats::place::Place;
+use formats::source::Source;
+use formats::units::{Dimension, RawUnits, Scale, Units};
+
+/// The word of the format, with its version.
+pub const FORMAT: &str = "girderway-sections/1";
+
+formats::object::objects!(Raw, RawMaterial, RawSection, RawMember);
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct Raw {
+    format: Option<String>,
+    units: Option<RawUnits>,
+    materials: Option<Vec<RawMaterial>>,
+    sections: Option<Vec<RawSection>>,
+    members: Option<Entries<RawMember>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawMaterial {
+    name: Option<String>,
+    #[serde(rename = "E")]
+    e: Option<f64>,
+    #[serde(rename = "G")]
+    g: Option<f64>,
+    density: Option<f64>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawSection {
+    name: Option<String>,
+    material: Option<String>,
+    #[serde(rename = "A")]
+    area: Option<f64>,
+    #[serde(rename = "Iy")]
+    iy: Option<f64>,
+    #[serde(rename = "Iz")]
+    iz: Option<f64>,
+    #[serde(rename = "J")]
+    j: Option<f64>,
+    #[serde(rename = "Asy")]
+    asy: Option<f64>,
+    #[serde(rename = "Asz")]
+    asz: Option<f64>,
+}
+
+#[derive(Debug, Default, Deserialize)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+struct RawMember {
+    section: Option<String>,
+    kind: Option<String>,
+    orientation: Option<[f64; 3]>,
+    release_a: Option<Vec<String>>,
+    release_b: Option<Vec<String>>,
+}
+
+/// What the members of a physical group are.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Group {
+    /// Index of the section.
+    pub section: usize,
+    /// Whether only their change of length counts.
+    pub truss: bool,
+    /// Where local y points; absent = up.
+    pub orientation: Option<[f64; 3]>,
+    /// Freedoms let go at their ends.
+    pub releases: [[bool; 6]; 2],
+}
+
+/// A sections file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sections {
+    /// Its units.
+    pub units: Units,
+    /// Materials in its order.
+    pub materials: Vec<Material>,
+    /// Sections in its order.
+    pub sections: Vec<Section>,
+    /// Groups by name: those of `members`, and one for each section that is not among them.
+    pub groups: BTreeMap<String, Group>,
+}
+
+const FREEDOMS: [(&str, usize); 6] = [("ux", 0), ("uy", 1), ("uz", 2), ("rx", 3), ("ry", 4), ("rz", 5)];
+
+impl Sections {
+    /// Reads a sections file.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, placed.
+    pub fn read(source: &Source) -> Result<Sections, Vec<Diagnostic>> {
+        let raw: Raw = source.parse(FORMAT).map_err(|error| vec![*error])?;
+        let mut faults = Faults::default();
+        let root = Place::root();
+        if let Some(word) = faults.need(&raw.format, &root, "format") {
+            faults.word(word, &root.key("format"), &[(FORMAT, ())]);
+        }
+        let units = Units::read(&raw.units, &root, &mut faults);
+        let Some(units) = units else { return Err(source.diagnose(&faults)) };
+        let mut check = Check { faults: &mut faults, scale: Scale { from: units, to: units } };
+        let materials = materials(&raw, &root, &mut check);
+        let sections = sections(&raw, &materials, &root, &mut check);
+        let groups = groups(&raw, &materials, &sections, &root, &mut faults);
+        if faults.0.is_empty() {
+            Ok(Sections { units, materials, sections, groups })
+        } else {
+            Err(source.diagnose(&faults))
+        }
+    }
+}
+
+fn materials(raw: &Raw, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Material> {
+    let list = root.key("materials");
+    let mut materials: Vec<Material> = Vec::new();
+    for (index, raw) in check.faults.need(&raw.materials, root, "materials").into_iter().flatten().enumerate()
+    {
+        let at = list.index(index);
+        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        if materials.iter().any(|other| other.name == name) {
+            check.faults.add(Fault::new(&at.key("name"), "must differ from the other materials").got(&name));
+        }
+        let e = check.needed(raw.e, &at, "E", Dimension::STRESS, "");
+        let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
+        let density =
+            raw.density.map(|value| check.not_negative(value, &at.key("density"), Dimension::DENSITY, ""));
+        materials.push(Material { name, e, g, density });
+    }
+    materials
+}
+
+fn sections(raw: &Raw, materials: &[Material], root: &Place<'_>, check: &mut Check<'_>) -> Vec<Section> {
+    let list = root.key("sections");
+    let mut sections: Vec<Section> = Vec::new();
+    for (index, raw) in check.faults.need(&raw.sections, root, "sections").into_iter().flatten().enumerate() {
+        let at = list.index(index);
+        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        if sections.iter().any(|other| other.name == name) {
+            check.faults.add(Fault::new(&at.key("name"), "must differ from the other sections").got(&name));
+        }
+        let material = check.faults.need(&raw.material, &at, "material").cloned().unwrap_or_default();
+        if raw.material.is_some() && !materials.iter().any(|other| other.name == material) {
+            let known: Vec<&str> = materials.iter().map(|other| other.name.as_str()).collect();
+            unknown(check.faults, &at.key("material"), "a material", &material, &known);
+        }
+        let mut number =
+            |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
+        sections.push(Section {
+            name,
+            material,
+            area: number(raw.area, "A", Dimension::AREA),
+            iy: number(raw.iy, "Iy", Dimension::SECOND_MOMENT),
+            iz: number(raw.iz, "Iz", Dimension::SECOND_MOMENT),
+            j: number(raw.j, "J", Dimension::SECOND_MOMENT),
+            shear_y: number(raw.asy, "Asy", Dimension::AREA),
+            shear_z: number(raw.asz, "Asz", Dimension::AREA),
+        });
+    }
+    sections
+}
+
+fn unknown(faults: &mut Faults, at: &Place<'_>, what: &str, name: &str, known: &[&str]) {
+    let hint = match nearest(name, known) {
+        Some(near) => format!("did you mean \"{near}\"?"),
+        None => format!("known: {}", known.join(", ")),
+    };
+    faults.add(Fault::new(at, format!("must be the name of {what}")).got(format!("\"{name}\"")).hint(hint));
+}
+
+fn groups(
+    raw: &Raw,
+    materials: &[Material],
+    sections: &[Section],
+    root: &Place<'_>,
+    faults: &mut Faults,
+) -> BTreeMap<String, Group> {
+    let mut groups = BTreeMap::new();
+    let place = root.key("members");
+    let list = root.key("sections");
+    for (name, raw) in raw.members.iter().flat_map(|members| &members.0) {
+        let at = place.key(name);
+        let mut group = Group { orientation: raw.orientation, ..Group::default() };
+        let wanted = raw.section.as_ref().unwrap_or(name);
+        let position = sections.iter().position(|section| section.name == *wanted);
+        let kinds = [("beam", false), ("truss", true)];
+        if let Some(word) = &raw.kind {
+            group.truss = faults.word(word, &at.key("kind"), &kinds).unwrap_or_default();
+        }
+        for (end, (key, words)) in
+            [("release_a", &raw.release_a), ("release_b", &raw.release_b)].into_iter().enumerate()
+        {
+            let list = at.key(key);
+            for (index, word) in words.iter().flatten().enumerate() {
+                if let Some(freedom) = faults.word(word, &list.index(index), &FREEDOMS) {
+                    group.releases[end][freedom] = true;
+                }
+            }
+        }
+        match position {
+            Some(section) => group.section = section,
+            None => {
+                let known: Vec<&str> = sections.iter().map(|section| section.name.as_str()).collect();
+                let section = at.key("section");
+                unknown(
+                    faults,
+                    if raw.section.is_some() { &section } else { &at },
+                    "a section",
+                    wanted,
+                    &known,
+                );
+            }
+        }
+        groups.insert(name.clone(), group);
+    }
+    for (index, section) in sections.iter().enumerate() {
+        // a section that `members` does not speak of is for the group of its own name
+        if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
+            groups.insert(section.name.clone(), Group { section: index, ..Group::default() });
+        }
+        // what a beam needs; a truss has its length alone
+        let used: Vec<&Group> = groups.values().filter(|group| group.section == index).collect();
+        let beams = used.iter().any(|group| !group.truss);
+        let at = list.index(index);
+        for (key, value) in [("A", section.area), ("Iy", section.iy), ("Iz", section.iz), ("J", section.j)] {
+            if value.is_none() && (beams || key == "A") {
+                let hint = "beams need A, Iy, Iz and J; for trusses give `members` the kind \"truss\"";
+                faults.add(Fault::new(&at, format!("missing key `{key}`")).hint(hint));
+            }
+        }
+        let stiff =
+            materials.iter().any(|material| material.name == section.material && material.g.is_none());
+        if beams && stiff {
+            faults.add(
+                Fault::new(&at, "its material needs `G`").hint("torsion and shear of beams depend on it"),
+            );
+        }
+    }
+    groups
+}

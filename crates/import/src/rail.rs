@@ -1,0 +1,190 @@
+//! Rails asked for on the command line, laid on the members of a structure.
+
+use std::str::FromStr;
+
+use super::structure::{Rail, Structure};
+use formats::vector::{dot, length, minus, parallel, unit};
+
+/// A rail as asked for: `NAME=12,23,30-35` or `NAME=SET`, then `/offset=X,Y,Z` and `/axis=X,Y,Z`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Asked {
+    name: String,
+    items: Vec<Item>,
+    offset: [f64; 3],
+    axis: Option<[f64; 3]>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum Item {
+    /// Elements by number, from the first to the last.
+    Elements([u64; 2]),
+    /// A set of cells.
+    Set(String),
+}
+
+/// Three numbers between commas.
+///
+/// # Errors
+/// What else it must be.
+pub fn triple(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
+    match numbers.as_deref() {
+        Some(&[x, y, z]) if [x, y, z].iter().all(|part| part.is_finite()) => Ok([x, y, z]),
+        _ => Err("must be three numbers, such as 0,0,1".to_owned()),
+    }
+}
+
+impl FromStr for Asked {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Asked, String> {
+        let example = "must be NAME=ELEMENTS, such as runway=12,23,30-35, or NAME=SET";
+        let (name, rest) = text.split_once('=').ok_or(example)?;
+        if name.is_empty() || name.contains('.') {
+            return Err("the name of a rail must not be empty and have no dots".to_owned());
+        }
+        let mut parts = rest.split('/');
+        let list = parts.next().unwrap_or_default();
+        let items: Option<Vec<Item>> = list.split(',').map(|item| Item::read(item.trim())).collect();
+        let mut asked =
+            Asked { name: name.to_owned(), items: items.ok_or(example)?, offset: [0.0; 3], axis: None };
+        for part in parts {
+            match part.split_once('=') {
+                Some(("offset", value)) => {
+                    asked.offset = triple(value).map_err(|why| format!("offset {why}"))?
+                }
+                Some(("axis", value)) => {
+                    asked.axis = Some(triple(value).map_err(|why| format!("axis {why}"))?)
+                }
+                _ => return Err(format!("`/{part}` must be /offset=X,Y,Z or /axis=X,Y,Z")),
+            }
+        }
+        Ok(asked)
+    }
+}
+
+impl Item {
+    fn read(text: &str) -> Option<Item> {
+        if let Ok(id) = text.parse() {
+            return Some(Item::Elements([id, id]));
+        }
+        if let Some((from, to)) = text.split_once('-')
+            && let (Ok(from), Ok(to)) = (from.parse(), to.parse())
+        {
+            return Some(Item::Elements([from, to]));
+        }
+        (!text.is_empty()).then(|| Item::Set(text.to_owned()))
+    }
+}
+
+/// Lays a rail on members: its axis is level and leads from the first of them to the last (of one: from its end a
+/// to b), its coordinate is 0 where the first begins, its stations are at the members' points.
+///
+/// # Errors
+/// What must be otherwise, and a hint.
+pub fn lay(asked: &Asked, up: [f64; 3], structure: &Structure) -> Result<Rail, [String; 2]> {
+    let members = members(asked, structure)?;
+    let middle = |member: usize| {
+        let [a, b] = structure.ends(member);
+        [0, 1, 2].map(|k| 0.5 * (a[k] + b[k]))
+    };
+    let (Some(&first), Some(&last)) = (members.first(), members.last()) else {
+        return Err(["must have a member".to_owned(), "name elements or a set".to_owned()]);
+    };
+    let [a, b] = structure.ends(first);
+    let along = if first == last { minus(b, a) } else { minus(middle(last), middle(first)) };
+    let hint = "give it as /axis=X,Y,Z";
+    let axis = asked.axis.or_else(|| level(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
+    let axis = axis.ok_or_else(|| ["must have an axis that is not along up".to_owned(), hint.to_owned()])?;
+    let mut ends: Vec<[f64; 3]> = Vec::new();
+    for &member in &members {
+        let [a, b] = structure.ends(member);
+        if dot(minus(b, a), axis).abs() <= 1e-9 * length(minus(b, a)) {
+            let id = structure.members[member].id;
+            return Err([
+                format!("must not lead over element {id}, which is at right angles to it"),
+                hint.to_owned(),
+            ]);
+        }
+        ends.extend([a, b]);
+    }
+    let origin = ends.iter().copied().min_by(|a, b| dot(minus(*a, *b), axis).total_cmp(&0.0)).unwrap_or(a);
+    let place = |at: [f64; 3]| dot(minus(at, origin), axis);
+    let range = ends.iter().map(|end| place(*end)).fold(0.0, f64::max);
+    let mut stations: Vec<f64> = members
+        .iter()
+        .flat_map(|member| structure.members[*member].points)
+        .map(|point| place(structure.points[point].at).clamp(0.0, range))
+        .collect();
+    stations.sort_by(f64::total_cmp);
+    stations.dedup_by(|b, a| *b - *a <= 1e-9 * range);
+    if stations.iter().any(|station| !station.is_finite()) || range <= 0.0 {
+        return Err(["must have coordinates that a double can hold".to_owned(), hint.to_owned()]);
+    }
+    Ok(Rail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
+}
+
+/// The part of a direction that is normal to up; `None` where that is less than a tenth of it.
+fn level(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
+    let up = unit(up)?;
+    let rise = dot(along, up);
+    let level = minus(along, up.map(|part| part * rise));
+    (length(level) > 0.1 * length(along)).then_some(level)
+}
+
+/// The members of a rail in the order given, each once.
+fn members(asked: &Asked, structure: &Structure) -> Result<Vec<usize>, [String; 2]> {
+    let mut members: Vec<usize> = Vec::new();
+    let mut named = vec![false; structure.members.len()];
+    for item in &asked.items {
+        let found: Vec<usize> = match item {
+            Item::Elements([from, to]) => (0..structure.members.len())
+                .filter(|&index| (from..=to).contains(&&structure.members[index].id))
+                .collect(),
+            Item::Set(name) => {
+                let set = structure.cell_sets.iter().find(|(known, _)| known.eq_ignore_ascii_case(name));
+                set.map(|(_, set)| set.clone()).unwrap_or_default()
+            }
+        };
+        if found.is_empty() {
+            let names: Vec<&str> = structure.cell_sets.iter().map(|(name, _)| name.as_str()).collect();
+            let what = match item {
+                Item::Elements([from, to]) if from == to => {
+                    format!("names element {from}, which is no member")
+                }
+                Item::Elements([from, to]) => {
+                    format!("names elements {from}-{to}, of which none is a member")
+                }
+                Item::Set(name) => format!("names the set {name}, which is not there"),
+            };
+            return Err([what, format!("sets of cells: {}", names.join(", "))]);
+        }
+        for member in found {
+            if !std::mem::replace(&mut named[member], true) {
+                members.push(member);
+            }
+        }
+    }
+    Ok(members)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rails_are_read_from_the_command_line() {
+        let asked: Asked = "runway=12,30-35,girder/offset=0,0.5,0/axis=1,0,0".parse().expect("a rail");
+        assert_eq!(asked.name, "runway");
+        assert_eq!(
+            asked.items,
+            [Item::Elements([12, 12]), Item::Elements([30, 35]), Item::Set("girder".to_owned())]
+        );
+        assert_eq!((asked.offset, asked.axis), ([0.0, 0.5, 0.0], Some([1.0, 0.0, 0.0])));
+        for text in
+            ["runway", "=1", "a.b=1", "a=", "a=1,,2", "a=1/offset=1,2", "a=1/height=3", "a=1/axis=1,2,nan"]
+        {
+            assert!(text.parse::<Asked>().is_err(), "{text}");
+        }
+    }
+}

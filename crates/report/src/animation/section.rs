@@ -1,0 +1,160 @@
+//! The view along the runway: what lies to the right of the rails to the right, up is up; and numbers beside it.
+
+use super::draw::{DARK, Drawing, GREY, INK, ORANGE, STEEL, WIDTH};
+use super::{BAR, View};
+use formats::units::Dimension;
+
+/// Room for the view; the numbers stand right of it.
+const ROOM: [f64; 2] = [600.0, 330.0];
+
+/// Draws the view below `top`; gives where it ends.
+pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
+    let scene = view.scene;
+    let rails = view.rails();
+    let origins: Vec<Vec<[f64; 3]>> = (0..scene.bodies.len()).map(|body| view.origins(body)).collect();
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let mut widen = |z: f64, y: f64| {
+        for (k, v) in [z, y].into_iter().enumerate() {
+            (low[k], high[k]) = (low[k].min(v), high[k].max(v));
+        }
+    };
+    rails.iter().for_each(|(_, z)| widen(*z, 0.0));
+    origins.iter().flatten().for_each(|[_, y, z]| widen(*z, *y));
+    let ends = rope_ends(view);
+    ends.iter().flatten().flatten().for_each(|[z, y]| widen(*z, *y));
+    let size = (high[0] - low[0]).max(high[1] - low[1]).max(1e-9);
+    let unit = 0.05 * size;
+    for k in 0..2 {
+        (low[k], high[k]) = (low[k] - 2.5 * unit, high[k] + 2.0 * unit);
+    }
+    let scale = (ROOM[0] / (high[0] - low[0])).min(ROOM[1] / (high[1] - low[1]));
+    let left = 24.0 + 0.5 * (ROOM[0] - scale * (high[0] - low[0]));
+    let first = top + 26.0;
+    let place = |[z, y]: [f64; 2]| [left + (z - low[0]) * scale, first + (high[1] - y) * scale];
+    drawing.text([0.5 * WIDTH, top + 4.0], "Along the runway", (INK, 14.0), "middle");
+    let middle = rails.iter().map(|(_, z)| z).sum::<f64>() / rails.len().max(1) as f64;
+    for (rail, z) in &rails {
+        let at = place([*z, 0.0]);
+        let depth = unit * scale;
+        drawing.rectangle([at[0] - 0.35 * depth, at[1], 0.7 * depth, depth], STEEL);
+        let wheels: Vec<usize> =
+            (0..view.cast.wheels.len()).filter(|w| view.cast.wheels[*w].rail == *rail).collect();
+        let sum = |part: &str| -> Vec<f64> {
+            let all: Vec<Vec<f64>> = wheels.iter().map(|wheel| view.wheel(*wheel, part)).collect();
+            (0..view.rows.len()).map(|k| all.iter().map(|values| values[k]).sum()).collect()
+        };
+        // all wheels of a rail together may be as long as all their bars
+        let force = view.force / wheels.len().max(1) as f64 * 2.0;
+        let down = sum("vertical").into_iter().map(|f| at[1] + depth + force * f).collect();
+        drawing.bar([at[0], at[1] + depth], "y2", down, view.still, (INK, 5.0));
+        let aside = sum("lateral").into_iter().map(|f| at[0] + force * f * 2.0).collect();
+        drawing.bar([at[0], at[1] - 3.0], "x2", aside, view.still, (ORANGE, 5.0));
+        // on the inner side: numbers stand beside the view
+        let inner = if *z > middle { -1.0 } else { 1.0 };
+        let anchor = if inner > 0.0 { "start" } else { "end" };
+        let beside = [at[0] + inner * 0.7 * depth, at[1] + 0.8 * depth];
+        drawing.text(beside, &scene.rails[*rail].name, (GREY, 11.0), anchor);
+    }
+    for end in &ends {
+        let both = end.each_ref().map(|end| end.iter().map(|at| place(*at)).collect());
+        drawing.rope(both, view.still);
+    }
+    for body in view.order() {
+        let places: Vec<[f64; 2]> = origins[body].iter().map(|[_, y, z]| place([*z, *y])).collect();
+        drawing.moving(places, view.still, |drawing| {
+            if scene.bodies[body].in_space {
+                let [w, h] = [1.2 * unit * scale, 2.4 * unit * scale];
+                drawing.shape(&[[-w, 0.0], [w, 0.0], [0.8 * w, h], [-0.8 * w, h]], ORANGE);
+                return;
+            }
+            let own = scene.trucks.iter().filter(|truck| truck.body == body);
+            let across: Vec<f64> = own
+                .flat_map(|truck| view.layout.wheels(truck))
+                .map(|at| view.layout.turned(body, at)[2])
+                .collect();
+            let from = across.iter().copied().fold(f64::INFINITY, f64::min);
+            let to = across.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            if from > to {
+                return;
+            }
+            let height = view.layout.carried(body).flat_map(|mount| &mount.rails);
+            let height = height.map(|axle| axle.origin[1]).fold(0.0, f64::max);
+            let fill = if height > 0.0 { STEEL } else { DARK };
+            let tall = if height > 0.0 { height } else { 1.2 * unit };
+            let [x, w] = [(from - 0.3 * unit) * scale, (to - from + 0.6 * unit) * scale];
+            drawing.rectangle([x, 0.0 - tall * scale, w, tall * scale], fill);
+            for z in across {
+                drawing.disc([z * scale, 0.0], (0.25 * unit * scale).max(2.0), INK);
+            }
+        });
+    }
+    numbers(view, drawing, first);
+    let below = place([0.0, 0.0])[1] + unit * scale + 2.0 * BAR + 24.0;
+    (first + (high[1] - low[1]) * scale + 10.0).max(below)
+}
+
+/// Both ends of every rope at the frames: across and up.
+fn rope_ends(view: &View) -> Vec<[Vec<[f64; 2]>; 2]> {
+    let end = |body: Option<usize>, at: [f64; 3]| -> Vec<[f64; 2]> {
+        match body {
+            None => vec![[at[2], at[1]]; view.rows.len()],
+            Some(body) => {
+                let arm = view.layout.turned(body, at);
+                view.origins(body).iter().map(|[_, y, z]| [z + arm[2], y + arm[1]]).collect()
+            }
+        }
+    };
+    let ropes = view.scene.ropes.iter();
+    ropes.map(|rope| [0, 1].map(|k| end(rope.bodies[k], rope.at[k]))).collect()
+}
+
+/// Numbers beside the view.
+fn numbers(view: &View, drawing: &mut Drawing, top: f64) {
+    let units = view.scene.units;
+    let column = |name: &str| -> Option<Vec<f64>> {
+        let values = view.run.record.values(name);
+        (!values.is_empty()).then(|| view.rows.iter().map(|row| values[*row]).collect())
+    };
+    let mut list = vec![("time".to_owned(), "time".to_owned(), "s".to_owned(), 2)];
+    for body in &view.scene.bodies {
+        let parts: &[(&str, Dimension)] = if body.in_space {
+            &[("X", Dimension::LENGTH), ("Y", Dimension::LENGTH), ("Z", Dimension::LENGTH)]
+        } else {
+            &[("x", Dimension::LENGTH), ("speed", Dimension::SPEED)]
+        };
+        for (part, dimension) in parts {
+            list.push((
+                format!("{}.{part}", body.name),
+                format!("{} {part}", body.name),
+                units.label(*dimension),
+                2,
+            ));
+        }
+    }
+    for rope in &view.scene.ropes {
+        list.push((
+            format!("{}.tension", rope.name),
+            format!("{} tension", rope.name),
+            units.label(Dimension::FORCE),
+            0,
+        ));
+    }
+    for (index, rail) in view.scene.rails.iter().enumerate() {
+        if view.layout.axle(index).is_none() {
+            for (part, word) in [("reaction", "vertical"), ("lateral", "lateral")] {
+                list.push((
+                    format!("{}.{part}", rail.name),
+                    format!("{} {word}", rail.name),
+                    units.label(Dimension::FORCE),
+                    0,
+                ));
+            }
+        }
+    }
+    let mut y = top + 12.0;
+    for (name, what, unit, digits) in list {
+        let Some(values) = column(&name) else { continue };
+        drawing.reading([WIDTH - 236.0, y], &what, &unit, digits, values, view.still);
+        y += 19.0;
+    }
+}

@@ -1,0 +1,53 @@
+//! Numbers for people.
+
+/// `value` with at most `digits` significant digits (1 to 17), trailing zeros dropped.
+///
+/// From 0.0001 up to ten million in plain notation, five digits and more before the point grouped by narrow
+/// spaces; as a mantissa and a power of ten beyond. Zero has no sign. `None` for infinities and NaN.
+pub fn number(value: f64, digits: usize) -> Option<String> {
+    if !value.is_finite() {
+        return None;
+    }
+    if value == 0.0 {
+        return Some("0".to_owned());
+    }
+    // Rounded first: 9999999.7 becomes 10^7.
+    let scientific = format!("{:.*e}", digits.clamp(1, 17) - 1, value.abs());
+    let (mantissa, power) = scientific.split_once('e')?;
+    let power: i32 = power.parse().ok()?;
+    let sign = if value < 0.0 { "\u{2212}" } else { "" };
+    if !(-4..7).contains(&power) {
+        let raised = crate::chart::axis::with_power(power, "");
+        return Some(match trimmed(mantissa) {
+            "1" => format!("{sign}{raised}"),
+            mantissa => format!("{sign}{mantissa} \u{d7} {raised}"),
+        });
+    }
+    let all: String = mantissa.chars().filter(char::is_ascii_digit).collect();
+    let plain = match usize::try_from(power) {
+        Ok(power) => {
+            let whole = format!("{all:0<width$}", width = power + 1);
+            format!("{}.{}", grouped(&whole[..=power]), &whole[power + 1..])
+        }
+        Err(_) => format!("0.{}{all}", "0".repeat(power.unsigned_abs() as usize - 1)),
+    };
+    Some(format!("{sign}{}", trimmed(&plain)))
+}
+
+fn trimmed(text: &str) -> &str {
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
+}
+
+fn grouped(digits: &str) -> String {
+    if digits.len() < 5 {
+        return digits.to_owned();
+    }
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}

@@ -1,0 +1,233 @@
+//! The page: sections to HTML.
+
+use super::code::{coded, exponent, plain};
+use super::error::Error;
+use super::number::number;
+use super::section::{Cell, Figure, Picture, Section, Table};
+use crate::chart::{Chart, Drawing};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
+use results::threads::side_by_side;
+use serde_json::json;
+
+const STYLE: &str = include_str!("style.css");
+const SCRIPT: &str = include_str!("script.js");
+const FILM: &str = include_str!("film.js");
+/// Significant digits of shown numbers.
+const DIGITS: usize = 7;
+
+/// A report: title and sections.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Report {
+    /// Title of the page.
+    pub title: String,
+    /// Line below the title.
+    pub subtitle: String,
+    /// Chapters.
+    pub sections: Vec<Section>,
+}
+
+impl Report {
+    /// The report as one HTML page that refers to nothing outside itself. Everything but finished SVG
+    /// pictures is escaped. Charts are drawn on at most `threads` threads; `None`: as many as the machine has.
+    ///
+    /// # Errors
+    /// Where a number is not finite, a table's row does not fit its head or a picture cannot be drawn.
+    pub fn html(&self, threads: Option<u16>) -> Result<String, Error> {
+        let sections = self.sections.iter().enumerate();
+        let figures: Vec<(usize, usize, &Figure)> = sections
+            .clone()
+            .flat_map(|(s, section)| section.figures.iter().enumerate().map(move |(i, one)| (s, i, one)))
+            .collect();
+        let drawn = side_by_side(&figures, threads, |running, (s, i, one)| figure(*s, *i, one, running + 1));
+        let (mut drawn, mut tables) = (drawn.into_iter(), 0);
+        let bodies: Result<Vec<Markup>, Error> =
+            sections.map(|(i, s)| section(i, s, &mut tables, &mut drawn)).collect();
+        let moves = figures.iter().any(|(.., figure)| matches!(figure.picture, Picture::Film(_)));
+        let page = html! {
+            (DOCTYPE)
+            html lang="en" {
+                head {
+                    meta charset="utf-8";
+                    meta name="viewport" content="width=device-width, initial-scale=1";
+                    title { (self.title) }
+                    style { (PreEscaped(STYLE)) }
+                }
+                body {
+                    header {
+                        h1 { (self.title) }
+                        @if !self.subtitle.is_empty() { p.subtitle { (self.subtitle) } }
+                    }
+                    nav aria-label="Contents" {
+                        ol {
+                            @for (i, one) in self.sections.iter().enumerate() {
+                                li { a href=(format!("#section-{}", i + 1)) { (one.heading) } }
+                            }
+                        }
+                    }
+                    main { @for body in bodies? { (body) } }
+                    footer { "girderway " (env!("CARGO_PKG_VERSION")) }
+                    script { (PreEscaped(SCRIPT)) }
+                    @if moves { script { (PreEscaped(FILM)) } }
+                }
+            }
+        };
+        Ok(page.into_string())
+    }
+}
+
+/// One section; `tables_before` counts those of the page, `drawn` has its figures next.
+fn section(
+    index: usize,
+    section: &Section,
+    tables_before: &mut usize,
+    drawn: &mut impl Iterator<Item = Result<Markup, Error>>,
+) -> Result<Markup, Error> {
+    let mut facts = Vec::new();
+    for (fact, one) in section.facts.iter().enumerate() {
+        facts.push((one, shown(&one.value).ok_or(Error::Fact { section: index, fact })?));
+    }
+    let mut tables = Vec::new();
+    for (i, one) in section.tables.iter().enumerate() {
+        *tables_before += 1;
+        tables.push(table(index, i, one, *tables_before)?);
+    }
+    let figures = drawn.take(section.figures.len()).collect::<Result<Vec<Markup>, Error>>()?;
+    Ok(html! {
+        section id=(format!("section-{}", index + 1)) {
+            h2 { (section.heading) }
+            @for text in &section.paragraphs { p { (text) } }
+            @if !facts.is_empty() {
+                table.facts {
+                    tbody {
+                        @for (fact, value) in &facts {
+                            tr {
+                                th scope="row" { (fact.name) }
+                                td.number[matches!(fact.value, Cell::Number(_))] { (value) }
+                                td.unit { (fact.unit) }
+                            }
+                        }
+                    }
+                }
+            }
+            @for body in &tables { (body) }
+            @for body in &figures { (body) }
+        }
+    })
+}
+
+fn table(section: usize, index: usize, table: &Table, running: usize) -> Result<Markup, Error> {
+    let mut rows = Vec::new();
+    for (row, cells) in table.rows.iter().enumerate() {
+        let (found, expected) = (cells.len(), table.columns.len());
+        if found != expected {
+            return Err(Error::Row { section, table: index, row, found, expected });
+        }
+        let mut texts = Vec::new();
+        for (column, cell) in cells.iter().enumerate() {
+            let text = shown(cell).ok_or(Error::Cell { section, table: index, row, column })?;
+            texts.push((matches!(cell, Cell::Number(_)), text));
+        }
+        rows.push(texts);
+    }
+    // A column's head stands over its numbers.
+    let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], Cell::Number(_)));
+    Ok(html! {
+        div.scroll {
+            table {
+                caption { b { "Table " (running) ". " } (table.caption) }
+                thead {
+                    tr {
+                        @for (i, column) in table.columns.iter().enumerate() {
+                            th scope="col" .number[numeric(i)] {
+                                (column.name)
+                                @if !column.unit.is_empty() { " " span.unit { "(" (column.unit) ")" } }
+                            }
+                        }
+                    }
+                }
+                tbody {
+                    @for row in &rows {
+                        tr { @for (number, text) in row { td.number[*number] { (text) } } }
+                    }
+                }
+            }
+        }
+    })
+}
+
+fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Result<Markup, Error> {
+    let mut still = None;
+    let (svg, class, data) = match &figure.picture {
+        Picture::Svg(svg) => (svg.clone(), "picture", None),
+        Picture::Film(film) => {
+            let data = film.data().ok_or(Error::Picture { section, figure: index })?;
+            still = Some(film.still);
+            (film.svg.clone(), "picture film", Some(data))
+        }
+        Picture::Chart(chart) => {
+            let drawing = chart.draw().map_err(|source| Error::Chart { section, figure: index, source })?;
+            let data = data(chart, &drawing);
+            (drawing.svg, "picture chart", Some(data))
+        }
+    };
+    // An SVG element inside HTML needs no name space.
+    let svg = svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", " role=\"img\"", 1);
+    if !(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>")) {
+        return Err(Error::Picture { section, figure: index });
+    }
+    Ok(html! {
+        figure {
+            div class=(class) {
+                (PreEscaped(svg))
+                @if let Some(data) = data {
+                    script type="application/json" data-still=[still] { (PreEscaped(data)) }
+                }
+            }
+            figcaption { b { "Figure " (running) ". " } (figure.caption) }
+        }
+    })
+}
+
+/// Text of a cell; `None` for a number that is not finite.
+fn shown(cell: &Cell) -> Option<String> {
+    match cell {
+        Cell::Empty => Some(String::new()),
+        Cell::Text(text) => Some(text.clone()),
+        Cell::Number(value) => number(*value, DIGITS),
+    }
+}
+
+/// What the read-out over a chart needs, as JSON that may stand inside a script element.
+fn data(chart: &Chart, drawing: &Drawing) -> String {
+    let frame = &drawing.frame;
+    let axis = |axis: &crate::chart::Axis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
+    let [x, y] = frame.ranges();
+    let list = |values: &[f64], axis: &crate::chart::Axis, range| {
+        if axis.log { plain(values) } else { coded(values, exponent(range)) }
+    };
+    // curves over the same places have them once
+    let mut places: Vec<Vec<f64>> = Vec::new();
+    let series: Vec<_> = chart
+        .series
+        .iter()
+        .zip(&drawing.series)
+        .map(|(one, points)| {
+            let [own, values] = [0, 1].map(|k| points.iter().map(|p| p[k]).collect::<Vec<f64>>());
+            let at = places.iter().position(|known| *known == own).unwrap_or_else(|| {
+                places.push(own);
+                places.len() - 1
+            });
+            json!({"label": one.label, "x": at, "y": list(&values, &chart.y_axis, y)})
+        })
+        .collect();
+    let places: Vec<_> = places.iter().map(|own| list(own, &chart.x_axis, x)).collect();
+    let place = [frame.left, frame.top, frame.width, frame.height].map(|v| (v * 100.0).round() / 100.0);
+    let all = json!({
+        "frame": place,
+        "x": axis(&chart.x_axis, x),
+        "y": axis(&chart.y_axis, y),
+        "places": places,
+        "series": series,
+    });
+    all.to_string().replace('<', "\\u003c")
+}

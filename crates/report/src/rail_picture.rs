@@ -1,0 +1,73 @@
+//! Forces of all wheels on a rail, run against run.
+
+use crate::chart::{Axis, Chart, Series, Style};
+use crate::number;
+use crate::pictures::{Labelled, Plate};
+use formats::scene::Scene;
+use formats::units::Dimension;
+use results::record::Record;
+use results::response::{Comparison, Figures, rail_sums};
+
+/// Most rails that are drawn.
+const RAILS: usize = 4;
+
+/// Share of the range below which a mean is nearly zero.
+const SMALL: f64 = 0.1;
+
+/// Vertical and lateral sums of each rail on the ground over time, their numbers below; none where
+/// there is one run alone. `comparison`: figures of these runs.
+#[must_use]
+pub fn rails(runs: &[Labelled], comparison: &Comparison) -> Vec<Plate> {
+    let [first, _, ..] = runs else { return Vec::new() };
+    let grounded = |name: &String| {
+        let rail = name.rsplit_once('.').map_or("", |(rail, _)| rail);
+        let known = first.scene.rails.iter().find(|known| known.name == rail);
+        known.is_some_and(|rail| first.scene.structures[rail.structure].on.is_none())
+    };
+    let sums = rail_sums(first.record).into_iter().filter(|sums| sums.iter().all(grounded)).take(RAILS);
+    sums.flatten().filter_map(|column| plate(first.scene, &column, runs, comparison)).collect()
+}
+
+fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &Comparison) -> Option<Plate> {
+    let (rail, part) = column.rsplit_once('.')?;
+    let word = if part == "lateral" { "lateral" } else { "vertical" };
+    let zero = |record: &Record| record.values(column).iter().all(|value| *value == 0.0);
+    if runs.iter().all(|run| zero(run.record)) {
+        return None;
+    }
+    let unit = scene.units.label(Dimension::FORCE);
+    let title = format!("Wheels on {rail} together, {word}");
+    let mut chart = Chart::new(title, Axis::new("time", "s"), Axis::new(format!("{word} force"), &unit));
+    let mut told = Vec::new();
+    let figures = comparison.of(column).unwrap_or_default();
+    for (index, run) in runs.iter().enumerate() {
+        let style = if index == 0 { Style::Line } else { Style::Dashed };
+        chart = chart.with(Series::new(&run.label, style, run.record.points("time", column)));
+        let Some(found) = figures.get(index).and_then(Option::as_ref) else { continue };
+        chart = chart.mark(found.peak.time, format!("peak, {}", run.label));
+        told.push(line(&run.label, found, &unit));
+    }
+    chart.note = told.join(" ");
+    let caption = format!(
+        "Sum of the {word} forces of all wheels on {rail}, run against run. Settled means and frequencies are those of the \
+         last quarter; excursions leave 5 % about the mean."
+    );
+    Some(Plate::chart(format!("rail-{rail}-{word}"), caption, chart))
+}
+
+/// The numbers of one run in words.
+fn line(label: &str, found: &Figures, unit: &str) -> String {
+    let text = |value: f64| number(value, 4).unwrap_or_default();
+    let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
+    // about a mean of zero every swing is an excursion
+    let swings = found.settled.abs() > SMALL * (found.peak.value - found.least.value);
+    let times = if swings { format!(", {} excursions", found.excursions) } else { String::new() };
+    format!(
+        "{label}: settled mean {} {unit}, peak {} at {} s, least {} at {} s{times}{hertz}.",
+        text(found.settled),
+        text(found.peak.value),
+        text(found.peak.time),
+        text(found.least.value),
+        text(found.least.time),
+    )
+}

@@ -1,0 +1,211 @@
+//! Pictures of reactions and internal forces.
+
+use splines::{Axis as Direction, Probe};
+
+use crate::chart::{Axis, Chart, Series, Style};
+use crate::pictures::{Labelled, Plate};
+use formats::scene::columns::{Column, Direction as Toward, Kind};
+use formats::scene::{Origin, Scene};
+use formats::units::Dimension;
+use results::response::{Lines, Response};
+
+/// Most curves of one chart.
+const CURVES: usize = 8;
+/// Reactions of one direction shown run against run.
+const SHOWN: usize = 2;
+/// Share of the largest reaction below which one is rounding.
+const STILL: f64 = 1e-9;
+/// Places at which an influence line is drawn.
+const SAMPLES: usize = 241;
+
+/// Reactions of the first run over time, the largest of them in all runs, and influence lines of named sections.
+#[must_use]
+pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Lines>]) -> Vec<Plate> {
+    let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
+    let mut plates = reactions(runs, run, response);
+    for bending in &response.bending {
+        let rail = &run.scene.rails[bending.rail];
+        let supports = match &run.scene.structures[rail.structure].origin {
+            Origin::Spec { spec, .. } => spec.model().map_or_else(
+                |_| Vec::new(),
+                |(m, rails)| results::response::spans(spec, &m, &rails, rail.rail),
+            ),
+            Origin::Tables { .. } => Vec::new(),
+        };
+        plates.push(moments(run, &rail.name, &bending.rows, &supports));
+    }
+    plates.extend(influences(run.scene, response, lines));
+    plates
+}
+
+/// Reactions of the ground in each direction, over time and run against run.
+fn reactions(runs: &[Labelled], run: &Labelled, response: &Response) -> Vec<Plate> {
+    let scene = run.scene;
+    let mut plates = Vec::new();
+    // what a body holds is not held by the ground
+    let ridden: Vec<String> = scene
+        .structures
+        .iter()
+        .filter(|structure| structure.on.is_some())
+        .map(|structure| format!("{}.", structure.name))
+        .collect();
+    let is_ground = |column: &&Column| {
+        column.kind == Kind::Reaction && !ridden.iter().any(|structure| column.name.starts_with(structure))
+    };
+    let forces = response.columns.iter().filter(is_ground).filter(|column| column.direction.is_some());
+    let most = forces.map(|column| reach(run.record.values(&column.name))).fold(0.0, f64::max);
+    for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
+        let mut own: Vec<(f64, &Column)> = response
+            .columns
+            .iter()
+            .filter(is_ground)
+            .filter(|column| column.direction == Some(toward))
+            .map(|column| (reach(run.record.values(&column.name)), column))
+            .filter(|(reach, _)| *reach > STILL * most)
+            .collect();
+        // the largest first; equals stay in their order
+        own.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let largest = own.first().map_or(0.0, |(reach, _)| *reach);
+        let mut shown: Vec<&Column> = own.iter().take(CURVES).map(|(_, column)| *column).collect();
+        shown.sort_by_key(|column| response.columns.iter().position(|known| known == *column));
+        if !shown.is_empty() {
+            let few = if own.len() > CURVES {
+                format!(", the largest {CURVES} of {}", own.len())
+            } else {
+                String::new()
+            };
+            plates.push(together(run, &shown, word, &few));
+        }
+        if runs.len() > 1 {
+            let hardest = own.iter().filter(|(reach, _)| *reach > 1e-3 * largest).take(SHOWN);
+            plates.extend(hardest.map(|(_, column)| compared(runs, scene, column)));
+        }
+    }
+    plates
+}
+
+/// Reactions of one direction over time.
+fn together(run: &Labelled, shown: &[&Column], word: &str, few: &str) -> Plate {
+    let title = format!("Reactions of the ground, {word}");
+    let mut chart = over_time(run.scene, &title, Dimension::FORCE);
+    for (index, column) in shown.iter().enumerate() {
+        let style = Style::in_turn(index);
+        chart = chart.with(Series::new(&column.name, style, run.record.points("time", &column.name)));
+    }
+    let caption = format!("Reactions over time, {word}{few} ({}); positive along their axes.", run.label);
+    Plate::chart(format!("reactions-{word}"), caption, chart)
+}
+
+/// One reaction over time in every run.
+fn compared(runs: &[Labelled], scene: &Scene, column: &Column) -> Plate {
+    let mut chart = over_time(scene, &format!("{}, run against run", column.name), column.dimension);
+    for (index, other) in runs.iter().enumerate() {
+        let points = other.record.points("time", &column.name);
+        if points.is_empty() {
+            continue;
+        }
+        let style = if index == 0 { Style::Line } else { Style::Dashed };
+        chart = chart.with(Series::new(&other.label, style, points));
+    }
+    let caption = format!("The reaction {} in every run.", column.name);
+    Plate::chart(format!("reaction-{}", column.name), caption, chart)
+}
+
+/// Influence lines of the named sections on every rail that moves them.
+fn influences(scene: &Scene, response: &Response, lines: &[Option<Lines>]) -> Vec<Plate> {
+    let mut plates = Vec::new();
+    for (structure, lines) in scene.structures.iter().zip(lines) {
+        let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
+        let Ok((model, rails)) = spec.model() else { continue };
+        for (rail, outline) in structure.rails.iter().enumerate() {
+            let supports = results::response::spans(spec, &model, &rails, rail);
+            for (index, column) in
+                lines.columns().iter().enumerate().filter(|(_, column)| column.kind == Kind::Section)
+            {
+                let [from, to] = outline.range;
+                let point = |i: usize| {
+                    let x = from + (to - from) * i as f64 / (SAMPLES - 1) as f64;
+                    let value = lines.unit(Probe { rail, x, axis: Direction::Vertical })?;
+                    // a wheel presses down
+                    Some([x, 0.0 - value[index]])
+                };
+                let points: Vec<[f64; 2]> = (0..SAMPLES).filter_map(point).collect();
+                let largest = points.iter().fold(0.0_f64, |most, point| most.max(point[1].abs()));
+                if largest < 1e-9 {
+                    continue;
+                }
+                plates.push(influence(scene, response, column, &outline.name, points, &supports));
+            }
+        }
+    }
+    plates
+}
+
+/// Extremes of the bending moment over the girder.
+fn moments(run: &Labelled, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -> Plate {
+    let units = run.scene.units;
+    let ends = [rows.first(), rows.last()].map(|row| row.map_or([0.0; 2], |row| [row[0], 0.0]));
+    let chart = Chart::new(
+        format!("Bending moments under {rail}"),
+        Axis::new("place along the rail", units.label(Dimension::LENGTH)),
+        Axis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
+    )
+    .with(Series::new("girder", Style::Dashed, ends.to_vec()))
+    .with(Series::new("largest", Style::Line, rows.iter().map(|row| [row[0], row[1]]).collect()))
+    .with(Series::new("smallest", Style::Line, rows.iter().map(|row| [row[0], row[2]]).collect()))
+    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
+    let caption = format!(
+        "Envelope of the bending moments of the members under {rail} over the run, without own weight ({}).",
+        run.label
+    );
+    Plate::chart(format!("moments-{rail}"), caption, chart)
+}
+
+/// An influence line over the girder, with the extremes of the run.
+fn influence(
+    scene: &Scene,
+    response: &Response,
+    column: &Column,
+    rail: &str,
+    points: Vec<[f64; 2]>,
+    supports: &[f64],
+) -> Plate {
+    let own = if column.dimension == Dimension::MOMENT {
+        scene.units.label(Dimension::LENGTH)
+    } else {
+        String::new()
+    };
+    let ends = [points.first(), points.last()].map(|point| point.map_or([0.0; 2], |p| [p[0], 0.0]));
+    let mut chart = Chart::new(
+        format!("Influence line of {} for wheels on {rail}", column.name),
+        Axis::new("place of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
+        Axis::new("per wheel load", own).downwards(),
+    )
+    .with(Series::new("girder", Style::Dashed, ends.to_vec()))
+    .with(Series::new("influence line", Style::Line, points))
+    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
+    let mut caption =
+        format!("{} per unit of a wheel's load on {rail}, over the place of the wheel.", column.name);
+    if let Some(envelope) = response.envelopes.iter().find(|envelope| envelope.column == column.name) {
+        let unit = scene.units.label(column.dimension);
+        let told = |extreme: &results::response::Extreme| {
+            format!(
+                "{} {unit} at t = {:.3} s",
+                crate::number(extreme.value, 5).unwrap_or_default(),
+                extreme.time
+            )
+        };
+        chart.note = format!("In this run: max {}; min {}.", told(&envelope.max), told(&envelope.min));
+        caption.push_str(" The extremes of the run stand below it.");
+    }
+    Plate::chart(format!("influence-{}-{rail}", column.name), caption, chart)
+}
+
+fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> Chart {
+    let what = if dimension == Dimension::MOMENT { "moment" } else { "force" };
+    Chart::new(title, Axis::new("time", "s"), Axis::new(what, scene.units.label(dimension)))
+}
+
+fn reach(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
+}

@@ -1,0 +1,236 @@
+//! What the report says of reactions, internal forces, sag and uplift.
+
+use crate::{Cell, Column, Section, Table};
+use formats::number::rounded;
+use formats::scene::Scene;
+use formats::units::Dimension;
+use results::record::Record;
+use results::response::{Comparison, Response};
+
+/// Most rows of a table.
+const ROWS: usize = 60;
+/// Share of a range below which a value is rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// The section of the first run.
+#[must_use]
+pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
+    let mut section = Section::new("Reactions, sag and uplift");
+    if !response.columns.is_empty() {
+        let weight = if scene.output.dead_load { "with" } else { "without" };
+        section = section
+            .say(format!(
+                "Reactions of the ground on the structures, positive along their global axes, and internal forces at \
+                 named sections: influence lines times wheel forces, less the inertia of the structure; {weight} the \
+                 structures' own weight, which stands in a column of its own."
+            ))
+            .table(envelopes(scene, label, response));
+    }
+    if !response.deflections.is_empty() {
+        section = section.table(deflections(scene, label, response));
+    }
+    if !response.drifts.is_empty() {
+        section = section.table(drifts(scene, label, response));
+    }
+    if !response.uplifts.is_empty() {
+        let mut table = Table {
+            caption: format!("Wheels off their rails in the run \"{label}\"."),
+            columns: vec![Column::new("wheel", ""), Column::new("from", "s"), Column::new("for", "s")],
+            rows: Vec::new(),
+        };
+        for uplift in response.uplifts.iter().take(ROWS) {
+            table.rows.push(vec![
+                Cell::from(uplift.wheel.clone()),
+                Cell::from(uplift.time),
+                Cell::from(uplift.duration),
+            ]);
+        }
+        section = section.table(table);
+    }
+    for sway in &response.sways {
+        let unit = scene.units.label(Dimension::LENGTH);
+        for (axis, [least, most]) in ["X", "Y", "Z"].into_iter().zip(sway.range) {
+            section = section.fact(format!("{}: range of {axis}", sway.body), most - least, &unit);
+        }
+    }
+    for note in &response.notes {
+        section = section.say(format!("{note}."));
+    }
+    section
+}
+
+/// Runs beside each other in numbers; `None`: there is one alone, or nothing to compare.
+///
+/// `labels`: those of the runs that were compared; `record`: that of the first of them.
+#[must_use]
+pub fn beside(scene: &Scene, labels: &[&str], record: &Record, comparison: &Comparison) -> Option<Section> {
+    let all: Vec<_> = comparison.columns().collect();
+    if all.is_empty() {
+        return None;
+    }
+    let more = all.len().saturating_sub(ROWS);
+    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let mut rows = Vec::new();
+    for (name, figures) in all.into_iter().take(ROWS) {
+        let column = record.columns.iter().find(|column| column.name == name);
+        let unit = column.map_or_else(String::new, |column| scene.units.label(column.dimension));
+        let mut head = vec![Cell::from(name.to_owned()), Cell::from(unit)];
+        for (label, found) in labels.iter().zip(figures) {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
+            row.push(Cell::from(*label));
+            let range = found.peak.value - found.least.value;
+            let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
+                .map(|value| short(cleared(value, range)));
+            row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
+            row.push(Cell::from(found.excursions));
+            row.push(found.hertz().map_or(Cell::Empty, short));
+            rows.push(row);
+        }
+    }
+    let columns = [
+        ("quantity", ""),
+        ("unit", ""),
+        ("run", ""),
+        ("settled mean", ""),
+        ("peak", ""),
+        ("at time", "s"),
+        ("least", ""),
+        ("at time", "s"),
+        ("excursions", ""),
+        ("frequency", "Hz"),
+    ];
+    let caption = format!(
+        "Settled mean over the last quarter of each run, extremes, how often 5 % about the mean are left, and the strongest \
+         frequency in that quarter.{rest}"
+    );
+    let columns = columns.map(|(name, unit)| Column::new(name, unit)).into();
+    Some(Section::new("Run against run").table(Table { caption, columns, rows }))
+}
+
+fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
+    let more = response.envelopes.len().saturating_sub(ROWS);
+    let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
+    let length = scene.units.label(Dimension::LENGTH);
+    let mut columns = [("quantity", ""), ("unit", ""), ("", ""), ("value", ""), ("at time", "s")]
+        .map(|(n, u)| Column::new(n, u))
+        .to_vec();
+    columns.extend(scene.bodies.iter().map(|body| Column::new(body.name.as_str(), &length)));
+    columns.push(Column::new("own weight", ""));
+    let mut rows = Vec::new();
+    let own = response.columns.iter().zip(&response.dead);
+    for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
+        let unit = Cell::from(scene.units.label(column.dimension));
+        let range = envelope.max.value - envelope.min.value;
+        let mut head = vec![Cell::from(envelope.column.clone()), unit];
+        let mut weight = Cell::from(*dead);
+        for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
+            let value = Cell::from(cleared(extreme.value, range));
+            row.extend([Cell::from(word), value, Cell::from(extreme.time)]);
+            row.extend(extreme.bodies.iter().map(|(_, at)| Cell::from(place(at))));
+            row.push(std::mem::take(&mut weight));
+            rows.push(row);
+        }
+    }
+    let caption = format!(
+        "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
+    );
+    Table { caption, columns, rows }
+}
+
+/// The value, or zero where it is what rounding leaves of a range.
+fn cleared(value: f64, range: f64) -> f64 {
+    if value.abs() < ROUNDING * range { 0.0 } else { value }
+}
+
+/// A number to five digits.
+fn short(value: f64) -> Cell {
+    Cell::from(rounded(value, 5))
+}
+
+/// Coordinates of a body.
+fn place(at: &[f64]) -> String {
+    at.iter().map(|x| crate::number(*x, 4).unwrap_or_default()).collect::<Vec<_>>().join("; ")
+}
+
+fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let columns = [
+        "rail",
+        "column at",
+        "height",
+        "displacement",
+        "at time",
+        "height over it",
+        "code",
+        "accepts",
+        "keeps",
+    ];
+    let unit_of = |name: &str| match name {
+        "column at" | "height" | "displacement" | "accepts" => unit.as_str(),
+        "at time" => "s",
+        _ => "",
+    };
+    let mut rows = Vec::new();
+    for found in response.drifts.iter().take(ROWS) {
+        let mut head = vec![
+            Cell::from(found.rail.clone()),
+            Cell::from(found.x),
+            Cell::from(found.height),
+            Cell::from(found.value),
+            Cell::from(found.time),
+            found.ratio().map_or(Cell::Empty, Cell::from),
+        ];
+        for (code, clause, most) in &found.limits {
+            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 6]);
+            row.extend([Cell::from(format!("{code}, {clause}")), Cell::from(*most)]);
+            row.push(Cell::from(if found.value <= *most { "yes" } else { "no" }));
+            rows.push(row);
+        }
+    }
+    Table {
+        caption: format!("Largest displacement sideways of each rail over a column in the run \"{label}\"."),
+        columns: columns.map(|name| Column::new(name, unit_of(name))).into(),
+        rows,
+    }
+}
+
+fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let mut table = Table {
+        caption: format!(
+            "Sag of the rails between the ends of each span in the run \"{label}\", and the span over it."
+        ),
+        columns: vec![
+            Column::new("rail", ""),
+            Column::new("direction", ""),
+            Column::new("from", &unit),
+            Column::new("to", &unit),
+            Column::new("sag", &unit),
+            Column::new("at", &unit),
+            Column::new("at time", "s"),
+            Column::new("span over sag", ""),
+            Column::new("keeps", ""),
+        ],
+        rows: Vec::new(),
+    };
+    for found in response.deflections.iter().take(ROWS) {
+        let kept = match (found.keeps(600.0), found.keeps(400.0)) {
+            (true, _) => "L/600",
+            (false, true) => "L/400, not L/600",
+            (false, false) => "not L/400",
+        };
+        table.rows.push(vec![
+            Cell::from(found.rail.clone()),
+            Cell::from(found.direction.to_owned()),
+            Cell::from(found.span[0]),
+            Cell::from(found.span[1]),
+            Cell::from(found.value),
+            Cell::from(found.x),
+            Cell::from(found.time),
+            found.ratio().map_or(Cell::Empty, Cell::from),
+            Cell::from(kept.to_owned()),
+        ]);
+    }
+    table
+}

@@ -1,0 +1,216 @@
+//! The report of a run: what was asked, what came out, what to look at.
+
+use crate::pictures::Plate;
+use crate::{Cell, Column, Report, Section, Table};
+use formats::coupling::Coupling;
+use formats::scene::{Analysis, Document, Scene};
+use formats::units::Dimension;
+use foundations::Solved;
+use results::cases::Outcome;
+use results::record::peak;
+use results::response::Comparison;
+use results::summary;
+use results::warning;
+
+/// Assembles the report.
+#[must_use]
+pub fn report(
+    document: &Document,
+    outcomes: &[Outcome],
+    solved: &[Option<&Solved>],
+    comparison: &Comparison,
+    plates: Vec<Plate>,
+) -> Report {
+    let scene = document.scene();
+    let mut sections = vec![results(document, outcomes), structures(scene, solved, &outcomes[0].choices)];
+    let (mut motion, mut influence) =
+        (Section::new("Pictures of the motion"), Section::new("Pictures of the structures"));
+    for plate in plates {
+        let of_structure =
+            ["grid-", "influence-", "girder-"].iter().any(|start| plate.name.starts_with(start));
+        let target = if of_structure { &mut influence } else { &mut motion };
+        let section = std::mem::take(target);
+        *target = section.figure(plate.picture, plate.caption);
+    }
+    // pictures after the results, tables of the structures after them
+    sections.insert(1, motion);
+    sections.push(influence);
+    sections.push(forces(scene, outcomes));
+    sections.push(crate::response_story::section(scene, &outcomes[0].label, &outcomes[0].response));
+    let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
+    sections.extend(crate::response_story::beside(scene, &labels, &outcomes[0].record, comparison));
+    let codes: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
+    sections.extend(crate::codes_story::section(scene, &codes));
+    let fatigue: Vec<_> =
+        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
+    sections.extend(crate::fatigue_story::section(scene, &fatigue));
+    sections.push(audit(document, outcomes));
+    Report {
+        title: scene.name.clone(),
+        subtitle: format!("girderway {}: wheels on flexible rails", env!("CARGO_PKG_VERSION")),
+        sections,
+    }
+}
+
+/// Peaks of every body in every run.
+fn results(document: &Document, outcomes: &[Outcome]) -> Section {
+    let scene = document.scene();
+    let length = scene.units.label(Dimension::LENGTH);
+    let mut table = Table {
+        caption: "Largest deflection of every body, below the unloaded rail.".to_owned(),
+        columns: vec![
+            Column::new("run", ""),
+            Column::new("body", ""),
+            Column::new("deflection", &length),
+            Column::new("at x", &length),
+            Column::new("at time", "s"),
+            Column::new("against the first run", "%"),
+            Column::new("status", ""),
+        ],
+        rows: Vec::new(),
+    };
+    for body in &scene.bodies {
+        let mut first = None;
+        for outcome in outcomes {
+            let Some((i, deepest)) = peak(outcome.record.part(&body.name, "deflection")) else {
+                continue;
+            };
+            let base = *first.get_or_insert(deepest);
+            let change = if base == 0.0 { 0.0 } else { 100.0 * (deepest / base - 1.0) };
+            let (status, _) = summary::status(&outcome.run.status);
+            table.rows.push(vec![
+                Cell::from(outcome.label.clone()),
+                Cell::from(body.name.clone()),
+                Cell::from(deepest),
+                Cell::from(outcome.record.part(&body.name, "x")[i]),
+                Cell::from(outcome.record.values("time")[i]),
+                Cell::from(change),
+                Cell::from(status.to_owned()),
+            ]);
+        }
+    }
+    let how = match scene.analysis {
+        Analysis::Dynamic => {
+            "the equations of motion, integrated in contact-force form by a method of order four with adaptive steps; wheels that leave or meet the rail are located in time"
+        }
+        Analysis::QuasiStatic => "a sequence of static equilibria over the prescribed motion",
+    };
+    Section::new("Results")
+        .say(format!("The scene was computed as {how}. Deflections are positive downwards; forces on the rail are positive pressing."))
+        .table(table)
+}
+
+/// What every structure is and how it was made.
+fn structures(scene: &Scene, solved: &[Option<&Solved>], choices: &[sim::Choice]) -> Section {
+    let mut section = Section::new("Structures");
+    for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
+        let choice = choices.iter().find(|choice| choice.structure == s);
+        let word =
+            choice.map_or_else(|| structure.foundation.word().to_owned(), |c| foundations::word(c.rung));
+        let name = &structure.name;
+        section = section.fact(format!("{name}: foundation"), word, "").fact(
+            format!("{name}: reading"),
+            structure.reading.word().to_owned(),
+            "",
+        );
+        if let Some(choice) = choice {
+            section = section.say(format!("{name}: {}.", foundations::reason(choice)));
+        }
+        let Some(solved) = solved else { continue };
+        if let Some(certificate) = &solved.grid.certificate {
+            section = section
+                .fact(format!("{name}: condition of the stiffness"), certificate.condition, "")
+                .fact(format!("{name}: guaranteed relative error of the grid"), certificate.error_bound, "");
+        }
+        if let Some(girder) = solved.girder.as_ref().filter(|girder| girder.spans.len() == 1) {
+            let span = girder.spans[0];
+            let weight: f64 = scene.bodies.iter().map(|body| body.mass * scene.gravity).sum();
+            let classical = weight * span.powi(3) / (48.0 * girder.e * girder.i_vertical);
+            section = section.fact(
+                format!("{name}: all weight at midspan, W L^3/(48 E I)"),
+                classical,
+                scene.units.label(Dimension::LENGTH),
+            );
+        }
+        if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
+            section = section.say(format!("{name}: {line}."));
+        }
+        for note in &solved.grid.notes {
+            section = section.say(format!("{name}: {note}."));
+        }
+    }
+    section
+}
+
+/// Range of every wheel's forces in the first run.
+fn forces(scene: &Scene, outcomes: &[Outcome]) -> Section {
+    let unit = scene.units.label(Dimension::FORCE);
+    let mut table = Table {
+        caption: format!("Wheel forces of the run \"{}\".", outcomes[0].label),
+        columns: vec![
+            Column::new("wheel", ""),
+            Column::new("largest vertical", &unit),
+            Column::new("smallest vertical", &unit),
+            Column::new("largest lateral", &unit),
+            Column::new("largest traction", &unit),
+        ],
+        rows: Vec::new(),
+    };
+    for wheel in &outcomes[0].cast.wheels {
+        let name = &wheel.name;
+        let values = |part: &str| outcomes[0].record.part(name, part);
+        let largest = |part: &str| values(part).iter().fold(0.0_f64, |max, value| max.max(value.abs()));
+        let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);
+        table.rows.push(vec![
+            Cell::from(name.clone()),
+            Cell::from(largest("vertical")),
+            Cell::from(least),
+            Cell::from(largest("lateral")),
+            Cell::from(largest("traction")),
+        ]);
+    }
+    Section::new("Wheel forces").table(table)
+}
+
+/// The energy audit of the dynamic runs.
+fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
+    let energy = document.scene().units.label(Dimension::MOMENT);
+    let mut table = Table {
+        caption: "Energy audit: what was lost and put in, and what does not add up, relative to the peak of the stored elastic energy.".to_owned(),
+        columns: vec![
+            Column::new("run", ""),
+            Column::new("peak stored", &energy),
+            Column::new("lost", &energy),
+            Column::new("put in", &energy),
+            Column::new("residual", ""),
+            Column::new("steps", ""),
+        ],
+        rows: Vec::new(),
+    };
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        let run = &outcome.run;
+        if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
+            let exchanged = &run.audit.exchanged;
+            table.rows.push(vec![
+                Cell::from(outcome.label.clone()),
+                Cell::from(run.audit.peak_stored),
+                Cell::from(exchanged.net_loss() + exchanged.put_in()),
+                Cell::from(exchanged.put_in()),
+                Cell::from(run.audit.residual()),
+                Cell::from(run.counts.steps as f64),
+            ]);
+        }
+    }
+    let mut section = Section::new("Energy");
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        for warning in warning::of_case(&case.scene, outcome) {
+            section = section.say(format!("Warning, {}: {warning}.", outcome.label));
+        }
+    }
+    if table.rows.is_empty() {
+        section.say("No run of this scene is dynamic: there is no energy to audit.")
+    } else {
+        section.table(table)
+    }
+}

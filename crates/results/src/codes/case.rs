@@ -1,0 +1,294 @@
+//! Formulas of codes for one crane and its run.
+
+use practice::skew::Pairs;
+use practice::{aist, buffer, cmaa, drive, factor, osha, skew};
+
+use super::found::Found;
+use super::measures::{Measures, to_si};
+use super::rows::Value;
+use formats::scene::{Practice, Scene};
+use formats::units::Dimension;
+
+pub(super) const EN: &str = "EN 1991-3:2006";
+pub(super) const CMAA: &str = "CMAA 70";
+pub(super) const AIST: &str = "AIST TR-13";
+const FEM: &str = "FEM 1.001";
+const OSHA: &str = "29 CFR 1910.179";
+
+/// Values of one row; what a formula refuses is left out.
+#[derive(Default)]
+pub(super) struct Values(pub Vec<Value>);
+
+impl Values {
+    fn add(
+        mut self,
+        code: &'static str,
+        clause: &'static str,
+        formula: impl Into<String>,
+        value: Option<f64>,
+    ) -> Values {
+        if let Some(value) = value.filter(|value| value.is_finite()) {
+            self.0.push(Value { code, clause, formula: formula.into(), value });
+        }
+        self
+    }
+}
+
+/// All that the formulas read.
+pub(super) struct Case<'c> {
+    pub practice: &'c Practice,
+    pub measures: &'c Measures,
+    pub found: &'c Found,
+    /// Gravity of the scene.
+    pub gravity: f64,
+    /// Metres a unit of length.
+    pub metre: f64,
+    /// phi2, where class and speed are known.
+    pub phi2: Option<f64>,
+    /// Whether the scene lets a load go.
+    pub drops: bool,
+    /// Loads of a wheel of the full crane on the near and the far rail.
+    pub full: Option<practice::WheelLoads>,
+}
+
+impl<'c> Case<'c> {
+    pub fn new(scene: &Scene, practice: &'c Practice, measures: &'c Measures, found: &'c Found) -> Case<'c> {
+        let metre = to_si(scene.units).factor(Dimension::LENGTH);
+        let phi2 = practice
+            .hoisting
+            .zip(measures.speeds[2])
+            .and_then(|(class, speed)| factor::phi2(class, speed * metre).ok());
+        let released = |action: &sim::Action| matches!(action, sim::Action::Release { .. });
+        Case {
+            practice,
+            measures,
+            found,
+            gravity: scene.gravity,
+            metre,
+            phi2,
+            drops: scene.events.iter().flat_map(|event| &event.rule.actions).any(released),
+            full: measures.crane.wheel_loads(1.0, 1.0).ok(),
+        }
+    }
+
+    /// Near wheel load with factors on dead weight and load, over that without.
+    fn raised(&self, dead: f64, hoist: f64) -> Option<f64> {
+        let full = self.full?.near;
+        let raised = self.measures.crane.wheel_loads(dead, hoist).ok()?.near;
+        (full > 0.0).then(|| raised / full)
+    }
+
+    pub fn vertical(&self) -> Values {
+        let hlf = self.measures.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
+        let dlf = self.measures.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
+        let hoisted = hlf.unwrap_or(0.15);
+        let moved = dlf.unwrap_or(1.1);
+        Values::default()
+            .add(EN, "Table 2.4", "phi4, travelling on rails within tolerance", Some(factor::PHI4))
+            .add(
+                EN,
+                "2.6, Tables 2.2, 2.4, 2.5",
+                format!(
+                    "phi1 = {} on dead weight, phi2 = {:.3} on the load",
+                    factor::PHI1[1],
+                    self.phi2.unwrap_or_default()
+                ),
+                self.phi2.and_then(|phi2| self.raised(factor::PHI1[1], phi2)),
+            )
+            .add(
+                CMAA,
+                "3.3.2.1.4 (2010)",
+                format!("DLF = {moved:.3} on dead weight, 1 + HLF = {:.3} on the load", 1.0 + hoisted),
+                self.raised(moved, 1.0 + hoisted),
+            )
+            .add(
+                AIST,
+                "3.7.2, Table 3.2 (2021)",
+                "impact on the largest wheel loads",
+                Some(1.0 + self.practice.kind.shares().impact),
+            )
+    }
+
+    pub fn lifting(&self) -> Values {
+        let speed = self.measures.speeds[2];
+        let hlf = speed.and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
+        Values::default().add(EN, "Tables 2.4, 2.5", "phi2 = phi2,min + beta2 v", self.phi2).add(
+            CMAA,
+            "3.3.2.1.4.2 (2010)",
+            "1 + HLF, 0.5 % per ft/min within 15 and 50 %",
+            hlf.map(|hlf| 1.0 + hlf),
+        )
+    }
+
+    pub fn release(&self) -> Values {
+        let phi3 = factor::phi3(1.0, 1.0, self.practice.release).ok();
+        Values::default().add(EN, "Table 2.4", "phi3 = 1 - (dm/m)(1 + beta3), all of the load let go", phi3)
+    }
+
+    pub fn lateral(&self) -> Values {
+        let crane = &self.measures.crane;
+        let moving = crane.lifted + crane.trolley;
+        let thrust = aist::side_thrust(self.practice.kind, crane).ok();
+        let shares = self.practice.kind.shares();
+        let inertia = self.found.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
+        Values::default()
+            .add(
+                AIST,
+                "3.7.2, Table 3.2 (2021)",
+                format!(
+                    "largest of {} Q, {} (Q + T), {} (Q + T + B)",
+                    shares.lifted, shares.trolley, shares.crane
+                ),
+                thrust.map(|thrust| thrust.governing()),
+            )
+            .add(
+                EN,
+                "2.7.5 with 2.11.2",
+                "0.1 (Q + T)",
+                buffer::trolley_force(crane.lifted, crane.trolley).ok(),
+            )
+            .add(
+                CMAA,
+                "3.3.2.1.1.5 (1983)",
+                "7.8 % of Q + T per ft/s2 of the trolley's acceleration in this run, at least 2.5 %",
+                inertia.map(|share| share * moving),
+            )
+    }
+
+    pub fn flange(&self) -> Values {
+        let (span, base) = (self.measures.crane.span, self.measures.base());
+        let near = self.full.map(|full| full.near);
+        let share = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
+        let (guide, angle) = self.skewing().unzip();
+        let told = angle.map_or_else(String::new, |angle| format!(" at {angle:.4} rad"));
+        Values::default()
+            .add(EN, "2.7.4, Tables 2.7 to 2.9", format!("guide force S = f lambda_S sum Q{told}"), guide)
+            .add(EN, "2.7.2", "H_T,1 = phi5 xi2 M/a of the drives", self.drives().map(|drives| drives.heavy))
+            .add(
+                CMAA,
+                "3.3.2.2.2 (2010)",
+                "S_sk times the largest wheel load, at every wheel",
+                share(cmaa::skew_coefficient(span, base)),
+            )
+            .add(
+                FEM,
+                "booklet 2, 2.2.3.3",
+                "0.025 p/a times the largest wheel load, at every wheel",
+                share(skew::fem_coefficient(span, base)),
+            )
+    }
+
+    /// Guide force and angle of a skewing crane.
+    fn skewing(&self) -> Option<(f64, f64)> {
+        let measures = self.measures;
+        let play = measures.play[0].or(measures.play[1]);
+        let given = play.zip(self.practice.rail_head).and_then(|(play, head)| {
+            let m = self.metre;
+            skew::angle(self.practice.guide, play * m, head * m, measures.base() * m).ok()
+        });
+        let angle = given.unwrap_or(skew::MOST).min(skew::MOST);
+        let full = self.full?;
+        let kind =
+            if measures.play.iter().all(Option::is_some) { Pairs::AloneFixed } else { Pairs::AloneFree };
+        let share = full.near / (full.near + full.far);
+        let skewing = skew::skewing(kind, measures.crane.span, share, &measures.pairs).ok()?;
+        let force = skew::friction(angle).ok()? * skewing.guide * measures.crane.weight();
+        Some((force, angle))
+    }
+
+    /// Forces of the drives on the runway.
+    fn drives(&self) -> Option<drive::Traction> {
+        let measures = self.measures;
+        let wheels = f64::from(measures.crane.wheels);
+        let empty = measures.crane.wheel_loads(1.0, 0.0).ok()?;
+        let least = vec![empty.far.min(empty.near); measures.driven[0] + measures.driven[1]];
+        let travel = drive::Travel {
+            span: measures.crane.span,
+            guides: measures.base(),
+            heavy: wheels * self.full?.near,
+            light: wheels * self.full?.far,
+            drive: drive::drive_force(measures.friction?, &least).ok()?,
+            factor: factor::phi5(self.practice.drives)[1],
+            rails: 2,
+        };
+        drive::traction(&travel).ok()
+    }
+
+    pub fn longitudinal(&self) -> Values {
+        let most = self.measures.driven[0].max(self.measures.driven[1]);
+        let loads = self.full.map(|full| vec![full.near; most]);
+        let phi5 = factor::phi5(self.practice.drives)[1];
+        Values::default()
+            .add(
+                EN,
+                "2.7.2, 2.7.3, Table 2.6",
+                format!("H_L = phi5 K/n_r, phi5 = {phi5}, K by the least wheel loads of the empty crane"),
+                self.drives().map(|drives| drives.along),
+            )
+            .add(
+                AIST,
+                "3.7.2, Table 3.2 (2021)",
+                format!("{} of the largest loads of the driven wheels", self.practice.kind.shares().traction),
+                loads.and_then(|loads| aist::tractive_force(self.practice.kind, &loads).ok()),
+            )
+    }
+
+    pub fn buffer(&self) -> Values {
+        let crane = &self.measures.crane;
+        let mass = (crane.bridge + crane.trolley) / self.gravity;
+        let force = |factor: f64, speed: Option<f64>| {
+            buffer::buffer_force(factor, speed?, mass, self.measures.buffers).ok()
+        };
+        let rated = |share: f64| self.measures.speeds[0].map(|speed| share * speed);
+        let phi7 = buffer::phi7(0.5).ok();
+        Values::default()
+            .add(
+                EN,
+                "2.11.1, Table 2.10",
+                "phi7 v1 sqrt(m S), phi7 = 1.25, v1 = 0.7 of the rated speed",
+                phi7.and_then(|phi7| force(phi7, rated(buffer::SPEED))),
+            )
+            .add(
+                EN,
+                "2.11.1, Table 2.10",
+                "the same with the speed of this run",
+                phi7.and_then(|phi7| force(phi7, self.found.meeting)),
+            )
+            .add(
+                OSHA,
+                "(e)(2)",
+                "v sqrt(m S), v = 0.4 of the rated speed; so CMAA 70-1983, 3.3.2.1.3.2",
+                force(1.0, rated(osha::BUMPER_SPEED)),
+            )
+            .add(
+                "mechanics",
+                "rigid mass",
+                "v sqrt(m S), bridge and trolley as one rigid mass, speed of this run",
+                force(1.0, self.found.meeting),
+            )
+    }
+
+    /// Two cranes that run into each other.
+    pub fn collision(&self) -> Values {
+        let energy = self.measures.between.zip(self.measures.speeds[0]).and_then(|(other, speed)| {
+            let crane = &self.measures.crane;
+            let own = (crane.bridge + crane.trolley) / self.gravity;
+            cmaa::collision_energy([own, other.weight / self.gravity], [speed, other.speed]).ok()
+        });
+        let force = energy.zip(self.measures.between);
+        let force = force.map(|(energy, other)| (2.0 * energy * other.stiffness).sqrt());
+        let formula = "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
+        Values::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
+    }
+
+    pub fn way(&self, body: usize) -> Values {
+        let limit =
+            self.found.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
+        Values::default().add(
+            OSHA,
+            "(f)(4)(vii)",
+            "at most the way of 6 s at the speed when they come on",
+            limit.map(|way| way / self.metre),
+        )
+    }
+}

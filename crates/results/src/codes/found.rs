@@ -1,0 +1,162 @@
+//! What a run has of the quantities that codes give values for.
+
+use practice::Mark;
+
+use super::measures::Measures;
+use crate::record::Record;
+use formats::motion::Cast;
+use formats::scene::{Practice, Scene, end_stops, seat};
+
+/// Time over which the acceleration of a trolley is taken, s.
+const WINDOW: f64 = 0.5;
+/// Share of the speed at which its brakes come on below which a body stands.
+const STANDS: f64 = 0.02;
+
+/// Places of a wheel's forces.
+const VERTICAL: usize = 0;
+const LATERAL: usize = 1;
+const TRACTION: usize = 2;
+
+/// What a run has; `None`: the scene has no such thing, or it is zero throughout.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Found {
+    /// Vertical force of a rail over what statics puts on it with the trolley where it is: the largest.
+    pub rail: Option<Mark>,
+    /// The same of a wheel.
+    pub wheel: Option<Mark>,
+    /// What the bridge gets from trolley and load, less the trolley's weight, over the load: largest, smallest.
+    pub load: [Option<Mark>; 2],
+    /// Lateral force of all wheels together: largest in size.
+    pub across: Option<Mark>,
+    /// Lateral force of one wheel: largest in size.
+    pub flange: Option<Mark>,
+    /// Force of the wheels along a rail: largest in size.
+    pub along: Option<Mark>,
+    /// Force of the end stops together: largest.
+    pub buffer: Option<Mark>,
+    /// Force of the buffer between two cranes: largest.
+    pub collision: Option<Mark>,
+    /// Speed at which they are met.
+    pub meeting: Option<f64>,
+    /// Largest change of the trolley's speed over half a second, by time.
+    pub acceleration: Option<f64>,
+    /// Way from where the brakes come on to a stand, of bridge and trolley, with the speed then.
+    pub brakes: [Option<(Mark, f64)>; 2],
+}
+
+impl Found {
+    /// From the columns of a run.
+    #[must_use]
+    pub fn new(
+        scene: &Scene,
+        practice: &Practice,
+        cast: &Cast,
+        measures: &Measures,
+        record: &Record,
+    ) -> Found {
+        let time = record.values("time");
+        let forces: Vec<[&[f64]; 3]> = cast
+            .wheels
+            .iter()
+            .map(|wheel| ["vertical", "lateral", "traction"].map(|part| record.part(&wheel.name, part)))
+            .collect();
+        let sum = |own: &[usize], part: usize, row: usize| -> f64 {
+            own.iter().map(|w| forces[*w][part].get(row).copied().unwrap_or_default()).sum()
+        };
+        let ridden = cast.wheels.iter().enumerate();
+        let ridden: Vec<usize> = ridden
+            .filter(|(_, wheel)| practice.trolley == Some(seat(scene, wheel.body).0))
+            .map(|(w, _)| w)
+            .collect();
+        let mut found = Found::default();
+        let places = practice.trolley.map(|trolley| record.part(&scene.bodies[trolley].name, "x"));
+        for (row, &t) in time.iter().enumerate() {
+            let x = places.and_then(|places| places.get(row));
+            let z = measures.line.zip(x).map(|([origin, slope], x)| origin + slope * x);
+            let rest = measures.at_rest(z);
+            let mut across = 0.0;
+            for (own, rest) in measures.wheels.iter().zip(rest) {
+                let mut rail = 0.0;
+                for &w in own {
+                    let force = sum(&[w], VERTICAL, row);
+                    rail += force;
+                    raise(&mut found.wheel, force * own.len() as f64 / rest, t);
+                    raise(&mut found.flange, sum(&[w], LATERAL, row).abs(), t);
+                }
+                raise(&mut found.rail, rail / rest, t);
+                raise(&mut found.along, sum(own, TRACTION, row).abs(), t);
+                across += sum(own, LATERAL, row);
+            }
+            raise(&mut found.across, across.abs(), t);
+            if !ridden.is_empty() && measures.crane.lifted > 0.0 {
+                let share = (sum(&ridden, VERTICAL, row) - measures.crane.trolley) / measures.crane.lifted;
+                raise(&mut found.load[0], share, t);
+                let mut least = found.load[1].map(|mark| Mark { value: 0.0 - mark.value, ..mark });
+                raise(&mut least, 0.0 - share, t);
+                found.load[1] = least.map(|mark| Mark { value: 0.0 - mark.value, ..mark });
+            }
+        }
+        found.stops(scene, practice, record);
+        if let Some(between) = measures.between {
+            let force = record.part(&scene.stops[between.stop].name, "force");
+            time.iter().zip(force).for_each(|(t, force)| raise(&mut found.collision, *force, *t));
+        }
+        let bodies = [Some(practice.crane), practice.trolley];
+        found.brakes = bodies.map(|body| brakes(record, &scene.bodies[body?].name));
+        found.acceleration = practice.trolley.and_then(|body| acceleration(record, &scene.bodies[body].name));
+        for mark in
+            [&mut found.across, &mut found.flange, &mut found.along, &mut found.buffer, &mut found.collision]
+        {
+            *mark = mark.filter(|mark| mark.value > 0.0);
+        }
+        found
+    }
+
+    /// Forces of the end stops of the crane's rails, and the speed at which they are met.
+    fn stops(&mut self, scene: &Scene, practice: &Practice, record: &Record) {
+        let stops = end_stops(scene, practice);
+        let forces: Vec<&[f64]> = stops.map(|stop| record.part(&stop.name, "force")).collect();
+        let speed = record.part(&scene.bodies[practice.crane].name, "speed");
+        for (row, &t) in record.values("time").iter().enumerate() {
+            let force: f64 = forces.iter().map(|values| values[row]).sum();
+            if force > 0.0 && self.meeting.is_none() {
+                self.meeting = speed.get(row.saturating_sub(1)).map(|speed| speed.abs());
+            }
+            raise(&mut self.buffer, force, t);
+        }
+    }
+}
+
+/// Keeps the larger; what is not finite is nothing.
+fn raise(mark: &mut Option<Mark>, value: f64, time: f64) {
+    if value.is_finite() && mark.is_none_or(|known| value > known.value) {
+        *mark = Some(Mark { value, time });
+    }
+}
+
+/// Largest change of speed over half a second, by time.
+fn acceleration(record: &Record, body: &str) -> Option<f64> {
+    let (time, speed) = (record.values("time"), record.part(body, "speed"));
+    let mut from = 0;
+    let mut most = 0.0_f64;
+    for to in 0..time.len().min(speed.len()) {
+        while from + 1 < to && time[to] - time[from + 1] >= WINDOW {
+            from += 1;
+        }
+        let length = time[to] - time[from];
+        if length >= WINDOW {
+            most = most.max((speed[to] - speed[from]).abs() / length);
+        }
+    }
+    (most > 0.0).then_some(most)
+}
+
+/// Way of a body from where its brakes come on to a stand, when it stands, and the speed at first.
+fn brakes(record: &Record, body: &str) -> Option<(Mark, f64)> {
+    let [x, speed, brake] = ["x", "speed", "brake"].map(|part| record.part(body, part));
+    let on = brake.iter().position(|force| *force != 0.0)?.saturating_sub(1);
+    let first = speed.get(on)?.abs();
+    let rest = speed.iter().skip(on).position(|speed| speed.abs() <= STANDS * first)? + on;
+    let time = *record.values("time").get(rest)?;
+    (first > 0.0).then_some((Mark { value: (x[rest] - x[on]).abs(), time }, first))
+}

@@ -1,0 +1,101 @@
+//! Factors of codes for a crane, whatever its run.
+
+use practice::{aist, buffer, cmaa, factor};
+
+use super::case::{AIST, CMAA, Case, EN};
+use super::rows::Value;
+use formats::units::Dimension;
+
+/// A factor or a wheel load that a code has for the crane, whatever the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Given {
+    /// Its name in summaries.
+    pub name: &'static str,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Code, clause, formula and value.
+    pub value: Value,
+}
+
+/// Factors of the codes, and loads of one wheel by them.
+#[must_use]
+pub(super) fn givens(case: &Case) -> Vec<Given> {
+    let (practice, measures) = (case.practice, case.measures);
+    let si = |speed: Option<f64>| speed.map(|speed| speed * case.metre);
+    let phi5 = factor::phi5(practice.drives);
+    let phi2 = case.phi2;
+    let group = phi2.and_then(|phi2| measures.crane.wheel_loads(factor::PHI1[1], phi2).ok());
+    let impact = case.full.and_then(|full| aist::with_impact(practice.kind, full.near).ok());
+    let hlf = si(measures.speeds[2]).and_then(|speed| cmaa::hoist_load_factor(speed).ok());
+    let dlf = |speed| si(speed).and_then(|speed| cmaa::dead_load_factor(speed).ok());
+    let skew = cmaa::skew_coefficient(measures.crane.span, measures.base()).ok();
+    let number = Dimension::NUMBER;
+    let force = Dimension::FORCE;
+    let list = [
+        ("phi1_least", number, EN, "Table 2.4", "dead weight, lifting", Some(factor::PHI1[0])),
+        ("phi1_most", number, EN, "Table 2.4", "dead weight, lifting", Some(factor::PHI1[1])),
+        ("phi2", number, EN, "Tables 2.4, 2.5", "load, lifting: phi2,min + beta2 v", phi2),
+        (
+            "phi3",
+            number,
+            EN,
+            "Table 2.4",
+            "load, all of it let go",
+            factor::phi3(1.0, 1.0, practice.release).ok(),
+        ),
+        ("phi4", number, EN, "Table 2.4", "travelling on rails within tolerance", Some(factor::PHI4)),
+        ("phi5_least", number, EN, "Table 2.6", "forces of drives", Some(phi5[0])),
+        ("phi5_most", number, EN, "Table 2.6", "forces of drives", Some(phi5[1])),
+        (
+            "phi6",
+            number,
+            EN,
+            "2.10",
+            "dynamic test load: (1 + phi2)/2",
+            phi2.and_then(|phi2| factor::phi6(phi2).ok()),
+        ),
+        ("phi7", number, EN, "Table 2.10", "buffers, springs", buffer::phi7(0.5).ok()),
+        ("hoist_load_factor", number, CMAA, "3.3.2.1.4.2 (2010)", "HLF", hlf),
+        (
+            "dead_load_factor_bridge",
+            number,
+            CMAA,
+            "3.3.2.1.4.1 (2010)",
+            "DLF at its speed",
+            dlf(measures.speeds[0]),
+        ),
+        (
+            "dead_load_factor_trolley",
+            number,
+            CMAA,
+            "3.3.2.1.4.1 (2010)",
+            "DLF at its speed",
+            dlf(measures.speeds[1]),
+        ),
+        ("skew_coefficient", number, CMAA, "3.3.2.2.2 (2010)", "S_sk", skew),
+        (
+            "impact",
+            number,
+            AIST,
+            "3.7.2, Table 3.2 (2021)",
+            "of the largest wheel loads",
+            Some(practice.kind.shares().impact),
+        ),
+        (
+            "wheel_near",
+            force,
+            "mechanics",
+            "statics",
+            "trolley at its approach",
+            case.full.map(|full| full.near),
+        ),
+        ("wheel_far", force, "mechanics", "statics", "on the other rail", case.full.map(|full| full.far)),
+        ("wheel_group_1", force, EN, "2.6, Table 2.2", "near, phi1 and phi2", group.map(|group| group.near)),
+        ("wheel_impact", force, AIST, "3.7.2, Table 3.2 (2021)", "near, with impact", impact),
+    ];
+    let kept = list.into_iter().filter_map(|(name, dimension, code, clause, formula, value)| {
+        let value = value.filter(|value| value.is_finite())?;
+        Some(Given { name, dimension, value: Value { code, clause, formula: formula.to_owned(), value } })
+    });
+    kept.collect()
+}

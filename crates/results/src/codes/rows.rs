@@ -1,0 +1,125 @@
+//! Quantities of a crane that codes give values for.
+
+use practice::Mark;
+use serde_json::json;
+
+use super::case::Case;
+use formats::units::Dimension;
+
+/// A value of a code.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Value {
+    /// The code.
+    pub code: &'static str,
+    /// Where in it.
+    pub clause: &'static str,
+    /// How it comes about.
+    pub formula: String,
+    /// The value.
+    pub value: f64,
+}
+
+impl Value {
+    pub(super) fn json(&self) -> serde_json::Value {
+        json!({ "code": self.code, "clause": self.clause, "formula": self.formula, "value": self.value + 0.0 })
+    }
+}
+
+/// One quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// Its name in summaries.
+    pub name: &'static str,
+    /// In words.
+    pub what: &'static str,
+    /// Dimension of all its values.
+    pub dimension: Dimension,
+    /// What the run has.
+    pub found: Mark,
+    /// What codes have.
+    pub values: Vec<Value>,
+}
+
+impl Row {
+    /// As a member of `values`.
+    #[must_use]
+    pub fn json(&self) -> serde_json::Value {
+        let values = self.values.iter().map(Value::json);
+        json!({
+            "what": self.what,
+            "found": { "value": self.found.value + 0.0, "time": self.found.time },
+            "codes": values.collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// All quantities that the run has.
+#[must_use]
+pub(super) fn rows(case: &Case) -> Vec<Row> {
+    let found = case.found;
+    let list = [
+        (
+            "rail_factor",
+            "vertical force of a rail over its static force",
+            Dimension::NUMBER,
+            found.rail,
+            case.vertical(),
+        ),
+        (
+            "wheel_factor",
+            "vertical force of a wheel over its static force",
+            Dimension::NUMBER,
+            found.wheel,
+            case.vertical(),
+        ),
+        (
+            "load_factor",
+            "force of the lifted load on the trolley over its weight, largest",
+            Dimension::NUMBER,
+            found.load[0],
+            case.lifting(),
+        ),
+        (
+            "release_factor",
+            "the same, smallest",
+            Dimension::NUMBER,
+            found.load[1].filter(|_| case.drops),
+            case.release(),
+        ),
+        ("lateral", "lateral force of all wheels together", Dimension::FORCE, found.across, case.lateral()),
+        ("wheel_lateral", "lateral force of one wheel", Dimension::FORCE, found.flange, case.flange()),
+        (
+            "longitudinal",
+            "force of the wheels along one rail",
+            Dimension::FORCE,
+            found.along,
+            case.longitudinal(),
+        ),
+        ("buffer", "force of the end stops together", Dimension::FORCE, found.buffer, case.buffer()),
+        (
+            "collision",
+            "force of the buffer between two cranes",
+            Dimension::FORCE,
+            found.collision,
+            case.collision(),
+        ),
+        (
+            "bridge_brake_way",
+            "way in which the bridge is braked to a stand",
+            Dimension::LENGTH,
+            found.brakes[0].map(|b| b.0),
+            case.way(0),
+        ),
+        (
+            "trolley_brake_way",
+            "way in which the trolley is braked to a stand",
+            Dimension::LENGTH,
+            found.brakes[1].map(|b| b.0),
+            case.way(1),
+        ),
+    ];
+    let kept = list.into_iter().filter_map(|(name, what, dimension, found, values)| {
+        Some(Row { name, what, dimension, found: found?, values: values.0 })
+    });
+    kept.collect()
+}

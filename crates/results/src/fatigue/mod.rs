@@ -1,0 +1,185 @@
+//! Fatigue: cycles of the stresses of a run, and the damage that they do.
+
+use practice::fatigue::Stress;
+use practice::{Cycle, Damage, Strength, aisc, rainflow};
+use serde_json::{Map, Value, json};
+
+use crate::Error;
+use crate::record::{Record, bytes};
+use formats::scene::{Fatigue, Origin, Scene};
+use formats::spec::Detail;
+use formats::units::{Dimension, Force, Length, Scale, Units};
+
+/// The strength of a detail, in the unit of stress of a scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Resistance {
+    Eurocode(Strength),
+    Aisc(aisc::Curve),
+}
+
+/// One stress point of one run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Verdict {
+    /// Name of the stress column.
+    pub column: String,
+    /// Its detail category.
+    pub detail: Detail,
+    /// Its cycles, in the order in which they close.
+    pub cycles: Vec<Cycle>,
+    /// Damage of each.
+    pub each: Vec<f64>,
+    /// Their sum, and the largest range.
+    pub damage: Damage,
+    /// Range borne 2 million times, with partial factors.
+    pub reference: f64,
+    /// Range below which a history does no damage, with partial factors.
+    pub limit: f64,
+    /// Range of one cycle that does the damage of the run, on the slope of 3 through the reference.
+    pub equivalent: f64,
+    /// Sum of the runs of a life.
+    pub life: Option<f64>,
+}
+
+impl Resistance {
+    fn new(detail: Detail, fatigue: &Fatigue, units: Units) -> Result<Resistance, practice::Error> {
+        let unit =
+            |length, force| Scale { from: Units { length, force }, to: units }.factor(Dimension::STRESS);
+        match detail {
+            Detail::Eurocode(category) => {
+                let category = category * unit(Length::Millimetre, Force::Newton);
+                Strength::new(Stress::Direct, category, fatigue.loads, fatigue.material)
+                    .map(Resistance::Eurocode)
+            }
+            Detail::Aisc(category) => {
+                let ksi = unit(Length::Inch, Force::Kip) / fatigue.loads / fatigue.material;
+                aisc::Curve::new(category, ksi).map(Resistance::Aisc)
+            }
+        }
+    }
+
+    fn damage(&self, range: f64) -> Result<f64, practice::Error> {
+        match self {
+            Resistance::Eurocode(strength) => strength.damage(range),
+            Resistance::Aisc(curve) => curve.damage(range),
+        }
+    }
+
+    fn miner(&self, cycles: &[Cycle]) -> Result<Damage, practice::Error> {
+        match self {
+            Resistance::Eurocode(strength) => strength.miner(cycles),
+            Resistance::Aisc(curve) => curve.miner(cycles),
+        }
+    }
+
+    /// Reference, limit.
+    fn ranges(&self) -> [f64; 2] {
+        match self {
+            Resistance::Eurocode(strength) => [strength.reference(), strength.limit()],
+            Resistance::Aisc(curve) => [curve.reference(), curve.limit()],
+        }
+    }
+}
+
+/// Every stress point of a run that has a detail category.
+///
+/// # Errors
+/// A history that cannot be counted.
+pub fn verdicts(scene: &Scene, record: &Record) -> Result<Vec<Verdict>, Error> {
+    let mut all = Vec::new();
+    for structure in &scene.structures {
+        let Origin::Spec { spec, .. } = &structure.origin else { continue };
+        for cut in &spec.effects {
+            for point in &cut.points {
+                let column = format!("{}.{}.{}", structure.name, cut.name, point.name);
+                let values = record.values(&column);
+                let Some(detail) = point.detail.filter(|_| !values.is_empty()) else { continue };
+                let found = verdict(scene, column.clone(), detail, values);
+                all.push(found.map_err(|source| Error::Cycles { column: column.clone(), source })?);
+            }
+        }
+    }
+    Ok(all)
+}
+
+fn verdict(
+    scene: &Scene,
+    column: String,
+    detail: Detail,
+    values: &[f64],
+) -> Result<Verdict, practice::Error> {
+    let fatigue = &scene.output.fatigue;
+    let resistance = Resistance::new(detail, fatigue, scene.units)?;
+    let cycles = rainflow(values, fatigue.history)?;
+    let each = cycles
+        .iter()
+        .map(|cycle| Ok(cycle.count * resistance.damage(cycle.range())?))
+        .collect::<Result<Vec<f64>, practice::Error>>()?;
+    let damage = resistance.miner(&cycles)?;
+    let [reference, limit] = resistance.ranges();
+    Ok(Verdict {
+        column,
+        detail,
+        cycles,
+        each,
+        damage,
+        reference,
+        limit,
+        equivalent: reference * (damage.sum * practice::fatigue::REFERENCE).cbrt(),
+        life: fatigue.crossings.map(|crossings| crossings * damage.sum),
+    })
+}
+
+impl Verdict {
+    /// As a member of `fatigue`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let count: f64 = self.cycles.iter().map(|cycle| cycle.count).sum();
+        let mut out = json!({
+            "detail": match self.detail {
+                Detail::Eurocode(category) => json!(category),
+                Detail::Aisc(_) => json!(self.detail.word()),
+            },
+            "reference": self.reference,
+            "limit": self.limit,
+            "cycles": count,
+            "largest_range": self.damage.most,
+            "within_limit": self.damage.endures,
+            "damage": self.damage.sum,
+            "equivalent_range": self.equivalent,
+            "crossings_to_failure": self.damage.repeats(),
+        });
+        if let Some(life) = self.life {
+            out["life_damage"] = json!(life);
+        }
+        out
+    }
+}
+
+/// The member `fatigue` of a run's summary; `None`: it has no stress points.
+#[must_use]
+pub fn json(verdicts: &[Verdict]) -> Option<Value> {
+    let all: Map<_, _> = verdicts.iter().map(|verdict| (verdict.column.clone(), verdict.json())).collect();
+    (!all.is_empty()).then_some(Value::Object(all))
+}
+
+/// Cycles of all points of a run as comma-separated values; `None`: there are none.
+///
+/// # Errors
+/// None in practice: memory takes every byte.
+pub fn csv(verdicts: &[Verdict], record: &Record) -> Result<Option<Vec<u8>>, csv::Error> {
+    if verdicts.is_empty() {
+        return Ok(None);
+    }
+    let time = record.values("time");
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(["point", "range", "mean", "count", "from", "to", "damage"])?;
+    for verdict in verdicts {
+        for (cycle, damage) in verdict.cycles.iter().zip(&verdict.each) {
+            let [from, to] = cycle.samples.map(|row| time[row]);
+            let numbers = [cycle.range(), cycle.mean() + 0.0, cycle.count, from, to, *damage];
+            let numbers = numbers.into_iter().map(|number| format!("{number:?}"));
+            writer.write_record(std::iter::once(verdict.column.clone()).chain(numbers))?;
+        }
+    }
+    bytes(writer).map(Some)
+}

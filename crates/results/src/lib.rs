@@ -1,0 +1,20 @@
+//! One scene, from checked files to named columns.
+//!
+//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]; an [`cases::Outcome`] has the run, its columns
+//! ([`record`]), what the structures answered ([`response`]), fatigue ([`fatigue`]), code values ([`codes`]), warnings
+//! ([`warning`]) and the numbers of `summary.json` ([`summary`]). Nothing here knows a command line, a progress bar, a
+//! picture or an exit status.
+
+pub mod cases;
+pub mod codes;
+mod error;
+pub mod fatigue;
+pub mod layout;
+pub mod plight;
+pub mod record;
+pub mod response;
+pub mod summary;
+pub mod threads;
+pub mod warning;
+
+pub use error::Error;

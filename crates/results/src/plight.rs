@@ -1,0 +1,59 @@
+//! Why a run could not go on, in the names of its scene.
+
+use sim::{Error, Status};
+
+use crate::summary;
+use formats::scene::{FREEDOMS, Scene};
+
+/// Why a run did not reach its end, by name; `None` where it did.
+#[must_use]
+pub fn why(status: &Status, scene: &Scene) -> Option<String> {
+    match status {
+        Status::Refused(t, error) => Some(format!("at t = {t:.4} s: {}", words(error, scene))),
+        status => summary::status(status).1,
+    }
+}
+
+/// What the simulator says by index, said by name, with what to do where that is known.
+#[must_use]
+pub fn words(error: &Error, scene: &Scene) -> String {
+    let structure = |index: usize| {
+        scene.structures.get(index).map_or_else(|| format!("structure {index}"), |one| one.name.clone())
+    };
+    let body = |index: usize| {
+        let known = scene.bodies.get(index).map(|body| format!("\"{}\"", body.name));
+        known.unwrap_or_else(|| format!("body {index}"))
+    };
+    match error {
+        Error::Compliance { structure: s, source: splines::Error::OffRail { rail, x } } => {
+            let found = scene.rails.iter().find(|known| (known.structure, known.rail) == (*s, *rail));
+            match found {
+                Some(rail) => format!(
+                    "a wheel leaves the end of rail {} at x = {x:.4}: the rail runs from {} to {}  hint: end earlier \
+                     (`end.time`), or hold the body on its rail by a drive, a brake or an end stop (`stops`)",
+                    rail.name, rail.range[0], rail.range[1]
+                ),
+                None => error.to_string(),
+            }
+        }
+        Error::Compliance { structure: s, source } => format!("{}: {source}", structure(*s)),
+        Error::NoInertia { body: b, freedom } => format!(
+            "{} is free in {}, and nothing has inertia of its own there  hint: give `inertia` [roll, yaw, pitch] about the \
+             centre of mass, or take it out of `dof`",
+            body(*b),
+            FREEDOMS[*freedom as usize]
+        ),
+        Error::NoEquilibrium { .. } => {
+            let carried = if scene.structures.iter().any(|one| one.on.is_some()) {
+                ", at `at` of the structures on bodies"
+            } else {
+                ""
+            };
+            format!(
+                "{error}  hint: each centre of mass (`cg`, and what hangs or rides on the body) must lie between its \
+                 wheels: look at `at` and `tree` of the trucks{carried}, or give the body a `start`"
+            )
+        }
+        _ => error.to_string(),
+    }
+}

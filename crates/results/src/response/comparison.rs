@@ -1,0 +1,234 @@
+//! Histories of forces, run beside run, in the few numbers that engineers compare.
+
+use practice::{Mark, Tone, View, dominant, resample, response};
+use serde_json::{Map, Value, json};
+
+use super::{Natural, Response};
+use crate::record::Record;
+use crate::threads::side_by_side;
+
+/// Share of the run, at its end, that counts as settled.
+const SETTLED: f64 = 0.25;
+
+/// Half width of the band about the settled mean that an excursion leaves, as a share of the mean.
+const BAND: f64 = 0.05;
+
+/// Most waves that are told, the share of the first below which none is, and how far apart two of them are as a ratio.
+const WAVES: usize = 3;
+const FAINT: f64 = 0.1;
+const APART: f64 = 1.15;
+
+/// Fewest samples of which a dominant frequency is worth its name.
+const FEWEST: usize = 64;
+
+/// A history in the few numbers that engineers compare.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figures {
+    /// Mean over the last quarter of the run.
+    pub settled: f64,
+    /// Largest value.
+    pub peak: Mark,
+    /// Smallest value.
+    pub least: Mark,
+    /// How often it leaves 5 % about the settled mean.
+    pub excursions: usize,
+    /// Strongest waves in the last quarter, of two periods at least, strongest first.
+    pub waves: Vec<Tone>,
+}
+
+/// Runs beside each other: every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel
+/// forces, in figures.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Comparison {
+    rows: Vec<Row>,
+}
+
+/// One column of the first run.
+#[derive(Clone, Debug, PartialEq)]
+struct Row {
+    column: String,
+    /// One a run; `None`: it has not got the column, or too few rows.
+    figures: Vec<Option<Figures>>,
+    /// Whether it is zero in every run.
+    is_zero: bool,
+}
+
+impl Comparison {
+    /// The figures of all runs, on at most `threads` threads. Empty where there is one run alone.
+    #[must_use]
+    pub fn new(runs: &[(&str, &Record, &Response)], threads: Option<u16>) -> Comparison {
+        let [(_, record, first), _, ..] = runs else { return Comparison::default() };
+        let own = first.columns.iter().map(|column| column.name.clone());
+        let names: Vec<String> = rail_sums(record).into_iter().flatten().chain(own).collect();
+        let rows = side_by_side(&names, threads, |_, name| {
+            let is_zero = |record: &Record| record.values(name).iter().all(|value| *value == 0.0);
+            Row {
+                column: name.clone(),
+                figures: runs.iter().map(|(_, record, _)| Figures::new(record, name)).collect(),
+                is_zero: runs.iter().all(|(_, record, _)| is_zero(record)),
+            }
+        });
+        Comparison { rows }
+    }
+
+    /// Figures of a column, one a run.
+    #[must_use]
+    pub fn of(&self, column: &str) -> Option<&[Option<Figures>]> {
+        self.rows.iter().find(|row| row.column == column).map(|row| row.figures.as_slice())
+    }
+
+    /// Columns that all runs have and that are not zero in all of them, with their figures, one a run.
+    pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&Figures>)> {
+        self.rows.iter().filter(|row| !row.is_zero).filter_map(|row| {
+            let all: Option<Vec<&Figures>> = row.figures.iter().map(Option::as_ref).collect();
+            Some((row.column.as_str(), all?))
+        })
+    }
+
+    /// Settled mean, peak, least value, excursions and waves by column and by the label of the run; `runs`: those it was made of.
+    #[must_use]
+    pub fn json(&self, runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
+        let of_runs = |figures: Vec<&Figures>| -> Map<String, Value> {
+            let pairs = runs.iter().zip(figures);
+            pairs
+                .map(|((label, _, response), one)| ((*label).to_owned(), one.json(&response.modes)))
+                .collect()
+        };
+        self.columns().map(|(name, figures)| (name.to_owned(), Value::Object(of_runs(figures)))).collect()
+    }
+}
+
+/// Columns of the sums of wheel forces on each rail, vertical, then lateral if there are any.
+pub fn rail_sums(record: &Record) -> Vec<Vec<String>> {
+    let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
+    let of = |rail: &str| {
+        let lateral = format!("{rail}.lateral");
+        let mut names = vec![format!("{rail}.reaction")];
+        names.extend(Some(lateral).filter(|name| !record.values(name).is_empty()));
+        names
+    };
+    rails.map(of).collect()
+}
+
+impl Figures {
+    /// The numbers of one column, `None` where it has too few rows or the run has not got it.
+    #[must_use]
+    pub fn new(record: &Record, column: &str) -> Option<Figures> {
+        let (times, values) = (record.values("time"), record.values(column));
+        let (first, last) = (*times.first()?, *times.last()?);
+        if values.len() != times.len() || times.len() < FEWEST || last <= first {
+            return None;
+        }
+        let length = last - first;
+        let step = length / (times.len() - 1) as f64;
+        let view = View {
+            from: first,
+            settled: last - SETTLED * length,
+            step,
+            cut: None,
+            share: BAND,
+            band: [0.0, 0.5 / step],
+            floor: BAND,
+        };
+        let found = response(times, values, &view).ok()?;
+        // slower than two waves is the way of the crane, no vibration
+        let band = [2.0 / (SETTLED * length), 0.5 / step];
+        let late = resample(times, values, view.settled, step).ok()?;
+        Some(Figures {
+            settled: found.mean,
+            peak: found.peak,
+            least: found.least,
+            excursions: found.excursions.total(),
+            waves: tones(&late, step, band),
+        })
+    }
+
+    /// Frequency of the strongest wave.
+    #[must_use]
+    pub fn hertz(&self) -> Option<f64> {
+        self.waves.first().map(|tone| tone.frequency)
+    }
+
+    fn json(&self, modes: &[Natural]) -> Value {
+        let wave = |tone: &Tone| {
+            let mode = Natural::of(modes, tone.frequency).map(|mode| mode.name.as_str());
+            json!({"hz": tone.frequency, "amplitude": tone.amplitude, "mode": mode})
+        };
+        json!({
+            "settled_mean": self.settled + 0.0,
+            "peak": {"value": self.peak.value + 0.0, "time": self.peak.time},
+            "least": {"value": self.least.value + 0.0, "time": self.least.time},
+            "excursions": self.excursions,
+            "dominant_hz": self.hertz(),
+            "waves": self.waves.iter().map(wave).collect::<Vec<Value>>(),
+        })
+    }
+}
+
+/// The strongest waves of a history in `band`, strongest first, each apart from those before by [`APART`].
+fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
+    let (mut found, mut rest) = (Vec::<Tone>::new(), vec![band]);
+    let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
+    while found.len() < WAVES {
+        let all = rest.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
+        let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
+        let Some((k, tone)) = best else { break };
+        if found.first().is_some_and(|first| tone.amplitude < FAINT * first.amplitude) {
+            break;
+        }
+        let [low, high] = rest.swap_remove(k);
+        // the flank of a wave that is known already peaks at the edge of its band
+        let is_known = |known: &Tone| (known.frequency / tone.frequency).ln().abs() < APART.ln();
+        if found.iter().any(is_known) {
+            continue;
+        }
+        let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
+        rest.extend(sides.into_iter().filter(|[low, high]| low < high));
+        found.push(tone);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::response::{Column, Kind};
+    use formats::units::Dimension;
+
+    /// A record with a damped wave of `hz` about `mean`, and its response.
+    fn wave(hz: f64, mean: f64) -> (Record, Response) {
+        let times: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 0.01).collect();
+        let values =
+            times.iter().map(|t| mean + (-0.3 * t).exp() * (std::f64::consts::TAU * hz * t).cos()).collect();
+        let mut record = Record::default();
+        record.push("time", Dimension::NUMBER, times);
+        record.push("a", Dimension::NUMBER, values);
+        let column =
+            Column { name: "a".into(), dimension: Dimension::NUMBER, kind: Kind::Reaction, direction: None };
+        (record, Response { columns: vec![column], ..Response::default() })
+    }
+
+    /// Analytic: both settle at 5, the peak is 5 + 1 at the start, and each has its own frequency.
+    #[test]
+    fn a_slower_run_has_the_lower_frequency_and_the_same_mean() {
+        let (slow, fast) = (wave(2.0, 5.0), wave(4.0, 5.0));
+        let runs = [("flexible", &slow.0, &slow.1), ("rigid", &fast.0, &fast.1)];
+        let found = Comparison::new(&runs, Some(1)).json(&runs);
+        for (label, hz) in [("flexible", 2.0), ("rigid", 4.0)] {
+            let at = &found["a"][label];
+            let near = |value: &Value, wanted: f64, by: f64| {
+                value.as_f64().is_some_and(|value| (value - wanted).abs() < by)
+            };
+            assert!(near(&at["settled_mean"], 5.0, 1e-2), "{at}");
+            assert!(near(&at["peak"]["value"], 6.0, 1e-12), "{at}");
+            assert!(near(&at["dominant_hz"], hz, 0.05), "{at}");
+        }
+    }
+
+    #[test]
+    fn a_lone_run_is_beside_nothing() {
+        let (record, response) = wave(2.0, 5.0);
+        let runs = [("only", &record, &response)];
+        assert!(Comparison::new(&runs, Some(1)).json(&runs).is_empty());
+    }
+}

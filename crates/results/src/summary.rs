@@ -1,0 +1,184 @@
+//! `summary.json`: what a run found, in numbers.
+
+use serde_json::{Map, Value, json};
+use sim::{Choice, Predicted, Rung, Status, Tried};
+
+use crate::cases::Outcome;
+use crate::fatigue;
+use crate::record::Record;
+use crate::warning;
+use formats::scene::{Analysis, Event, Scene, Structure, stepper_word};
+use formats::units::Dimension;
+
+/// Word of a run's status, and what it means for the user where it is not "done".
+#[must_use]
+pub fn status(status: &Status) -> (&'static str, Option<String>) {
+    match status {
+        Status::Done => ("done", None),
+        Status::Ended(_) => ("ended by event", None),
+        Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
+        Status::StepTooSmall(t) => (
+            "step too small",
+            Some(format!(
+                "no step was small enough at t = {t} s, or contacts opened and closed without end: the motion cannot be \
+                 followed"
+            )),
+        ),
+        Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
+    }
+}
+
+/// One run as JSON.
+#[must_use]
+pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
+    let Outcome { run, record, choices, .. } = outcome;
+    let (word, why) = status(&run.status);
+    let structures = scene.structures.iter().enumerate();
+    let structures: Map<String, Value> =
+        structures.map(|(s, one)| (one.name.clone(), foundation(one, choices, s))).collect();
+    let mut result = json!({
+        "status": word,
+        "analysis": match scene.analysis { Analysis::Dynamic => "dynamic", Analysis::QuasiStatic => "quasi-static" },
+        "foundation": structures,
+        "peaks": peaks(record),
+        "steps": {
+            "accepted": run.counts.steps,
+            "rejected": run.counts.rejected,
+            "stages": run.counts.stages,
+            "events": run.counts.events,
+        },
+    });
+    if let Some(method) = run.method {
+        result["steps"]["method"] = json!(stepper_word(method));
+    }
+    if let Some(why) = why {
+        result["why"] = json!(why);
+    }
+    if let Some(members) = result.as_object_mut() {
+        members.extend(outcome.response.json());
+        members.extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
+        members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));
+    }
+    let warnings = warning::of_case(scene, outcome);
+    if !warnings.is_empty() {
+        result["warnings"] = json!(warnings);
+    }
+    if scene.analysis == Analysis::Dynamic {
+        let lost = &run.audit.exchanged;
+        result["energy"] = json!({
+            "residual": run.audit.residual(),
+            "peak_stored": run.audit.peak_stored,
+            "lost": {
+                "dampers": lost.dampers,
+                "friction": lost.friction,
+                "flanges": lost.flanges,
+                "handover": lost.handover,
+                "structure": lost.structure,
+                "switches": lost.switches,
+            },
+            "put_in": lost.put_in(),
+            "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
+            "steps": lost.steps,
+        });
+    }
+    if !run.fired.is_empty() {
+        result["events"] =
+            run.fired.iter().map(|fired| event(&scene.events[fired.rule], fired.time)).collect();
+    }
+    result
+}
+
+/// How structure `s` gives way, and why so.
+fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
+    let mut entry = json!({
+        "foundation": structure.foundation.word(),
+        "reading": structure.reading.word(),
+        "reason": "asked for",
+    });
+    if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
+        entry["foundation"] = json!(rung(choice.rung));
+        entry["reason"] = json!(foundations::reason(choice));
+        entry["tolerance"] = json!(structure.tolerance);
+        entry["estimate"] = json!(choice.estimate);
+        entry["tried"] = choice.tried.iter().map(tried).collect();
+        if let Some(own) = &choice.predicted {
+            entry["predicted"] = predicted(own);
+        }
+        for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
+            if !rungs.is_empty() {
+                entry[key] = rungs.iter().map(|rung| foundations::word(*rung)).collect();
+            }
+        }
+    }
+    entry
+}
+
+/// An event that happened.
+fn event(event: &Event, time: f64) -> Value {
+    json!({ "time": time, "name": event.name, "when": event.when, "what": event.what })
+}
+
+/// The word of a rung in scenes.
+const fn rung(rung: Rung) -> &'static str {
+    match rung {
+        Rung::Rigid => "rigid",
+        Rung::Influence => "influence",
+        Rung::Modal(_) => "modal",
+        Rung::Half | Rung::Full => "full",
+    }
+}
+
+fn tried(tried: &Tried) -> Value {
+    json!({
+        "rung": foundations::word(tried.rung),
+        // infinite where the runs could not be compared
+        "estimate": tried.estimate.is_finite().then_some(tried.estimate),
+        "against": foundations::word(tried.against),
+        "stages": tried.stages,
+    })
+}
+
+/// Errors expected without a run.
+fn predicted(own: &Predicted) -> Value {
+    let errors: Map<String, Value> =
+        own.errors.iter().map(|(rung, error)| (foundations::word(*rung), json!(error))).collect();
+    json!({
+        "give": own.give,
+        "speed": own.speed,
+        "ripple": own.ripple,
+        "step": own.step,
+        "track": own.track,
+        "errors": errors,
+    })
+}
+
+/// Largest and smallest value of every column, and when.
+fn peaks(record: &Record) -> Value {
+    let time = record.values("time");
+    let mut peaks = Map::new();
+    for column in record.columns.iter().skip(1).filter(|column| !column.values.is_empty()) {
+        let mut at = [0, 0];
+        for (i, value) in column.values.iter().enumerate() {
+            if *value > column.values[at[0]] {
+                at[0] = i;
+            }
+            if *value < column.values[at[1]] {
+                at[1] = i;
+            }
+        }
+        let [most, least] = at.map(|i| json!({ "value": column.values[i] + 0.0, "time": time[i] }));
+        peaks.insert(column.name.clone(), json!({ "max": most, "min": least }));
+    }
+    Value::Object(peaks)
+}
+
+/// Units of the columns.
+#[must_use]
+pub fn units(scene: &Scene, record: &Record) -> Value {
+    let label = |dimension: Dimension| {
+        if dimension == Dimension::NUMBER { "rad".to_owned() } else { scene.units.label(dimension) }
+    };
+    Value::Object(
+        record.columns.iter().map(|column| (column.name.clone(), json!(label(column.dimension)))).collect(),
+    )
+}

@@ -1,0 +1,216 @@
+//! What a user should know before believing a run: where the limits of its method are near.
+
+mod sense;
+mod slip;
+mod taut;
+
+use std::f64::consts::PI;
+
+pub use sense::of_spec;
+
+use sim::Run;
+
+use crate::cases::Outcome;
+use crate::record::Record;
+use formats::motion::Cast;
+use formats::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail, seat};
+use formats::spec::Form;
+
+/// Energy residual above which a run's forces are not to be trusted blindly.
+pub const RESIDUAL: f64 = 1e-3;
+
+/// Deflection of a rail by its span above which structures are hardly linear.
+const BENT: f64 = 0.01;
+
+/// Growth of the stiffness by the pull of ends that are held lengthwise above which it should not be left out.
+const TAUT: f64 = 0.01;
+
+/// Speed by the critical speed above which a girder without mass says little.
+const FAST: f64 = 0.5;
+
+/// Those of a case's run, and of the foundations chosen for it.
+#[must_use]
+pub fn of_case(scene: &Scene, outcome: &Outcome) -> Vec<String> {
+    let mut all = warnings(scene, &outcome.cast, &outcome.record, &outcome.run);
+    all.extend(outcome.choices.iter().filter_map(|choice| {
+        let structure = &scene.structures[choice.structure];
+        foundations::doubt(&structure.name, choice, structure.tolerance)
+    }));
+    all
+}
+
+fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<String> {
+    let mut all = Vec::new();
+    let residual = run.audit.residual();
+    if residual > RESIDUAL {
+        all.push(format!(
+            "the energy audit leaves {residual:.1e} of the peak stored energy open; a smaller \"accuracy\" closes it, but \
+             for a table that is not symmetric and a flange that takes hold at once"
+        ));
+    }
+    for structure in &scene.structures {
+        if let Origin::Spec { spec, .. } = &structure.origin {
+            all.extend(of_spec(spec).into_iter().map(|told| format!("{}: {told}", structure.name)));
+        }
+    }
+    all.extend(slip::of_scene(scene, record));
+    let of_rail = |rail| Wheels { cast, record, rail };
+    let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));
+    for (rail, wheels) in each {
+        all.extend(bent(scene, rail, &wheels));
+        all.extend(taut(scene, rail, &wheels));
+        all.extend(fast(scene, rail, &wheels));
+        all.extend(held(scene, rail, &wheels));
+        all.extend(unsymmetric(scene, rail, &wheels));
+    }
+    all.extend(off(cast, record));
+    all
+}
+
+/// The wheels of one rail.
+struct Wheels<'a> {
+    cast: &'a Cast,
+    record: &'a Record,
+    rail: usize,
+}
+
+impl<'a> Wheels<'a> {
+    fn histories(&self, part: &'a str) -> impl Iterator<Item = &'a [f64]> {
+        let (record, rail) = (self.record, self.rail);
+        self.cast.wheels.iter().filter(move |w| w.rail == rail).map(move |w| record.part(&w.name, part))
+    }
+
+    /// Largest vertical displacement of the rail under them.
+    fn deepest(&self) -> f64 {
+        self.histories("rail_deflection").flatten().fold(0.0, |most, give| most.max(give.abs()))
+    }
+}
+
+/// The longest span of a girder; the whole rail where nobody says what its spans are.
+fn span(scene: &Scene, rail: &SceneRail) -> f64 {
+    let longest = match &scene.structures[rail.structure].origin {
+        Origin::Spec { spec, .. } => match &spec.form {
+            Form::Girder(girder) => girder.spans.iter().fold(0.0, |most, span| f64::max(most, *span)),
+            Form::Frame(_) => 0.0,
+        },
+        Origin::Tables { .. } => 0.0,
+    };
+    if longest > 0.0 { longest } else { rail.range[1] - rail.range[0] }
+}
+
+fn bent(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+    let deepest = wheels.deepest();
+    let span = span(scene, rail);
+    let share = deepest / span;
+    let what = if span < rail.range[1] - rail.range[0] { "span" } else { "length" };
+    (share > BENT).then(|| {
+        format!(
+            "{} gives by {share:.3} of its {what}, more than {BENT}: small displacements are no longer small",
+            rail.name
+        )
+    })
+}
+
+/// Rails that cannot draw in where they bend.
+fn taut(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
+    let Form::Frame(frame) = &spec.form else { return None };
+    let (_, carried) = frame.rails.get(rail.rail)?;
+    let share = taut::growth(&frame.model, carried, wheels.deepest()).filter(|share| *share > TAUT)?;
+    Some(format!(
+        "{} lies between supports that hold it lengthwise: the pull of its members would stiffen them by about \
+         {share:.2}, which is left out; let one end slide if it can",
+        rail.name
+    ))
+}
+
+/// Speed v against v_cr = (pi / L) sqrt(E I / m), 2 L f_1 of the longest span L of a girder that has mass and is
+/// taken without it.
+fn fast(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+    let structure = &scene.structures[rail.structure];
+    let light = structure.foundation == Foundation::Influence;
+    let Origin::Spec { spec, .. } = &structure.origin else { return None };
+    let Form::Girder(girder) = &spec.form else { return None };
+    let mass = girder.mass_per_length.filter(|mass| *mass > 0.0)?;
+    if !light || structure.auto || scene.analysis != Analysis::Dynamic {
+        return None;
+    }
+    let critical = PI / span(scene, rail) * (girder.e * girder.i_vertical / mass).sqrt();
+    let time = wheels.record.values("time");
+    let between = |x: &[f64]| {
+        let steps = x.windows(2).zip(time.windows(2)).filter(|(_, t)| t[1] > t[0]);
+        steps.fold(0.0_f64, |most, (x, t)| most.max(((x[1] - x[0]) / (t[1] - t[0])).abs()))
+    };
+    let alpha = wheels.histories("x").fold(0.0_f64, |most, x| most.max(between(x))) / critical;
+    (alpha > FAST).then(|| {
+        format!(
+            "wheels on {} run at {alpha:.2} of the critical speed, more than {FAST}, over a girder taken without its \
+             mass: \"modal\", \"full\" or \"auto\" have it",
+            rail.name
+        )
+    })
+}
+
+/// Tables that are zero at an end of the rail, with wheels in the bay next to it.
+fn held(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+    let structure = &scene.structures[rail.structure];
+    let Origin::Tables { tables, .. } = &structure.origin else { return None };
+    let (values, stations) = (tables.vertical.as_ref()?, &tables.stations);
+    let last = stations.len().checked_sub(1).filter(|last| *last > 0)?;
+    if structure.foundation == Foundation::Rigid {
+        return None;
+    }
+    let ends = [(0, [stations[0], stations[1]]), (last, [stations[last - 1], stations[last]])];
+    let used: Vec<String> = ends
+        .into_iter()
+        .filter(|(end, _)| values[*end].iter().all(|value| *value == 0.0))
+        .filter(|(_, bay)| wheels.histories("x").flatten().any(|x| *x >= bay[0] && *x <= bay[1]))
+        .map(|(end, _)| stations[end].to_string())
+        .collect();
+    (!used.is_empty()).then(|| {
+        format!(
+            "the table of {} is zero at its end {}, and wheels stand in the bay next to it: whether the rail can turn \
+             there, the table does not say",
+            rail.name,
+            used.join(" and ")
+        )
+    })
+}
+
+/// Bodies that roll by their forces over a reading that is not symmetric.
+fn unsymmetric(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+    let structure = &scene.structures[rail.structure];
+    let skew = matches!(structure.reading, Reading::Akispl | Reading::Cubspl);
+    if !skew || structure.foundation != Foundation::Influence || scene.analysis != Analysis::Dynamic {
+        return None;
+    }
+    let free = |body: usize| {
+        let root = &scene.bodies[seat(scene, body).0];
+        root.motion.is_free().then_some(&root.name)
+    };
+    let own = wheels.cast.wheels.iter().filter(|wheel| wheel.rail == wheels.rail);
+    let body = own.filter_map(|wheel| free(wheel.body)).next()?;
+    Some(format!(
+        "{body} rolls by its forces over {}, read by {}, which is not symmetric: energy comes and goes on the way; \
+         \"natural\" and \"exact\" keep it",
+        rail.name,
+        structure.reading.word()
+    ))
+}
+
+fn off(cast: &Cast, record: &Record) -> Vec<String> {
+    let mut all = Vec::new();
+    for wheel in &cast.wheels {
+        let forces = record.part(&wheel.name, "vertical");
+        if let Some(first) = forces.iter().position(|force| *force == 0.0) {
+            let off = forces.iter().filter(|force| **force == 0.0).count();
+            all.push(format!(
+                "{} is off its rail at {off} of {} output times, first at {} s",
+                wheel.name,
+                forces.len(),
+                record.values("time").get(first).copied().unwrap_or_default()
+            ));
+        }
+    }
+    all
+}

@@ -1,0 +1,137 @@
+//! Numbers of a scene that are rarely meant: weights given as masses, bodies that turn without inertia, structures that
+//! stand beside the body below them, ropes pulled beyond what ropes bear.
+
+use crate::record::Record;
+use formats::fault::number;
+use formats::number::rounded;
+use formats::scene::{Analysis, Body, Origin, Scene, seat};
+use formats::units::{Dimension, Scale, Units};
+
+/// Force of a body's own weight on a wheel by the square of its diameter that no wheel is built for, N/m2. Wheels of
+/// steel bear a third of it with all that they carry.
+const PRESSED: f64 = 3e6;
+
+/// Share of the distance of its wheels by which a body may hold a structure beyond them.
+const BEYOND: f64 = 0.1;
+
+/// Stretch of a rope by its length beyond which none holds: strands of 2000 N/mm2 break near it.
+const STRETCHED: f64 = 0.03;
+
+/// What looks like a slip in a scene, in words.
+#[must_use]
+pub(super) fn of_scene(scene: &Scene, record: &Record) -> Vec<String> {
+    let mut all = Vec::new();
+    for (b, body) in scene.bodies.iter().enumerate() {
+        all.extend(heavy(scene, b, body));
+        all.extend(idle(scene, body));
+    }
+    all.extend((0..scene.structures.len()).filter_map(|s| beside(scene, s)));
+    all.extend(stretched(scene, record));
+    all
+}
+
+/// A mass whose weight its wheels cannot carry, as if it were that weight.
+fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
+    let (root, _) = seat(scene, b);
+    let below = scene.trucks.iter().filter(|truck| seat(scene, truck.body).0 == root);
+    let squares: Vec<f64> = below
+        .flat_map(|truck| {
+            let diameter = 2.0 * scene.wheels[truck.wheel].radius;
+            truck.wheel_offsets().into_iter().map(move |_| diameter * diameter)
+        })
+        .collect();
+    let weight = body.mass * scene.gravity;
+    let scale = Scale { from: scene.units, to: Units::SI };
+    let pressed = weight / squares.iter().sum::<f64>() * scale.factor(Dimension::STRESS);
+    let [force, mass] = [Dimension::FORCE, Dimension::MASS].map(|of| scene.units.label(of));
+    (body.by_mass && !squares.is_empty() && pressed > PRESSED).then(|| {
+        format!(
+            "`mass` of {} is {} {mass}, a weight of {} {force}: its {} wheels are too small for it; a weight is given \
+             as `weight`",
+            body.name,
+            number(body.mass),
+            number(rounded(weight, 3)),
+            squares.len()
+        )
+    })
+}
+
+/// Rotations that are free in a body that has no inertia about them.
+fn idle(scene: &Scene, body: &Body) -> Option<String> {
+    let words = ["roll", "yaw", "pitch"].into_iter().enumerate();
+    let free: Vec<&str> =
+        words.filter(|(k, _)| body.free[3 + k] && body.inertia[*k] == 0.0).map(|(_, word)| word).collect();
+    (scene.analysis == Analysis::Dynamic && !free.is_empty()).then(|| {
+        format!(
+            "{} can {}, and its `inertia` there is 0: it turns as if all its mass lay in its centre; `inertia` is \
+             [roll, yaw, pitch]",
+            body.name,
+            free.join(" and ")
+        )
+    })
+}
+
+/// Supports that a body holds beyond its own wheels.
+fn beside(scene: &Scene, s: usize) -> Option<String> {
+    let structure = &scene.structures[s];
+    let (on, Origin::Spec { spec, .. }) = (structure.on?, &structure.origin) else { return None };
+    let (model, _) = spec.model().ok()?;
+    let (root, own) = seat(scene, on.body);
+    let wheels: Vec<[f64; 3]> = scene
+        .trucks
+        .iter()
+        .map(|truck| (truck, seat(scene, truck.body)))
+        .filter(|(_, (below, _))| *below == root)
+        .flat_map(|(truck, (_, arm))| {
+            let at = move |offset: f64| [arm[0] + offset, 0.0, arm[2] + truck.at[2]];
+            truck.wheel_offsets().into_iter().map(at)
+        })
+        .collect();
+    let held = model.supports.iter().map(|support| support.point);
+    let held = held.chain(model.springs.iter().map(|spring| spring.point));
+    let held: Vec<[f64; 3]> =
+        held.map(|point| [0, 1, 2].map(|k| own[k] + on.at[k] + model.points[point][k])).collect();
+    let told = [(0, "along"), (2, "across")].into_iter().find_map(|(k, word)| {
+        let [low, high] = reach(&wheels, k);
+        let [from, to] = reach(&held, k);
+        let slack = BEYOND * (high - low);
+        (slack > 0.0 && (from < low - slack || to > high + slack)).then(|| {
+            format!(
+                "{word} its track from {} to {}, where its wheels stand from {} to {}",
+                number(rounded(from, 6)),
+                number(rounded(to, 6)),
+                number(rounded(low, 6)),
+                number(rounded(high, 6))
+            )
+        })
+    });
+    let body = &scene.bodies[on.body].name;
+    told.map(|told| {
+        format!(
+            "{body} holds {} {told}: `at` of the structure is where the origin of its spec is from that of the body",
+            structure.name
+        )
+    })
+}
+
+/// The least and the largest coordinate `k`.
+fn reach(places: &[[f64; 3]], k: usize) -> [f64; 2] {
+    let all = places.iter().map(|place| place[k]);
+    all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
+}
+
+/// Ropes that are pulled beyond what ropes bear.
+fn stretched(scene: &Scene, record: &Record) -> Vec<String> {
+    let told = scene.ropes.iter().filter_map(|rope| {
+        let tension = record.part(&rope.name, "tension").iter().copied().fold(0.0, f64::max);
+        let share = tension / rope.stiffness;
+        (share > STRETCHED).then(|| {
+            format!(
+                "{} is stretched by {share:.3} of its length, more than {STRETCHED}: ropes break there; see the `mass` \
+                 it carries, and `EA`",
+                rope.name
+            )
+        })
+    });
+    told.collect()
+}

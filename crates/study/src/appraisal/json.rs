@@ -1,0 +1,129 @@
+//! Findings as JSON: `girderway-check/1`.
+
+use serde_json::{Value, json};
+use splines::check::{Deviation, Extreme, Kink};
+
+use super::findings::{Findings, Truth, Verdict};
+use super::readings::{DirectFindings, ReadingFindings, WHEELS};
+use super::subject::Subject;
+
+/// The word of the format, with its version.
+pub const FORMAT: &str = "girderway-check/1";
+
+/// The whole text.
+#[must_use]
+pub fn json(subject: &Subject, all: &[Findings]) -> String {
+    let tables: Vec<Value> = all.iter().map(table).collect();
+    let object = json!({
+        "format": FORMAT,
+        "file": subject.file,
+        "units": subject.units.map(formats::units::Units::json),
+        "passed": all.iter().all(|found| found.verdicts.is_empty()),
+        "notes": subject.notes,
+        "tables": tables,
+    });
+    format!("{object:#}\n")
+}
+
+fn table(found: &Findings) -> Value {
+    let table = &found.item.table;
+    let truth = match &found.truth {
+        Truth::Surface => json!({ "from": "surface" }),
+        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "misfit": lift.misfit }),
+        Truth::None => Value::Null,
+    };
+    let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
+    let hazards: Vec<Value> =
+        found.hazards.iter().map(|h| json!({ "kind": h.word(), "text": h.to_string() })).collect();
+    let beyond: Vec<Value> = found
+        .beyond
+        .iter()
+        .map(|row| {
+            json!({
+                "x": row.x, "z": row.z, "parabola": row.parabola, "cubic": row.cubic, "tangent": row.tangent,
+                "line": row.line, "spread": row.spread(),
+            })
+        })
+        .collect();
+    json!({
+        "id": found.item.id,
+        "name": found.item.name,
+        "x": table.x(),
+        "z": table.z(),
+        "direct": found.item.is_direct(),
+        "digits": found.digits.count,
+        "slack": found.digits.slack,
+        "asymmetry": found.asymmetry.as_ref().map(extreme),
+        "eigenvalues": found.spectrum.map(|s| [s.smallest, s.largest]),
+        "supports": found.supports,
+        "exact": truth,
+        "readings": found.readings.iter().map(|r| reading(found, r)).collect::<Vec<_>>(),
+        "beyond": beyond,
+        "hazards": hazards,
+        "failed": failed,
+    })
+}
+
+fn reading(found: &Findings, reading: &ReadingFindings) -> Value {
+    let error = |e: &Deviation, relative: f64| {
+        json!({
+            "relative": relative, "scale": e.scale, "largest": extreme(&e.largest),
+            "diagonal": e.diagonal.as_ref().map(extreme),
+        })
+    };
+    let mut object = json!({
+        "reading": reading.manner.word(),
+        "error": reading.error.as_ref().map(|e| error(e, found.relative(e))),
+        "error_between_supports": reading.span.as_ref().map(|e| error(e, e.relative())),
+    });
+    if let Some(own) = &reading.direct {
+        direct(&mut object, own, found.load);
+    }
+    object
+}
+
+fn direct(object: &mut Value, own: &DirectFindings, load: Option<f64>) {
+    object["asymmetry"] = extreme(&own.asymmetry);
+    object["eigenvalues"] = json!([own.spectrum.smallest, own.spectrum.largest]);
+    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.shares).map(|((wheels, layout), share)| {
+        json!({
+            "wheels": wheels, "at": layout.places, "eigenvalue": layout.smallest, "stiffness": layout.stiffness,
+            "indefinite_share": share,
+        })
+    });
+    object["layouts"] = layouts.collect();
+    object["slope_jump"] = own.kink.as_ref().map_or(Value::Null, kink);
+    if let Some(pair) = &own.pair {
+        object["pair"] = json!({
+            "at": pair.work.at, "work_by_load_squared": pair.work.work, "stored_by_load_squared": pair.work.stored,
+            "slope_jump": pair.kink.as_ref().map(kink),
+        });
+    }
+    if let Some(load) = load {
+        object["work"] = json!(load * load * own.asymmetry.value);
+        if let Some(pair) = &own.pair {
+            object["pair"]["work"] = json!(load * load * pair.work.work);
+        }
+    }
+}
+
+fn extreme(found: &Extreme) -> Value {
+    json!({ "value": found.value, "x": found.x, "z": found.z })
+}
+
+fn kink(found: &Kink) -> Value {
+    json!({ "x": found.x, "before": found.before, "beyond": found.beyond })
+}
+
+fn verdict(verdict: &Verdict) -> Value {
+    match verdict {
+        Verdict::Asymmetric(worst) => json!({ "check": "symmetric", "worst": extreme(worst) }),
+        Verdict::Indefinite(s) => {
+            json!({ "check": "positive-semidefinite", "eigenvalues": [s.smallest, s.largest] })
+        }
+        Verdict::Error(manner, error, tolerance) => {
+            json!({ "check": "error", "reading": manner.word(), "error": error, "tolerance": tolerance })
+        }
+        Verdict::Unknown(manner) => json!({ "check": "error", "reading": manner.word(), "error": null }),
+    }
+}

@@ -1,0 +1,209 @@
+//! Findings as pictures: errors under a moving wheel, and over all places of load and deflection.
+
+use splines::Error;
+use splines::check::{Strip, places};
+
+use super::findings::{Findings, Truth, UP, reading};
+use super::manner::Manner;
+use super::readings::{map, strip};
+use super::subject::Subject;
+use super::text::short;
+use formats::units::Dimension;
+use report::chart::{self, Axis, Chart, Series, Style, SurfacePlot};
+use report::{self, Picture, Report, Section};
+
+/// Places along the rail on a picture.
+const ACROSS: usize = 240;
+/// Places along each edge of a map.
+const MAP: usize = 90;
+
+/// A picture with its caption.
+pub struct Plate {
+    /// What it shows.
+    pub picture: Picture,
+    /// In words.
+    pub caption: String,
+}
+
+impl Plate {
+    /// As SVG.
+    ///
+    /// # Errors
+    /// What a chart cannot draw.
+    pub fn svg(&self) -> Result<String, chart::Error> {
+        match &self.picture {
+            Picture::Chart(chart) => chart.svg(),
+            Picture::Svg(svg) => Ok(svg.clone()),
+            Picture::Film(film) => Ok(film.svg.clone()),
+        }
+    }
+}
+
+/// Pictures of one table: none where nothing says what is exact.
+///
+/// # Errors
+/// What a chart cannot draw, or a reading cannot answer.
+pub fn plates(subject: &Subject, found: &Findings) -> Result<Vec<Plate>, Box<dyn std::error::Error>> {
+    let mut out = Vec::new();
+    let Some(ways) = found.item.ways else { return Ok(out) };
+    let exact = match (&found.truth, &subject.surface) {
+        (Truth::Surface, Some(surface)) => strip(surface, ways),
+        (Truth::Lifted(lift), _) => strip(&lift.surface, UP),
+        _ => return Ok(out),
+    };
+    let table = &found.item.table;
+    let title = if found.item.name.is_empty() {
+        format!("SPLINE/{}", found.item.id)
+    } else {
+        format!("SPLINE/{} {}", found.item.id, found.item.name)
+    };
+    let length = subject.units.map(|units| units.label(Dimension::LENGTH)).unwrap_or_default();
+    let own = |points: &[f64]| [points[0], points[points.len() - 1]];
+    let (mut x, mut z) = (own(table.x()), own(table.z()));
+    if let Some([a, b]) = exact.range() {
+        x = [x[0].max(a[0]), x[1].min(a[1])];
+        z = [z[0].max(b[0]), z[1].min(b[1])];
+    }
+    if found.item.is_direct() {
+        x = [x[0].max(z[0]), x[1].min(z[1])];
+        z = x;
+    }
+    if x[0] >= x[1] || z[0] >= z[1] {
+        return Ok(out);
+    }
+    if found.item.is_direct() {
+        out.extend(diagonal(subject, found, &exact, x, &title, &length)?);
+    }
+    let worst = found
+        .readings
+        .iter()
+        .filter_map(|r| Some((r.manner, found.relative(&r.error?))))
+        .max_by(|a, b| a.1.total_cmp(&b.1));
+    let Some((manner, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(out) };
+    let Some(reading) = reading(subject, &found.item, manner) else { return Ok(out) };
+    let (x, z) = (places(table.x(), x, MAP), places(table.z(), z, MAP));
+    let scale = scale(found);
+    let mut values = map(&strip(reading.as_ref(), ways), &exact, &z, &x)?;
+    values.iter_mut().flatten().for_each(|value| *value *= 100.0 / scale);
+    let plot = SurfacePlot {
+        title: format!("{title}: {} less exact", manner.word()),
+        label: "error, of the largest coefficient".to_owned(),
+        unit: "%".to_owned(),
+        length_unit: length,
+        at: z,
+        loads: x,
+        values,
+        supports: found.supports.clone(),
+        note: String::new(),
+    };
+    let caption = format!(
+        "Error of {} over all places of load and deflection, at most {} percent. Lines mark supports.",
+        manner.word(),
+        short(100.0 * error)
+    );
+    out.push(Plate { picture: plot.svg()?.into(), caption });
+    Ok(out)
+}
+
+fn scale(found: &Findings) -> f64 {
+    let own = found.readings.iter().find_map(|r| r.error.map(|e| e.scale));
+    found.scale.or(own).filter(|scale| *scale > 0.0).unwrap_or(1.0)
+}
+
+fn diagonal(
+    subject: &Subject,
+    found: &Findings,
+    exact: &Strip<'_>,
+    range: [f64; 2],
+    title: &str,
+    length: &str,
+) -> Result<Option<Plate>, Error> {
+    let Some(ways) = found.item.ways else { return Ok(None) };
+    let x = places(found.item.table.x(), range, ACROSS);
+    let scale = scale(found);
+    let mut chart = Chart::new(
+        format!("{title}: error under one moving wheel"),
+        Axis::new("place of the wheel", length),
+        Axis::new("error, of the largest coefficient", "%"),
+    );
+    for (index, one) in found.readings.iter().enumerate().filter(|(_, r)| r.manner != Manner::Exact) {
+        let Some(reading) = reading(subject, &found.item, one.manner) else { continue };
+        let own = strip(reading.as_ref(), ways);
+        let mut points = Vec::with_capacity(x.len());
+        for &x in &x {
+            points.push([x, 100.0 * (own.at(x, x)? - exact.at(x, x)?) / scale]);
+        }
+        let style = Style::in_turn(index);
+        chart = chart.with(Series::new(one.manner.word(), style, points));
+    }
+    if chart.series.is_empty() {
+        return Ok(None);
+    }
+    for support in found.supports.iter().filter(|s| (range[0]..=range[1]).contains(s)) {
+        chart = chart.mark(*support, "support");
+    }
+    let caption =
+        "Error of G(x, x), the give under a wheel that moves along the rail: reading less exact.".to_owned();
+    Ok(Some(Plate { picture: chart.into(), caption }))
+}
+
+/// Findings as one page.
+///
+/// # Errors
+/// As [`plates`], and what a page cannot hold.
+pub fn page(subject: &Subject, all: &[Findings]) -> Result<String, Box<dyn std::error::Error>> {
+    let mut report = Report {
+        title: "What readings of these tables cost".to_owned(),
+        subtitle: subject.file.clone(),
+        sections: Vec::new(),
+    };
+    for found in all {
+        let mut section = Section::new(format!("SPLINE/{} {}", found.item.id, found.item.name).trim_end());
+        for hazard in &found.hazards {
+            section = section.say(format!("Note: {hazard}."));
+        }
+        if !found.readings.is_empty() {
+            section = section.table(readings(subject, found));
+        }
+        for plate in plates(subject, found)? {
+            section = section.figure(plate.picture, plate.caption);
+        }
+        report.sections.push(section);
+    }
+    Ok(report.html(None)?)
+}
+
+fn readings(subject: &Subject, found: &Findings) -> report::Table {
+    let unit = |dimension| subject.units.map(|units| units.label(dimension)).unwrap_or_default();
+    let column = |name: &str, unit: &str| report::Column::new(name, unit);
+    let (length, stiffness) = (unit(Dimension::LENGTH), unit(Dimension::STIFFNESS));
+    let mut table = report::Table {
+        caption: "Readings, errors of the largest coefficient".to_owned(),
+        columns: vec![
+            column("reading", ""),
+            column("largest error", "%"),
+            column("load at", &length),
+            column("deflection at", &length),
+            column("asymmetry", "%"),
+            column("8 wheels indefinite from k", &stiffness),
+            column("slope jumps by", &unit(Dimension::of(0, -1, 0))),
+        ],
+        rows: Vec::new(),
+    };
+    let number = |value: Option<f64>| value.map_or(report::Cell::Empty, report::Cell::Number);
+    for one in &found.readings {
+        let direct = one.direct.as_ref();
+        table.rows.push(vec![
+            one.manner.word().into(),
+            number(one.error.map(|e| 100.0 * found.relative(&e))),
+            number(one.error.map(|e| e.largest.x)),
+            number(one.error.map(|e| e.largest.z)),
+            number(direct.filter(|d| d.scale > 0.0).map(|d| 100.0 * d.asymmetry.value / d.scale)),
+            direct.and_then(|d| d.layouts.last()).map_or(report::Cell::Empty, |layout| {
+                layout.stiffness.map_or_else(|| "never".into(), report::Cell::Number)
+            }),
+            number(direct.and_then(|d| d.kink).map(|k| k.jump())),
+        ]);
+    }
+    table
+}

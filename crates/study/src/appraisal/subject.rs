@@ -1,0 +1,172 @@
+//! What a file says of its tables.
+
+use std::path::Path;
+
+use nalgebra::DMatrix;
+use splines::check::Way;
+use splines::{Sheet, Surface, Table};
+
+use crate::Error;
+use formats::block::GridBlock;
+use formats::diagnostic::Diagnostic;
+use formats::fault::{Fault, Faults};
+use formats::grid::axes;
+use formats::grid_file;
+use formats::inputs::Inputs;
+use formats::place::Place;
+use formats::source::Source;
+use formats::tables::{self, Contents, TableSet};
+use formats::units::Units;
+
+/// Larger numbers are refused: their squares must be finite.
+const LARGEST: f64 = 1e60;
+/// Nearer stations are refused, of the table's length: their differences would be rounding.
+const NEAREST: f64 = 1e-9;
+
+/// Tables of one file, and the exact surface where it has one.
+pub struct Subject {
+    /// The file as the user named it.
+    pub file: String,
+    /// Units of all numbers, where the file says them.
+    pub units: Option<Units>,
+    /// Its tables.
+    pub items: Vec<Item>,
+    /// The exact surface behind them.
+    pub surface: Option<Surface>,
+    /// What a user should know of what is not here.
+    pub notes: Vec<String>,
+}
+
+/// One table.
+#[derive(Clone, Debug)]
+pub struct Item {
+    /// Its number.
+    pub id: u32,
+    /// Its name; empty where it has none.
+    pub name: String,
+    /// Ways of deflection and load; `None` where the file does not say of what a coupling is.
+    pub ways: Option<[Way; 2]>,
+    /// Whether the file would have ADAMS go on with a line beyond the ends; `None` where it is no ADAMS file.
+    pub linear: Option<bool>,
+    /// Its values.
+    pub table: Table,
+}
+
+impl Item {
+    /// Whether deflections and loads are of one way: only such a table is symmetric.
+    #[must_use]
+    pub fn is_direct(&self) -> bool {
+        self.ways.is_some_and(|[deflection, load]| deflection == load)
+    }
+}
+
+impl Subject {
+    /// Reads a grid file or tables.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or has no table.
+    pub fn open(path: &Path) -> Result<Subject, Error> {
+        let inputs = Inputs::open_bytes(path)?;
+        let input = &inputs.all()[0];
+        if tables::is_tables(&input.shown, &input.bytes) {
+            Subject::of_tables(&input.shown, &tables::contents(&input.shown, &input.bytes)?)
+        } else {
+            Subject::of_grid(&input.source()?)
+        }
+    }
+
+    fn of_grid(source: &Source) -> Result<Subject, Error> {
+        let (grid, surface) = grid_file::read(source)?;
+        let mut notes: Vec<String> = Vec::new();
+        for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
+            notes.push(format!("rail {} has fewer than four stations: no table of loads on it", rail.name));
+        }
+        let rails = grid.rails.len();
+        let mut items = Vec::new();
+        for table in &TableSet::of_grid(&grid).tables {
+            let ways = ways(table.id, rails);
+            items.extend(item(&source.name, table)?.map(|item| Item { ways, ..item }));
+        }
+        if items.is_empty() {
+            let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
+            let fault = fault.hint("a SPLINE has four x values or more");
+            return Err(Error::Input(source.diagnose(&Faults(vec![fault]))));
+        }
+        Ok(Subject { file: source.name.clone(), units: Some(grid.units), items, surface, notes })
+    }
+
+    fn of_tables(file: &str, contents: &Contents) -> Result<Subject, Error> {
+        let mut items = Vec::new();
+        let mut notes = Vec::new();
+        for (table, linear) in &contents.tables {
+            match item(file, table)? {
+                Some(item) => items.push(Item { linear: *linear, ..item }),
+                None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", table.id)),
+            }
+        }
+        // Nothing says which tables belong together: each is a way of its own.
+        for (index, item) in items.iter_mut().enumerate() {
+            if !is_coupling(&item.name) {
+                item.ways = Some([(index, splines::Axis::Vertical); 2]);
+            }
+        }
+        if items.is_empty() {
+            let wrong = Diagnostic::of_file(file, "has no SPLINE with a curve for each z");
+            return Err(wrong.hint("an influence table has one Y list for each z").into());
+        }
+        if contents.units.is_none() {
+            notes.push("the file says no units: numbers are in its own".to_owned());
+        }
+        Ok(Subject { file: file.to_owned(), units: contents.units, items, surface: None, notes })
+    }
+
+    /// The tables whose ways are known and have tables of their own, as a reading takes them.
+    #[must_use]
+    pub fn sheets(&self) -> Vec<Sheet> {
+        let own = |way: Way| self.items.iter().any(|item| item.ways == Some([way; 2]));
+        let known = self.items.iter().filter_map(|item| Some((item.ways?, &item.table)));
+        known
+            .filter(|([deflection, load], table)| own(*deflection) && own(*load) && table.z().len() > 1)
+            .map(|([deflection, load], table)| Sheet { deflection, load, table: table.clone() })
+            .collect()
+    }
+}
+
+/// A family as a table; `None` for one curve alone.
+fn item(file: &str, given: &tables::Table) -> Result<Option<Item>, Error> {
+    let curves = &given.curves;
+    if curves.z().is_empty() {
+        return Ok(None);
+    }
+    let numbers = curves.x().iter().chain(curves.z()).chain(curves.y().iter().flatten());
+    if let Some(wrong) = numbers.into_iter().find(|number| number.abs() > LARGEST) {
+        let wrong = format!("SPLINE/{} holds {wrong:e}, which no structure has", given.id);
+        return Err(Diagnostic::of_file(file, wrong).hint("which units are these?").into());
+    }
+    for points in [curves.x(), curves.z()] {
+        let least = NEAREST * (points[points.len() - 1] - points[0]);
+        if let Some(pair) = points.windows(2).find(|pair| pair[1] - pair[0] < least) {
+            let wrong = format!("SPLINE/{} has stations at {} and {}", given.id, pair[0], pair[1]);
+            return Err(Diagnostic::of_file(file, wrong).hint("take one of them out").into());
+        }
+    }
+    let values = DMatrix::from_fn(curves.z().len(), curves.x().len(), |i, j| curves.y()[i][j]);
+    let table = Table::new(curves.x().to_vec(), curves.z().to_vec(), values)?;
+    let unnamed = format!("SPLINE_{}", given.id);
+    let name = if given.name == unnamed { String::new() } else { given.name.clone() };
+    Ok(Some(Item { id: given.id, name, ways: None, linear: None, table }))
+}
+
+/// Ways of a grid's table by its number, of a grid of that many rails: six a pair of rails, from 6 on.
+fn ways(id: u32, rails: usize) -> Option<[Way; 2]> {
+    let place = usize::try_from(id).ok()?.checked_sub(6)?;
+    let (pair, index) = (place / 6, place % 6);
+    let (deflection, load) = axes(*GridBlock::ALL.get(index)?);
+    Some([(pair / rails.max(1), deflection), (pair % rails.max(1), load)])
+}
+
+/// Whether a table's name says that it relates two directions or two rails.
+fn is_coupling(name: &str) -> bool {
+    let couplings = GridBlock::ALL.into_iter().filter(|quantity| quantity.direct() != [*quantity; 2]);
+    name.contains("_from_") || couplings.into_iter().any(|quantity| name.ends_with(quantity.name()))
+}

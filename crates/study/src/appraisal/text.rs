@@ -1,0 +1,298 @@
+//! Findings as text: a column a reading.
+
+use std::fmt::Write;
+
+use splines::check::{Extreme, Layout};
+
+use super::findings::{Findings, Truth, Verdict};
+use super::readings::{DirectFindings, ReadingFindings, WHEELS};
+use super::subject::Subject;
+use formats::units::{Dimension, Units};
+
+/// Width of the names of rows, and of a column.
+const NAME: usize = 43;
+const COLUMN: usize = 13;
+
+/// Units of a text; empty where the file says none.
+#[derive(Clone, Copy)]
+struct Words(Option<Units>);
+
+impl Words {
+    fn of(self, dimension: Dimension) -> String {
+        self.0.map(|units| units.label(dimension)).unwrap_or_default()
+    }
+
+    /// ` (unit)`, or nothing.
+    fn bracket(self, dimension: Dimension) -> String {
+        let unit = self.of(dimension);
+        if unit.is_empty() { unit } else { format!(" ({unit})") }
+    }
+}
+
+/// The whole text.
+#[must_use]
+pub fn text(subject: &Subject, all: &[Findings]) -> String {
+    let units = Words(subject.units);
+    let mut out = String::new();
+    for note in &subject.notes {
+        // writing to a string cannot fail
+        let _ = writeln!(out, "note: {note}");
+    }
+    for (index, findings) in all.iter().enumerate() {
+        if index > 0 || !subject.notes.is_empty() {
+            out.push('\n');
+        }
+        one(&mut out, findings, units);
+    }
+    out
+}
+
+fn one(out: &mut String, found: &Findings, units: Words) {
+    let table = &found.item.table;
+    let (x, length) = (table.x(), units.of(Dimension::LENGTH));
+    let name = if found.item.name.is_empty() { String::new() } else { format!(" {}", found.item.name) };
+    let _ = writeln!(
+        out,
+        "SPLINE/{}{name}: {} x {} values, x from {} to {} {length}",
+        found.item.id,
+        table.z().len(),
+        x.len(),
+        short(x[0]),
+        short(x[x.len() - 1])
+    );
+    if found.item.ways.is_none() {
+        let _ = writeln!(out, "  a coupling by its name: it need not be symmetric, and is not read alone");
+    }
+    if found.is_empty() {
+        let _ = writeln!(out, "  no coupling: nothing but rounding beside the directions' own tables");
+        return;
+    }
+    stations(out, found, units);
+    if !found.readings.is_empty() {
+        let _ = writeln!(out, "  {}", truth(found, units));
+        readings(out, found, units);
+    }
+    beyond(out, found, units);
+    for hazard in &found.hazards {
+        let _ = writeln!(out, "  note: {hazard}");
+    }
+    for verdict in &found.verdicts {
+        let _ = writeln!(out, "  FAILED: {}", sentence(verdict, units));
+    }
+}
+
+fn stations(out: &mut String, found: &Findings, units: Words) {
+    let flexibility = units.of(Dimension::FLEXIBILITY);
+    let _ = writeln!(out, "  at the stations: {} digits", found.digits.count);
+    if let Some(worst) = found.asymmetry {
+        let word = if worst.value == 0.0 {
+            "symmetric".to_owned()
+        } else {
+            format!(
+                "largest |T - T'| {} {flexibility} at x = {}, z = {}",
+                short(worst.value),
+                short(worst.x),
+                short(worst.z)
+            )
+        };
+        let _ = writeln!(out, "    {word}");
+    }
+    if let Some(spectrum) = found.spectrum {
+        let _ = writeln!(
+            out,
+            "    eigenvalues from {} to {} {flexibility}; digits leave {} open",
+            if spectrum.smallest.abs() < 1e-13 * spectrum.largest {
+                "0".to_owned()
+            } else {
+                short(spectrum.smallest)
+            },
+            short(spectrum.largest),
+            short(found.digits.slack)
+        );
+    }
+}
+
+/// What errors are against.
+fn truth(found: &Findings, units: Words) -> String {
+    match &found.truth {
+        Truth::Surface => "readings, errors against the exact surface of the grid file".to_owned(),
+        Truth::Lifted(lift) => {
+            let stiffness = units.of(Dimension::of(2, 1, 0));
+            format!(
+                "readings, errors against the beam behind the table: EI = {} {stiffness}, {} % from its values",
+                short(1.0 / lift.bending),
+                short(100.0 * lift.misfit)
+            )
+        }
+        Truth::None => {
+            "readings; no beam in bending gives this table, so errors are not known: check its grid file"
+                .to_owned()
+        }
+    }
+}
+
+fn readings(out: &mut String, found: &Findings, units: Words) {
+    let all = &found.readings;
+    let length = units.bracket(Dimension::LENGTH);
+    let mut row = |name: &str, cell: &dyn Fn(&ReadingFindings) -> Option<String>| {
+        let cells: Vec<Option<String>> = all.iter().map(cell).collect();
+        if cells.iter().any(Option::is_some) {
+            let mut line = format!("    {name:NAME$}");
+            for cell in cells {
+                let _ = write!(line, " {:>COLUMN$}", cell.unwrap_or_else(|| "-".to_owned()));
+            }
+            let _ = writeln!(out, "{}", line.trim_end());
+        }
+    };
+    row("", &|r| Some(r.manner.word().to_owned()));
+    row("largest error (%)", &|r| r.error.map(|e| short(100.0 * found.relative(&e))));
+    row(&format!("  at x, z{length}"), &|r| r.error.map(|e| place(&e.largest)));
+    row("largest error under the load itself (%)", &|r| {
+        r.error.and_then(|e| Some(short(100.0 * e.diagonal?.value.abs() / e.scale.max(f64::MIN_POSITIVE))))
+    });
+    row(&format!("  at x{length}"), &|r| r.error.and_then(|e| Some(short(e.diagonal?.x))));
+    row("largest error between the supports (%)", &|r| r.span.map(|e| short(100.0 * e.relative())));
+    row(&format!("  at x, z{length}"), &|r| r.span.map(|e| place(&e.largest)));
+    row("largest |G(x, z) - G(z, x)| (%)", &|r| {
+        r.direct.as_ref().map(|d| percent(d.asymmetry.value, d.scale))
+    });
+    row(&format!("  at x, z{length}"), &|r| {
+        r.direct.as_ref().filter(|d| d.asymmetry.value > 0.0).map(|d| place(&d.asymmetry))
+    });
+    let (factor, work) = match found.load {
+        Some(load) => (load * load, format!("work of a loop of forces{}", units.bracket(Dimension::MOMENT))),
+        None => (1.0, format!("work of a loop by P^2{}", units.bracket(Dimension::FLEXIBILITY))),
+    };
+    row(&work, &|r| r.direct.as_ref().map(|d| short(factor * d.asymmetry.value)));
+    row(&format!("{work}, pair"), &|r| pair(r).map(|p| short(factor * p.work.work)));
+    row("  of what the pair stores there (%)", &|r| pair(r).map(|p| percent(p.work.work, p.work.stored)));
+    row(&format!("  first wheel at{length}"), &|r| {
+        pair(r).filter(|p| p.work.work > 0.0).map(|p| short(p.work.at[0]))
+    });
+    row("smallest eigenvalue, of the largest", &|r| {
+        r.direct.as_ref().map(|d| rounded(d.spectrum.smallest / d.spectrum.largest.max(f64::MIN_POSITIVE)))
+    });
+    for (k, wheels) in WHEELS.into_iter().enumerate() {
+        row(&format!("indefinite layouts of {wheels} wheels (%)"), &|r| {
+            r.direct.as_ref().map(|d| short(100.0 * d.shares[k]))
+        });
+    }
+    for (k, wheels) in WHEELS.into_iter().enumerate() {
+        let unit = units.bracket(Dimension::STIFFNESS);
+        row(&format!("{wheels} wheels indefinite from k ={unit}"), &|r| {
+            r.direct.as_ref().and_then(|d| d.layouts.get(k)).map(stiffness)
+        });
+    }
+    let slope = match found.load {
+        Some(_) => "jump of slope under a wheel (rad)".to_owned(),
+        None => format!("jump of slope under a wheel{}", units.bracket(Dimension::of(0, -1, 0))),
+    };
+    let load = found.load.unwrap_or(1.0);
+    let jump =
+        |value: f64, d: &DirectFindings| if noise(value, d) { "0".to_owned() } else { short(load * value) };
+    row(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.kink?.jump(), d))));
+    row(&format!("  at x{length}"), &|r| {
+        r.direct.as_ref().and_then(|d| d.kink.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
+    });
+    row(&format!("{slope}, pair"), &|r| {
+        let d = r.direct.as_ref()?;
+        Some(jump(d.pair?.kink?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
+    });
+    row(&format!("  first wheel at{length}"), &|r| {
+        let d = r.direct.as_ref()?;
+        d.pair?.kink.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
+    });
+}
+
+fn beyond(out: &mut String, found: &Findings, units: Words) {
+    let flexibility = units.of(Dimension::FLEXIBILITY);
+    let scale = found.item.table.values().amax();
+    for row in found.beyond.iter().filter(|row| row.spread() > 1e-9 * scale) {
+        let _ = writeln!(
+            out,
+            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} {flexibility}: {} % of the largest entry apart",
+            short(row.x),
+            short(row.z),
+            sharp(row.parabola),
+            sharp(row.cubic),
+            sharp(row.tangent),
+            sharp(row.line),
+            short(100.0 * row.spread() / scale)
+        );
+    }
+}
+
+fn sentence(verdict: &Verdict, Words(units): Words) -> String {
+    let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
+    match verdict {
+        Verdict::Asymmetric(worst) => format!(
+            "not symmetric: T(x = {}, z = {}) and its opposite differ by {} {unit}; take their mean, or find out which is wrong",
+            short(worst.x),
+            short(worst.z),
+            short(worst.value)
+        ),
+        Verdict::Indefinite(spectrum) => format!(
+            "not positive semi-definite: smallest eigenvalue {} {unit}, largest {}; no structure gives such a table",
+            short(spectrum.smallest),
+            short(spectrum.largest)
+        ),
+        Verdict::Error(manner, error, tolerance) => format!(
+            "{} errs by {} %, {} % are allowed: more stations, or another reading",
+            manner.word(),
+            short(100.0 * error),
+            short(100.0 * tolerance)
+        ),
+        Verdict::Unknown(manner) => {
+            format!("the error of {} is not known: nothing says what is exact", manner.word())
+        }
+    }
+}
+
+fn pair(reading: &ReadingFindings) -> Option<super::readings::Pair> {
+    reading.direct.as_ref()?.pair
+}
+
+fn place(at: &Extreme) -> String {
+    format!("{}, {}", short(at.x), short(at.z))
+}
+
+fn stiffness(layout: &Layout) -> String {
+    layout.stiffness.map_or_else(|| "never".to_owned(), short)
+}
+
+fn percent(part: f64, whole: f64) -> String {
+    short(if whole > 0.0 { 100.0 * part / whole } else { 0.0 })
+}
+
+/// A jump that rounding alone makes.
+fn noise(jump: f64, direct: &DirectFindings) -> bool {
+    jump.abs() < 1e-10 * direct.scale
+}
+
+/// A share below rounding is none.
+fn rounded(share: f64) -> String {
+    if share.abs() < 1e-13 { "0".to_owned() } else { short(share) }
+}
+
+/// Three digits.
+pub(super) fn short(value: f64) -> String {
+    digits(value, 3)
+}
+
+/// Four digits.
+fn sharp(value: f64) -> String {
+    digits(value, 4)
+}
+
+fn digits(value: f64, count: usize) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let size = value.abs();
+    if !(1e-3..1e5).contains(&size) {
+        return format!("{value:.*e}", count - 1);
+    }
+    let decimals = (count as i32 - 1 - size.log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

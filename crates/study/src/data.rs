@@ -1,0 +1,259 @@
+//! A study as JSON and CSV; times apart.
+
+use serde_json::{Map, Value, json};
+
+use super::depth::Depth;
+use super::front::{excess, on_front};
+use super::investigate::Study;
+use super::point::{Outcome, Point};
+use super::quantity::Quantity;
+use super::reference::{MARGIN, Reference, foundation};
+use super::setting::Family;
+use formats::scene::Scene;
+use results::record::bytes;
+
+/// `study.json`: everything but times.
+#[must_use]
+pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
+    let fronts = fronts(study, &stages);
+    let points = study.points.iter().enumerate();
+    json!({
+        "format": "girderway-study/1",
+        "name": scene.name,
+        "resolution": depth.resolution,
+        "limit": depth.limit,
+        "until": study.until,
+        "references": study.references.iter().map(reference).collect::<Vec<_>>(),
+        "lost": study.lost.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
+        "auto": match &study.auto {
+            Ok(auto) => {
+                let all = auto.reasons.iter().map(|(name, why)| (name.clone(), json!(why)));
+                Value::Object(all.collect())
+            }
+            Err(why) => json!({ "why": why }),
+        },
+        "dearer_by_stages": dearer(study, &stages),
+        "settings": points.map(|(k, own)| setting(own, &on(&fronts, k))).collect::<Vec<_>>(),
+    })
+}
+
+fn reference(own: &Reference) -> Value {
+    let each = |value: &dyn Fn(usize) -> Option<f64>| {
+        let all = Quantity::ALL.iter().enumerate();
+        all.filter_map(|(k, q)| Some((q.word().to_owned(), json!(value(k)?)))).collect::<Map<String, Value>>()
+    };
+    json!({
+        "against": own.against.word(),
+        "run": own.words[0],
+        "beside": own.words[1],
+        "difference": each(&|k| own.difference[k]),
+        "tells_from": each(&|k| own.difference[k].map(|difference| MARGIN * difference.max(f64::EPSILON))),
+        "approach": own.approach.iter()
+            .map(|(accuracy, difference)| json!({ "accuracy": accuracy, "difference": difference }))
+            .collect::<Vec<_>>(),
+    })
+}
+
+fn setting(point: &Point, fronts: &[&'static str]) -> Value {
+    let Point { setting, outcome } = point;
+    let structures = setting.scene.structures.iter().map(|own| (own.name.clone(), json!(foundation(own))));
+    let mut out = json!({
+        "family": setting.family.name(),
+        setting.knob: setting.value,
+        "accuracy": setting.scene.accuracy,
+        "against": setting.family.against().word(),
+        "foundation": structures.collect::<Map<String, Value>>(),
+    });
+    match outcome {
+        Outcome::Done(measured) => {
+            out["status"] = json!("done");
+            let errors = Quantity::ALL.iter().zip(&measured.errors);
+            let errors = errors.filter_map(|(quantity, own)| {
+                let own = (*own)?;
+                Some((quantity.word().to_owned(), json!({ "largest": own.largest, "peak": own.peak })))
+            });
+            out["errors"] = Value::Object(errors.collect());
+            out["steps"] = json!(measured.counts.steps);
+            out["rejected"] = json!(measured.counts.rejected);
+            out["stages"] = json!(measured.counts.stages);
+            out["events"] = json!(measured.counts.events);
+            out["freedoms"] = json!(measured.freedoms);
+            if let Some(memory) = measured.memory {
+                out["memory"] = json!({ "foundations": memory.foundations, "run": memory.run });
+            }
+            out["front_by_stages"] = json!(fronts);
+        }
+        Outcome::Stopped => out["status"] = json!("stopped"),
+        Outcome::Refused(why) => {
+            out["status"] = json!("refused");
+            out["why"] = json!(why);
+        }
+    }
+    out
+}
+
+/// By how much the points of `family` are dearer than the cheapest that errs no more, by quantity: 1 on the front.
+#[must_use]
+pub fn excesses(study: &Study, family: Family, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<(Quantity, f64)> {
+    let Some(reference) = study.reference(family.against()) else { return Vec::new() };
+    let of = |quantity: Quantity| {
+        let least = reference.tells(quantity)?;
+        let place = |point: &Point| Some([cost(point)?, point.error(quantity)?.max(least)]);
+        let all = study.points.iter().filter(|point| point.setting.family.against() == reference.against);
+        let all: Vec<(Family, [f64; 2])> =
+            all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
+        let own = all.iter().find(|(known, _)| *known == family)?.1;
+        let others: Vec<[f64; 2]> = all.into_iter().map(|(_, place)| place).collect();
+        Some((quantity, excess(own, &others)))
+    };
+    Quantity::ALL.into_iter().filter_map(of).collect()
+}
+
+/// The same as JSON, for the scene as written (by foundations and by methods) and for what "auto" chose.
+fn dearer(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Value {
+    let of = |family: Family| {
+        let all = excesses(study, family, cost).into_iter();
+        Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
+    };
+    json!({ "as written": of(Family::Written), "auto": of(Family::Auto), "stepping": of(Family::Stepping) })
+}
+
+/// Contact solutions of a point.
+#[must_use]
+pub fn stages(point: &Point) -> Option<f64> {
+    Some(point.measured()?.counts.stages as f64)
+}
+
+/// Which points are on the front of each quantity by `cost`, among those of one reference.
+fn fronts(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<Vec<usize>> {
+    let of = |quantity: Quantity| {
+        let mut kept = Vec::new();
+        for reference in &study.references {
+            let least = reference.resolves(quantity);
+            let (at, pairs): (Vec<usize>, Vec<[f64; 2]>) = study
+                .points
+                .iter()
+                .enumerate()
+                .filter(|(_, point)| point.setting.family.against() == reference.against)
+                .filter_map(|(k, point)| Some((k, [cost(point)?, point.error(quantity)?.max(least)])))
+                .unzip();
+            kept.extend(at.into_iter().zip(on_front(&pairs)).filter(|(_, on)| *on).map(|(k, _)| k));
+        }
+        kept
+    };
+    Quantity::ALL.map(of).to_vec()
+}
+
+fn on(fronts: &[Vec<usize>], point: usize) -> Vec<&'static str> {
+    let all = Quantity::ALL.iter().zip(fronts);
+    all.filter(|(_, own)| own.contains(&point)).map(|(quantity, _)| quantity.word()).collect()
+}
+
+/// `timing.json`: times of runs, in seconds that the thread worked.
+#[must_use]
+pub fn timing_json(study: &Study) -> Value {
+    let fronts = fronts(study, &Point::seconds);
+    let points = study.points.iter().enumerate().filter_map(|(k, point)| {
+        let measured = point.measured()?;
+        let time = measured.time?;
+        Some(json!({
+            "setting": point.setting.label(),
+            "median": time.median,
+            "least": time.least,
+            "most": time.most,
+            "repetitions": time.count,
+            "setup": measured.setup,
+            "front": on(&fronts, k),
+        }))
+    });
+    let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
+    json!({
+        "clock": if cfg!(unix) { "time that the thread worked, s" } else { "time, s" },
+        "dearer": dearer(study, &Point::seconds),
+        "settings": points.collect::<Vec<_>>(),
+        "auto_with_its_trials": trials.map(|own| json!({
+            "median": own.median, "least": own.least, "most": own.most, "repetitions": own.count,
+        })),
+    })
+}
+
+/// `study.csv`: a row a setting, without times.
+///
+/// # Errors
+/// None in practice: memory takes every byte.
+pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
+    let mut head: Vec<String> = ["family", "knob", "value", "against", "status"].map(str::to_owned).to_vec();
+    for quantity in Quantity::ALL {
+        head.extend(["largest", "peak"].map(|kind| format!("{}.{kind}", quantity.word())));
+    }
+    head.extend(["steps", "rejected", "stages", "events", "freedoms"].map(str::to_owned));
+    head.extend(["foundations [B]", "run [B]"].map(str::to_owned));
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(&head)?;
+    for point in &study.points {
+        let Point { setting, outcome } = point;
+        let (family, against) = (setting.family, setting.family.against());
+        let mut row = vec![family.name(), setting.knob.to_owned(), format!("{:?}", setting.value)];
+        row.push(against.word().to_owned());
+        row.push(
+            match outcome {
+                Outcome::Done(_) => "done",
+                Outcome::Stopped => "stopped",
+                Outcome::Refused(_) => "refused",
+            }
+            .to_owned(),
+        );
+        match point.measured() {
+            Some(measured) => {
+                for own in &measured.errors {
+                    let text = |value: f64| format!("{value:e}");
+                    let pair = own.map_or_else(Default::default, |own| [text(own.largest), text(own.peak)]);
+                    row.extend(pair);
+                }
+                let sim::Counts { steps, rejected, stages, events } = measured.counts;
+                row.extend([steps, rejected, stages, events, measured.freedoms].map(|own| own.to_string()));
+                let bytes = measured.memory.map(|own| [own.foundations, own.run].map(|own| own.to_string()));
+                row.extend(bytes.unwrap_or_default());
+            }
+            None => row.resize(head.len(), String::new()),
+        }
+        writer.write_record(&row)?;
+    }
+    bytes(writer)
+}
+
+/// `timing.csv`: a row a setting that ran, ms.
+///
+/// # Errors
+/// None in practice: memory takes every byte.
+pub fn timing_csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record([
+        "family",
+        "knob",
+        "value",
+        "median [ms]",
+        "least [ms]",
+        "most [ms]",
+        "repetitions",
+        "setup [ms]",
+    ])?;
+    for point in &study.points {
+        let Some((measured, time)) = point.measured().and_then(|own| Some((own, own.time?))) else {
+            continue;
+        };
+        let ms = |seconds: f64| format!("{:.6}", 1e3 * seconds);
+        let setting = &point.setting;
+        writer.write_record([
+            setting.family.name(),
+            setting.knob.to_owned(),
+            format!("{:?}", setting.value),
+            ms(time.median),
+            ms(time.least),
+            ms(time.most),
+            time.count.to_string(),
+            ms(measured.setup),
+        ])?;
+    }
+    bytes(writer)
+}

@@ -1,0 +1,59 @@
+//! What can go wrong with a study, or with a look at tables.
+
+use formats::diagnostic::Diagnostic;
+use formats::motion::UnequalShares;
+use thiserror::Error;
+
+/// Why there is no study, or nothing to be said of tables.
+#[derive(Debug, Error)]
+pub enum Error {
+    /// Something is wrong with a file of tables, or it cannot be read.
+    #[error("{}", lines(.0))]
+    Input(Vec<Diagnostic>),
+    /// A truck of the scene cannot be simulated.
+    #[error(transparent)]
+    Truck(#[from] UnequalShares),
+    /// A foundation cannot be made.
+    #[error(transparent)]
+    Foundation(#[from] foundations::Error),
+    /// A run has no results.
+    #[error(transparent)]
+    Results(#[from] results::Error),
+    /// A table cannot be used, or a rail cannot be evaluated at its stations.
+    #[error(transparent)]
+    Tables(#[from] splines::Error),
+    /// A structure has no exact surface to make tables of.
+    #[error("the exact surface is not known")]
+    NoSurface,
+    /// The simulator refuses a run.
+    #[error("{0}")]
+    Run(String),
+    /// No reference could be run.
+    #[error("no reference could be run: {0}")]
+    NoReference(String),
+    /// None of the references that errors are measured against could be run; why the first could not.
+    #[error("{0}")]
+    Lost(String),
+}
+
+fn lines(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("; ")
+}
+
+impl From<Diagnostic> for Error {
+    fn from(diagnostic: Diagnostic) -> Error {
+        Error::Input(vec![diagnostic])
+    }
+}
+
+impl From<Box<Diagnostic>> for Error {
+    fn from(diagnostic: Box<Diagnostic>) -> Error {
+        Error::from(*diagnostic)
+    }
+}
+
+impl From<Vec<Diagnostic>> for Error {
+    fn from(diagnostics: Vec<Diagnostic>) -> Error {
+        Error::Input(diagnostics)
+    }
+}

@@ -1,0 +1,190 @@
+//! The settings of a study.
+
+use sim::Method;
+
+use super::depth::Depth;
+use super::reference::Detail;
+use super::setting::{Family, Setting};
+use formats::scene::{Analysis, Foundation, Handover, Origin, Reading, Scene, Structure};
+use foundations::{Known, solved_of};
+
+/// What a scene's structures can be.
+#[derive(Clone, Copy, Debug)]
+pub struct Kinds {
+    /// Some structure has a beam spec whose foundation may vary: no ties.
+    pub varies: bool,
+    /// Every such structure has mass.
+    pub has_mass: bool,
+    /// Every such structure is a straight girder.
+    pub is_girder: bool,
+}
+
+impl Kinds {
+    /// Of the structures of `scene`.
+    #[must_use]
+    pub fn of(scene: &Scene, known: &[Known]) -> Kinds {
+        let solved = || {
+            let all = scene.structures.iter().filter(|structure| varies(structure));
+            all.filter_map(|structure| solved_of(known, &structure.origin))
+        };
+        let has_mass = |solved| foundations::modes_of(solved, 1).is_ok_and(|modes| modes.is_some());
+        Kinds {
+            varies: solved().next().is_some(),
+            has_mass: solved().all(has_mass),
+            is_girder: solved().all(|solved| solved.girder.is_some()),
+        }
+    }
+}
+
+/// Whether the foundation of a structure is the study's to vary.
+#[must_use]
+pub fn varies(structure: &Structure) -> bool {
+    let has_spec = matches!(structure.origin, Origin::Spec { .. });
+    has_spec && !matches!(structure.foundation, Foundation::Ties { .. })
+}
+
+/// `scene` with every foundation that may vary set by `set`.
+#[must_use]
+pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
+    let mut out = scene.clone();
+    for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
+        structure.foundation = set(structure);
+        structure.auto = false;
+        // neither gives way along the rails
+        if matches!(structure.foundation, Foundation::Rigid | Foundation::Parts { .. }) {
+            structure.longitudinal = false;
+        }
+    }
+    out
+}
+
+/// The mesh that "auto" takes as the top.
+fn mesh(scene: &Scene, known: &[Known]) -> Scene {
+    with(scene, |structure| {
+        let elements = foundations::elements(solved_of(known, &structure.origin));
+        Foundation::Full { elements, damping: structure.damping }
+    })
+}
+
+/// The structure with all that is known of it, to such a detail; without mass, the exact surface.
+#[must_use]
+pub fn whole(scene: &Scene, kinds: Kinds, detail: Detail) -> Scene {
+    if !kinds.has_mass || scene.analysis != Analysis::Dynamic {
+        return massless(scene);
+    }
+    with(scene, |structure| {
+        let damping = structure.damping;
+        match detail {
+            Detail::Modes(modes) => Foundation::Modal { modes, damping },
+            Detail::Mesh(elements) => Foundation::Full { elements, damping },
+        }
+    })
+}
+
+/// The structure without mass, exactly.
+#[must_use]
+pub fn massless(scene: &Scene) -> Scene {
+    let mut out = with(scene, |_| Foundation::Influence);
+    for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
+        structure.reading = Reading::Exact;
+    }
+    out
+}
+
+/// The settings of a study of `scene`, whose foundations are chosen.
+#[must_use]
+pub fn settings(scene: &Scene, known: &[Known], kinds: Kinds, depth: &Depth) -> Vec<Setting> {
+    let mut list = List { depth, dynamic: scene.analysis == Analysis::Dynamic, all: Vec::new() };
+    if kinds.varies {
+        list.foundations(scene, known, kinds);
+        list.tables(&massless(scene));
+    }
+    if list.dynamic {
+        list.methods(scene);
+    }
+    list.all
+}
+
+struct List<'d> {
+    depth: &'d Depth,
+    dynamic: bool,
+    all: Vec<Setting>,
+}
+
+impl List<'_> {
+    fn add(&mut self, family: Family, knob: &'static str, value: f64, scene: Scene) {
+        self.all.push(Setting { family, knob, value, scene, stations: None });
+    }
+
+    fn by_accuracy(&mut self, family: Family, scene: &Scene) {
+        // equilibria know no accuracy
+        let all = if self.dynamic { self.depth.accuracies.as_slice() } else { &[self.depth.fine] };
+        for &accuracy in all {
+            self.add(family, "accuracy", accuracy, Scene { accuracy, ..scene.clone() });
+        }
+    }
+
+    fn foundations(&mut self, scene: &Scene, known: &[Known], kinds: Kinds) {
+        let scene = &Scene { stepping: sim::Stepping::default(), ..scene.clone() };
+        let fine = Scene { accuracy: self.depth.fine, ..massless(scene) };
+        self.by_accuracy(Family::Rigid, &with(&fine, |_| Foundation::Rigid));
+        if kinds.is_girder {
+            for &count in &self.depth.parts {
+                let handover = Handover::Blend { length: None };
+                let scene = with(&fine, |_| Foundation::Parts { count, handover, damping: 0.0 });
+                self.add(Family::Parts, "parts", count as f64, scene);
+            }
+        }
+        self.by_accuracy(Family::Influence, &fine);
+        if kinds.has_mass && self.dynamic {
+            for family in [Family::Modal, Family::Pure] {
+                for &modes in &self.depth.modes {
+                    let scene = with(&fine, |own| Foundation::Modal { modes, damping: own.damping });
+                    self.add(family, "modes", modes as f64, scene);
+                }
+            }
+            for &elements in &self.depth.elements {
+                let scene = with(&fine, |own| Foundation::Full { elements, damping: own.damping });
+                self.add(Family::Mesh, "elements", elements as f64, scene);
+            }
+            self.by_accuracy(Family::Full, &mesh(scene, known));
+        }
+    }
+
+    fn tables(&mut self, scene: &Scene) {
+        let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());
+        let exact = Scene { accuracy, stepping, ..scene.clone() };
+        let rails = scene.structures.iter().filter(|own| varies(own)).flat_map(|own| &own.rails);
+        let stations = rails.map(|rail| rail.stations.len()).max().unwrap_or(0);
+        self.add(Family::Table(Reading::Exact), "stations", stations as f64, exact);
+        for reading in [Reading::Natural, Reading::Akispl, Reading::Cubspl] {
+            for &count in &self.depth.stations {
+                let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());
+                let mut scene = Scene { accuracy, stepping, ..scene.clone() };
+                for structure in scene.structures.iter_mut().filter(|structure| varies(structure)) {
+                    structure.reading = reading;
+                }
+                let family = Family::Table(reading);
+                let stations = Some(count);
+                self.all.push(Setting { family, knob: "stations", value: count as f64, scene, stations });
+            }
+        }
+    }
+
+    fn methods(&mut self, scene: &Scene) {
+        for method in [Method::Sdirk4, Method::Radau, Method::Series] {
+            for &accuracy in &self.depth.accuracies {
+                let stepping = sim::Stepping { method, step: None };
+                let scene = Scene { accuracy, stepping, ..scene.clone() };
+                self.add(Family::Adaptive(method), "accuracy", accuracy, scene);
+            }
+        }
+        for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
+            for &count in &self.depth.steps {
+                let stepping = sim::Stepping { method, step: Some(scene.end / f64::from(count)) };
+                let scene = Scene { accuracy: self.depth.fine, stepping, ..scene.clone() };
+                self.add(Family::Fixed(method), "steps", f64::from(count), scene);
+            }
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! A setting made ready to run, as often as wanted.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use sim::{Foundation, Run};
+use splines::Compliance;
+
+use super::cpu;
+use super::misfit::Trace;
+use super::quantity::Quantity;
+use super::setting::Setting;
+use crate::Error;
+use crate::stations;
+use formats::grid::GridRail;
+use formats::motion::{Cast, cast};
+use formats::quantity::quantities;
+use formats::scene::Scene;
+use foundations::{Known, solved_of};
+use foundations::{Laid, Solved, Spectra};
+use results::cases::recorded;
+use results::record::Record;
+use results::response::{self, Response};
+
+/// What makes settings ready: solved structures and modes that were found already.
+pub struct Workshop<'k> {
+    known: &'k [Known],
+    spectra: Vec<Spectra>,
+    /// Tables by their stations a rail.
+    tables: Vec<(usize, Vec<Known>)>,
+}
+
+/// A setting made ready.
+pub struct Rig {
+    scene: Scene,
+    cast: Cast,
+    foundations: Vec<Foundation>,
+    /// Stations a rail of the tables.
+    stations: Option<usize>,
+    /// Seconds of thread time that it took to make the foundations.
+    pub setup: f64,
+}
+
+impl<'k> Workshop<'k> {
+    /// For runs of `scene` and of what settings make of it.
+    #[must_use]
+    pub fn new(scene: &Scene, known: &'k [Known]) -> Workshop<'k> {
+        let spectra = scene.structures.iter().map(|_| Spectra::default()).collect();
+        Workshop { known, spectra, tables: Vec::new() }
+    }
+
+    /// Makes a setting ready.
+    ///
+    /// # Errors
+    /// Foundations that cannot be made.
+    pub fn rig(&mut self, setting: &Setting) -> Result<Rig, Error> {
+        let start = cpu::seconds();
+        let scene = setting.scene.clone();
+        let cast = cast(&scene)?;
+        let mut laid = self.lay(&scene, setting.stations)?;
+        if setting.family.is_pure() {
+            for laid in laid.iter_mut().filter(|laid| laid.foundation.structure.is_some()) {
+                laid.foundation.compliance = None;
+            }
+        }
+        let recorded = recorded(&scene, self.known);
+        let mut foundations: Vec<Foundation> = laid.into_iter().map(|laid| laid.foundation).collect();
+        for (s, foundation) in foundations.iter_mut().enumerate() {
+            foundation.recorded = recorded(s, foundation);
+        }
+        Ok(Rig { scene, cast, foundations, stations: setting.stations, setup: cpu::seconds() - start })
+    }
+
+    /// The columns of a run that errors are measured in.
+    ///
+    /// # Errors
+    /// A structure that does not stand.
+    pub fn trace(&mut self, rig: &Rig, run: &Run) -> Result<Trace, Error> {
+        let scene = &rig.scene;
+        let laid = self.lay(scene, rig.stations)?;
+        let known = self.known;
+        let solved: Vec<Option<&Solved>> =
+            scene.structures.iter().map(|structure| solved_of(known, &structure.origin)).collect();
+        let lines = response::lines(scene, &laid, &solved)?;
+        let mut record = Record::new(scene, &run.history);
+        let response = Response::new(scene, &rig.cast, &run.history, &laid, &solved, &lines, &mut record)?;
+        let own = quantities(scene).len();
+        let mut trace = Trace { time: record.values("time").to_vec(), columns: Vec::new() };
+        for (index, column) in record.columns.into_iter().enumerate() {
+            let is_reaction =
+                index >= own && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
+            if let Some(quantity) = Quantity::of(&column, scene, index < own, is_reaction) {
+                trace.columns.push((column.name, quantity, column.values));
+            }
+        }
+        Ok(trace)
+    }
+
+    fn lay(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<Laid>, Error> {
+        let lateral = scene.pushes_sideways();
+        let at = stations.map(|count| self.table(count)).transpose()?;
+        let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
+        let each = scene.structures.iter().zip(&mut self.spectra);
+        let laid = each
+            .map(|(own, spectra)| foundations::laid(spectra, own, solved_of(known, &own.origin), lateral))
+            .collect::<Result<_, _>>()?;
+        Ok(laid)
+    }
+
+    /// Index of the grids at `count` even stations a rail.
+    fn table(&mut self, count: usize) -> Result<usize, Error> {
+        if let Some(at) = self.tables.iter().position(|(own, _)| *own == count) {
+            return Ok(at);
+        }
+        let of =
+            |known: &Known| Ok(Known { spec: Arc::clone(&known.spec), solved: table(&known.solved, count)? });
+        let all = self.known.iter().map(of).collect::<Result<Vec<Known>, Error>>()?;
+        self.tables.push((count, all));
+        Ok(self.tables.len() - 1)
+    }
+}
+
+/// The same structure with grids at `count` even stations a rail.
+fn table(solved: &Solved, count: usize) -> Result<Solved, Error> {
+    let Some(surface) = &solved.surface else {
+        return Err(Error::NoSurface);
+    };
+    let mut rails = solved.rails.clone();
+    let mut named = Vec::new();
+    for (rail, (given, known)) in rails.iter_mut().zip(&solved.grid.rails).enumerate() {
+        let [low, high] = surface.range(rail).unwrap_or_default();
+        given.stations =
+            (0..count).map(|i| low + (high - low) * i as f64 / (count - 1).max(1) as f64).collect();
+        named.push(GridRail { name: known.name.clone(), stations: given.stations.clone() });
+    }
+    let grid = stations::at(&solved.grid, surface, named)?;
+    Ok(Solved {
+        model: solved.model.clone(),
+        rails,
+        surface: Some(surface.clone()),
+        grid,
+        girder: solved.girder.clone(),
+        size: None,
+    })
+}
+
+impl Rig {
+    /// Runs it once. `watch` sees the time reached, and may stop the run.
+    ///
+    /// # Errors
+    /// A scene that cannot start; a method that does not suit it.
+    pub fn run(&self, watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Run, sim::Error> {
+        sim::run_by(self.scene.stepping, &self.cast.scene, &self.foundations, watch)
+    }
+
+    /// Freedoms of bodies aside, how many the foundations have.
+    #[must_use]
+    pub fn freedoms(&self) -> usize {
+        self.foundations.iter().map(Foundation::freedoms).sum()
+    }
+}

@@ -1,0 +1,74 @@
+//! Maps as JSON and CSV.
+
+use serde_json::{Map as Object, Value, json};
+
+use super::map::{Layer, Map, Verdict};
+use results::record::bytes;
+
+/// `stability.json`: counts, numbers found and messages of every map, and why others are absent.
+#[must_use]
+pub fn json(maps: &[Map], absent: &[(String, String)]) -> Value {
+    let points = |ours: bool| {
+        let layers = maps.iter().flat_map(|map| &map.layers).filter(|layer| layer.is_ours == ours);
+        layers.map(|layer| layer.cells.len()).sum::<usize>()
+    };
+    json!({
+        "format": "girderway-stability/1",
+        "points": { "girderway": points(true), "others": points(false) },
+        "silently_wrong": maps.iter().map(Map::silent).sum::<usize>(),
+        "maps": maps.iter().map(map).collect::<Vec<_>>(),
+        "absent": absent.iter().map(|(name, why)| (name.clone(), json!(why))).collect::<Object<String, Value>>(),
+    })
+}
+
+fn map(own: &Map) -> Value {
+    let axis = |k: usize| json!({ "label": own.axes[k].label, "unit": own.axes[k].unit });
+    let found = own.findings.iter().map(|finding| json!({ "what": finding.what, "value": finding.value }));
+    json!({
+        "name": own.name,
+        "title": own.title,
+        "note": own.note,
+        "x": axis(0),
+        "y": axis(1),
+        "found": found.collect::<Vec<_>>(),
+        "methods": own.layers.iter().map(layer).collect::<Vec<_>>(),
+    })
+}
+
+fn layer(own: &Layer) -> Value {
+    let counts = Verdict::WORDS.iter().zip(own.counts());
+    let mut messages: Vec<(&str, usize)> = Vec::new();
+    for cell in &own.cells {
+        let Verdict::Refused(why) = &cell.verdict else { continue };
+        match messages.iter_mut().find(|(known, _)| known == why) {
+            Some((_, count)) => *count += 1,
+            None => messages.push((why, 1)),
+        }
+    }
+    let counts = counts.map(|(word, count)| ((*word).to_owned(), json!(count)));
+    json!({
+        "method": own.method,
+        "is_girderway": own.is_ours,
+        "counts": counts.collect::<Object<String, Value>>(),
+        "messages": messages.iter().map(|(why, count)| json!({ "message": why, "points": count })).collect::<Vec<_>>(),
+    })
+}
+
+/// `stability.csv`: a row a point.
+///
+/// # Errors
+/// None in practice: memory takes every byte.
+pub fn csv(maps: &[Map]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    writer.write_record(["map", "method", "x", "y", "verdict", "value"])?;
+    for map in maps {
+        for layer in &map.layers {
+            for cell in &layer.cells {
+                let [x, y] = cell.at.map(|own| format!("{own:e}"));
+                let value = format!("{:e}", cell.value);
+                writer.write_record([map.name, &layer.method, &x, &y, cell.verdict.word(), &value])?;
+            }
+        }
+    }
+    bytes(writer)
+}

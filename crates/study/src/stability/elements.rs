@@ -1,0 +1,183 @@
+//! Elements against error in double precision.
+
+use fea::{Frame, Member, Model, Rail, Segment, Support};
+use splines::{Axis, Probe};
+
+use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::subject::Subject;
+use report::chart::{Series, Style};
+
+/// Error that is none to an engineer, and one that nobody overlooks.
+const ALLOWED: f64 = 1e-6;
+const OBVIOUS: f64 = 0.5;
+/// The least error drawn.
+const LEAST: f64 = 1e-17;
+
+/// Stiffness of an element of length h and bending stiffness 1: displacement and slope of its ends.
+pub(super) fn bending(h: f64) -> [[f64; 4]; 4] {
+    [
+        [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
+        [6.0 / (h * h), 4.0 / h, -6.0 / (h * h), 2.0 / h],
+        [-12.0 / (h * h * h), -6.0 / (h * h), 12.0 / (h * h * h), -6.0 / (h * h)],
+        [6.0 / (h * h), 2.0 / h, -6.0 / (h * h), 4.0 / h],
+    ]
+}
+
+/// Midspan deflection of a simply supported beam of unit length and stiffness under a unit force there, in elements of the
+/// given lengths: banded Cholesky in doubles, as programs do it.
+fn naive(lengths: &[f64], node: usize) -> Option<f64> {
+    let count = lengths.len();
+    let n = 2 * (count + 1);
+    let mut band = vec![[0.0_f64; 4]; n];
+    for (e, &h) in lengths.iter().enumerate() {
+        for (i, row) in bending(h).iter().enumerate() {
+            for (j, value) in row.iter().enumerate().take(i + 1) {
+                band[2 * e + i][3 + j - i] += value;
+            }
+        }
+    }
+    // supports: unit rows
+    for held in [0, n - 2] {
+        for (offset, entry) in band[held].iter_mut().enumerate() {
+            *entry = if offset == 3 { 1.0 } else { 0.0 };
+        }
+        for below in 1..4 {
+            if held + below < n {
+                band[held + below][3 - below] = 0.0;
+            }
+        }
+    }
+    for i in 0..n {
+        for j in i.saturating_sub(3)..=i {
+            let from = i.saturating_sub(3).max(j.saturating_sub(3));
+            let sum: f64 = (from..j).map(|m| band[i][3 + m - i] * band[j][3 + m - j]).sum();
+            let value = band[i][3 + j - i] - sum;
+            if i == j {
+                if value <= 0.0 {
+                    return None;
+                }
+                band[i][3] = value.sqrt();
+            } else {
+                band[i][3 + j - i] = value / band[j][3];
+            }
+        }
+    }
+    let mut w = vec![0.0; n];
+    w[2 * node] = 1.0;
+    for i in 0..n {
+        let sum: f64 = (i.saturating_sub(3)..i).map(|m| band[i][3 + m - i] * w[m]).sum();
+        w[i] = (w[i] - sum) / band[i][3];
+    }
+    for i in (0..n).rev() {
+        let sum: f64 = (i + 1..(i + 4).min(n)).map(|m| band[m][3 + i - m] * w[m]).sum();
+        w[i] = (w[i] - sum) / band[i][3];
+    }
+    Some(w[2 * node])
+}
+
+/// The same by the program, with the bound that it certifies.
+fn ours(lengths: &[f64], node: usize) -> Result<(f64, f64), String> {
+    let section = fea::Section { e: 1.0, iz: 1.0, ..fea::Section::default() };
+    let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
+    model.sections.push(section);
+    let mut x = 0.0;
+    model.points.push([x, 0.0, 0.0]);
+    let mut segments = Vec::new();
+    for (e, h) in lengths.iter().enumerate() {
+        x += h;
+        model.points.push([x, 0.0, 0.0]);
+        model.members.push(Member::beam([e, e + 1], 0, model.up));
+        segments.push(Segment { member: e, offset: [0.0; 3] });
+    }
+    let last = lengths.len();
+    model.supports.push(Support { point: 0, fix: [true, true, true, true, false, false] });
+    model.supports.push(Support { point: last, fix: [false, true, true, true, false, false] });
+    let place = model.points[node][0];
+    let rail = Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: vec![place] };
+    let frame = Frame::new(&model, &[rail]).map_err(|error| error.to_string())?;
+    let probe = Probe { rail: 0, x: place, axis: Axis::Vertical };
+    let grid = frame.grid(&[probe]).map_err(|error| error.to_string())?;
+    Ok((grid.value[(0, 0)], grid.certificate.error_bound))
+}
+
+/// Exact deflection at x of the beam of unit length and stiffness under a unit force there.
+fn exact(x: f64) -> f64 {
+    x * x * (1.0 - x) * (1.0 - x) / 3.0
+}
+
+/// Both maps: equal elements, and one that is short.
+#[must_use]
+pub fn maps(subject: &Subject<'_>, most: u32) -> Vec<Map> {
+    let title = format!("{}: elements against error in double precision", subject.name);
+    let axes = |label: &str| [Scale::new(label, "", true), Scale::new("relative error at midspan", "", true)];
+    let mut equal = Map::new(
+        "elements",
+        &title,
+        axes("equal elements of a simply supported span"),
+        "Euler-Bernoulli elements, exact but for rounding; wrong from 1e-6 on. The line is the bound that girderway certifies.",
+    );
+    let many: Vec<Vec<f64>> = (1..=most).map(|i| vec![1.0 / f64::from(1 << i); 1 << i]).collect();
+    fill(&mut equal, many.iter().map(|own| (own.len() as f64, own.clone(), own.len() / 2)));
+    let mut short = Map::new(
+        "short-element",
+        "One short element among two long ones: error in double precision",
+        axes("length of the short element by the span"),
+        "Two halves and one short element between them; wrong from 1e-6 on. The line is the bound that girderway certifies.",
+    );
+    let ratios = super::steps::spread(1e-9, 1e-1, 65);
+    let few = ratios.into_iter().map(|ratio| (ratio, vec![0.5 - 0.5 * ratio, ratio, 0.5 - 0.5 * ratio], 1));
+    fill(&mut short, few);
+    vec![equal, short]
+}
+
+fn fill(map: &mut Map, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
+    let mut layers = [("doubles, banded Cholesky", false), ("girderway", true)]
+        .map(|(method, ours)| Layer::new(method, ours));
+    let mut bounds = Vec::new();
+    for (x, lengths, node) in meshes {
+        let place: f64 = lengths.iter().take(node).sum();
+        let wanted = exact(place);
+        let relative = |found: f64| (found / wanted - 1.0).abs().max(LEAST);
+        let (value, verdict) = match naive(&lengths, node) {
+            Some(found) => (relative(found), Verdict::of(relative(found), ALLOWED, OBVIOUS)),
+            None => (1.0, Verdict::Refused("the matrix is not positive definite".to_owned())),
+        };
+        map.find(format!("doubles: relative error at {x}"), value);
+        layers[0].cells.push(Cell { at: [x, value], value, verdict });
+        let (value, verdict) = match ours(&lengths, node) {
+            Ok((found, bound)) => {
+                bounds.push([x, bound.max(LEAST)]);
+                // wrong is also what exceeds its own bound
+                let error = relative(found);
+                let is_right = error <= ALLOWED && error <= bound.max(4.0 * f64::EPSILON);
+                (
+                    error,
+                    if is_right {
+                        Verdict::Right
+                    } else {
+                        Verdict::of(error.max(2.0 * ALLOWED), ALLOWED, OBVIOUS)
+                    },
+                )
+            }
+            Err(why) => (1.0, Verdict::Refused(why)),
+        };
+        layers[1].cells.push(Cell { at: [x, value], value, verdict });
+    }
+    layers[1].lines.push(Series::new("girderway's certified bound", Style::Line, bounds));
+    map.layers.extend(layers);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn banded_solver_gives_the_closed_form() {
+        for lengths in [vec![0.5, 0.5], vec![0.25; 4], vec![0.1, 0.3, 0.2, 0.4]] {
+            let node = 2.min(lengths.len() - 1);
+            let place: f64 = lengths.iter().take(node).sum();
+            let found = naive(&lengths, node).expect("a beam that stands");
+            assert!((found / exact(place) - 1.0).abs() < 1e-12, "{lengths:?}: {found}");
+        }
+    }
+}

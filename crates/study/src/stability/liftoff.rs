@@ -1,0 +1,156 @@
+//! A rigid mass on a beam without mass (Willis and Stokes): where contact is lost.
+
+use std::ops::ControlFlow;
+
+use sim::{Channel, Status};
+
+use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::steps::spread;
+use super::subject::Subject;
+use report::chart::{Series, Style};
+
+/// Error of the largest midspan deflection, by the static one, that is none.
+const ALLOWED: f64 = 2e-3;
+const OBVIOUS: f64 = 1e3;
+/// Steps over the span of the reference.
+const STEPS: usize = 40_000;
+/// Where a passage ends, as a share of the span, and its samples.
+const LAST: f64 = 0.98;
+const SAMPLES: f64 = 4000.0;
+/// Stiffness of a wheel by that of the span: as good as rigid.
+const RIGID: f64 = 3e4;
+
+/// Largest midspan deflection by the static one S = P L^3 / 48 E I as long as the force has not turned negative, and the
+/// share of the span at which it does (1 where it does not).
+#[derive(Clone, Copy, Debug)]
+struct Passage {
+    factor: f64,
+    lost: f64,
+}
+
+/// Give at the share x of a simply supported span under a force at z, by that at midspan under one there.
+fn give(x: f64, z: f64) -> f64 {
+    let (a, c) = if x < z { (x, z) } else { (z, x) };
+    let q = 1.0 - c;
+    8.0 * a * q * (1.0 - a * a - q * q)
+}
+
+/// The passage by a fixed fine step: y'' = 16 beta (1 - F), F = y / g(s), y and F by S and the weight, s the share of the
+/// span as time.
+///
+/// # Source
+/// G. G. Stokes, Discussion of a differential equation relating to the breaking of railway bridges, Trans. Cambridge
+/// Phil. Soc. 8 (1849), 707-735: with beta = g L^2 / (16 v^2 S).
+fn reference(beta: f64) -> Passage {
+    let h = 1.0 / STEPS as f64;
+    let force = |s: f64, y: f64| {
+        let own = give(s, s);
+        if own > 1e-12 { y / own } else { 1.0 }
+    };
+    let slope = |s: f64, [y, v]: [f64; 2]| [v, 16.0 * beta * (1.0 - force(s, y))];
+    // near the support g = 16 s^2: a path that begins level has y = 16 F s^2, so 32 F = 16 beta (1 - F)
+    let mut s = (1e-3 / h).round() * h;
+    let own = beta / (beta + 2.0);
+    let mut state = [16.0 * own * s * s, 32.0 * own * s];
+    let mut out = Passage { factor: 0.0, lost: 1.0 };
+    while s < LAST {
+        let add = |a: [f64; 2], b: [f64; 2], by: f64| [a[0] + by * b[0], a[1] + by * b[1]];
+        let k1 = slope(s, state);
+        let k2 = slope(s + 0.5 * h, add(state, k1, 0.5 * h));
+        let k3 = slope(s + 0.5 * h, add(state, k2, 0.5 * h));
+        let k4 = slope(s + h, add(state, k3, h));
+        for i in 0..2 {
+            state[i] += h / 6.0 * (k1[i] + 2.0 * k2[i] + 2.0 * k3[i] + k4[i]);
+        }
+        s += h;
+        if state[0] < 0.0 {
+            out.lost = s;
+            break;
+        }
+        out.factor = out.factor.max(force(s, state[0]) * give(0.5, s));
+    }
+    out
+}
+
+/// The same by the program, on a stiff wheel that `pulls` (or not); least force by the weight.
+fn ours(subject: &Subject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
+    let length = subject.length();
+    let mid = 0.5 * (subject.span[0] + subject.span[1]);
+    let give = subject.at(mid);
+    let mass = subject.mass();
+    let speed = (subject.gravity * length * length / (16.0 * beta * subject.load * give)).sqrt();
+    let stiffness = RIGID / give;
+    // the wheel itself is not to ring
+    let damping = (stiffness * mass).sqrt();
+    let law =
+        sim::NormalLaw { bilateral: pulls, damper: sim::Damper::Rail, ..subject.linear(stiffness, damping) };
+    let scene = subject.crossing(mass, &[0.0], law, [subject.span[0], speed, LAST * length / speed]);
+    let mut scene = scene.map_err(|error| error.to_string())?;
+    scene.output_dt = scene.end / SAMPLES;
+    let probe = splines::Probe { rail: 0, x: mid, axis: splines::Axis::Vertical };
+    scene.gauges.push(sim::Gauge { structure: 0, probe });
+    let run = sim::run(&scene, &[subject.foundation()], &mut |_| ControlFlow::Continue(()));
+    let run = run.map_err(|error| error.to_string())?;
+    if run.status != Status::Done {
+        return Err(results::summary::status(&run.status).1.unwrap_or_default());
+    }
+    let statical = subject.load * give;
+    let forces = run.history.column(Channel::Vertical(0));
+    let first = forces.iter().position(|force| *force <= 0.0);
+    let gauge = run.history.column(Channel::Gauge(0));
+    let until = gauge.iter().take(first.unwrap_or(gauge.len()));
+    let deepest = until.fold(0.0_f64, |most, own| most.max(-own));
+    let lost = first.map_or(1.0, |at| LAST * at as f64 / (forces.len() - 1) as f64);
+    let least = forces.iter().fold(f64::MAX, |least, own| least.min(*own)) / subject.load;
+    Ok((Passage { factor: deepest / statical, lost }, least))
+}
+
+/// The map.
+#[must_use]
+pub fn map(subject: &Subject<'_>, points: usize) -> Map {
+    let axes = [
+        Scale::new("beta = g L^2 / (16 v^2 S)", "", true),
+        Scale::new("place where contact is lost / span (1: it is not)", "", false),
+    ];
+    let mut map = Map::new(
+        "lift-off",
+        "A rigid mass crosses a beam without mass: does the force pull?",
+        axes,
+        "Beside Stokes' equation by 40,000 steps of Runge-Kutta 4. A rail that holds the wheel pulls at it past the place where contact \
+         is lost: wrong. Ours is right where it never pulls, and finds the deflection until then to 2e-3 of the static one and the place \
+         to 1e-2 of the span, up to 0.98 of it; its wheel is 30,000 times as stiff as the span.",
+    );
+    for beta in [100.0, 25.0, 10.0, 5.0, 2.0] {
+        let right = reference(beta);
+        let own = ours(subject, beta, false);
+        for (who, passage) in [("Stokes", Some(right)), ("girderway", own.ok().map(|own| own.0))] {
+            let Some(passage) = passage else { continue };
+            map.find(format!("{who}: factor at beta {beta}"), passage.factor);
+            if passage.lost < 1.0 {
+                map.find(format!("{who}: x/L of lift-off at beta {beta}"), passage.lost);
+            }
+        }
+    }
+    let mut layers = [("rail that holds the wheel", false), ("girderway, one-sided", true)]
+        .map(|(method, ours)| Layer::new(method, ours));
+    let mut lost = Vec::new();
+    for beta in spread(1.0, 200.0, points) {
+        let right = reference(beta);
+        lost.push([beta, right.lost]);
+        for (layer, pulls) in layers.iter_mut().zip([true, false]) {
+            let (at, value, verdict) = match ours(subject, beta, pulls) {
+                Ok((own, least)) => {
+                    let apart = (own.factor - right.factor).abs().max(0.2 * (own.lost - right.lost).abs());
+                    let error = if least < -1e-6 { 1.0 } else { apart };
+                    (own.lost, error, Verdict::of(error, ALLOWED, OBVIOUS))
+                }
+                Err(why) => (right.lost, 0.0, Verdict::Refused(why)),
+            };
+            layer.cells.push(Cell { at: [beta, at], value, verdict });
+        }
+    }
+    let line = Series::new("by Stokes' equation", Style::Line, lost);
+    layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
+    map.layers.extend(layers);
+    map
+}

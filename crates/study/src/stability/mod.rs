@@ -1,0 +1,53 @@
+//! Maps of where methods fail: what the program solves and refuses, and what others get silently wrong.
+//!
+//! The failing methods live here alone.
+
+mod contact;
+mod data;
+mod elements;
+mod excitation;
+mod liftoff;
+mod map;
+mod penalty;
+mod picture;
+mod steppers;
+mod steps;
+mod subject;
+mod ties;
+
+pub use data::{csv, json};
+pub use map::{Cell, Finding, Layer, Map, Scale, Verdict};
+pub use picture::pictures;
+pub use subject::Subject;
+
+use crate::observer::Observer;
+
+/// Maps, and the names of those that are absent with why.
+pub type Maps = (Vec<Map>, Vec<(String, String)>);
+
+/// All maps for `subject`; with `quick` of fewer points.
+#[must_use]
+pub fn maps(subject: &Subject<'_>, quick: bool, observer: &dyn Observer) -> Maps {
+    let points = |full: usize| if quick { full / 3 } else { full };
+    let (mut maps, mut absent) = (Vec::new(), Vec::new());
+    observer.say("mapping contact");
+    maps.push(contact::map(subject, points(36)));
+    observer.say("mapping self-excitation");
+    match excitation::map(subject, points(36)) {
+        Ok(map) => maps.push(map),
+        Err(why) => absent.push(("excitation".to_owned(), why)),
+    }
+    observer.say("mapping elements");
+    maps.extend(elements::maps(subject, if quick { 11 } else { 15 }));
+    maps.push(penalty::map(subject, points(48)));
+    observer.say("mapping lift-off");
+    maps.push(liftoff::map(subject, points(48)));
+    observer.say("mapping steps");
+    maps.extend(steps::maps(subject, points(30)));
+    observer.say("mapping ties");
+    match if quick { Err("--quick leaves it out".to_owned()) } else { ties::map(points(27)) } {
+        Ok(map) => maps.push(map),
+        Err(why) => absent.push(("ties".to_owned(), why)),
+    }
+    (maps, absent)
+}

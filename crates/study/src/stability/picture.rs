@@ -1,0 +1,66 @@
+//! Maps drawn: a chart a method, a few below each other.
+
+use super::map::{Map, Scale, Verdict};
+use report::chart::{Axis, Chart, Error, Series, Style, stack};
+
+fn axis(scale: &Scale, range: [f64; 2]) -> Axis {
+    let axis = Axis::new(scale.label.clone(), scale.unit.clone());
+    let [low, high] = range;
+    if scale.log {
+        let room = (high / low).powf(0.03);
+        axis.log().range(low / room, high * room)
+    } else {
+        let room = 0.03 * (high - low).max(1e-9);
+        axis.range(low - room, high + room)
+    }
+}
+
+/// Charts a picture.
+const A_PICTURE: usize = 4;
+
+/// The pictures of a map, as many methods each as fit a page.
+///
+/// # Errors
+/// None in practice: all values are finite, and positive where an axis is logarithmic.
+pub fn pictures(map: &Map) -> Result<Vec<String>, Error> {
+    let drawn = |at: &[f64; 2]| {
+        let fits = |k: usize| at[k].is_finite() && (!map.axes[k].log || at[k] > 0.0);
+        fits(0) && fits(1)
+    };
+    let points =
+        || map.layers.iter().flat_map(|layer| &layer.cells).map(|cell| cell.at).filter(|at| drawn(at));
+    let range = |k: usize| {
+        let low = points().map(|at| at[k]).fold(f64::INFINITY, f64::min);
+        [low, points().map(|at| at[k]).fold(f64::MIN, f64::max)]
+    };
+    if points().next().is_none() {
+        return Ok(Vec::new());
+    }
+    let ranges = [range(0), range(1)];
+    let mut charts = Vec::new();
+    for layer in &map.layers {
+        let title = format!("{} ({})", map.title, layer.method);
+        let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
+        let mut chart = Chart::new(title, x, y);
+        for word in Verdict::WORDS {
+            let own = layer.cells.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
+            chart.series.push(Series::new(word, Style::Points, own.filter(|at| drawn(at)).collect()));
+        }
+        for line in &layer.lines {
+            let points = line.points.iter().copied().filter(|at| drawn(at)).collect();
+            chart.series.push(Series { points, ..line.clone() });
+        }
+        let counts = layer.counts();
+        let told: Vec<String> = Verdict::WORDS
+            .iter()
+            .zip(counts)
+            .filter(|(_, count)| *count > 0)
+            .map(|(word, count)| format!("{count} {word}"))
+            .collect();
+        chart.note = format!("{} Points: {}.", map.note, told.join(", "));
+        if layer.cells.iter().any(|cell| drawn(&cell.at)) {
+            charts.push(chart.svg()?);
+        }
+    }
+    Ok(charts.chunks(A_PICTURE).map(stack).collect())
+}
