@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 use formats::motion::cast;
 use formats::scene::{Case, Document};
-use foundations::{Known, solved_of, specs};
-use foundations::{Spectra, laid, solve};
+use foundations::{ModeCache, build, solve};
+use foundations::{SolvedStructure, distinct_specs, solution_of};
 use sim::{Channel, Freedom, Run};
 use study::cpu::seconds;
 
@@ -28,8 +28,8 @@ fn main() -> Outcome<()> {
     let wanted = wanted()?;
     let document = Document::open(&wanted.scene).map_err(|_| "the scene cannot be read")?;
     let mut known = Vec::new();
-    for (_, _, spec) in specs(&document) {
-        known.push(Known { spec: spec.clone(), solved: solve(spec)? });
+    for (_, _, spec) in distinct_specs(&document) {
+        known.push(SolvedStructure { spec: spec.clone(), solution: solve(spec)? });
     }
     print!(
         "{:12} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9}",
@@ -70,14 +70,14 @@ fn wanted() -> Outcome<Wanted> {
 
 /// Processor times of some runs of a case.
 #[expect(clippy::print_stdout, reason = "a benchmark prints")]
-fn time(case: &Case, known: &[Known], wanted: &Wanted) -> Outcome<()> {
+fn time(case: &Case, known: &[SolvedStructure], wanted: &Wanted) -> Outcome<()> {
     let given = &case.scene;
     let mut scene = cast(given).map_err(|_| "the scene cannot be set up")?.scene;
     scene.accuracy = wanted.accuracy.unwrap_or(scene.accuracy);
     let mut foundations = Vec::new();
     for structure in &given.structures {
-        let solved = solved_of(known, &structure.origin);
-        let laid = laid(&mut Spectra::default(), structure, solved, given.pushes_sideways());
+        let solved = solution_of(known, &structure.origin);
+        let laid = build(&mut ModeCache::default(), structure, solved, given.pushes_sideways());
         foundations.push(laid.map_err(|_| "a foundation cannot be made")?.foundation);
     }
     let mut times = Vec::new();

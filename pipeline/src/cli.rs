@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use deck::Form;
+use deck::DeckForm;
 use formats::block::GridBlock;
 use formats::units::{Force, Length};
 use import::rail::triple;
 use import::{fix, rail};
-use study::appraisal::Manner;
+use study::table_quality::TableReadingMethod;
 
 /// From a beam spec to influence tables, simulation, plots and report.
 #[derive(Debug, Parser)]
@@ -42,45 +42,45 @@ pub struct Global {
 pub enum Command {
     /// Solve the structures, write their tables, simulate, draw and report: the main job
     #[command(after_help = "Example:\n  girderway run examples/bogie/scene.json -o out")]
-    Run(Scene),
+    Run(SceneArgs),
     /// Simulate alone, on the tables that an earlier run has left in the output folder
     #[command(after_help = "Example:\n  girderway sim examples/bogie/scene.json -o out")]
-    Sim(Scene),
+    Sim(SceneArgs),
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
-    Fea(Fea),
+    Fea(FeaArgs),
     /// Write the tables of a grid or of another file, at their stations or the fewest that do, or tell what readings cost
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
-    Splines(Splines),
+    Splines(SplinesArgs),
     /// Write a scene as a complete ADAMS data set, with its command file; --check executes it against the simulator
     #[command(
         after_help = "Example:\n  girderway deck examples/bogie/scene.json -o bogie.adm --form symmetrised --check"
     )]
-    Deck(Deck),
+    Deck(DeckArgs),
     /// Turn a model of another program into a beam spec: NASTRAN bulk data or a gmsh mesh
     #[command(
         after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
     )]
-    Import(Import),
+    Import(ImportArgs),
     /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
-    Crosscheck(Crosscheck),
+    Crosscheck(CrosscheckArgs),
     /// Chart accuracy against cost: a scene on a ladder of settings, beside a converged reference that is made first
     #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
-    Study(Study),
+    Study(StudyArgs),
     /// Give the JSON Schema of a format, for editors that complete and check as one types
     #[command(after_help = "Example:\n  girderway schema scene -o scene.schema.json")]
-    Schema(Schema),
+    Schema(SchemaArgs),
     /// Write starter files that run as they are: a bogie on a girder, a girder of a mill building, a bridge crane
     #[command(after_help = "Example:\n  girderway init bogie mine")]
-    Init(Init),
+    Init(InitArgs),
 }
 
 /// Arguments of `schema`.
 #[derive(Clone, Debug, Args)]
-pub struct Schema {
+pub struct SchemaArgs {
     /// Which format
-    pub format: Format,
+    pub format: SchemaArg,
     /// File to write [default: standard output]
     #[arg(short, long, value_name = "FILE.json")]
     pub output: Option<PathBuf>,
@@ -88,7 +88,7 @@ pub struct Schema {
 
 /// Words of the formats that have a schema.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Format {
+pub enum SchemaArg {
     /// Beam spec
     Beam,
     /// Influence grid
@@ -99,7 +99,7 @@ pub enum Format {
 
 /// Arguments of `init`.
 #[derive(Clone, Debug, Args)]
-pub struct Init {
+pub struct InitArgs {
     /// Which files
     pub what: Starter,
     /// Folder to write them into, made where there is none [default: where you are]
@@ -120,7 +120,7 @@ pub enum Starter {
 
 /// Arguments of `study`.
 #[derive(Clone, Debug, Args)]
-pub struct Study {
+pub struct StudyArgs {
     /// Scene file
     pub scene: PathBuf,
     /// Output folder [default: girderway-out/NAME, the scene's name]
@@ -146,7 +146,7 @@ pub struct Study {
 
 /// Arguments of `crosscheck`.
 #[derive(Clone, Debug, Args)]
-pub struct Crosscheck {
+pub struct CrosscheckArgs {
     /// Beam spec
     pub spec: PathBuf,
     /// Folder for the result as text and JSON, with plots of the differences [default: console alone]
@@ -154,12 +154,12 @@ pub struct Crosscheck {
     pub output: Option<PathBuf>,
     /// Beam theory in place of the spec's
     #[arg(long)]
-    pub theory: Option<Theory>,
+    pub theory: Option<TheoryArg>,
 }
 
 /// Arguments of `splines`.
 #[derive(Clone, Debug, Args)]
-pub struct Splines {
+pub struct SplinesArgs {
     /// Grid file, or a file of tables: .adm, .cmd, .csv, .json or .npz
     pub grid: PathBuf,
     /// File to write: .adm, .cmd, .csv, .json or .npz [default: an ADAMS data set on standard output]; with --check a
@@ -168,10 +168,10 @@ pub struct Splines {
     pub output: Option<PathBuf>,
     /// Tables of these directions alone [default: all]
     #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', conflicts_with = "check")]
-    pub only: Vec<Direction>,
+    pub only: Vec<DirectionArg>,
     /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
     #[arg(long, conflicts_with = "check")]
-    pub form: Option<TableForm>,
+    pub form: Option<TableFormArg>,
     /// Most products of the factored form [default: all that are more than rounding]
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u16).range(1..))]
     pub rank: Option<u16>,
@@ -180,17 +180,17 @@ pub struct Splines {
     pub digits: Option<u8>,
     /// Unit of length of tables that do not say it
     #[arg(long, requires = "force")]
-    pub length: Option<LengthUnit>,
+    pub length: Option<LengthArg>,
     /// Unit of force of tables that do not say it
     #[arg(long, requires = "length")]
-    pub force: Option<ForceUnit>,
+    pub force: Option<ForceArg>,
     /// Tell what each reading of the tables costs, on standard output
     #[arg(long)]
     pub check: bool,
     /// Reading that must keep the tolerance: writes tables at the fewest stations with which it does; with --check a
     /// larger error is a failure [default with --check: akispl]
     #[arg(long, requires = "tolerance")]
-    pub reading: Option<TableReading>,
+    pub reading: Option<TableReadingArg>,
     /// Error allowed, of the largest coefficient; of the factored form without a reading, that at the stations
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub tolerance: Option<f64>,
@@ -202,7 +202,7 @@ pub struct Splines {
         conflicts_with = "check",
         requires = "reading"
     )]
-    pub directions: Vec<Direction>,
+    pub directions: Vec<DirectionArg>,
     /// Force of one wheel, for work and angles
     #[arg(long, value_name = "FORCE", value_parser = positive, requires = "check")]
     pub load: Option<f64>,
@@ -216,7 +216,7 @@ pub struct Splines {
 
 /// Words of the forms of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TableForm {
+pub enum TableFormArg {
     /// G over load and deflection
     Table,
     /// One-curve splines, and G as the sum of their products
@@ -225,7 +225,7 @@ pub enum TableForm {
 
 /// Words of the readings of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TableReading {
+pub enum TableReadingArg {
     /// AKISPL along the load, linear along the deflection
     Akispl,
     /// The mean of AKISPL with load and deflection exchanged
@@ -240,22 +240,22 @@ pub enum TableReading {
     Exact,
 }
 
-impl From<TableReading> for Manner {
-    fn from(reading: TableReading) -> Manner {
+impl From<TableReadingArg> for TableReadingMethod {
+    fn from(reading: TableReadingArg) -> TableReadingMethod {
         match reading {
-            TableReading::Akispl => Manner::Akispl,
-            TableReading::Symmetrised => Manner::Symmetrised,
-            TableReading::Cubspl => Manner::Cubspl,
-            TableReading::Natural => Manner::Natural,
-            TableReading::Factored => Manner::Factored,
-            TableReading::Exact => Manner::Exact,
+            TableReadingArg::Akispl => TableReadingMethod::Akispl,
+            TableReadingArg::Symmetrised => TableReadingMethod::Symmetrised,
+            TableReadingArg::Cubspl => TableReadingMethod::Cubspl,
+            TableReadingArg::Natural => TableReadingMethod::Natural,
+            TableReadingArg::Factored => TableReadingMethod::Factored,
+            TableReadingArg::Exact => TableReadingMethod::Exact,
         }
     }
 }
 
 /// Words of the directions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Direction {
+pub enum DirectionArg {
     /// Up
     Vertical,
     /// To the right
@@ -264,22 +264,22 @@ pub enum Direction {
     Longitudinal,
 }
 
-impl From<Direction> for splines::Axis {
-    fn from(direction: Direction) -> splines::Axis {
+impl From<DirectionArg> for splines::Axis {
+    fn from(direction: DirectionArg) -> splines::Axis {
         match direction {
-            Direction::Vertical => splines::Axis::Vertical,
-            Direction::Lateral => splines::Axis::Lateral,
-            Direction::Longitudinal => splines::Axis::Longitudinal,
+            DirectionArg::Vertical => splines::Axis::Vertical,
+            DirectionArg::Lateral => splines::Axis::Lateral,
+            DirectionArg::Longitudinal => splines::Axis::Longitudinal,
         }
     }
 }
 
-impl From<Direction> for GridBlock {
-    fn from(direction: Direction) -> GridBlock {
+impl From<DirectionArg> for GridBlock {
+    fn from(direction: DirectionArg) -> GridBlock {
         match direction {
-            Direction::Vertical => GridBlock::Vertical,
-            Direction::Lateral => GridBlock::Lateral,
-            Direction::Longitudinal => GridBlock::Longitudinal,
+            DirectionArg::Vertical => GridBlock::Vertical,
+            DirectionArg::Lateral => GridBlock::Lateral,
+            DirectionArg::Longitudinal => GridBlock::Longitudinal,
         }
     }
 }
@@ -292,7 +292,7 @@ fn positive(text: &str) -> Result<f64, String> {
 
 /// Arguments of `deck`.
 #[derive(Clone, Debug, Args)]
-pub struct Deck {
+pub struct DeckArgs {
     /// Scene file
     pub scene: PathBuf,
     /// Data set to write; its command file stands beside it [default: standard output, data set alone]
@@ -300,7 +300,7 @@ pub struct Deck {
     pub output: Option<PathBuf>,
     /// How the rails' give is read [default: factored; akispl where the scene reads a structure by it]
     #[arg(long)]
-    pub form: Option<DeckForm>,
+    pub form: Option<DeckFormArg>,
     /// Execute the deck and compare its forces with the simulator's; status 1 where they differ
     #[arg(long)]
     pub check: bool,
@@ -311,7 +311,7 @@ pub struct Deck {
 
 /// Words of the forms of decks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum DeckForm {
+pub enum DeckFormArg {
     /// AKISPL of a family: N^2 look-ups for N wheels; neither symmetric nor conservative off the stations
     Akispl,
     /// The mean of AKISPL(x, z) and AKISPL(z, x): 2 N^2 look-ups, symmetric
@@ -322,20 +322,20 @@ pub enum DeckForm {
     Paper,
 }
 
-impl From<DeckForm> for Form {
-    fn from(form: DeckForm) -> Form {
+impl From<DeckFormArg> for DeckForm {
+    fn from(form: DeckFormArg) -> DeckForm {
         match form {
-            DeckForm::Akispl => Form::Akispl,
-            DeckForm::Symmetrised => Form::Symmetrised,
-            DeckForm::Factored => Form::Factored,
-            DeckForm::Paper => Form::Paper,
+            DeckFormArg::Akispl => DeckForm::Akispl,
+            DeckFormArg::Symmetrised => DeckForm::Symmetrised,
+            DeckFormArg::Factored => DeckForm::Factored,
+            DeckFormArg::Paper => DeckForm::Paper,
         }
     }
 }
 
 /// Arguments of `import`.
 #[derive(Clone, Debug, Args)]
-pub struct Import {
+pub struct ImportArgs {
     /// Model: .bdf, .dat or .nas (NASTRAN bulk data), or .msh (gmsh 4.1)
     pub model: PathBuf,
     /// Beam spec to write [default: standard output]
@@ -343,19 +343,19 @@ pub struct Import {
     pub output: Option<PathBuf>,
     /// Unit of length of the model, which does not say it
     #[arg(long)]
-    pub length: Option<LengthUnit>,
+    pub length: Option<LengthArg>,
     /// Unit of force of bulk data, which do not say it
     #[arg(long)]
-    pub force: Option<ForceUnit>,
+    pub force: Option<ForceArg>,
     /// Direction up; needed by rails
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     pub up: Option<[f64; 3]>,
     /// A rail along elements (12,23,30-35) or a set of them; /offset=X,Y,Z and /axis=X,Y,Z may follow
     #[arg(long, value_name = "NAME=ELEMENTS")]
-    pub rail: Vec<rail::Asked>,
+    pub rail: Vec<rail::RailRequest>,
     /// Hold freedoms of a set of points, such as feet=ux,uy,uz
     #[arg(long, value_name = "SET=FREEDOMS")]
-    pub fix: Vec<fix::Asked>,
+    pub fix: Vec<fix::SupportRequest>,
     /// Materials and sections of a mesh, by the names of its physical groups
     #[arg(long, value_name = "FILE.json")]
     pub sections: Option<PathBuf>,
@@ -369,7 +369,7 @@ pub struct Import {
 
 /// Words of the units of length.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum LengthUnit {
+pub enum LengthArg {
     /// Foot
     Ft,
     /// Inch
@@ -380,20 +380,20 @@ pub enum LengthUnit {
     Mm,
 }
 
-impl From<LengthUnit> for Length {
-    fn from(unit: LengthUnit) -> Length {
+impl From<LengthArg> for Length {
+    fn from(unit: LengthArg) -> Length {
         match unit {
-            LengthUnit::Ft => Length::Foot,
-            LengthUnit::In => Length::Inch,
-            LengthUnit::M => Length::Metre,
-            LengthUnit::Mm => Length::Millimetre,
+            LengthArg::Ft => Length::Foot,
+            LengthArg::In => Length::Inch,
+            LengthArg::M => Length::Metre,
+            LengthArg::Mm => Length::Millimetre,
         }
     }
 }
 
 /// Words of the units of force.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum ForceUnit {
+pub enum ForceArg {
     /// Pound-force
     Lbf,
     /// 1000 pound-force
@@ -406,20 +406,20 @@ pub enum ForceUnit {
     Kilonewton,
 }
 
-impl From<ForceUnit> for Force {
-    fn from(unit: ForceUnit) -> Force {
+impl From<ForceArg> for Force {
+    fn from(unit: ForceArg) -> Force {
         match unit {
-            ForceUnit::Lbf => Force::Pound,
-            ForceUnit::Kip => Force::Kip,
-            ForceUnit::Newton => Force::Newton,
-            ForceUnit::Kilonewton => Force::Kilonewton,
+            ForceArg::Lbf => Force::Pound,
+            ForceArg::Kip => Force::Kip,
+            ForceArg::Newton => Force::Newton,
+            ForceArg::Kilonewton => Force::Kilonewton,
         }
     }
 }
 
 /// Arguments of `fea`.
 #[derive(Clone, Debug, Args)]
-pub struct Fea {
+pub struct FeaArgs {
     /// Beam spec
     pub spec: PathBuf,
     /// Grid file to write [default: standard output]
@@ -427,7 +427,7 @@ pub struct Fea {
     pub output: Option<PathBuf>,
     /// Beam theory in place of the spec's
     #[arg(long)]
-    pub theory: Option<Theory>,
+    pub theory: Option<TheoryArg>,
     /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
     #[arg(long, value_name = "BOUND", default_value_t = fea::ACCURACY, value_parser = share)]
     pub accuracy: f64,
@@ -444,25 +444,25 @@ fn share(text: &str) -> Result<f64, String> {
 
 /// Words of the beam theories.
 #[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum Theory {
+pub enum TheoryArg {
     /// Sections stay normal to the axis
     EulerBernoulli,
     /// Sections shear
     Timoshenko,
 }
 
-impl From<Theory> for fea::Theory {
-    fn from(theory: Theory) -> fea::Theory {
+impl From<TheoryArg> for fea::Theory {
+    fn from(theory: TheoryArg) -> fea::Theory {
         match theory {
-            Theory::EulerBernoulli => fea::Theory::EulerBernoulli,
-            Theory::Timoshenko => fea::Theory::Timoshenko,
+            TheoryArg::EulerBernoulli => fea::Theory::EulerBernoulli,
+            TheoryArg::Timoshenko => fea::Theory::Timoshenko,
         }
     }
 }
 
 /// Arguments of `run` and `sim`.
 #[derive(Clone, Debug, Args)]
-pub struct Scene {
+pub struct SceneArgs {
     /// Scene file
     pub scene: PathBuf,
     /// Output folder [default: girderway-out/NAME, the scene's name]

@@ -5,24 +5,24 @@ use std::time::Instant;
 use serde_json::{Map, Value, json};
 
 /// Seconds spent in each stage, in order.
-pub struct Clock {
+pub struct StageClock {
     started: Instant,
     last: Instant,
     stages: Vec<(&'static str, f64)>,
 }
 
-impl Default for Clock {
+impl Default for StageClock {
     fn default() -> Self {
-        Clock::new()
+        StageClock::new()
     }
 }
 
-impl Clock {
+impl StageClock {
     /// A clock that starts now.
     #[must_use]
-    pub fn new() -> Clock {
+    pub fn new() -> StageClock {
         let now = Instant::now();
-        Clock { started: now, last: now, stages: Vec::new() }
+        StageClock { started: now, last: now, stages: Vec::new() }
     }
 
     /// Books the time since the last lap to `stage`.

@@ -20,7 +20,7 @@ pub struct Manifest {
     pub settings: Value,
     inputs: Vec<InputEntry>,
     /// Files written, by name.
-    pub outputs: Vec<Output>,
+    pub outputs: Vec<OutputEntry>,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -32,7 +32,7 @@ struct InputEntry {
 
 /// A file written.
 #[derive(Clone, Debug, Serialize)]
-pub struct Output {
+pub struct OutputEntry {
     /// Its name in the folder.
     pub name: String,
     /// Its size; left out where it may differ between equal runs.

@@ -8,7 +8,7 @@ use serde_json::Value;
 use tempfile::NamedTempFile;
 
 use crate::exit::Failure;
-use crate::manifest::{MANIFEST, Manifest, Output};
+use crate::manifest::{MANIFEST, Manifest, OutputEntry};
 use crate::progress::Progress;
 use formats::diagnostic::Diagnostic;
 use formats::inputs::sha256;
@@ -135,23 +135,23 @@ pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> 
 
 /// An output folder in the making: nothing touches the disk before [`Folder::commit`].
 #[derive(Debug)]
-pub struct Folder {
+pub struct OutputFolder {
     path: PathBuf,
     files: Vec<(String, Vec<u8>, bool)>,
 }
 
-impl Folder {
+impl OutputFolder {
     /// A folder to be at `path`.
     ///
     /// # Errors
     /// A path where no folder can be: found before any work is done.
-    pub fn new(path: &Path) -> Result<Folder, Failure> {
+    pub fn new(path: &Path) -> Result<OutputFolder, Failure> {
         let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
         if let Some(part) = there.filter(|part| !part.is_dir()) {
             let expected = format!("cannot be an output folder: {} is a file", part.display());
             return Err(Diagnostic::of_file(path.display().to_string(), expected).into());
         }
-        Ok(Folder { path: path.to_path_buf(), files: Vec::new() })
+        Ok(OutputFolder { path: path.to_path_buf(), files: Vec::new() })
     }
 
     /// Adds a file by its name in the folder, such as `plots/path.svg`; a name used before is replaced.
@@ -181,7 +181,11 @@ impl Folder {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
         for (name, bytes, fixed) in &self.files {
             let sha256 = fixed.then(|| sha256(bytes));
-            manifest.outputs.push(Output { name: name.clone(), bytes: fixed.then_some(bytes.len()), sha256 });
+            manifest.outputs.push(OutputEntry {
+                name: name.clone(),
+                bytes: fixed.then_some(bytes.len()),
+                sha256,
+            });
         }
         let path = self.path.clone();
         self.write(&manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
@@ -256,7 +260,7 @@ mod tests {
     use serde_json::json;
 
     fn commit(path: &Path, files: &[(&str, &str)]) {
-        let mut folder = Folder::new(path).expect("no file is in the way");
+        let mut folder = OutputFolder::new(path).expect("no file is in the way");
         for (name, text) in files {
             folder.add(name, *text);
         }
@@ -307,7 +311,7 @@ mod tests {
         let temporary = tempfile::tempdir().expect("a temporary folder");
         let file = temporary.path().join("file");
         fs::write(&file, "x").expect("writable");
-        assert!(Folder::new(&file.join("out")).is_err());
+        assert!(OutputFolder::new(&file.join("out")).is_err());
     }
 
     #[test]

@@ -1,8 +1,8 @@
 //! Couplings of the two girderways left out: what stays the same, and what a rail gives then.
 
 use formats::scene::Document;
+use foundations::distinct_specs;
 use foundations::solve;
-use foundations::specs;
 use serde_json::{Value, json};
 use splines::{Axis, Compliance, Influence, Probe};
 
@@ -57,8 +57,10 @@ fn each_rail_gives_by_the_wheels_that_couplings_keep() {
     scene["structures"]["aisle"]["irregularities"] = json!([]);
     let (histories, _) = run(&scene);
     let document = Document::open(&example().join("scene.json")).expect("a scene");
-    let (_, _, spec) =
-        specs(&document).into_iter().find(|(_, _, spec)| spec.rails().len() == 2).expect("the aisle");
+    let (_, _, spec) = distinct_specs(&document)
+        .into_iter()
+        .find(|(_, _, spec)| spec.rails().len() == 2)
+        .expect("the aisle");
     let surface = solve(spec).expect("it stands").surface.expect("a surface");
     let mut wheels = Vec::new();
     for (truck, rail, count) in [("NW", 0, 4), ("NE", 0, 4), ("S", 1, 8)] {

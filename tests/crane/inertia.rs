@@ -1,8 +1,8 @@
 //! Reactions of a building that has mass, while it is struck by a rope that breaks.
 
 use formats::scene::Document;
-use foundations::{Known, solved_of, specs};
-use foundations::{Motion, Spectra, solve};
+use foundations::{ModeCache, MotionBasis, solve};
+use foundations::{SolvedStructure, distinct_specs, solution_of};
 use results::cases::simulate;
 use serde_json::json;
 use sim::Channel;
@@ -26,17 +26,21 @@ fn columns_of_a_building_with_mass_carry_wheel_forces_less_its_inertia() {
     std::fs::write(folder.path().join("scene.json"), scene.to_string()).expect("written");
     let document =
         Document::open(&folder.path().join("scene.json")).unwrap_or_else(|wrong| panic!("{wrong:?}"));
-    let known: Vec<Known> = specs(&document)
+    let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
-        .map(|(_, _, spec)| Known { spec: spec.clone(), solved: solve(spec).expect("it stands") })
+        .map(|(_, _, spec)| SolvedStructure { spec: spec.clone(), solution: solve(spec).expect("it stands") })
         .collect();
     let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
     let structure = &document.cases[0].scene.structures[0];
-    let laid =
-        foundations::laid(&mut Spectra::default(), structure, solved_of(&known, &structure.origin), true)
-            .expect("a foundation");
-    let Some(Motion::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
-    let (record, history) = (&outcomes[0].record, &outcomes[0].run.history);
+    let laid = foundations::build(
+        &mut ModeCache::default(),
+        structure,
+        solution_of(&known, &structure.origin),
+        true,
+    )
+    .expect("a foundation");
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
+    let (record, history) = (&outcomes[0].columns, &outcomes[0].run.history);
     let all = |begin: &str, end: &str| -> Vec<&Vec<f64>> {
         let own = record.columns.iter().filter(|c| c.name.starts_with(begin) && c.name.ends_with(end));
         own.map(|column| &column.values).collect()

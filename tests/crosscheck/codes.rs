@@ -1,7 +1,7 @@
 //! Frames in OpenSees and PyNite, solids of gmsh and scikit-fem.
 
 use formats::block::GridBlock;
-use girderway::crosscheck::{Grid, Peer, Station, ask};
+use girderway::crosscheck::{Peer, PlainGrid, Station, ask};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -130,7 +130,7 @@ fn frame_codes_reproduce_the_closed_forms_of_the_papers_girder() {
     let Some(environment) = environment() else { return };
     let (spec, stations) = paper();
     let question = json!({ "spec": spec, "theory": "euler-bernoulli" });
-    let mut vertical: Grid = PAPER.iter().map(|row| row.to_vec()).collect();
+    let mut vertical: PlainGrid = PAPER.iter().map(|row| row.to_vec()).collect();
     for peer in [Peer::OpenSees, Peer::PyNite] {
         let ours = [(GridBlock::Vertical, vertical.clone())];
         let outcome = ask(peer, &question, &ours, &stations, environment, &mut |_| {});

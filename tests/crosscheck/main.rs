@@ -3,7 +3,7 @@
 //! Needs Python 3.11 with venv, and PyPI the first time; the environment stays in the target directory.
 
 use formats::block::GridBlock;
-use girderway::crosscheck::{Environment, Girder, Outcome, crosscheck};
+use girderway::crosscheck::{Environment, PeerOutcome, PlainGirder, crosscheck};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -71,8 +71,8 @@ pub const PAPER: [[f64; 7]; 7] = [
 const LATERAL: [f64; 2] = [2.6456e-10, 1.2315e-8];
 const HEIGHT: f64 = 3.6615;
 
-fn paper() -> Girder {
-    Girder {
+fn paper() -> PlainGirder {
+    PlainGirder {
         spans: vec![60.0],
         overhangs: [15.0, 15.0],
         stations: vec![-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0],
@@ -81,7 +81,7 @@ fn paper() -> Girder {
         bending_vertical: Some(EI),
         bending_lateral: Some(1.0 / LATERAL[0]),
         torsion: Some(HEIGHT * HEIGHT / LATERAL[1]),
-        ..Girder::default()
+        ..PlainGirder::default()
     }
 }
 
@@ -106,7 +106,7 @@ pub fn cache() -> PathBuf {
     Path::new(env!("CARGO_TARGET_TMPDIR")).join("python")
 }
 
-fn compare(girder: &Girder, ours: &[(GridBlock, Grid)], tolerance: f64) -> Option<Outcome> {
+fn compare(girder: &PlainGirder, ours: &[(GridBlock, Grid)], tolerance: f64) -> Option<PeerOutcome> {
     match crosscheck(girder, ours, tolerance, environment()?, &mut |_| {}) {
         Ok(outcome) => Some(outcome),
         Err(error) => panic!("{error}"),
@@ -173,7 +173,7 @@ fn scikit_fem_reproduces_the_closed_forms_of_the_papers_girder() {
 #[test]
 fn scikit_fem_reproduces_the_longitudinal_closed_forms_at_the_supports() {
     // Slope of a simply supported span at its ends from moments at its ends: L/3EI and -L/6EI.
-    let girder = Girder { overhangs: [0.0; 2], stations: vec![0.0, 60.0], ..paper() };
+    let girder = PlainGirder { overhangs: [0.0; 2], stations: vec![0.0, 60.0], ..paper() };
     let bending = HEIGHT * HEIGHT * 60.0 / EI;
     let longitudinal = grid(
         &girder.stations,
@@ -187,7 +187,7 @@ fn scikit_fem_reproduces_the_longitudinal_closed_forms_at_the_supports() {
 fn longitudinal_load_at_the_rail_head_bends_the_span_as_a_moment() {
     // A load P along +x at a height h over x = 0 is a moment -h P: midspan moves by -M L^2 / 16 EI, down for
     // a moment that turns the end upwards. Source: analytic, end moment on a simply supported span.
-    let girder = Girder { overhangs: [0.0; 2], stations: vec![0.0, 30.0, 60.0], ..paper() };
+    let girder = PlainGirder { overhangs: [0.0; 2], stations: vec![0.0, 30.0, 60.0], ..paper() };
     let zero = grid(&girder.stations, |_, _| 0.0);
     let Some(outcome) = compare(&girder, &[(GridBlock::VerticalLongitudinal, zero)], 1e-9) else { return };
     let worst = &outcome.differences[0];
@@ -202,7 +202,7 @@ fn longitudinal_load_at_the_rail_head_bends_the_span_as_a_moment() {
 fn scikit_fem_reproduces_the_two_span_girder() {
     // Source: analytic, three-moment equation: 23/1536 and -9/1536 of L^3/EI at midspans, and the rest.
     let unit = 60f64.powi(3) / EI;
-    let girder = Girder {
+    let girder = PlainGirder {
         spans: vec![60.0, 60.0],
         overhangs: [0.0; 2],
         stations: vec![0.0, 30.0, 60.0, 90.0, 120.0],
@@ -222,7 +222,7 @@ fn scikit_fem_reproduces_the_two_span_girder() {
 #[test]
 fn scikit_fem_reproduces_the_girder_that_shears() {
     let rigidity = 1e8;
-    let girder = Girder { shear_vertical: Some(rigidity), ..paper() };
+    let girder = PlainGirder { shear_vertical: Some(rigidity), ..paper() };
     let stations = girder.stations.clone();
     let mut vertical = grid(&stations, |x, z| pinned(60.0, x, z, |r| -0.5 * r / rigidity));
     for (row, bending) in vertical.iter_mut().zip(&PAPER) {
@@ -237,7 +237,8 @@ fn many_stations_cost_no_digits() {
     // Reads of 181 stations stay within the tolerance, though a mesh of 180 elements would not.
     let stations: Vec<f64> = (0..=180).map(|i| -15.0 + 0.5 * f64::from(i)).collect();
     let vertical = grid(&stations, |x, z| pinned(60.0, x, z, |r| r.powi(3) / (12.0 * EI)));
-    let Some(outcome) = compare(&Girder { stations, ..paper() }, &[(GridBlock::Vertical, vertical)], 1e-9)
+    let Some(outcome) =
+        compare(&PlainGirder { stations, ..paper() }, &[(GridBlock::Vertical, vertical)], 1e-9)
     else {
         return;
     };

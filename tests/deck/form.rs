@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use adams::{DataSet, Model};
-use deck::Form;
+use deck::DeckForm;
 use formats::units::{Force, Length};
 
 use super::{FORMS, Loaded, example, scene};
@@ -36,7 +36,7 @@ fn statements(text: &str) -> Vec<(String, Option<u32>, String)> {
 #[test]
 fn lines_are_short_plain_and_end_with_end() {
     for loaded in all() {
-        for form in FORMS.into_iter().chain([Form::Paper]) {
+        for form in FORMS.into_iter().chain([DeckForm::Paper]) {
             let text = loaded.text(form);
             assert!(text.is_ascii() && text.ends_with("\nEND\n"));
             let longest = text.lines().map(str::len).max();
@@ -48,7 +48,7 @@ fn lines_are_short_plain_and_end_with_end() {
 #[test]
 fn identifiers_and_names_are_unique_and_references_resolve() {
     for loaded in all() {
-        for form in FORMS.into_iter().chain([Form::Paper]) {
+        for form in FORMS.into_iter().chain([DeckForm::Paper]) {
             let text = loaded.text(form);
             let all = statements(&text);
             let mut seen = BTreeMap::new();
@@ -95,7 +95,7 @@ fn a_deck_read_and_printed_is_read_again_as_itself() {
 #[test]
 fn equal_scenes_give_equal_bytes() {
     let path = example("mill_girderway");
-    assert_eq!(Loaded::new(&path).text(Form::Factored), Loaded::new(&path).text(Form::Factored));
+    assert_eq!(Loaded::new(&path).text(DeckForm::Factored), Loaded::new(&path).text(DeckForm::Factored));
 }
 
 /// kg of a unit of mass, m of one of length: the definitions of the pound, the foot and the pound-force.
@@ -131,7 +131,7 @@ fn newtons(force: Force) -> f64 {
 fn masses_in_their_unit_times_gravity_are_the_weights_of_the_scene() {
     for loaded in all() {
         let scene = loaded.document.scene();
-        let text = loaded.text(Form::Akispl);
+        let text = loaded.text(DeckForm::Akispl);
         let all = statements(&text);
         let find = |arguments: &str, name: &str| -> Option<String> {
             let mut parts = arguments.split(';').filter_map(|part| part.split_once('='));
@@ -153,14 +153,14 @@ fn masses_in_their_unit_times_gravity_are_the_weights_of_the_scene() {
 
 #[test]
 fn every_trap_has_its_remark_once() {
-    let text = Loaded::new(&scene("wagons")).text(Form::Akispl);
+    let text = Loaded::new(&scene("wagons")).text(DeckForm::Akispl);
     for word in
         ["Frame of", "Cross terms:", "IC:", "Units:", "VX..VZ", "Exponent", "Reactions:", "Range:", "Slope:"]
     {
         let count = text.lines().filter(|line| line.starts_with('!') && line.contains(word)).count();
         assert!(count >= 1, "{word}");
     }
-    let text = Loaded::new(&example("bogie")).text(Form::Akispl);
+    let text = Loaded::new(&example("bogie")).text(DeckForm::Akispl);
     assert_eq!(text.matches("Gap rate:").count(), 1);
     assert_eq!(text.matches("Cross terms:").count(), 1);
 }
@@ -174,9 +174,9 @@ fn look_ups_grow_as_the_forms_say() {
         let text = loaded.text(form).replace("\n,", "").replace(' ', "");
         text.split("REQUEST/").next().map_or(0, |head| head.matches(name).count())
     };
-    assert_eq!(of(Form::Akispl, "AKISPL(VARVAL"), wheels * wheels);
-    assert_eq!(of(Form::Symmetrised, "AKISPL(VARVAL"), 2 * wheels * wheels);
-    let factored = of(Form::Factored, "CUBSPL(VARVAL");
+    assert_eq!(of(DeckForm::Akispl, "AKISPL(VARVAL"), wheels * wheels);
+    assert_eq!(of(DeckForm::Symmetrised, "AKISPL(VARVAL"), 2 * wheels * wheels);
+    let factored = of(DeckForm::Factored, "CUBSPL(VARVAL");
     assert_eq!(factored % (3 * wheels), 0);
     assert!(factored / (3 * wheels) <= 41, "no more products than stations: {factored}");
 }

@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adams::DataSet;
-use deck::check::{Report, check};
-use deck::{Form, deck, plan};
+use deck::check::{CheckReport, check};
+use deck::{DeckForm, deck, plan};
 use formats::scene::Document;
-use foundations::{Known, specs};
+use foundations::{SolvedStructure, distinct_specs};
 
 /// Forms that are right; the paper's is not meant to be.
-const FORMS: [Form; 3] = [Form::Akispl, Form::Symmetrised, Form::Factored];
+const FORMS: [DeckForm; 3] = [DeckForm::Akispl, DeckForm::Symmetrised, DeckForm::Factored];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
@@ -33,27 +33,27 @@ fn scene(name: &str) -> PathBuf {
 /// A scene with its structures solved.
 struct Loaded {
     document: Document,
-    known: Vec<Known>,
+    known: Vec<SolvedStructure>,
 }
 
 impl Loaded {
     fn new(path: &Path) -> Loaded {
         let document = Document::open(path).expect("a valid scene");
-        let solve = |spec: &Arc<_>| Known {
+        let solve = |spec: &Arc<_>| SolvedStructure {
             spec: Arc::clone(spec),
-            solved: foundations::solve(spec).expect("a structure that stands"),
+            solution: foundations::solve(spec).expect("a structure that stands"),
         };
-        let known = specs(&document).into_iter().map(|(_, _, spec)| solve(spec)).collect();
+        let known = distinct_specs(&document).into_iter().map(|(_, _, spec)| solve(spec)).collect();
         Loaded { document, known }
     }
 
-    fn text(&self, form: Form) -> String {
+    fn text(&self, form: DeckForm) -> String {
         let plan = plan(self.document.scene(), &self.known, form, "scene.json").expect("a plan");
         deck(&plan, &self.known, "model").expect("a deck").set.write().expect("a text")
     }
 
     /// The check of `text` as the deck in `form`.
-    fn check(&self, form: Form, text: &str, states: usize) -> Report {
+    fn check(&self, form: DeckForm, text: &str, states: usize) -> CheckReport {
         let plan = plan(self.document.scene(), &self.known, form, "scene.json").expect("a plan");
         check(&plan, text, states).expect("a deck that can be executed")
     }
@@ -118,7 +118,7 @@ fn decks_give_the_simulators_forces_at_ten_thousand_states() {
 #[test]
 fn random_states_have_everything_that_can_act() {
     let loaded = Loaded::new(&scene("crane"));
-    let count = loaded.check(Form::Akispl, &loaded.text(Form::Akispl), 100).states;
+    let count = loaded.check(DeckForm::Akispl, &loaded.text(DeckForm::Akispl), 100).states;
     assert!(count.pressing > 5 && count.flange > 50 && count.slide > 50, "{count:?}");
 }
 
@@ -147,7 +147,7 @@ fn decks_start_in_the_equilibrium_of_their_first_instant() {
 #[test]
 fn the_papers_form_is_told_from_the_simulator() {
     let loaded = Loaded::new(&example("bogie"));
-    let report = loaded.check(Form::Paper, &loaded.text(Form::Paper), 100);
+    let report = loaded.check(DeckForm::Paper, &loaded.text(DeckForm::Paper), 100);
     assert!(!report.holds());
     // the cross terms alone put the forces off by more than a hundredth of the largest
     assert!(report.forces[0].largest_of_all() > 0.01);

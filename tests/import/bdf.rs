@@ -2,13 +2,13 @@
 
 use fea::Kind;
 use formats::units::{Force, Length};
-use import::Options;
+use import::ImportOptions;
 use serde_json::json as value;
 
 use super::{deck, displacements, frame, from_memory, json, plain, text, told};
 
-fn with_rail(rail: &str, up: [f64; 3]) -> Options {
-    Options { up: Some(up), rails: vec![rail.parse().expect("a rail")], ..plain() }
+fn with_rail(rail: &str, up: [f64; 3]) -> ImportOptions {
+    ImportOptions { up: Some(up), rails: vec![rail.parse().expect("a rail")], ..plain() }
 }
 
 fn compare(found: &[f64], expected: &[f64]) {
@@ -365,18 +365,18 @@ fn supports_are_those_chosen() {
     let common = "MAT1,1,2.+11,,.25\nPBAR,5,1,.02,1.-4,2.-4,1.-4\nGRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nCBAR,1,5,1,2,0.,1.,0.\n";
     let sets = "SPC1,1,123,1\nSPC,2,1,456,0.,2,3,0.\nSPCADD,3,1,2\n";
     let held =
-        |text: &str, options: &Options| json(&deck(text, options).expect("a deck"))["supports"].clone();
+        |text: &str, options: &ImportOptions| json(&deck(text, options).expect("a deck"))["supports"].clone();
     let one = value!([{ "point": 0, "fix": ["ux", "uy", "uz"] }]);
     assert_eq!(held(&format!("{common}SPC1,1,123,1\n"), &plain()), one, "the only one");
     let bulk = format!("{common}{sets}");
     assert_eq!(held(&format!("CEND\n spc=1\nBEGIN BULK\n{bulk}"), &plain()), one, "case control");
-    assert_eq!(held(&bulk, &Options { spc: Some(1), ..plain() }), one, "the user");
+    assert_eq!(held(&bulk, &ImportOptions { spc: Some(1), ..plain() }), one, "the user");
     let all =
         value!([{ "point": 0, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"] }, { "point": 1, "fix": ["uz"] }]);
     assert_eq!(held(&bulk, &plain()), all, "the only sum");
     let wrong = deck(&format!("{common}SPC1,1,123,1\nSPC1,2,456,1\n"), &plain()).expect_err("two sets");
     assert!(told(&wrong).contains("--spc N"), "{}", told(&wrong));
-    let wrong = deck(&bulk, &Options { spc: Some(9), ..plain() }).expect_err("no such set");
+    let wrong = deck(&bulk, &ImportOptions { spc: Some(9), ..plain() }).expect_err("no such set");
     assert!(told(&wrong).contains("there is 1, 2, 3"), "{}", told(&wrong));
 }
 
@@ -384,9 +384,9 @@ fn supports_are_those_chosen() {
 fn units_are_never_guessed() {
     let text = text("decks/pinned.bdf");
     for options in [
-        Options::default(),
-        Options { length: Some(Length::Foot), ..Options::default() },
-        Options { force: Some(Force::Kip), ..Options::default() },
+        ImportOptions::default(),
+        ImportOptions { length: Some(Length::Foot), ..ImportOptions::default() },
+        ImportOptions { force: Some(Force::Kip), ..ImportOptions::default() },
     ] {
         let wrong = deck(&text, &options).expect_err("no units");
         assert!(told(&wrong).contains("--length and --force"), "{}", told(&wrong));
@@ -470,7 +470,7 @@ fn rails_lie_on_the_elements_named() {
         ("top=103,101/axis=1,0,0", Some([0.0, 0.0, 1.0]), "at right angles"),
         ("top=103", None, "needs --up"),
     ] {
-        let options = Options { up, rails: vec![rail.parse().expect("a rail")], ..plain() };
+        let options = ImportOptions { up, rails: vec![rail.parse().expect("a rail")], ..plain() };
         let wrong = deck(&text("decks/mill.bdf"), &options).expect_err("no rail can lie there");
         assert!(told(&wrong).contains(part), "{rail}: {}", told(&wrong));
     }

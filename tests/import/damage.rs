@@ -3,7 +3,7 @@
 use formats::source::Source;
 use formats::spec::Spec;
 use formats::units::Length;
-use import::Options;
+use import::ImportOptions;
 
 use super::{deck, from_memory, plain, text, told};
 
@@ -104,7 +104,7 @@ fn taken(result: Result<import::Imported, Vec<formats::diagnostic::Diagnostic>>,
 fn damaged_decks_are_refused_or_taken() {
     let mut dice = Dice(11);
     let rails =
-        Options { up: Some([0.0, 1.0, 0.0]), rails: vec!["r=1-4".parse().expect("a rail")], ..plain() };
+        ImportOptions { up: Some([0.0, 1.0, 0.0]), rails: vec!["r=1-4".parse().expect("a rail")], ..plain() };
     let mut counts = [0; 2];
     for (name, options, rounds) in [
         ("decks/mill.bdf", plain(), 6000),
@@ -127,14 +127,14 @@ fn damaged_meshes_are_refused_or_taken() {
     let mut counts = [0; 2];
     for round in 0..4000 {
         let both = [&mesh, &sections].map(|text| damaged(text, &mut dice));
-        let options = Options {
+        let options = ImportOptions {
             length: Some(Length::Millimetre),
             up: Some([0.0, 0.0, 1.0]),
             sections: Some(Source {
                 name: "sections.json".to_owned(),
                 text: if round % 4 == 0 { both[1].clone() } else { sections.clone() },
             }),
-            ..Options::default()
+            ..ImportOptions::default()
         };
         let mesh = if round % 4 == 0 { &mesh } else { &both[0] };
         let result = from_memory("mesh.msh", &[("mesh.msh", mesh)], &options);

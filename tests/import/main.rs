@@ -12,7 +12,7 @@ use formats::diagnostic::Diagnostic;
 use formats::source::Source;
 use formats::spec::{Form, Frame, Spec};
 use formats::units::{Force, Length};
-use import::{Imported, Options, import};
+use import::{ImportOptions, Imported, import};
 use nalgebra::DVector;
 use serde_json::Value;
 
@@ -25,12 +25,16 @@ fn text(name: &str) -> String {
 }
 
 /// Options in metres and newtons.
-fn plain() -> Options {
-    Options { length: Some(Length::Metre), force: Some(Force::Newton), ..Options::default() }
+fn plain() -> ImportOptions {
+    ImportOptions { length: Some(Length::Metre), force: Some(Force::Newton), ..ImportOptions::default() }
 }
 
 /// Files in memory, read by name.
-fn from_memory(main: &str, files: &[(&str, &str)], options: &Options) -> Result<Imported, Vec<Diagnostic>> {
+fn from_memory(
+    main: &str,
+    files: &[(&str, &str)],
+    options: &ImportOptions,
+) -> Result<Imported, Vec<Diagnostic>> {
     let files: BTreeMap<&Path, &str> = files.iter().map(|(name, text)| (Path::new(*name), *text)).collect();
     let open = |path: &Path| {
         files.get(path).map(|text| text.as_bytes().to_vec()).ok_or_else(|| io::ErrorKind::NotFound.into())
@@ -39,7 +43,7 @@ fn from_memory(main: &str, files: &[(&str, &str)], options: &Options) -> Result<
 }
 
 /// One deck in memory.
-fn deck(text: &str, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
+fn deck(text: &str, options: &ImportOptions) -> Result<Imported, Vec<Diagnostic>> {
     from_memory("deck.bdf", &[("deck.bdf", text)], options)
 }
 

@@ -4,27 +4,27 @@ use fea::Kind;
 use formats::diagnostic::Diagnostic;
 use formats::source::Source;
 use formats::units::Length;
-use import::{Imported, Options, import};
+use import::{ImportOptions, Imported, import};
 use serde_json::json as value;
 
 use super::{folder, frame, json, text, told};
 
-fn options(sections: &str) -> Options {
+fn options(sections: &str) -> ImportOptions {
     let name = format!("meshes/{sections}");
-    Options {
+    ImportOptions {
         length: Some(Length::Millimetre),
         up: Some([0.0, 0.0, 1.0]),
         sections: Some(Source { text: text(&name), name }),
-        ..Options::default()
+        ..ImportOptions::default()
     }
 }
 
-fn mesh(name: &str, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
+fn mesh(name: &str, options: &ImportOptions) -> Result<Imported, Vec<Diagnostic>> {
     import(&folder().join("meshes").join(name), &|path| std::fs::read(path), options)
 }
 
-fn portal() -> Options {
-    Options {
+fn portal() -> ImportOptions {
+    ImportOptions {
         rails: vec!["crane=runway girder/offset=0,0,0.2".parse().expect("a rail")],
         fix: vec!["support feet=ux,uy,uz,rx,ry,rz".parse().expect("a support")],
         ..options("portal.json")
@@ -73,7 +73,7 @@ fn a_mesh_that_saves_everything_is_the_same() {
 
 #[test]
 fn elements_that_are_no_lines_are_left_out_by_name() {
-    let options = Options { length: Some(Length::Metre), ..options("plate.json") };
+    let options = ImportOptions { length: Some(Length::Metre), ..options("plate.json") };
     let imported = mesh("plate.msh", &options).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     let warned = told(&imported.warnings);
     assert!(warned.contains("triangles are left out"), "{warned}");
@@ -97,10 +97,10 @@ fn other_versions_are_refused_with_the_way_to_convert_them() {
 
 #[test]
 fn units_and_sections_are_never_guessed() {
-    let wrong = mesh("portal.msh", &Options::default()).expect_err("nothing said");
+    let wrong = mesh("portal.msh", &ImportOptions::default()).expect_err("nothing said");
     let wrong = told(&wrong);
     assert!(wrong.contains("--length must say") && wrong.contains("--sections must name"), "{wrong}");
-    let no_up = Options { up: None, rails: Vec::new(), ..portal() };
+    let no_up = ImportOptions { up: None, rails: Vec::new(), ..portal() };
     let wrong = told(&mesh("portal.msh", &no_up).expect_err("no orientation"));
     assert!(wrong.contains("orientation"), "{wrong}");
 }

@@ -3,9 +3,10 @@
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
 use formats::scene::Document;
-use foundations::{Known, solved_of, specs};
-use foundations::{Laid, Motion, Spectra, solve};
-use results::cases::{Outcome, simulate};
+use foundations::{BuiltFoundation, ModeCache, MotionBasis, solve};
+use foundations::{SolvedStructure, distinct_specs, solution_of};
+use results::cases::simulate;
+use results::outcome::CaseResult;
 use serde_json::{Value, json};
 use sim::Channel;
 use splines::{Axis, Probe};
@@ -42,8 +43,8 @@ fn scene(wheels: &Value, speed: f64, end: f64, dt: f64) -> Value {
 /// A scene and its spec, run.
 struct Ran {
     document: Document,
-    known: Vec<Known>,
-    outcomes: Vec<Outcome>,
+    known: Vec<SolvedStructure>,
+    outcomes: Vec<CaseResult>,
 }
 
 fn run(scene: &Value, spec: &Value) -> Ran {
@@ -57,9 +58,9 @@ fn run(scene: &Value, spec: &Value) -> Ran {
 }
 
 fn ran(document: Document) -> Ran {
-    let known: Vec<Known> = specs(&document)
+    let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
-        .map(|(_, _, spec)| Known { spec: spec.clone(), solved: solve(spec).expect("it stands") })
+        .map(|(_, _, spec)| SolvedStructure { spec: spec.clone(), solution: solve(spec).expect("it stands") })
         .collect();
     let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
     Ran { document, known, outcomes }
@@ -67,14 +68,14 @@ fn ran(document: Document) -> Ran {
 
 impl Ran {
     fn column(&self, case: usize, name: &str) -> &[f64] {
-        let values = self.outcomes[case].record.values(name);
+        let values = self.outcomes[case].columns.values(name);
         assert!(!values.is_empty(), "no column {name}");
         values
     }
 
     /// Sum of the columns whose names end so.
     fn sum(&self, case: usize, ending: &str) -> Vec<f64> {
-        let record = &self.outcomes[case].record;
+        let record = &self.outcomes[case].columns;
         let own: Vec<&Vec<f64>> = record
             .columns
             .iter()
@@ -86,12 +87,12 @@ impl Ran {
     }
 
     /// The foundation of the one structure of a case, laid again.
-    fn laid(&self, case: usize) -> Laid {
+    fn laid(&self, case: usize) -> BuiltFoundation {
         let structure = &self.document.cases[case].scene.structures[0];
-        foundations::laid(
-            &mut Spectra::default(),
+        foundations::build(
+            &mut ModeCache::default(),
             structure,
-            solved_of(&self.known, &structure.origin),
+            solution_of(&self.known, &structure.origin),
             false,
         )
         .expect("a foundation")

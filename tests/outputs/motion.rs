@@ -11,10 +11,10 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 /// Integral of m phi_k along the girder for each freedom: momentum per unit speed, from the shapes alone.
-fn momenta(laid: &Laid, mass: f64) -> Vec<f64> {
+fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     let Some(structure) = &laid.foundation.structure else { return Vec::new() };
     let n = laid.foundation.freedoms();
-    if let Some(Motion::Parts(parts)) = &laid.motion {
+    if let Some(MotionBasis::Parts(parts)) = &laid.motion {
         let of = |k: usize| {
             let each = parts.ends.windows(2).enumerate();
             each.map(|(j, ends)| mass * (ends[1] - ends[0]) * parts.basis[(6 * j + 1, k)]).sum()
@@ -25,7 +25,7 @@ fn momenta(laid: &Laid, mass: f64) -> Vec<f64> {
     let mut cuts: Vec<f64> =
         extent.range.into_iter().flatten().chain(extent.breaks.iter().copied()).collect();
     // shapes are cubics between the joints of the members as they are cut
-    if let Some(Motion::Modes { frame, .. }) = &laid.motion {
+    if let Some(MotionBasis::Modes { frame, .. }) = &laid.motion {
         cuts.extend(frame.line().expect("a rail").breaks(0));
     }
     cuts.sort_by(f64::total_cmp);
@@ -156,11 +156,15 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
     given["compare"] = json!([]);
     let ran = run(&given, &spec);
     let structure = &ran.document.cases[0].scene.structures[0];
-    let laid =
-        foundations::laid(&mut Spectra::default(), structure, solved_of(&ran.known, &structure.origin), true)
-            .expect("a foundation");
-    let Some(Motion::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
-    let record = &ran.outcomes[0].record;
+    let laid = foundations::build(
+        &mut ModeCache::default(),
+        structure,
+        solution_of(&ran.known, &structure.origin),
+        true,
+    )
+    .expect("a foundation");
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
+    let record = &ran.outcomes[0].columns;
     let history = &ran.outcomes[0].run.history;
     let wheels = |part: &str, sign: f64| -> Vec<f64> {
         let all: Vec<&[f64]> = (1..=4).map(|k| record.values(&format!("truck.wheel{k}.{part}"))).collect();

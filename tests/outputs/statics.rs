@@ -135,7 +135,7 @@ fn a_drive_pushes_the_rail_back_and_its_support_holds_it() {
 fn spans_of_the_mill_girderway_end_at_its_columns() {
     let example = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/mill_girderway");
     let document = Document::open(&example.join("scene.json")).unwrap_or_else(|wrong| panic!("{wrong:?}"));
-    let (_, _, spec) = specs(&document).remove(0);
+    let (_, _, spec) = distinct_specs(&document).remove(0);
     let (model, rails) = spec.model().expect("a model");
     let found = results::response::spans(spec, &model, &rails, 0);
     assert_eq!(found, [0.0, 40.0, 95.0, 170.0, 230.0, 275.0, 325.0]);

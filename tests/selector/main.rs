@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use duty::{Duty, duty};
-use foundations::{Error, Spectra, modes_of, rung_of};
+use foundations::{Error, ModeCache, excited_modes, foundation_at};
 use sim::{Choice, Foundation, Ladder, Reason, Run, Rung, Scene, choose, distance};
 
 /// What the rules of the selector were fitted to, and what they were not.
@@ -30,17 +30,17 @@ const RUNGS: [Rung; 9] = [
     Rung::Full,
 ];
 
-struct Rungs<'a>(&'a Duty, Spectra);
+struct Rungs<'a>(&'a Duty, ModeCache);
 
 impl Ladder for Rungs<'_> {
     type Error = Error;
 
     fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Error> {
-        Ok(modes_of(&self.0.solved, count)?)
+        Ok(excited_modes(&self.0.solved, count)?)
     }
 
     fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Error> {
-        Ok(rung_of(&mut self.1, &self.0.solved, rung, self.0.damping, 1)?)
+        Ok(foundation_at(&mut self.1, &self.0.solved, rung, self.0.damping, 1)?)
     }
 }
 
@@ -75,10 +75,10 @@ struct Verdict {
 fn judge(seed: u64, index: u64) -> Verdict {
     let duty = duty(seed, index);
     // the caches are warm
-    rung_of(&mut Spectra::default(), &duty.solved, Rung::Influence, 0.0, 1).expect("a surface");
+    foundation_at(&mut ModeCache::default(), &duty.solved, Rung::Influence, 0.0, 1).expect("a surface");
     let mut scene = duty.scene.clone();
     let start = Instant::now();
-    let mut rungs = Rungs(&duty, Spectra::default());
+    let mut rungs = Rungs(&duty, ModeCache::default());
     let selection =
         choose(&duty.scene, &[Some(duty.tolerance)], &mut rungs, &mut |_| ControlFlow::Continue(()))
             .ok()
@@ -87,16 +87,17 @@ fn judge(seed: u64, index: u64) -> Verdict {
     let choice = selection.choices[0].clone();
     scene.accuracy = 0.03 * duty.tolerance;
     let start = Instant::now();
-    let alone = rung_of(&mut Spectra::default(), &duty.solved, choice.rung, duty.damping, 1);
+    let alone = foundation_at(&mut ModeCache::default(), &duty.solved, choice.rung, duty.damping, 1);
     run(&scene, alone.expect("it has mass"));
     let spent = start.elapsed().as_secs_f64();
     let cost = taken / spent;
     let start = Instant::now();
-    assert!(modes_of(&duty.solved, 3).is_ok_and(|modes| modes.is_some()));
+    assert!(excited_modes(&duty.solved, 3).is_ok_and(|modes| modes.is_some()));
     let modes = start.elapsed().as_secs_f64();
 
-    let mut of =
-        |rung, finer| rung_of(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass");
+    let mut of = |rung, finer| {
+        foundation_at(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass")
+    };
     scene.accuracy = 3e-3 * duty.tolerance;
     let reference = run(&scene, of(Rung::Full, 1));
     let with_mesh = class(choice.rung) == 3 && index.is_multiple_of(3);

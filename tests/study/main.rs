@@ -7,10 +7,10 @@ mod stability;
 
 use formats::scene::{Document, Reading};
 use foundations::solve;
-use foundations::{Known, specs};
+use foundations::{SolvedStructure, distinct_specs};
 use serde_json::{Value, json};
 use sim::Method;
-use study::{Against, Depth, Family, Outcome, Quantity, Silent, Study, study};
+use study::{Against, Depth, ErrorGroup, PointOutcome, SettingFamily, Silent, Study, study};
 
 /// The paper's girder; `mass` by length, where it has one.
 fn girder(mass: Option<f64>) -> Value {
@@ -61,16 +61,17 @@ fn conduct(scene: &Value, spec: &Value, depth: &Depth) -> Study {
         std::fs::write(folder.path().join(name), value.to_string()).expect("writable");
     }
     let document = Document::open(&folder.path().join("scene.json")).expect("a scene without faults");
-    let solved = |spec: &std::sync::Arc<formats::spec::Spec>| Known {
+    let solved = |spec: &std::sync::Arc<formats::spec::Spec>| SolvedStructure {
         spec: std::sync::Arc::clone(spec),
-        solved: solve(spec).expect("a girder that stands"),
+        solution: solve(spec).expect("a girder that stands"),
     };
-    let known: Vec<Known> = specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
+    let known: Vec<SolvedStructure> =
+        distinct_specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
     study(document.scene(), &known, depth, &Silent).expect("a reference")
 }
 
 /// Values and errors along a family, in their order.
-fn curve(study: &Study, family: Family, quantity: Quantity) -> Vec<[f64; 2]> {
+fn curve(study: &Study, family: SettingFamily, quantity: ErrorGroup) -> Vec<[f64; 2]> {
     let own = study.points.iter().filter(|point| point.setting.family == family);
     own.map(|point| {
         let error = point.error(quantity);
@@ -94,13 +95,13 @@ fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
     // between supports, where the rail's give is smooth
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
     let known = study.reference(Against::Own).expect("the scene's own reference");
-    println!("the reference tells from {:.1e}", known.resolves(Quantity::Deflection));
+    println!("the reference tells from {:.1e}", known.resolves(ErrorGroup::Deflection));
     for (method, wanted) in
         [(Method::Sdirk4, 4.0), (Method::Radau, 5.0), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
     {
-        let curve = curve(&study, Family::Fixed(method), Quantity::Deflection);
+        let curve = curve(&study, SettingFamily::Fixed(method), ErrorGroup::Deflection);
         let told: Vec<[f64; 2]> =
-            curve.iter().filter(|own| own[1] > known.resolves(Quantity::Deflection)).copied().collect();
+            curve.iter().filter(|own| own[1] > known.resolves(ErrorGroup::Deflection)).copied().collect();
         println!("{method:?}: {curve:?}");
         assert!(told.len() > 1, "{method:?}: {curve:?}");
         let found = order(&told);
@@ -116,17 +117,17 @@ fn errors_of_tables_and_parts_fall_with_their_orders() {
     let study = conduct(&scene, &girder(None), &depth);
     // natural splines: 3 where loads stand between stations; Akima's bilinear row: 2
     for (family, wanted) in [
-        (Family::Table(Reading::Natural), 3.0),
-        (Family::Table(Reading::Akispl), 2.0),
-        (Family::Table(Reading::Cubspl), 2.0),
-        (Family::Parts, 2.0),
+        (SettingFamily::Table(Reading::Natural), 3.0),
+        (SettingFamily::Table(Reading::Akispl), 2.0),
+        (SettingFamily::Table(Reading::Cubspl), 2.0),
+        (SettingFamily::Parts, 2.0),
     ] {
-        let curve = curve(&study, family, Quantity::Deflection);
+        let curve = curve(&study, family, ErrorGroup::Deflection);
         let found = order(&curve);
         println!("{}: {curve:?}, order {found:.2}", family.name());
         assert!((found - wanted).abs() < 0.3, "{}: order {found}; {curve:?}", family.name());
     }
-    let exact = curve(&study, Family::Influence, Quantity::Deflection);
+    let exact = curve(&study, SettingFamily::Influence, ErrorGroup::Deflection);
     assert!(exact.iter().all(|own| own[1] == 0.0), "the exact surface is the reference: {exact:?}");
 }
 
@@ -137,15 +138,15 @@ fn residual_flexibility_spares_modes() {
     scene["bodies"]["car"]["weight"] = json!(2e4);
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(1e5);
     let study = conduct(&scene, &girder(Some(15.2)), &depth);
-    let least = study.reference(Against::Whole).expect("a reference").resolves(Quantity::Deflection);
-    let [with, without] =
-        [Family::Modal, Family::Pure].map(|family| curve(&study, family, Quantity::Deflection));
+    let least = study.reference(Against::Whole).expect("a reference").resolves(ErrorGroup::Deflection);
+    let [with, without] = [SettingFamily::Modal, SettingFamily::Pure]
+        .map(|family| curve(&study, family, ErrorGroup::Deflection));
     println!("with {with:?}, without {without:?}, told from {least:.1e}");
     for (with, without) in with.iter().zip(&without) {
         assert!(with[1].max(least) < 0.2 * without[1], "{with:?} {without:?}");
     }
     assert!(without.windows(2).all(|pair| pair[1][1] < pair[0][1]), "{without:?}");
-    let massless = curve(&study, Family::Influence, Quantity::Deflection);
+    let massless = curve(&study, SettingFamily::Influence, ErrorGroup::Deflection);
     assert!(massless.iter().all(|own| own[1] > with[0][1]), "{massless:?}");
 }
 
@@ -179,12 +180,12 @@ fn errors_by_modes_are_those_found_elsewhere() {
     };
     let study = conduct(&scene, &spec, &depth);
     for (family, quantity, wanted) in [
-        (Family::Modal, Quantity::WheelForce, [8.9e-4, 3.4e-5, 4.8e-6, f64::NAN]),
-        (Family::Modal, Quantity::Moment, [3.4e-3, 8.9e-4, 3.6e-4, f64::NAN]),
-        (Family::Pure, Quantity::WheelForce, [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6]),
-        (Family::Pure, Quantity::Moment, [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2]),
-        (Family::Influence, Quantity::WheelForce, [3.3e-2, f64::NAN, f64::NAN, f64::NAN]),
-        (Family::Influence, Quantity::Moment, [8.4e-2, f64::NAN, f64::NAN, f64::NAN]),
+        (SettingFamily::Modal, ErrorGroup::WheelForce, [8.9e-4, 3.4e-5, 4.8e-6, f64::NAN]),
+        (SettingFamily::Modal, ErrorGroup::Moment, [3.4e-3, 8.9e-4, 3.6e-4, f64::NAN]),
+        (SettingFamily::Pure, ErrorGroup::WheelForce, [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6]),
+        (SettingFamily::Pure, ErrorGroup::Moment, [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2]),
+        (SettingFamily::Influence, ErrorGroup::WheelForce, [3.3e-2, f64::NAN, f64::NAN, f64::NAN]),
+        (SettingFamily::Influence, ErrorGroup::Moment, [8.4e-2, f64::NAN, f64::NAN, f64::NAN]),
     ] {
         let curve = curve(&study, family, quantity);
         println!("{} {}: {curve:?}, elsewhere {wanted:?}", family.name(), quantity.name());
@@ -192,7 +193,7 @@ fn errors_by_modes_are_those_found_elsewhere() {
             let what =
                 format!("girderway study, {} {}: error of the {}", family.name(), own[0], quantity.name());
             let figure = claims::figure("5 Speed, mass and modes", what, "prototype", wanted);
-            if (family, quantity) != (Family::Pure, Quantity::Moment) {
+            if (family, quantity) != (SettingFamily::Pure, ErrorGroup::Moment) {
                 figure.met(own[1], 0.2);
                 continue;
             }
@@ -210,14 +211,13 @@ fn a_run_beyond_its_limit_is_stopped_and_says_so() {
     let depth = Depth { steps: vec![16, 4_000_000], limit: 0.05, ..nothing() };
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
     let of = |value: f64| {
-        let found = study
-            .points
-            .iter()
-            .find(|own| own.setting.family == Family::Fixed(Method::Sdirk4) && own.setting.value == value);
+        let found = study.points.iter().find(|own| {
+            own.setting.family == SettingFamily::Fixed(Method::Sdirk4) && own.setting.value == value
+        });
         &found.expect("a setting").outcome
     };
-    assert!(matches!(of(16.0), Outcome::Done(_)), "{:?}", of(16.0));
-    assert!(matches!(of(4e6), Outcome::Stopped), "{:?}", of(4e6));
+    assert!(matches!(of(16.0), PointOutcome::Done(_)), "{:?}", of(16.0));
+    assert!(matches!(of(4e6), PointOutcome::Stopped), "{:?}", of(4e6));
 }
 
 #[test]
@@ -226,9 +226,9 @@ fn methods_that_do_not_suit_are_refused_with_what_they_lack() {
     let mut scene = scene(20.0, 40.0, 0.5);
     scene["wheels"]["wheel"]["vertical"]["c"] = json!(1e4);
     let study = conduct(&scene, &girder(None), &depth);
-    let gauss = study.points.iter().find(|own| own.setting.family == Family::Fixed(Method::Gauss2));
+    let gauss = study.points.iter().find(|own| own.setting.family == SettingFamily::Fixed(Method::Gauss2));
     match &gauss.expect("a setting").outcome {
-        Outcome::Refused(why) => assert!(why.contains("damper between wheel and rail"), "{why}"),
+        PointOutcome::Refused(why) => assert!(why.contains("damper between wheel and rail"), "{why}"),
         other => panic!("{other:?}"),
     }
 }

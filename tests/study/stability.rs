@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use formats::scene::Document;
 use foundations::solve;
-use foundations::{Known, specs};
+use foundations::{SolvedStructure, distinct_specs};
 use study::Silent;
-use study::stability::{Map, Subject, Verdict, maps};
+use study::stability::{MapSubject, MapVerdict, StabilityMap, maps};
 
-fn found(map: &Map, what: &str) -> f64 {
+fn found(map: &StabilityMap, what: &str) -> f64 {
     // beta 10 is not beta 100
     let is_meant = |own: &str| {
         own.strip_prefix(what).is_some_and(|rest| !rest.starts_with(|c: char| c.is_ascii_digit()))
@@ -18,14 +18,14 @@ fn found(map: &Map, what: &str) -> f64 {
     finding.unwrap_or_else(|| panic!("{}: nothing is called {what}", map.name)).value
 }
 
-fn close(map: &Map, what: &str, wanted: f64, by: f64) {
+fn close(map: &StabilityMap, what: &str, wanted: f64, by: f64) {
     let value = found(map, what);
     println!("{}: {what}: {value}, wanted {wanted}", map.name);
     assert!((value / wanted - 1.0).abs() < by, "{}: {what}: {value}, wanted {wanted}", map.name);
 }
 
 /// Points of a method with a verdict.
-fn count(map: &Map, method: &str, word: &str) -> usize {
+fn count(map: &StabilityMap, method: &str, word: &str) -> usize {
     let layer = map.layers.iter().find(|layer| layer.method == method);
     let layer = layer.unwrap_or_else(|| panic!("{}: no method {method}", map.name));
     layer.cells.iter().filter(|cell| cell.verdict.word() == word).count()
@@ -35,11 +35,14 @@ fn count(map: &Map, method: &str, word: &str) -> usize {
 fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_found() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/bogie/scene.json");
     let document = Document::open(&path).expect("an example");
-    let known = specs(&document)
+    let known = distinct_specs(&document)
         .iter()
-        .map(|(_, _, spec)| Known { spec: Arc::clone(spec), solved: solve(spec).expect("it stands") })
+        .map(|(_, _, spec)| SolvedStructure {
+            spec: Arc::clone(spec),
+            solution: solve(spec).expect("it stands"),
+        })
         .collect::<Vec<_>>();
-    let subject = Subject::of(document.scene(), &known).expect("a truck on a girder");
+    let subject = MapSubject::of(document.scene(), &known).expect("a truck on a girder");
     let (maps, absent) = maps(&subject, true, &Silent);
     let names: Vec<&str> = absent.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["ties"], "{absent:?}");
@@ -49,7 +52,7 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
     let ours = || maps.iter().flat_map(|map| &map.layers).filter(|layer| layer.is_ours);
     let points: usize = ours().map(|layer| layer.cells.len()).sum();
     let refused =
-        ours().flat_map(|layer| &layer.cells).filter(|cell| matches!(cell.verdict, Verdict::Refused(_)));
+        ours().flat_map(|layer| &layer.cells).filter(|cell| matches!(cell.verdict, MapVerdict::Refused(_)));
     let refused = refused.count();
     println!("{points} points of girderway, {refused} refused");
     for map in &maps {

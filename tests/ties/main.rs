@@ -10,9 +10,10 @@ use formats::spec::{Form, Spec};
 use formats::track::{Ties, on_ground, on_structure};
 use formats::units::{Force, Length, Units};
 use foundations::solve;
-use foundations::{Known, specs};
+use foundations::{SolvedStructure, distinct_specs};
 use nalgebra::DMatrix;
-use results::cases::{Outcome, simulate};
+use results::cases::simulate;
+use results::outcome::CaseResult;
 use sim::{Reason, Rung};
 use splines::{Axis, Compliance, Influence, Probe, Surface};
 
@@ -151,21 +152,24 @@ fn rail_on_two_ties_over_a_girder_is_the_sum_of_its_parts() {
 }
 
 /// Runs a scene and its comparisons, `girder.json` beside it.
-fn run(scene: &str, girder: &str) -> Vec<Outcome> {
+fn run(scene: &str, girder: &str) -> Vec<CaseResult> {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("scene.json");
     std::fs::write(&path, scene).expect("room for a scene");
     std::fs::write(folder.path().join("girder.json"), girder).expect("room for a spec");
     let document = Document::open(&path).expect("a sound scene");
-    let known: Vec<Known> = specs(&document)
+    let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
-        .map(|(_, _, spec)| Known { spec: Arc::clone(spec), solved: solve(spec).expect("it stands") })
+        .map(|(_, _, spec)| SolvedStructure {
+            spec: Arc::clone(spec),
+            solution: solve(spec).expect("it stands"),
+        })
         .collect();
     simulate(&document, &known, None, &|_| ()).expect("runs")
 }
 
 /// A cart over ties whose foundation is left to the program.
-fn on_ties(structure: &str) -> Outcome {
+fn on_ties(structure: &str) -> CaseResult {
     let scene = format!(
         r#"{{"format": "girderway-scene/1", "units": {{"length": "in", "force": "lbf", "time": "s"}}, "gravity": 386.0886,
  "structures": {{"track": {{{structure}"foundation": "auto", "range": [0, 480],
@@ -186,7 +190,7 @@ const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "in",
 /// Ties without mass know no error of leaving it out; over a girder with mass `auto` compares its rungs.
 #[test]
 fn auto_on_ties_says_which_rung_and_why() {
-    let choice = |outcome: &Outcome| outcome.choices.first().expect("it chose").clone();
+    let choice = |outcome: &CaseResult| outcome.choices.first().expect("it chose").clone();
     let ground = choice(&on_ties(""));
     assert_eq!((ground.rung, ground.reason), (Rung::Influence, Reason::NoMass), "{ground:?}");
     let girder = choice(&on_ties(r#""spec": "girder.json", "#));
@@ -213,7 +217,7 @@ fn amplification(theta: f64, spacing: f64, length: f64) -> [f64; 2] {
         u * spacing
     );
     let outcomes = run(&text, "{}");
-    let record = &outcomes[0].record;
+    let record = &outcomes[0].columns;
     let held =
         record.values("time").iter().zip(record.values("load.deflection")).filter(|(t, _)| **t >= ramp);
     let own = held.map(|(_, deflection)| (deflection - 3e4 / 1e9) / 0.113_276_143_084_753_69);
@@ -255,7 +259,7 @@ fn dampers_of_ties_under_a_stiff_rail_are_a_share_of_critical() {
         "theory": "euler-bernoulli", "girder": {"spans": [48], "E": 30e6, "I_vertical": 1e7}, "stations": [0, 24, 48]}"#;
     let outcomes = run(&scene, girder);
     let apart = |index: usize| {
-        let [own, other] = [0, index].map(|k| outcomes[k].record.values("load.deflection"));
+        let [own, other] = [0, index].map(|k| outcomes[k].columns.values("load.deflection"));
         own.iter().zip(other).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()))
     };
     println!("share {:e}, girder {:e}, undamped {:e}", apart(1), apart(2), apart(3));

@@ -5,15 +5,16 @@ use std::sync::Arc;
 
 use formats::scene::Document;
 use foundations::solve;
-use foundations::{Known, specs};
-use results::cases::{Outcome, simulate};
+use foundations::{SolvedStructure, distinct_specs};
+use results::cases::simulate;
+use results::outcome::CaseResult;
 
 const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
     "girder": {"spans": [40], "E": 2e11, "A": 0.01, "I_vertical": 1e-3}, "stations": [0, 20, 40]}"#;
 
 /// Runs a scene on the girder, `survey.csv` beside it: members of its structure, its body's freedoms, other members of its
 /// wheels, and members of the scene.
-fn run(structure: &str, dof: &str, wheel: &str, scene: &str, survey: &str) -> Outcome {
+fn run(structure: &str, dof: &str, wheel: &str, scene: &str, survey: &str) -> CaseResult {
     let folder = tempfile::tempdir().expect("a temporary folder");
     let path = folder.path().join("scene.json");
     let text = format!(
@@ -27,21 +28,24 @@ fn run(structure: &str, dof: &str, wheel: &str, scene: &str, survey: &str) -> Ou
     fs::write(folder.path().join("girder.json"), GIRDER).expect("room for a spec");
     fs::write(folder.path().join("survey.csv"), survey).expect("room for a survey");
     let document = Document::open(&path).expect("a sound scene");
-    let known: Vec<Known> = specs(&document)
+    let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
-        .map(|(_, _, spec)| Known { spec: Arc::clone(spec), solved: solve(spec).expect("it stands") })
+        .map(|(_, _, spec)| SolvedStructure {
+            spec: Arc::clone(spec),
+            solution: solve(spec).expect("it stands"),
+        })
         .collect();
     simulate(&document, &known, None, &|_| ()).expect("runs").remove(0)
 }
 
-fn column(outcome: &Outcome, name: &str) -> Vec<f64> {
-    let values = outcome.record.values(name);
+fn column(outcome: &CaseResult, name: &str) -> Vec<f64> {
+    let values = outcome.columns.values(name);
     assert!(!values.is_empty(), "there is a column {name}");
     values.to_vec()
 }
 
 /// The cart carried at 3 m/s from 10 m over a rigid rail with these irregularities.
-fn carried(irregularities: &str, survey: &str) -> Outcome {
+fn carried(irregularities: &str, survey: &str) -> CaseResult {
     let structure = format!(r#""foundation": "rigid", "irregularities": [{irregularities}]"#);
     let scene = r#""motions": [{"body": "cart", "dof": "x", "kind": "prescribed", "speed": [[0, 3]]}], "end": {"time": 6}"#;
     run(&structure, r#""y""#, "", scene, survey)

@@ -4,19 +4,19 @@ use adams::Statement;
 use sim::{FrictionLaw, NormalLaw};
 use splines::Axis;
 
-use super::expression::{Sum, mean, number, value};
-use super::form::Form;
-use super::give::Load;
-use super::ids::{self, Slot, variable};
+use super::compliance::LoadedMarker;
+use super::expression::{TermList, mean, number, value};
+use super::form::DeckForm;
+use super::ids::{self, VariableSlot, variable};
 use super::name::plain;
-use super::plan::Plan;
+use super::plan::DeckPlan;
 use super::remark;
 
 /// All of them.
-pub(super) fn statements(plan: &Plan<'_>) -> Vec<Statement> {
+pub(super) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut said = Said::default();
     let mut out = Vec::new();
-    for (s, give) in plan.gives.iter().enumerate() {
+    for (s, give) in plan.compliances.iter().enumerate() {
         out.extend(give.products(&loads(plan, s)));
     }
     for c in 0..plan.contacts.len() {
@@ -53,116 +53,120 @@ fn once(said: &mut bool, statement: Statement, text: &str) -> Statement {
 }
 
 /// Forces on the rails of structure `s`.
-pub(super) fn loads(plan: &Plan<'_>, s: usize) -> Vec<Load> {
+pub(super) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
     let mut out = Vec::new();
     for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
-        let at = value(variable(w, Slot::Place));
+        let at = value(variable(w, VariableSlot::Place));
         let first = plan.contacts[wheel.contact].wheels.start;
-        let load = |axis, slot, owner, negative| Load {
+        let load = |axis, slot, owner, negative| LoadedMarker {
             way: plan.way(w, axis),
             place: at.clone(),
             force: value(variable(owner, slot)),
             negative,
         };
-        out.push(load(Axis::Vertical, Slot::Press, first, true));
+        out.push(load(Axis::Vertical, VariableSlot::Press, first, true));
         if plan.kind(w).flange.is_some() {
-            out.push(load(Axis::Lateral, Slot::Flange, w, false));
+            out.push(load(Axis::Lateral, VariableSlot::Flange, w, false));
         }
     }
     out
 }
 
-fn named(plan: &Plan<'_>, w: usize, slot: Slot, what: &str) -> Statement {
+fn named(plan: &DeckPlan<'_>, w: usize, slot: VariableSlot, what: &str) -> Statement {
     Statement::new("VARIABLE", variable(w, slot)).named(plain(&format!("{}_{what}", plan.wheels[w].name)))
 }
 
 /// With the initial value, which the paper's form does not have.
-fn starting(plan: &Plan<'_>, statement: Statement, at: f64) -> Statement {
-    statement.numbers("IC", &[if plan.form == Form::Paper { 0.0 } else { at }])
+fn starting(plan: &DeckPlan<'_>, statement: Statement, at: f64) -> Statement {
+    statement.numbers("IC", &[if plan.form == DeckForm::Paper { 0.0 } else { at }])
 }
 
 /// Where the wheel is, and how the rail has moved there.
-fn place(plan: &Plan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
+fn place(plan: &DeckPlan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
     let rail = plan.datum(w);
-    let statement = named(plan, w, Slot::Place, "place").numbers("IC", &[plan.start.place[w]]);
+    let statement = named(plan, w, VariableSlot::Place, "place").numbers("IC", &[plan.start.place[w]]);
     out.push(statement.function("FUNCTION", format!("DX({},{rail},{rail})", wheel.marker)));
-    let at = value(variable(w, Slot::Place));
-    let give = &plan.gives[wheel.structure];
+    let at = value(variable(w, VariableSlot::Place));
+    let give = &plan.compliances[wheel.structure];
     let loads = loads(plan, wheel.structure);
     if !give.gives() {
         return;
     }
     if let Some(text) = give.displacement(plan.way(w, Axis::Vertical), &at, &loads, false) {
-        let statement = starting(plan, named(plan, w, Slot::Rise, "rise"), -plan.start.give[w]);
+        let statement = starting(plan, named(plan, w, VariableSlot::Rise, "rise"), -plan.start.give[w]);
         out.push(once(&mut said.cross, statement, remark::CROSS).function("FUNCTION", text));
     }
     if plan.kind(w).flange.is_some()
         && let Some(text) = give.displacement(plan.way(w, Axis::Lateral), &at, &loads, false)
     {
-        out.push(named(plan, w, Slot::Shift, "shift").function("FUNCTION", text));
+        out.push(named(plan, w, VariableSlot::Shift, "shift").function("FUNCTION", text));
     }
 }
 
 /// Height of a wheel's centre above its rail as it has moved, less the radius: the penetration, negative.
-fn height(plan: &Plan<'_>, w: usize) -> String {
+fn height(plan: &DeckPlan<'_>, w: usize) -> String {
     let rail = plan.datum(w);
     let mut text = format!("DY({},{rail},{rail})", plan.wheels[w].marker);
-    if plan.gives[plan.wheels[w].structure].gives() {
-        text.push_str(&format!("-{}", value(variable(w, Slot::Rise))));
+    if plan.compliances[plan.wheels[w].structure].gives() {
+        text.push_str(&format!("-{}", value(variable(w, VariableSlot::Rise))));
     }
     text
 }
 
 /// Penetration of contact `c` as its law reads it.
-fn depth(plan: &Plan<'_>, c: usize) -> String {
+fn depth(plan: &DeckPlan<'_>, c: usize) -> String {
     let contact = &plan.contacts[c];
-    match contact.diff.filter(|_| plan.form != Form::Paper) {
+    match contact.diff.filter(|_| plan.form != DeckForm::Paper) {
         Some(id) => format!("DIF({id})"),
-        None => value(variable(contact.wheels.start, Slot::Penetration)),
+        None => value(variable(contact.wheels.start, VariableSlot::Penetration)),
     }
 }
 
-fn vertical(plan: &Plan<'_>, c: usize, said: &mut Said, out: &mut Vec<Statement>) {
+fn vertical(plan: &DeckPlan<'_>, c: usize, said: &mut Said, out: &mut Vec<Statement>) {
     let contact = &plan.contacts[c];
     let first = contact.wheels.start;
     let kind = plan.kind(first);
     let heights = mean_height(plan, c);
-    let statement =
-        starting(plan, named(plan, first, Slot::Penetration, "penetration"), plan.start.penetration[first]);
+    let statement = starting(
+        plan,
+        named(plan, first, VariableSlot::Penetration, "penetration"),
+        plan.start.penetration[first],
+    );
     let text = format!("{}-{heights}", number(kind.radius));
     out.push(once(&mut said.start, statement, remark::START).function("FUNCTION", text));
-    if let Some(id) = contact.diff.filter(|_| plan.form != Form::Paper) {
+    if let Some(id) = contact.diff.filter(|_| plan.form != DeckForm::Paper) {
         let statement = Statement::new("DIFF", id)
             .named(plain(&format!("{}_gap", plan.wheels[first].name)))
             .numbers("IC", &[plan.start.penetration[first], 0.0])
             .flag("IMPLICIT");
-        let text = format!("DIF({id})-{}", value(variable(first, Slot::Penetration)));
+        let text = format!("DIF({id})-{}", value(variable(first, VariableSlot::Penetration)));
         out.push(once(&mut said.gap, statement, remark::GAP).function("FUNCTION", text));
     }
-    let statement = starting(plan, named(plan, first, Slot::Press, "press"), plan.start.vertical[first]);
+    let statement =
+        starting(plan, named(plan, first, VariableSlot::Press, "press"), plan.start.vertical[first]);
     let law = &kind.normal;
-    let mut statement = if plan.form == Form::Paper {
+    let mut statement = if plan.form == DeckForm::Paper {
         once(&mut said.law, statement, remark::PAPER)
     } else if law.exponent == 1.0 {
         once(&mut said.law, statement, remark::LINEAR)
     } else {
         once(&mut said.law, statement, remark::EXPONENT)
     };
-    if law.bilateral && plan.form != Form::Paper {
+    if law.bilateral && plan.form != DeckForm::Paper {
         statement = statement.remark(remark::BILATERAL);
     }
     let text = press(plan, c);
-    if contact.diff.is_none() && law.damping > 0.0 && plan.form != Form::Paper {
+    if contact.diff.is_none() && law.damping > 0.0 && plan.form != DeckForm::Paper {
         statement = once(&mut said.velocity, statement, remark::VELOCITY);
     }
     out.push(statement.function("FUNCTION", text));
 }
 
 /// Mean height of the contact's wheels above their rail as it has moved, in brackets where needed.
-fn mean_height(plan: &Plan<'_>, c: usize) -> String {
+fn mean_height(plan: &DeckPlan<'_>, c: usize) -> String {
     let wheels = plan.contacts[c].wheels.clone();
-    let mut sum = Sum::default();
+    let mut sum = TermList::default();
     for w in wheels.clone() {
         sum.add(false, &height(plan, w));
     }
@@ -171,12 +175,12 @@ fn mean_height(plan: &Plan<'_>, c: usize) -> String {
 }
 
 /// Speed at which the contact's wheels move down, up to its sign.
-fn speed(plan: &Plan<'_>, c: usize) -> String {
+fn speed(plan: &DeckPlan<'_>, c: usize) -> String {
     let wheels = plan.contacts[c].wheels.clone();
-    let mut sum = Sum::default();
+    let mut sum = TermList::default();
     for w in wheels.clone() {
         let (hub, rail) = (plan.wheels[w].marker, plan.datum(w));
-        if plan.form == Form::Paper {
+        if plan.form == DeckForm::Paper {
             sum.add(false, &format!("VY({hub},{rail},{rail})"));
         } else {
             sum.add(false, &format!("VY({hub},{rail},{rail},{rail})"));
@@ -186,13 +190,13 @@ fn speed(plan: &Plan<'_>, c: usize) -> String {
 }
 
 /// Vertical force of each wheel of contact `c`.
-fn press(plan: &Plan<'_>, c: usize) -> String {
+fn press(plan: &DeckPlan<'_>, c: usize) -> String {
     let contact = &plan.contacts[c];
     let kind = plan.kind(contact.wheels.start);
     let law = &kind.normal;
     let p = depth(plan, c);
     let (k, damping) = (number(law.stiffness), number(law.damping));
-    if plan.form == Form::Paper {
+    if plan.form == DeckForm::Paper {
         return format!("{k}*{p}-{damping}*({})", speed(plan, c));
     }
     let ramped = law.depth > 0.0 && law.damping > 0.0;
@@ -232,12 +236,12 @@ fn spring(law: &NormalLaw, p: &str) -> String {
 }
 
 /// Height of wheel `w`'s centre above the rail: the arm of friction and flange force.
-fn arm(plan: &Plan<'_>, w: usize) -> String {
+fn arm(plan: &DeckPlan<'_>, w: usize) -> String {
     let radius = number(plan.kind(w).radius);
     format!("({radius}-{})", depth(plan, plan.wheels[w].contact))
 }
 
-fn flange(plan: &Plan<'_>, w: usize, out: &mut Vec<Statement>) {
+fn flange(plan: &DeckPlan<'_>, w: usize, out: &mut Vec<Statement>) {
     let Some(flange) = &plan.kind(w).flange else { return };
     let wheel = &plan.wheels[w];
     let rail = plan.datum(w);
@@ -246,25 +250,25 @@ fn flange(plan: &Plan<'_>, w: usize, out: &mut Vec<Statement>) {
         let radius = number(plan.kind(w).radius);
         text.push_str(&format!("+{}/{radius}*DZ({tread},{},{rail})", arm(plan, w), wheel.marker));
     }
-    if plan.gives[wheel.structure].gives() {
-        text.push_str(&format!("-{}", value(variable(w, Slot::Shift))));
+    if plan.compliances[wheel.structure].gives() {
+        text.push_str(&format!("-{}", value(variable(w, VariableSlot::Shift))));
     }
-    out.push(named(plan, w, Slot::Sideways, "sideways").function("FUNCTION", text));
-    let side = value(variable(w, Slot::Sideways));
+    out.push(named(plan, w, VariableSlot::Sideways, "sideways").function("FUNCTION", text));
+    let side = value(variable(w, VariableSlot::Sideways));
     let gap = number(flange.clearance);
     let share = flange.release.map_or(String::new(), |[from, to]| {
         format!("*STEP({},{},1,{},0)", arm(plan, w), number(from), number(to))
     });
     let overlap = format!("(MAX(0,{side}-{gap})+MIN(0,{side}+{gap}))");
-    let statement = starting(plan, named(plan, w, Slot::Flange, "flange"), plan.start.lateral[w]);
+    let statement = starting(plan, named(plan, w, VariableSlot::Flange, "flange"), plan.start.lateral[w]);
     out.push(statement.function("FUNCTION", format!("{}{share}*{overlap}", number(flange.stiffness))));
 }
 
-fn friction(plan: &Plan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
+fn friction(plan: &DeckPlan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
     let (Some((_, centre)), Some(friction)) = (plan.wheels[w].spin, &plan.kind(w).friction) else { return };
     let (hub, rail) = (plan.wheels[w].marker, plan.datum(w));
-    let press = value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, Slot::Press));
-    let fourth = if plan.form == Form::Paper { String::new() } else { format!(",{rail}") };
+    let press = value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, VariableSlot::Press));
+    let fourth = if plan.form == DeckForm::Paper { String::new() } else { format!(",{rail}") };
     let slide = format!("VX({hub},{rail},{rail}{fourth})+WZ({centre},{rail},{rail})*{}", arm(plan, w));
     let slip = number(friction.slip);
     let share = match friction.law {
@@ -272,24 +276,25 @@ fn friction(plan: &Plan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>
         FrictionLaw::Coulomb => format!("TANH(({slide})/{slip})"),
     };
     let text = format!("{}*{press}*{share}", number(friction.coefficient));
-    let mut statement = starting(plan, named(plan, w, Slot::Traction, "traction"), plan.start.traction[w]);
-    if plan.form != Form::Paper {
+    let mut statement =
+        starting(plan, named(plan, w, VariableSlot::Traction, "traction"), plan.start.traction[w]);
+    if plan.form != DeckForm::Paper {
         statement = once(&mut said.velocity, statement, remark::VELOCITY);
     }
     out.push(statement.function("FUNCTION", text));
 }
 
-fn slope(plan: &Plan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
+fn slope(plan: &DeckPlan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
-    let give = &plan.gives[wheel.structure];
-    let at = value(variable(w, Slot::Place));
+    let give = &plan.compliances[wheel.structure];
+    let at = value(variable(w, VariableSlot::Place));
     let loads = loads(plan, wheel.structure);
     let first = plan.contacts[wheel.contact].wheels.start;
     let lateral = plan.kind(w).flange.is_some();
     // the rail rises by its displacement; a wheel that presses down is pushed downhill
     for (axis, slot, press, negative, what, acts) in [
-        (Axis::Vertical, Slot::Slope, variable(first, Slot::Press), true, "slope", true),
-        (Axis::Lateral, Slot::Tilt, variable(w, Slot::Flange), false, "tilt", lateral),
+        (Axis::Vertical, VariableSlot::Slope, variable(first, VariableSlot::Press), true, "slope", true),
+        (Axis::Lateral, VariableSlot::Tilt, variable(w, VariableSlot::Flange), false, "tilt", lateral),
     ] {
         if !acts || !give.gives() {
             continue;
@@ -301,32 +306,40 @@ fn slope(plan: &Plan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
     }
 }
 
-fn force(plan: &Plan<'_>, w: usize) -> Statement {
+fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
     let wheel = &plan.wheels[w];
-    let press = variable(plan.contacts[wheel.contact].wheels.start, Slot::Press);
+    let press = variable(plan.contacts[wheel.contact].wheels.start, VariableSlot::Press);
     let arm = arm(plan, w);
     let lateral = plan.kind(w).flange.is_some();
     let traction = wheel.spin.is_some();
-    let give = &plan.gives[wheel.structure];
-    let mut along = Sum::default();
+    let give = &plan.compliances[wheel.structure];
+    let mut along = TermList::default();
     if traction {
-        along.add(true, &value(variable(w, Slot::Traction)));
+        along.add(true, &value(variable(w, VariableSlot::Traction)));
     }
-    let sloped = give.gives() && plan.form == Form::Factored;
+    let sloped = give.gives() && plan.form == DeckForm::Factored;
     if sloped {
-        along.add(false, &value(variable(w, Slot::Slope)));
+        along.add(false, &value(variable(w, VariableSlot::Slope)));
         if lateral {
-            along.add(false, &value(variable(w, Slot::Tilt)));
+            along.add(false, &value(variable(w, VariableSlot::Tilt)));
         }
     }
-    let side = if lateral { format!("-{}", value(variable(w, Slot::Flange))) } else { "0.0".to_owned() };
-    let roll = if lateral { format!("{arm}*{}", value(variable(w, Slot::Flange))) } else { "0.0".to_owned() };
-    let spin =
-        if traction { format!("-{arm}*{}", value(variable(w, Slot::Traction))) } else { "0.0".to_owned() };
+    let side =
+        if lateral { format!("-{}", value(variable(w, VariableSlot::Flange))) } else { "0.0".to_owned() };
+    let roll = if lateral {
+        format!("{arm}*{}", value(variable(w, VariableSlot::Flange)))
+    } else {
+        "0.0".to_owned()
+    };
+    let spin = if traction {
+        format!("-{arm}*{}", value(variable(w, VariableSlot::Traction)))
+    } else {
+        "0.0".to_owned()
+    };
     let mut statement = Statement::new("GFORCE", ids::number(w)).named(plain(&wheel.name));
     if w == 0 {
         statement = statement.remark(remark::FORCE);
-        if !sloped && plan.gives.iter().any(super::give::Give::gives) {
+        if !sloped && plan.compliances.iter().any(super::compliance::RailCompliance::gives) {
             statement = statement.remark(remark::NO_SLOPE);
         }
     }

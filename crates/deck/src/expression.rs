@@ -15,9 +15,9 @@ pub(super) fn value(id: u32) -> String {
 
 /// Terms with their signs.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Sum(String);
+pub(super) struct TermList(String);
 
-impl Sum {
+impl TermList {
     /// Adds a term, or takes it away.
     pub fn add(&mut self, negative: bool, term: &str) {
         match (negative, self.0.is_empty()) {

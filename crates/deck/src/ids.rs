@@ -2,7 +2,7 @@
 
 /// VARIABLEs of a wheel, by the last two digits of their identifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Slot {
+pub enum VariableSlot {
     /// Rail coordinate of the wheel.
     Place = 1,
     /// Vertical displacement of the rail under the wheel, up.
@@ -27,7 +27,7 @@ pub enum Slot {
 
 /// Identifier of a VARIABLE of wheel `wheel`, counted from 0.
 #[must_use]
-pub fn variable(wheel: usize, slot: Slot) -> u32 {
+pub fn variable(wheel: usize, slot: VariableSlot) -> u32 {
     100 * number(wheel) + slot as u32
 }
 
@@ -45,13 +45,13 @@ pub fn number(index: usize) -> u32 {
 
 /// Identifiers given out one after the other.
 #[derive(Clone, Copy, Debug)]
-pub struct Next(u32);
+pub struct NextId(u32);
 
-impl Next {
+impl NextId {
     /// From `first` on.
     #[must_use]
-    pub const fn from(first: u32) -> Next {
-        Next(first)
+    pub const fn from(first: u32) -> NextId {
+        NextId(first)
     }
 
     /// One more.

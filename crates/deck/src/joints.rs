@@ -2,9 +2,9 @@
 
 use adams::{Statement, Value};
 
-use super::ids::{Next, number};
+use super::ids::{NextId, number};
 use super::name::plain;
-use super::plan::{GROUND, Plan};
+use super::plan::{DeckPlan, GROUND};
 use super::travel;
 use formats::scene::{Along, FREEDOMS};
 
@@ -12,12 +12,12 @@ use formats::scene::{Along, FREEDOMS};
 const ALONG: [[f64; 3]; 3] = [[90.0, 90.0, 0.0], [0.0, -90.0, 0.0], [0.0, 0.0, 0.0]];
 
 /// All of them; markers that they need are among them.
-pub(super) fn statements(plan: &Plan<'_>, markers: &mut Next) -> Vec<Statement> {
+pub(super) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<Statement> {
     let mut out = Vec::new();
     // axles have the first numbers
     let mut holds = Holds {
-        joints: Next::from(number(plan.wheels.len())),
-        prims: Next::from(1),
+        joints: NextId::from(number(plan.wheels.len())),
+        prims: NextId::from(1),
         markers,
         made: Vec::new(),
         out: &mut out,
@@ -30,9 +30,9 @@ pub(super) fn statements(plan: &Plan<'_>, markers: &mut Next) -> Vec<Statement> 
 }
 
 struct Holds<'a> {
-    joints: Next,
-    prims: Next,
-    markers: &'a mut Next,
+    joints: NextId,
+    prims: NextId,
+    markers: &'a mut NextId,
     /// Markers made for the body at hand: part, axis, place, identifier.
     made: Vec<(u32, usize, [f64; 3], u32)>,
     out: &'a mut Vec<Statement>,
@@ -67,7 +67,7 @@ impl Holds<'_> {
     }
 }
 
-fn hold(plan: &Plan<'_>, b: usize, holds: &mut Holds<'_>) {
+fn hold(plan: &DeckPlan<'_>, b: usize, holds: &mut Holds<'_>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
     let name = &body.name;
     let [height, side] = own.datum;

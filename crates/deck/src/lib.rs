@@ -5,11 +5,11 @@
 //! displacements and forces in its own Newton iteration.
 
 pub mod check;
+pub mod compliance;
 pub mod contact;
 mod error;
 mod expression;
 mod form;
-pub mod give;
 pub mod ids;
 mod joints;
 pub mod mass;
@@ -25,10 +25,10 @@ mod travel;
 use adams::DataSet;
 
 pub use error::Error;
-pub use form::Form;
-pub use plan::{Plan, plan};
+pub use form::DeckForm;
+pub use plan::{DeckPlan, plan};
 
-use foundations::Known;
+use foundations::SolvedStructure;
 
 /// A data set and the command file beside it.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,12 +43,12 @@ pub struct Deck {
 ///
 /// # Errors
 /// Tables that are no SPLINE.
-pub fn deck(plan: &Plan<'_>, known: &[Known], model: &str) -> Result<Deck, Error> {
+pub fn deck(plan: &DeckPlan<'_>, known: &[SolvedStructure], model: &str) -> Result<Deck, Error> {
     let (mut markers, mut ids) = (plan.markers, plan.splines);
     let mut statements = solver::head(plan);
     statements.extend(parts::statements(plan));
     statements.extend(joints::statements(plan, &mut markers));
-    for give in &plan.gives {
+    for give in &plan.compliances {
         statements.extend(give.splines()?);
     }
     statements.extend(contact::statements(plan));

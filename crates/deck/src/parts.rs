@@ -4,7 +4,7 @@ use adams::Statement;
 
 use super::mass;
 use super::name::plain;
-use super::plan::{GROUND, Plan};
+use super::plan::{DeckPlan, GROUND};
 use super::remark;
 use super::start::{euler, rotation, turned};
 
@@ -12,7 +12,7 @@ use super::start::{euler, rotation, turned};
 const WHEEL: f64 = 1e-9;
 
 /// All of them.
-pub(super) fn statements(plan: &Plan<'_>) -> Vec<Statement> {
+pub(super) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut out = ground(plan);
     for b in 0..plan.bodies.len() {
         body(plan, b, &mut out);
@@ -28,7 +28,7 @@ fn marker(id: u32, part: u32, at: [f64; 3], name: &str) -> Statement {
     Statement::new("MARKER", id).named(plain(name)).reference("PART", part).numbers("QP", &at)
 }
 
-fn ground(plan: &Plan<'_>) -> Vec<Statement> {
+fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut out = vec![Statement::new("PART", GROUND).named("ground").flag("GROUND")];
     for (d, datum) in plan.datums.iter().enumerate() {
         let [y, z] = datum.at;
@@ -52,7 +52,7 @@ fn ground(plan: &Plan<'_>) -> Vec<Statement> {
 }
 
 /// Place and 3-1-3 angles of body `b`'s origin at time 0.
-fn place(plan: &Plan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
+fn place(plan: &DeckPlan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
     let [x, y, z, roll, yaw, pitch] = plan.start.displacement[b];
     let [height, side] = plan.bodies[b].datum;
     ([x, height + y, side + z], rotation([roll, yaw, pitch]))
@@ -69,7 +69,7 @@ fn moving(statement: Statement, speed: f64) -> Statement {
     if speed == 0.0 { statement } else { statement.numbers("VX", &[speed]) }
 }
 
-fn body(plan: &Plan<'_>, b: usize, out: &mut Vec<Statement>) {
+fn body(plan: &DeckPlan<'_>, b: usize, out: &mut Vec<Statement>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
     let (at, turn) = place(plan, b);
     let unit = mass::factor(plan.scene.units);
@@ -92,7 +92,7 @@ fn body(plan: &Plan<'_>, b: usize, out: &mut Vec<Statement>) {
     }
 }
 
-fn wheel(plan: &Plan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement>) {
+fn wheel(plan: &DeckPlan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
     let Some((part, centre)) = wheel.spin else { return };
     let unit = mass::factor(plan.scene.units);

@@ -5,29 +5,29 @@ use std::ops::Range;
 use sim::Foundation;
 use splines::Axis;
 
-use super::form::Form;
-use super::give::{Give, Way};
-use super::ids::{Next, number};
+use super::compliance::{RailAxis, RailCompliance};
+use super::form::DeckForm;
+use super::ids::{NextId, number};
 use super::start::Start;
 use crate::Error;
 use formats::diagnostic::Diagnostic;
 use formats::motion::{Cast, cast};
 use formats::scene::{self, Along, Scene};
-use foundations::{Known, solved_of};
+use foundations::{SolvedStructure, solution_of};
 
 /// Identifier of the ground part.
 pub const GROUND: u32 = 1;
 
 /// A scene, numbered.
-pub struct Plan<'a> {
+pub struct DeckPlan<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// How tables are read.
-    pub form: Form,
+    pub form: DeckForm,
     /// The simulator's scene.
     pub cast: Cast,
     /// What each structure gives.
-    pub gives: Vec<Give>,
+    pub compliances: Vec<RailCompliance>,
     /// Bodies, in the scene's order.
     pub bodies: Vec<BodyPlan>,
     /// Frames of rails in ground: one a rail, more where trucks disagree about where the rail is.
@@ -39,9 +39,9 @@ pub struct Plan<'a> {
     /// The state at time 0.
     pub start: Start,
     /// Next free marker.
-    pub markers: Next,
+    pub markers: NextId,
     /// Next free SPLINE.
-    pub splines: Next,
+    pub splines: NextId,
 }
 
 /// A body.
@@ -112,10 +112,10 @@ pub struct ContactPlan {
     pub diff: Option<u32>,
 }
 
-impl Plan<'_> {
+impl DeckPlan<'_> {
     /// The direction of vertical or lateral forces of wheel `w`.
     #[must_use]
-    pub fn way(&self, w: usize, axis: Axis) -> Way {
+    pub fn way(&self, w: usize, axis: Axis) -> RailAxis {
         (self.wheels[w].rail, axis)
     }
 
@@ -136,7 +136,7 @@ impl Plan<'_> {
     /// # Errors
     /// What the tables refuse.
     pub fn foundations(&self) -> Result<Vec<Foundation>, Error> {
-        self.gives.iter().map(Give::foundation).collect()
+        self.compliances.iter().map(RailCompliance::foundation).collect()
     }
 }
 
@@ -144,17 +144,22 @@ impl Plan<'_> {
 ///
 /// # Errors
 /// A foundation that a deck cannot have, tables that do not fit, a scene that cannot start.
-pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Result<Plan<'a>, Error> {
+pub fn plan<'a>(
+    scene: &'a Scene,
+    known: &[SolvedStructure],
+    form: DeckForm,
+    file: &str,
+) -> Result<DeckPlan<'a>, Error> {
     refuse_actuators(scene, file)?;
     let cast = cast(scene)?;
-    let mut splines = Next::from(6);
+    let mut splines = NextId::from(6);
     let gives = gives(scene, &cast, known, form, file, &mut splines)?;
     let mut foundations = Vec::new();
     for give in &gives {
         foundations.push(give.foundation()?);
     }
     let start = Start::of(&cast.scene, &foundations)?;
-    let mut markers = Next::from(1);
+    let mut markers = NextId::from(1);
     let mut bodies: Vec<BodyPlan> = (0..scene.bodies.len())
         .map(|b| BodyPlan {
             part: number(b) + GROUND,
@@ -166,7 +171,7 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
         .collect();
     let (datums, of_truck) = datums(scene, &mut bodies, &mut markers);
     let contacts: Vec<ContactPlan> = contacts(&cast, &gives);
-    let mut parts = Next::from(number(scene.bodies.len()) + GROUND);
+    let mut parts = NextId::from(number(scene.bodies.len()) + GROUND);
     let mut wheels = Vec::new();
     let mut trucks = scene.trucks.iter().zip(&of_truck).flat_map(|(truck, &datum)| {
         let count: usize = truck.tree.iter().map(|node| node.wheels().len()).sum();
@@ -194,7 +199,19 @@ pub fn plan<'a>(scene: &'a Scene, known: &[Known], form: Form, file: &str) -> Re
             });
         }
     }
-    Ok(Plan { scene, form, cast, gives, bodies, datums, wheels, contacts, start, markers, splines })
+    Ok(DeckPlan {
+        scene,
+        form,
+        cast,
+        compliances: gives,
+        bodies,
+        datums,
+        wheels,
+        contacts,
+        start,
+        markers,
+        splines,
+    })
 }
 
 /// Refuses ropes, stops, events, drives, brakes, loads, uneven rails and pinned bodies, which a deck does not have yet.
@@ -264,11 +281,11 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
 fn gives(
     scene: &Scene,
     cast: &Cast,
-    known: &[Known],
-    form: Form,
+    known: &[SolvedStructure],
+    form: DeckForm,
     file: &str,
-    splines: &mut Next,
-) -> Result<Vec<Give>, Error> {
+    splines: &mut NextId,
+) -> Result<Vec<RailCompliance>, Error> {
     let mut out = Vec::new();
     let mut factors = 0;
     for (s, structure) in scene.structures.iter().enumerate() {
@@ -276,7 +293,7 @@ fn gives(
             let place = format!("structure \"{}\": {why}", structure.name);
             Error::from(Diagnostic::of_file(file, place).hint(hint))
         };
-        let mut ways: Vec<Way> = Vec::new();
+        let mut ways: Vec<RailAxis> = Vec::new();
         for contact in cast.scene.contacts.iter().filter(|contact| contact.structure == s) {
             ways.push((contact.rail, Axis::Vertical));
             if cast.scene.wheels[contact.wheel].flange.is_some() {
@@ -285,9 +302,9 @@ fn gives(
         }
         match structure.foundation {
             scene::Foundation::Influence if !ways.is_empty() => {
-                let sheets = foundations::sheets(structure, solved_of(known, &structure.origin))?;
-                let give =
-                    Give::new(structure, ways, &sheets, form, splines, &mut factors).map_err(|why| {
+                let sheets = foundations::influence_blocks(structure, solution_of(known, &structure.origin))?;
+                let give = RailCompliance::new(structure, ways, &sheets, form, splines, &mut factors)
+                    .map_err(|why| {
                         refuse(
                             why,
                             "a deck needs tables of at least four stations in every direction of its wheels",
@@ -295,7 +312,9 @@ fn gives(
                     })?;
                 out.push(give);
             }
-            scene::Foundation::Rigid | scene::Foundation::Influence => out.push(Give::rigid(structure, form)),
+            scene::Foundation::Rigid | scene::Foundation::Influence => {
+                out.push(RailCompliance::rigid(structure, form))
+            }
             scene::Foundation::Parts { .. }
             | scene::Foundation::Modal { .. }
             | scene::Foundation::Full { .. }
@@ -310,7 +329,7 @@ fn gives(
 
 /// Where rails and bodies stand in ground: each body as its first truck's rail has it; a rail that another body
 /// needs elsewhere gets one more frame. Returns the frames, and the frame of each truck.
-fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut Next) -> (Vec<Datum>, Vec<usize>) {
+fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<Datum>, Vec<usize>) {
     let mut datums: Vec<Datum> = Vec::new();
     let mut of_truck = vec![0; scene.trucks.len()];
     for (b, body) in bodies.iter_mut().enumerate() {
@@ -339,7 +358,7 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut Next) -> (Vec<Da
     (datums, of_truck)
 }
 
-fn contacts(cast: &Cast, gives: &[Give]) -> Vec<ContactPlan> {
+fn contacts(cast: &Cast, gives: &[RailCompliance]) -> Vec<ContactPlan> {
     let mut first = 0;
     let mut out = Vec::new();
     for (c, contact) in cast.scene.contacts.iter().enumerate() {

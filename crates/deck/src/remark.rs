@@ -1,7 +1,7 @@
 //! What is easily got wrong in such decks, said once each, where it matters.
 
 use super::expression::number;
-use super::form::Form;
+use super::form::DeckForm;
 
 /// At the UNITS statement.
 pub(super) const UNITS: &str = "Units: MASS, IP and the tables are in these units. ADAMS reconciles force, mass and \
@@ -66,18 +66,18 @@ pub(super) const PAPER: &str = "The paper's own form, for comparison alone: line
 against the ground with three markers in VY, AKISPL(x_j, x_j) in the cross terms, IC = 0.";
 
 /// At the tables of a structure.
-pub(super) fn tables(form: Form, range: [f64; 2]) -> Vec<String> {
+pub(super) fn tables(form: DeckForm, range: [f64; 2]) -> Vec<String> {
     let [first, last] = range.map(number);
     let read = match form {
-        Form::Akispl | Form::Paper => {
+        DeckForm::Akispl | DeckForm::Paper => {
             "Tables: x is where the load stands (Akima), z where the deflection is taken (linear); off the stations \
              G(x, z) and G(z, x) differ."
         }
-        Form::Symmetrised => {
+        DeckForm::Symmetrised => {
             "Tables: x is where the load stands (Akima), z where the deflection is taken (linear); read both ways \
              and averaged, hence symmetric, but not positive everywhere."
         }
-        Form::Factored => {
+        DeckForm::Factored => {
             "Tables: G(x, z) = sum of phi_k(x) phi_k(z), one SPLINE a product: symmetric and positive everywhere. \
              Products below 1e-6 of the largest entry are left out."
         }

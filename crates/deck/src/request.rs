@@ -3,17 +3,17 @@
 use adams::{Statement, Value};
 use splines::Axis;
 
+use super::compliance::{LoadedMarker, spline};
 use super::contact;
-use super::expression::{Sum, value};
-use super::give::{Load, spline};
-use super::ids::{Next, Slot, variable};
+use super::expression::{TermList, value};
+use super::ids::{NextId, VariableSlot, variable};
 use super::name::plain;
-use super::plan::Plan;
+use super::plan::DeckPlan;
 use super::remark;
 use crate::Error;
 use formats::effect::{Ground, Reaction};
 use formats::scene::Along;
-use foundations::{Known, solved_of};
+use foundations::{SolvedStructure, solution_of};
 
 /// Reactions in one REQUEST: their names must fit on a line.
 const MOST: usize = 4;
@@ -25,11 +25,11 @@ const NONE: f64 = 1e-9;
 /// # Errors
 /// Influence lines that are no SPLINE.
 pub(super) fn statements(
-    plan: &Plan<'_>,
-    known: &[Known],
-    splines: &mut Next,
+    plan: &DeckPlan<'_>,
+    known: &[SolvedStructure],
+    splines: &mut NextId,
 ) -> Result<Vec<Statement>, Error> {
-    let mut ids = Next::from(1);
+    let mut ids = NextId::from(1);
     let mut out = Vec::new();
     for w in 0..plan.wheels.len() {
         out.push(wheel(plan, w, ids.take()));
@@ -44,14 +44,14 @@ pub(super) fn statements(
         if wheels.is_empty() {
             continue;
         }
-        let [mut down, mut side] = [Sum::default(), Sum::default()];
+        let [mut down, mut side] = [TermList::default(), TermList::default()];
         for w in wheels {
             down.add(
                 false,
-                &value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, Slot::Press)),
+                &value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, VariableSlot::Press)),
             );
             if plan.kind(w).flange.is_some() {
-                side.add(false, &value(variable(w, Slot::Flange)));
+                side.add(false, &value(variable(w, VariableSlot::Flange)));
             }
         }
         let parts = vec![("down".to_owned(), down.text()), ("lateral".to_owned(), side.text())];
@@ -61,7 +61,7 @@ pub(super) fn statements(
         }
         out.push(statement);
     }
-    for s in 0..plan.gives.len() {
+    for s in 0..plan.compliances.len() {
         reactions(plan, known, s, splines, &mut ids, &mut out)?;
     }
     Ok(out)
@@ -80,28 +80,28 @@ fn request(id: u32, name: &str, parts: Vec<(String, String)>) -> Statement {
     statement
 }
 
-fn wheel(plan: &Plan<'_>, w: usize, id: u32) -> Statement {
+fn wheel(plan: &DeckPlan<'_>, w: usize, id: u32) -> Statement {
     let own = &plan.wheels[w];
     let first = plan.contacts[own.contact].wheels.start;
     let mut parts = Vec::new();
     let mut add = |name: &str, at: usize, slot| parts.push((name.to_owned(), value(variable(at, slot))));
-    add("place", w, Slot::Place);
-    add("penetr", first, Slot::Penetration);
-    add("down", first, Slot::Press);
-    if plan.gives[own.structure].gives() {
-        add("rise", w, Slot::Rise);
+    add("place", w, VariableSlot::Place);
+    add("penetr", first, VariableSlot::Penetration);
+    add("down", first, VariableSlot::Press);
+    if plan.compliances[own.structure].gives() {
+        add("rise", w, VariableSlot::Rise);
     }
     if plan.kind(w).flange.is_some() {
-        add("sideways", w, Slot::Sideways);
-        add("flange", w, Slot::Flange);
+        add("sideways", w, VariableSlot::Sideways);
+        add("flange", w, VariableSlot::Flange);
     }
     if own.spin.is_some() {
-        add("traction", w, Slot::Traction);
+        add("traction", w, VariableSlot::Traction);
     }
     request(id, &format!("wheel_{}", own.name), parts)
 }
 
-fn body(plan: &Plan<'_>, b: usize, id: u32) -> Statement {
+fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
     let own = &plan.bodies[b];
     let (i, j) = (own.origin, own.track);
     let name = &plan.scene.bodies[b].name;
@@ -122,22 +122,22 @@ fn body(plan: &Plan<'_>, b: usize, id: u32) -> Statement {
 
 /// Reactions of the ground on structure `s`, from their influence lines at the stations.
 fn reactions(
-    plan: &Plan<'_>,
-    known: &[Known],
+    plan: &DeckPlan<'_>,
+    known: &[SolvedStructure],
     s: usize,
-    splines: &mut Next,
-    ids: &mut Next,
+    splines: &mut NextId,
+    ids: &mut NextId,
     out: &mut Vec<Statement>,
 ) -> Result<(), Error> {
     let structure = &plan.scene.structures[s];
-    let effects = solved_of(known, &structure.origin).and_then(|solved| solved.grid.effects.as_ref());
-    let Some(effects) = effects.filter(|_| plan.gives[s].gives()) else { return Ok(()) };
+    let effects = solution_of(known, &structure.origin).and_then(|solved| solved.grid.effects.as_ref());
+    let Some(effects) = effects.filter(|_| plan.compliances[s].gives()) else { return Ok(()) };
     let loads = contact::loads(plan, s);
     let mut named = Vec::new();
     for reaction in &effects.reactions {
         let name = label(reaction);
-        let mut sum = Sum::default();
-        let mut lines: Vec<(super::give::Way, u32)> = Vec::new();
+        let mut sum = TermList::default();
+        let mut lines: Vec<(super::compliance::RailAxis, u32)> = Vec::new();
         for load in &loads {
             let Some(line) = line(plan, s, reaction, load) else { continue };
             let known = lines.iter().find(|(way, _)| *way == load.way).map(|(_, id)| *id);
@@ -150,7 +150,7 @@ fn reactions(
                         "{}_{name}_from_{}_{}",
                         structure.name,
                         rail.name,
-                        super::give::word(load.way.1)
+                        super::compliance::word(load.way.1)
                     );
                     out.push(spline(id, &full, rail.stations.clone(), Vec::new(), vec![line])?);
                     lines.push((load.way, id));
@@ -170,7 +170,7 @@ fn reactions(
 }
 
 /// A reaction's influence line along the rail of a load; `None` where the load causes none.
-fn line(plan: &Plan<'_>, s: usize, reaction: &Reaction, load: &Load) -> Option<Vec<f64>> {
+fn line(plan: &DeckPlan<'_>, s: usize, reaction: &Reaction, load: &LoadedMarker) -> Option<Vec<f64>> {
     let (rail, axis): (usize, Axis) = load.way;
     let rails = &plan.scene.structures[s].rails;
     let first: usize = rails[..rail].iter().map(|rail| rail.stations.len()).sum();

@@ -6,8 +6,8 @@ use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
 use splines::Compliance;
 
 use super::modal::{self, Dampers};
-use super::mount::Push;
-use super::{Error, Known, Laid, Solved, Spectra, laid, solved_of};
+use super::mount::Excitation;
+use super::{BuiltFoundation, Error, ModeCache, Solution, SolvedStructure, build, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
 /// Elements of the mesh at the top where they suffice, and fewest and most a member; half of them must be a mesh too.
@@ -15,13 +15,13 @@ const ELEMENTS: usize = 192;
 const A_MEMBER: [usize; 2] = [2, 64];
 
 /// What a scene ran on, and how the run went.
-pub struct Chosen {
+pub struct AutoRun {
     /// Why foundations that were "auto" are what they are.
     pub choices: Vec<Choice>,
     /// The run.
     pub run: Run,
     /// What carried it.
-    pub laid: Vec<Laid>,
+    pub built: Vec<BuiltFoundation>,
 }
 
 /// Sets the foundation of every structure of `scene` that is "auto", says why, and runs the scene; the history holds the
@@ -29,35 +29,35 @@ pub struct Chosen {
 ///
 /// # Errors
 /// A foundation that cannot be made; a scene that cannot start.
-pub fn choose(
+pub fn select_and_run(
     scene: &mut Scene,
     cast: &sim::Scene,
-    known: &[Known],
+    known: &[SolvedStructure],
     recorded: &dyn Fn(usize, &sim::Foundation) -> bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Result<Chosen, Error> {
+) -> Result<AutoRun, Error> {
     let tolerances: Vec<Option<f64>> =
         scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
-    let spectra = scene.structures.iter().map(|_| Spectra::default()).collect();
+    let spectra = scene.structures.iter().map(|_| ModeCache::default()).collect();
     let lateral = scene.pushes_sideways();
-    let mut rungs = Rungs { scene, known, lateral, spectra, recorded };
+    let mut rungs = SceneFoundations { scene, known, lateral, mode_caches: spectra, recorded };
     let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut rungs, watch)?;
-    let mut spectra = rungs.spectra;
+    let mut spectra = rungs.mode_caches;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
-        let solved = solved_of(known, &structure.origin);
-        structure.foundation = at(structure, choice.rung, elements(solved));
+        let solved = solution_of(known, &structure.origin);
+        structure.foundation = scene_foundation(structure, choice.rung, mesh_elements(solved));
     }
     let again = scene.structures.iter().zip(&mut spectra);
     let laid = again
-        .map(|(own, spectra)| laid(spectra, own, solved_of(known, &own.origin), lateral))
-        .collect::<Result<Vec<Laid>, Error>>()?;
-    Ok(Chosen { choices, run, laid })
+        .map(|(own, spectra)| build(spectra, own, solution_of(known, &own.origin), lateral))
+        .collect::<Result<Vec<BuiltFoundation>, Error>>()?;
+    Ok(AutoRun { choices, run, built: laid })
 }
 
 /// Elements a member of the mesh at the top.
 #[must_use]
-pub fn elements(solved: Option<&Solved>) -> usize {
+pub fn mesh_elements(solved: Option<&Solution>) -> usize {
     let members = solved.map_or(1, |solved| solved.model.members.len());
     (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
 }
@@ -67,25 +67,25 @@ pub fn elements(solved: Option<&Solved>) -> usize {
 ///
 /// # Errors
 /// A structure without mass where modes are asked for; too many unknowns.
-pub fn rung_of(
-    spectra: &mut Spectra,
-    solved: &Solved,
+pub fn foundation_at(
+    spectra: &mut ModeCache,
+    solved: &Solution,
     rung: Rung,
     damping: f64,
     finer: usize,
 ) -> Result<sim::Foundation, Error> {
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
-    let elements = finer * elements(Some(solved));
+    let elements = finer * mesh_elements(Some(solved));
     match (rung, &solved.surface) {
         (Rung::Modal(modes), _) => {
-            Ok(spectra.lowest(name, solved, modes, damping, Dampers::NONE, Push::DOWN)?.foundation)
+            Ok(spectra.lowest(name, solved, modes, damping, Dampers::NONE, Excitation::DOWN)?.foundation)
         }
         (Rung::Half, _) => {
-            Ok(spectra.full(name, solved, elements / 2, damping, Dampers::NONE, Push::DOWN)?.foundation)
+            Ok(spectra.full(name, solved, elements / 2, damping, Dampers::NONE, Excitation::DOWN)?.foundation)
         }
         (Rung::Full, _) => {
-            Ok(spectra.full(name, solved, elements, damping, Dampers::NONE, Push::DOWN)?.foundation)
+            Ok(spectra.full(name, solved, elements, damping, Dampers::NONE, Excitation::DOWN)?.foundation)
         }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
@@ -103,12 +103,12 @@ pub fn rung_of(
 ///
 /// # Errors
 /// Modes that cannot be found.
-pub fn modes_of(solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Error> {
-    modal::coarse("structure", solved, count)
+pub fn excited_modes(solved: &Solution, count: usize) -> Result<Option<sim::Structure>, Error> {
+    modal::coarse_modes("structure", solved, count)
 }
 
 /// What a rung is in a scene.
-fn at(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
+fn scene_foundation(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
     let damping = structure.damping;
     match rung {
         Rung::Rigid => Foundation::Rigid,
@@ -119,27 +119,27 @@ fn at(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
     }
 }
 
-struct Rungs<'a> {
+struct SceneFoundations<'a> {
     scene: &'a Scene,
-    known: &'a [Known],
+    known: &'a [SolvedStructure],
     lateral: bool,
     /// One a structure.
-    spectra: Vec<Spectra>,
+    mode_caches: Vec<ModeCache>,
     recorded: &'a dyn Fn(usize, &sim::Foundation) -> bool,
 }
 
-impl Rungs<'_> {
-    fn solved(&self, structure: usize) -> Option<&Solved> {
-        solved_of(self.known, &self.scene.structures[structure].origin)
+impl SceneFoundations<'_> {
+    fn solved(&self, structure: usize) -> Option<&Solution> {
+        solution_of(self.known, &self.scene.structures[structure].origin)
     }
 }
 
-impl Ladder for Rungs<'_> {
+impl Ladder for SceneFoundations<'_> {
     type Error = Error;
 
     fn modes(&mut self, structure: usize, count: usize) -> Result<Option<sim::Structure>, Error> {
         Ok(match self.solved(structure) {
-            Some(solved) => modal::coarse(&self.scene.structures[structure].name, solved, count)?,
+            Some(solved) => modal::coarse_modes(&self.scene.structures[structure].name, solved, count)?,
             None => None,
         })
     }
@@ -147,10 +147,10 @@ impl Ladder for Rungs<'_> {
     fn foundation(&mut self, structure: usize, rung: Rung) -> Result<sim::Foundation, Error> {
         let mut own = self.scene.structures[structure].clone();
         if own.auto {
-            own.foundation = at(&own, rung, elements(self.solved(structure)));
+            own.foundation = scene_foundation(&own, rung, mesh_elements(self.solved(structure)));
         }
-        let solved = solved_of(self.known, &own.origin);
-        let mut foundation = laid(&mut self.spectra[structure], &own, solved, self.lateral)?.foundation;
+        let solved = solution_of(self.known, &own.origin);
+        let mut foundation = build(&mut self.mode_caches[structure], &own, solved, self.lateral)?.foundation;
         foundation.recorded = (self.recorded)(structure, &foundation);
         Ok(foundation)
     }
@@ -167,7 +167,7 @@ impl Ladder for Rungs<'_> {
 
 /// A rung in words.
 #[must_use]
-pub fn word(rung: Rung) -> String {
+pub fn fidelity_name(rung: Rung) -> String {
     match rung {
         Rung::Rigid => "rigid".to_owned(),
         Rung::Influence => "influence".to_owned(),
@@ -179,8 +179,8 @@ pub fn word(rung: Rung) -> String {
 
 /// Why a foundation was chosen, in a sentence without its stop.
 #[must_use]
-pub fn reason(choice: &Choice) -> String {
-    let rung = word(choice.rung);
+pub fn selection_reason(choice: &Choice) -> String {
+    let rung = fidelity_name(choice.rung);
     let mut text = match (choice.reason, choice.estimate) {
         (Reason::NoMass, _) => {
             format!("auto: {rung}; no mass given: the error of leaving it out is not known")
@@ -217,8 +217,8 @@ pub fn reason(choice: &Choice) -> String {
 
 /// What a user should know of a choice whose error is not known to be allowed.
 #[must_use]
-pub fn doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
-    let rung = word(choice.rung);
+pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
+    let rung = fidelity_name(choice.rung);
     let why = match (choice.reason, choice.estimate) {
         (Reason::Top, Some(estimate)) => format!(
             "estimate above tolerance: {rung} is the top, and half its elements differ by {estimate:.1e}, more than \
@@ -230,7 +230,7 @@ pub fn doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
         (Reason::Unchecked, _) => format!("the error of {rung} is not known: no higher rung could be run"),
         _ => return None,
     };
-    let failed: Vec<String> = choice.failed.iter().map(|rung| word(*rung)).collect();
+    let failed: Vec<String> = choice.failed.iter().map(|rung| fidelity_name(*rung)).collect();
     let list =
         if failed.is_empty() { String::new() } else { format!(" (could not be run: {})", failed.join("; ")) };
     Some(format!("{name}: {why}{list}"))

@@ -15,33 +15,36 @@ use sim::{Extent, Foundation};
 use splines::{Axis, Couplings, Influence, Kind, Parted, Probe, Reading, Sheet, Table};
 
 use self::modal::Dampers;
-use self::mount::Push;
+use self::mount::Excitation;
 use formats::grid::axes;
 use formats::scene::{self, Handover, Origin, Structure};
 
 pub use error::Error;
-pub use ladder::{Chosen, choose, doubt, elements, modes_of, reason, rung_of, word};
-pub use modal::Spectra;
+pub use ladder::{
+    AutoRun, excited_modes, fidelity_name, foundation_at, mesh_elements, select_and_run, selection_doubt,
+    selection_reason,
+};
+pub use modal::ModeCache;
 pub use mount::mount;
 pub use parts::{RigidParts, roll_inertia};
-pub use solved::{Known, Size, Solved, solve, solve_to, solved_of, specs};
+pub use solved::{Solution, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_to};
 
 /// A foundation, with the model behind its freedoms.
-pub struct Laid {
+pub struct BuiltFoundation {
     /// What carries the rails.
     pub foundation: Foundation,
     /// What moves; `None`: nothing that has mass.
-    pub motion: Option<Motion>,
+    pub motion: Option<MotionBasis>,
 }
 
-impl From<Foundation> for Laid {
-    fn from(foundation: Foundation) -> Laid {
-        Laid { foundation, motion: None }
+impl From<Foundation> for BuiltFoundation {
+    fn from(foundation: Foundation) -> BuiltFoundation {
+        BuiltFoundation { foundation, motion: None }
     }
 }
 
 /// The model whose motions are the freedoms of a foundation, in their order.
-pub enum Motion {
+pub enum MotionBasis {
     /// Natural modes of a frame, with its members cut, as far as wheels can excite them.
     Modes {
         /// The frame.
@@ -58,16 +61,16 @@ pub enum Motion {
 ///
 /// # Errors
 /// What the tables or the FE model refuse.
-pub fn laid(
-    spectra: &mut Spectra,
+pub fn build(
+    spectra: &mut ModeCache,
     structure: &Structure,
-    solved: Option<&Solved>,
+    solved: Option<&Solution>,
     lateral: bool,
-) -> Result<Laid, Error> {
+) -> Result<BuiltFoundation, Error> {
     let irregularities = structure.irregularities.clone();
     let mut on = mount::mount(structure)?;
     let is_dragged = structure.longitudinal;
-    let Laid { mut foundation, motion } = grounded(spectra, structure, solved, lateral)?;
+    let BuiltFoundation { mut foundation, motion } = build_on_ground(spectra, structure, solved, lateral)?;
     if let (Some(on), Some(own)) = (&mut on, foundation.on.take()) {
         (on.mass, on.coupling) = (own.mass, own.coupling);
     }
@@ -81,22 +84,22 @@ pub fn laid(
             return Err(Error::NoLongitudinal { structure: structure.name.clone() });
         }
     }
-    Ok(Laid { foundation: Foundation { on, irregularities, is_dragged, ..foundation }, motion })
+    Ok(BuiltFoundation { foundation: Foundation { on, irregularities, is_dragged, ..foundation }, motion })
 }
 
 /// The same, without what carries it.
-fn grounded(
-    spectra: &mut Spectra,
+fn build_on_ground(
+    spectra: &mut ModeCache,
     structure: &Structure,
-    solved: Option<&Solved>,
+    solved: Option<&Solution>,
     lateral: bool,
-) -> Result<Laid, Error> {
+) -> Result<BuiltFoundation, Error> {
     let extents = || {
         let extent =
             |rail: &formats::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let push = Push { lateral, longitudinal: structure.longitudinal, on: structure.on };
+    let push = Excitation { lateral, longitudinal: structure.longitudinal, on: structure.on };
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
@@ -106,12 +109,22 @@ fn grounded(
                 .ok_or_else(|| Error::NoGirder { structure: structure.name.clone() })?;
             parts::foundation(girder, count, handover, damping, push)
         }
-        scene::Foundation::Modal { modes, damping } => {
-            spectra.lowest(&structure.name, needed(structure, solved)?, modes, damping, Dampers::NONE, push)
-        }
-        scene::Foundation::Full { elements, damping } => {
-            spectra.full(&structure.name, needed(structure, solved)?, elements, damping, Dampers::NONE, push)
-        }
+        scene::Foundation::Modal { modes, damping } => spectra.lowest(
+            &structure.name,
+            required_solution(structure, solved)?,
+            modes,
+            damping,
+            Dampers::NONE,
+            push,
+        ),
+        scene::Foundation::Full { elements, damping } => spectra.full(
+            &structure.name,
+            required_solution(structure, solved)?,
+            elements,
+            damping,
+            Dampers::NONE,
+            push,
+        ),
         scene::Foundation::Ties { moves: false, .. } => Ok(influence(structure, solved)?.into()),
         scene::Foundation::Ties { moves: true, modes, damping, c } => {
             let pads = match &structure.origin {
@@ -119,7 +132,7 @@ fn grounded(
                 Origin::Tables { .. } => &[],
             };
             let (name, dampers) = (&structure.name, Dampers { pads, c });
-            let solved = needed(structure, solved)?;
+            let solved = required_solution(structure, solved)?;
             match modes {
                 Some(count) => spectra.lowest(name, solved, count, damping, dampers, push),
                 // the mesh as it is
@@ -129,11 +142,11 @@ fn grounded(
     }
 }
 
-fn needed<'s>(structure: &Structure, solved: Option<&'s Solved>) -> Result<&'s Solved, Error> {
+fn required_solution<'s>(structure: &Structure, solved: Option<&'s Solution>) -> Result<&'s Solution, Error> {
     solved.ok_or_else(|| Error::NoSpec { structure: structure.name.clone() })
 }
 
-fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundation, Error> {
+fn influence(structure: &Structure, solved: Option<&Solution>) -> Result<Foundation, Error> {
     let rails = structure.rails.len();
     let exact = structure.reading == scene::Reading::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
@@ -143,7 +156,7 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
             some => Foundation::influence(Box::new(Parted::new(surface, some)), rails),
         });
     }
-    let sheets = sheets(structure, solved)?;
+    let sheets = influence_blocks(structure, solved)?;
     let kind = match structure.reading {
         // A table of values alone has no exact form; its natural splines are the closest reading.
         scene::Reading::Exact | scene::Reading::Natural => Kind::Natural,
@@ -158,7 +171,7 @@ fn influence(structure: &Structure, solved: Option<&Solved>) -> Result<Foundatio
 ///
 /// # Errors
 /// A spec that has not been solved; what a table refuses.
-pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Sheet>, Error> {
+pub fn influence_blocks(structure: &Structure, solved: Option<&Solution>) -> Result<Vec<Sheet>, Error> {
     let mut sheets = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
         let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
@@ -212,16 +225,19 @@ pub fn sheets(structure: &Structure, solved: Option<&Solved>) -> Result<Vec<Shee
 ///
 /// # Errors
 /// A girder that does not stand; windows that overlap.
-pub fn parts_of(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Error> {
-    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Push::DOWN)?.foundation)
+pub fn rigid_parts(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Error> {
+    Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Excitation::DOWN)?
+        .foundation)
 }
 
 /// Every mode that vertical wheel forces can excite of a mesh of `elements` elements a member, undamped.
 ///
 /// # Errors
 /// A structure without mass; too many unknowns.
-pub fn full_of(solved: &Solved, elements: usize) -> Result<Foundation, Error> {
-    Ok(Spectra::default().full("structure", solved, elements, 0.0, Dampers::NONE, Push::DOWN)?.foundation)
+pub fn full_mesh(solved: &Solution, elements: usize) -> Result<Foundation, Error> {
+    Ok(ModeCache::default()
+        .full("structure", solved, elements, 0.0, Dampers::NONE, Excitation::DOWN)?
+        .foundation)
 }
 
 fn window(handover: Handover) -> Option<f64> {

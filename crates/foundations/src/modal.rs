@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
 use splines::{Compliance, Line, Probe, Rest, Surface};
 
-use super::mount::{self, Push};
-use super::{Laid, Motion, Solved};
+use super::mount::{self, Excitation};
+use super::{BuiltFoundation, MotionBasis, Solution};
 use crate::Error;
 use formats::track::Pad;
 
@@ -22,36 +22,36 @@ const STILL: f64 = 1e-6;
 const EQUAL: f64 = 1e-6;
 
 /// Modes of one mesh that wheels can excite, and what is needed to leave some of them out.
-pub(super) struct Spectrum {
+pub(super) struct MeshModes {
     refined: Refined,
-    felt: Vec<fea::Mode>,
+    excited: Vec<fea::Mode>,
     frame: Arc<Frame>,
-    give: Give,
+    compliance: StaticCompliance,
     /// Whether there are no others.
     is_whole: bool,
 }
 
 /// Static give of the structure, without what modes take of it.
-enum Give {
+enum StaticCompliance {
     /// Of the members as given: for a few modes on members cut into many parts.
     Given(Surface),
     /// Of the members as they are cut: for all modes of a mesh.
     Cut(Surface),
 }
 
-impl Spectrum {
+impl MeshModes {
     /// At least the lowest `count` modes, where there are so many.
-    pub fn lowest(name: &str, solved: &Solved, count: usize, push: Push) -> Result<Spectrum, Error> {
+    pub fn lowest(name: &str, solved: &Solution, count: usize, push: Excitation) -> Result<MeshModes, Error> {
         let (refined, felt, is_whole) = search(solved, count, ACCURACY, push).map_err(Error::modes(name))?;
         let known = solved.surface.clone().map_or_else(|| surface(name, &solved.model, &solved.rails), Ok)?;
-        Spectrum::new(name, refined, felt, Some(known), is_whole)
+        MeshModes::new(name, refined, felt, Some(known), is_whole)
     }
 
     /// All modes of a mesh of `parts` elements a member.
-    pub fn whole(name: &str, solved: &Solved, parts: usize, push: Push) -> Result<Spectrum, Error> {
+    pub fn whole(name: &str, solved: &Solution, parts: usize, push: Excitation) -> Result<MeshModes, Error> {
         let refined = fea::full_modes(&solved.model, &solved.rails, parts).map_err(Error::modes(name))?;
-        let felt = felt(&refined.modes, solved, push);
-        Spectrum::new(name, refined, felt, None, true)
+        let felt = excited_by(&refined.modes, solved, push);
+        MeshModes::new(name, refined, felt, None, true)
     }
 
     fn new(
@@ -60,19 +60,19 @@ impl Spectrum {
         felt: Vec<fea::Mode>,
         known: Option<Surface>,
         is_whole: bool,
-    ) -> Result<Spectrum, Error> {
+    ) -> Result<MeshModes, Error> {
         let untrusted = Error::frame(name);
         let frame = Frame::new(&refined.model, &refined.rails).map_err(&untrusted)?;
         let give = match known {
-            Some(surface) => Give::Given(surface),
-            None => Give::Cut(frame.surface().map_err(&untrusted)?.surface),
+            Some(surface) => StaticCompliance::Given(surface),
+            None => StaticCompliance::Cut(frame.surface().map_err(&untrusted)?.surface),
         };
-        Ok(Spectrum { refined, felt, frame: Arc::new(frame), give, is_whole })
+        Ok(MeshModes { refined, excited: felt, frame: Arc::new(frame), compliance: give, is_whole })
     }
 
     /// Whether `count` modes are there, or all that exist.
     pub fn has(&self, count: usize) -> bool {
-        self.is_whole || self.felt.len() >= count
+        self.is_whole || self.excited.len() >= count
     }
 
     /// The lowest `count` modes, `ratio` of critical damping each.
@@ -82,20 +82,20 @@ impl Spectrum {
         count: usize,
         ratio: f64,
         dampers: Dampers<'_>,
-        push: Push,
-    ) -> Result<Laid, Error> {
+        push: Excitation,
+    ) -> Result<BuiltFoundation, Error> {
         let untrusted = Error::frame(name);
         let mut refined = self.refined.clone();
-        refined.modes.modes = self.felt.iter().take(count).cloned().collect();
+        refined.modes.modes = self.excited.iter().take(count).cloned().collect();
         let kept = &refined.modes;
         let unfit = Error::rails(name);
         let line = Arc::clone(self.frame.line().map_err(&untrusted)?);
-        let rest: Box<dyn Compliance> = match &self.give {
-            Give::Given(exact) => {
+        let rest: Box<dyn Compliance> = match &self.compliance {
+            StaticCompliance::Given(exact) => {
                 let taken = shapes(&line, &kept.modes, |mode| mode.omega).map_err(&unfit)?;
                 Box::new(Rest::new(exact.clone(), taken))
             }
-            Give::Cut(surface) => Box::new(kept.residual(surface).map_err(&untrusted)?),
+            StaticCompliance::Cut(surface) => Box::new(kept.residual(surface).map_err(&untrusted)?),
         };
         let own = shapes(&line, &kept.modes, |_| 1.0).map_err(&unfit)?;
         let rails = (0..refined.rails.len())
@@ -114,8 +114,8 @@ impl Spectrum {
             on: push.on.map(|on| mount::inertia(kept, on)),
             ..Foundation::default()
         };
-        let motion = Motion::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
-        Ok(Laid { foundation, motion: Some(motion) })
+        let motion = MotionBasis::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
+        Ok(BuiltFoundation { foundation, motion: Some(motion) })
     }
 }
 
@@ -126,15 +126,15 @@ fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<Surfac
 
 /// At least the lowest `count` modes that wheels can excite, and whether these are all; frequencies within `accuracy`.
 fn search(
-    solved: &Solved,
+    solved: &Solution,
     count: usize,
     accuracy: f64,
-    push: Push,
+    push: Excitation,
 ) -> Result<(Refined, Vec<fea::Mode>, bool), fea::Error> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)?;
-        let felt = felt(&refined.modes, solved, push);
+        let felt = excited_by(&refined.modes, solved, push);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
         // Some of the modes of one frequency are not enough to turn them.
@@ -147,8 +147,12 @@ fn search(
 }
 
 /// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
-pub(super) fn coarse(name: &str, solved: &Solved, count: usize) -> Result<Option<sim::Structure>, Error> {
-    let (refined, mut felt, _) = match search(solved, count, COARSE, Push::DOWN) {
+pub(super) fn coarse_modes(
+    name: &str,
+    solved: &Solution,
+    count: usize,
+) -> Result<Option<sim::Structure>, Error> {
+    let (refined, mut felt, _) = match search(solved, count, COARSE, Excitation::DOWN) {
         Ok(found) => found,
         Err(fea::Error::NoMass) => return Ok(None),
         Err(error) => return Err(Error::modes(name)(error)),
@@ -178,27 +182,27 @@ impl Dampers<'_> {
 
 /// Modes of one structure that were found already.
 #[derive(Default)]
-pub struct Spectra {
-    lowest: Option<Spectrum>,
+pub struct ModeCache {
+    lowest: Option<MeshModes>,
     /// By elements a member.
-    whole: Vec<(usize, Spectrum)>,
+    whole: Vec<(usize, MeshModes)>,
 }
 
-impl Spectra {
+impl ModeCache {
     /// The lowest `count` modes that wheels can excite, `ratio` of critical damping each.
     pub(super) fn lowest(
         &mut self,
         name: &str,
-        solved: &Solved,
+        solved: &Solution,
         count: usize,
         ratio: f64,
         dampers: Dampers<'_>,
-        push: Push,
-    ) -> Result<Laid, Error> {
+        push: Excitation,
+    ) -> Result<BuiltFoundation, Error> {
         let known = self.lowest.take().filter(|spectrum| spectrum.has(count));
         let spectrum = match known {
             Some(known) => known,
-            None => Spectrum::lowest(name, solved, count, push)?,
+            None => MeshModes::lowest(name, solved, count, push)?,
         };
         self.lowest.insert(spectrum).foundation(name, count, ratio, dampers, push)
     }
@@ -207,16 +211,16 @@ impl Spectra {
     pub(super) fn full(
         &mut self,
         name: &str,
-        solved: &Solved,
+        solved: &Solution,
         parts: usize,
         ratio: f64,
         dampers: Dampers<'_>,
-        push: Push,
-    ) -> Result<Laid, Error> {
+        push: Excitation,
+    ) -> Result<BuiltFoundation, Error> {
         let at = match self.whole.iter().position(|(own, _)| *own == parts) {
             Some(at) => at,
             None => {
-                self.whole.push((parts, Spectrum::whole(name, solved, parts, push)?));
+                self.whole.push((parts, MeshModes::whole(name, solved, parts, push)?));
                 self.whole.len() - 1
             }
         };
@@ -227,7 +231,7 @@ impl Spectra {
 /// Modes that move the rails where and as wheels can push.
 ///
 /// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
-fn felt(modes: &Modes, solved: &Solved, push: Push) -> Vec<fea::Mode> {
+fn excited_by(modes: &Modes, solved: &Solution, push: Excitation) -> Vec<fea::Mode> {
     let motions = motions(modes, solved, push);
     // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
     let limit = STILL / modes.total[0][0].sqrt();
@@ -254,7 +258,7 @@ fn felt(modes: &Modes, solved: &Solved, push: Push) -> Vec<fea::Mode> {
 }
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
-fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
+fn motions(modes: &Modes, solved: &Solution, push: Excitation) -> DMatrix<f64> {
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {
@@ -272,7 +276,7 @@ fn motions(modes: &Modes, solved: &Solved, push: Push) -> DMatrix<f64> {
     }
     let count = modes.modes.len();
     if let Some(on) = push.on {
-        rows.extend(mount::felt(modes, on));
+        rows.extend(mount::coupled_momentum(modes, on));
     }
     DMatrix::from_row_slice(rows.len() / count.max(1), count, &rows)
 }

@@ -37,15 +37,15 @@ pub fn mount(structure: &Structure) -> Result<Option<Mount>, Error> {
 
 /// What moves a structure: wheels, sideways and along the rail too where they push so, and the body that carries it.
 #[derive(Clone, Copy)]
-pub(super) struct Push {
+pub(super) struct Excitation {
     pub lateral: bool,
     pub longitudinal: bool,
     pub on: Option<On>,
 }
 
-impl Push {
+impl Excitation {
     /// Vertical wheel forces on a structure on the ground.
-    pub const DOWN: Push = Push { lateral: false, longitudinal: false, on: None };
+    pub const DOWN: Excitation = Excitation { lateral: false, longitudinal: false, on: None };
 
     /// Directions in which wheels push.
     pub fn axes(self) -> Vec<Axis> {
@@ -57,7 +57,7 @@ impl Push {
 
 /// Momentum of every mode by the motions of its carrier that may change, relative to that of the whole mass: one line a
 /// motion, of the size of a mode's motion in which all mass moves alike.
-pub(super) fn felt(modes: &Modes, on: On) -> Vec<f64> {
+pub(super) fn coupled_momentum(modes: &Modes, on: On) -> Vec<f64> {
     let total = Mount::moved(&modes.total, on.at);
     let couplings: Vec<[f64; 6]> =
         modes.modes.iter().map(|mode| Mount::moved_load(&mode.coupling, on.at)).collect();

@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, DVector};
 use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line, Surface};
 
-use super::mount::Push;
-use super::{Laid, window};
+use super::mount::Excitation;
+use super::{BuiltFoundation, window};
 use crate::Error;
 use formats::scene::{Handover, On};
 
@@ -26,8 +26,8 @@ pub fn foundation(
     count: usize,
     handover: Handover,
     damping: f64,
-    push: Push,
-) -> Result<Laid, Error> {
+    push: Excitation,
+) -> Result<BuiltFoundation, Error> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or(Error::Windows)?;
     let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
@@ -45,10 +45,10 @@ pub fn foundation(
         foundation.parts = Some(vec![chain.clone()]);
     }
     if let Some(mass) = girder.mass_per_length {
-        let motion = Motion::new(girder, mass, &ends, &nodal, push.lateral);
+        let motion = PartsDynamics::new(girder, mass, &ends, &nodal, push.lateral);
         foundation.on = push.on.map(|on| motion.mount(&centres, on));
         let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
-        parts = Some(super::Motion::Parts(chain_of));
+        parts = Some(super::MotionBasis::Parts(chain_of));
         let shapes = PartShapes { line, basis: motion.basis.clone(), chains: vec![chain], separate };
         foundation.structure = Some(motion.structure(shapes, damping));
     } else {
@@ -59,7 +59,7 @@ pub fn foundation(
             Box::new(BlendedParts { surface, chains: vec![chain] })
         });
     }
-    Ok(Laid { foundation, motion: parts })
+    Ok(BuiltFoundation { foundation, motion: parts })
 }
 
 /// Rigid parts with mass, and how they move.
@@ -129,7 +129,7 @@ pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
 
 /// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports
 /// hold is left out, K = diag(1/compliance), M = basis^T (lumped masses) basis.
-struct Motion {
+struct PartsDynamics {
     /// States of the parts (six each) x freedoms.
     basis: DMatrix<f64>,
     /// Masses and inertias of the states.
@@ -139,8 +139,8 @@ struct Motion {
     stiffness: DVector<f64>,
 }
 
-impl Motion {
-    fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> Motion {
+impl PartsDynamics {
+    fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> PartsDynamics {
         // Rotations are scaled by a part's length, so that one eigenproblem measures all freedoms alike.
         let length = ends[1] - ends[0];
         let wanted: &[usize] = if lateral { &[1, 5, 2, 3, 4] } else { &[1, 5] };
@@ -168,7 +168,7 @@ impl Motion {
         let lumped = DVector::from_fn(nodal.nrows(), |i, _| lumped(i));
         let weighted = DMatrix::from_fn(nodal.nrows(), kept.len(), |i, k| lumped[i] * basis[(i, k)]);
         let stiffness = DVector::from_fn(kept.len(), |k, _| 1.0 / eigen.eigenvalues[kept[k]]);
-        Motion { mass: basis.transpose() * weighted, stiffness, basis, lumped }
+        PartsDynamics { mass: basis.transpose() * weighted, stiffness, basis, lumped }
     }
 
     /// Mass of the parts as one, and the momentum of their freedoms: R^T M R and basis^T M R, R the motion of the parts
@@ -238,7 +238,7 @@ mod tests {
         let ends = part_ends(&girder, 7);
         let centres: Vec<f64> = ends.windows(2).map(|pair| 0.5 * (pair[0] + pair[1])).collect();
         let nodal = nodal_compliance(&girder, &ends, &centres).expect("it stands");
-        let motion = Motion::new(&girder, 20.0, &ends, &nodal, false);
+        let motion = PartsDynamics::new(&girder, 20.0, &ends, &nodal, false);
         let zeta = 0.03;
         let damping = motion.damping(zeta);
 

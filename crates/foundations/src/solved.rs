@@ -9,7 +9,7 @@ use formats::spec::Spec;
 use splines::Surface;
 
 /// A structure's FE model, solved.
-pub struct Solved {
+pub struct Solution {
     /// The model.
     pub model: fea::Model,
     /// Its rails.
@@ -21,19 +21,19 @@ pub struct Solved {
     /// The girder, where the structure is one.
     pub girder: Option<fea::Girder>,
     /// How large the system was; `None` where it was solved by an earlier run.
-    pub size: Option<Size>,
+    pub size: Option<SystemSize>,
 }
 
 /// Size of a system of equations.
 #[derive(Clone, Copy, Debug)]
-pub struct Size {
+pub struct SystemSize {
     /// Unknown freedoms.
     pub unknowns: usize,
     /// Bytes of its factor.
     pub bytes: u64,
 }
 
-impl std::fmt::Display for Size {
+impl std::fmt::Display for SystemSize {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{} unknowns, a factor of {:.3} MB", self.unknowns, self.bytes as f64 / 1e6)
     }
@@ -43,7 +43,7 @@ impl std::fmt::Display for Size {
 ///
 /// # Errors
 /// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
-pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
+pub fn solve(spec: &Spec) -> Result<Solution, fea::Error> {
     solve_to(spec, fea::ACCURACY, usize::MAX)
 }
 
@@ -52,7 +52,7 @@ pub fn solve(spec: &Spec) -> Result<Solved, fea::Error> {
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solved, fea::Error> {
+pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solution, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = Frame::accurate(&model, &rails, accuracy)?;
     let mut grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
@@ -65,22 +65,22 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solved, fea::
         ));
         None
     };
-    let size = Some(Size { unknowns: frame.unknowns(), bytes: frame.bytes() });
-    Ok(Solved { model, rails, surface, grid, girder: spec.girder().cloned(), size })
+    let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.bytes() });
+    Ok(Solution { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
 /// A spec that was solved, and what came of it.
-pub struct Known {
+pub struct SolvedStructure {
     /// The spec.
     pub spec: Arc<Spec>,
     /// Its grids and surface.
-    pub solved: Solved,
+    pub solution: Solution,
 }
 
 /// Every different spec of the document, once: the name of its tables (the structure's, with the label of the
 /// comparison that brings it), its file, and itself.
 #[must_use]
-pub fn specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
+pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
     let mut all: Vec<(String, &str, &Arc<Spec>)> = Vec::new();
     for case in &document.cases {
         for structure in &case.scene.structures {
@@ -101,10 +101,10 @@ pub fn specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
 
 /// The solution of a structure that has a spec.
 #[must_use]
-pub fn solved_of<'a>(known: &'a [Known], origin: &Origin) -> Option<&'a Solved> {
+pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a Solution> {
     match origin {
         Origin::Spec { spec, .. } => {
-            known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solved)
+            known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solution)
         }
         Origin::Tables { .. } => None,
     }

@@ -4,7 +4,7 @@ use formats::diagnostic::Diagnostic;
 
 /// A place in one of the files of a model, all counted from 1; `file` is an index into their names.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Spot {
+pub struct FilePlace {
     /// Which file.
     pub file: usize,
     /// Line.
@@ -15,9 +15,9 @@ pub struct Spot {
 
 /// One thing to say about a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Finding {
+pub struct ImportFinding {
     /// Where.
-    pub at: Spot,
+    pub at: FilePlace,
     /// What it is about, such as `CBAR 12: GA`; may be empty.
     pub about: String,
     /// What would have been right, or what has been done.
@@ -28,23 +28,23 @@ pub struct Finding {
     pub hint: Option<String>,
 }
 
-impl Finding {
+impl ImportFinding {
     /// A finding at a place.
     #[must_use]
-    pub fn new(at: Spot, about: impl Into<String>, expected: impl Into<String>) -> Finding {
-        Finding { at, about: about.into(), expected: expected.into(), found: None, hint: None }
+    pub fn new(at: FilePlace, about: impl Into<String>, expected: impl Into<String>) -> ImportFinding {
+        ImportFinding { at, about: about.into(), expected: expected.into(), found: None, hint: None }
     }
 
     /// With what was found.
     #[must_use]
-    pub fn got(mut self, found: impl ToString) -> Finding {
+    pub fn got(mut self, found: impl ToString) -> ImportFinding {
         self.found = Some(found.to_string());
         self
     }
 
     /// With a hint.
     #[must_use]
-    pub fn hint(mut self, hint: impl Into<String>) -> Finding {
+    pub fn hint(mut self, hint: impl Into<String>) -> ImportFinding {
         self.hint = Some(hint.into());
         self
     }
@@ -52,21 +52,21 @@ impl Finding {
 
 /// Errors and warnings so far, and the names of the files that they are in.
 #[derive(Clone, Debug, Default)]
-pub struct Findings {
+pub struct ImportFindings {
     /// Names of the files read.
     pub files: Vec<String>,
-    errors: Vec<Finding>,
-    warnings: Vec<Finding>,
+    errors: Vec<ImportFinding>,
+    warnings: Vec<ImportFinding>,
 }
 
-impl Findings {
+impl ImportFindings {
     /// Adds an error: the model will not be taken.
-    pub fn error(&mut self, finding: Finding) {
+    pub fn error(&mut self, finding: ImportFinding) {
         self.errors.push(finding);
     }
 
     /// Adds a warning: the model is taken without this, or taken so.
-    pub fn warn(&mut self, finding: Finding) {
+    pub fn warn(&mut self, finding: ImportFinding) {
         self.warnings.push(finding);
     }
 
@@ -88,10 +88,10 @@ impl Findings {
         self.placed(&self.warnings)
     }
 
-    fn placed(&self, findings: &[Finding]) -> Vec<Diagnostic> {
-        let mut sorted: Vec<&Finding> = findings.iter().collect();
+    fn placed(&self, findings: &[ImportFinding]) -> Vec<Diagnostic> {
+        let mut sorted: Vec<&ImportFinding> = findings.iter().collect();
         sorted.sort_by_key(|finding| finding.at);
-        let place = |finding: &&Finding| Diagnostic {
+        let place = |finding: &&ImportFinding| Diagnostic {
             file: self.files.get(finding.at.file).cloned().unwrap_or_default(),
             line: (finding.at.line > 0).then_some(finding.at.line),
             column: (finding.at.line > 0).then_some(finding.at.column),

@@ -2,19 +2,19 @@
 
 use std::str::FromStr;
 
-use super::structure::Structure;
+use super::structure::ImportedStructure;
 
 /// Freedoms of a set of points to hold: `SET=ux,uy,uz`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct SupportRequest {
     set: String,
     fix: [bool; 6],
 }
 
-impl FromStr for Asked {
+impl FromStr for SupportRequest {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Asked, String> {
+    fn from_str(text: &str) -> Result<SupportRequest, String> {
         let (set, list) = text.rsplit_once('=').ok_or("must be SET=FREEDOMS, such as feet=ux,uy,uz")?;
         let mut fix = [false; 6];
         for word in list.split(',') {
@@ -22,7 +22,7 @@ impl FromStr for Asked {
             let index = index.ok_or_else(|| format!("`{word}` must be one of ux, uy, uz, rx, ry, rz"))?;
             fix[index] = true;
         }
-        Ok(Asked { set: set.to_owned(), fix })
+        Ok(SupportRequest { set: set.to_owned(), fix })
     }
 }
 
@@ -30,7 +30,7 @@ impl FromStr for Asked {
 ///
 /// # Errors
 /// What must be otherwise, and a hint.
-pub fn hold(asked: &Asked, structure: &mut Structure) -> Result<(), [String; 2]> {
+pub fn hold(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result<(), [String; 2]> {
     let Some((_, set)) = structure.point_sets.iter().find(|(name, _)| *name == asked.set) else {
         let names: Vec<&str> = structure.point_sets.iter().take(20).map(|(name, _)| name.as_str()).collect();
         let hint = format!(

@@ -15,8 +15,8 @@ use std::path::Path;
 
 pub use write::{PARTS, write};
 
-use crate::findings::Findings;
-use crate::structure::Structure;
+use crate::findings::ImportFindings;
+use crate::structure::ImportedStructure;
 use formats::diagnostic::Diagnostic;
 use formats::inputs::cannot_read;
 use formats::source::Source;
@@ -25,7 +25,7 @@ use formats::units::{Dimension, Force, Length, Scale, Units};
 
 /// What a user says about a model, because its file does not.
 #[derive(Clone, Debug, Default)]
-pub struct Options {
+pub struct ImportOptions {
     /// Its unit of length.
     pub length: Option<Length>,
     /// Its unit of force.
@@ -33,9 +33,9 @@ pub struct Options {
     /// Direction up.
     pub up: Option<[f64; 3]>,
     /// Rails on its members.
-    pub rails: Vec<rail::Asked>,
+    pub rails: Vec<rail::RailRequest>,
     /// Supports of its sets of points.
-    pub fix: Vec<fix::Asked>,
+    pub fix: Vec<fix::SupportRequest>,
     /// The sections file of a mesh, and its bytes.
     pub sections: Option<Source>,
     /// The set of supports of a deck.
@@ -50,7 +50,7 @@ pub struct Imported {
     /// The beam spec.
     pub text: String,
     /// What it was made of.
-    pub structure: Structure,
+    pub structure: ImportedStructure,
     /// What was left out or taken in another way.
     pub warnings: Vec<Diagnostic>,
 }
@@ -59,7 +59,11 @@ pub struct Imported {
 ///
 /// # Errors
 /// Everything that is wrong with it, placed; then nothing is taken.
-pub fn import(path: &Path, open: bdf::Open<'_>, options: &Options) -> Result<Imported, Vec<Diagnostic>> {
+pub fn import(
+    path: &Path,
+    open: bdf::Open<'_>,
+    options: &ImportOptions,
+) -> Result<Imported, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     let mesh = match ending.as_str() {
@@ -70,7 +74,7 @@ pub fn import(path: &Path, open: bdf::Open<'_>, options: &Options) -> Result<Imp
             return Err(vec![wrong.hint("use .bdf, .dat or .nas (NASTRAN bulk data) or .msh (gmsh)")]);
         }
     };
-    let mut findings = Findings::default();
+    let mut findings = ImportFindings::default();
     let mut structure = if mesh {
         read_mesh(path, open, options, &mut findings)?
     } else {
@@ -123,7 +127,7 @@ fn refused(flag: &str, [expected, hint]: [String; 2]) -> Diagnostic {
 }
 
 /// What the reader of beam specs says of the text, but for rails that nobody asked for.
-fn sound(name: &str, text: &str, structure: &Structure) -> Result<(), Vec<Diagnostic>> {
+fn sound(name: &str, text: &str, structure: &ImportedStructure) -> Result<(), Vec<Diagnostic>> {
     let source = Source { name: format!("{name}, as a beam spec"), text: text.to_owned() };
     let Err(mut wrong) = Spec::read(&source, None) else { return Ok(()) };
     wrong.retain(|wrong| wrong.path != "rails" || !structure.rails.is_empty());
@@ -137,9 +141,9 @@ fn unread(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
 fn read_deck(
     path: &Path,
     open: bdf::Open<'_>,
-    options: &Options,
-    findings: &mut Findings,
-) -> Result<Structure, Vec<Diagnostic>> {
+    options: &ImportOptions,
+    findings: &mut ImportFindings,
+) -> Result<ImportedStructure, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let (Some(length), Some(force)) = (options.length, options.force) else {
         let wrong = Diagnostic::of_file(name, "bulk data have no units: --length and --force must say them");
@@ -154,16 +158,16 @@ fn read_deck(
         );
         return Err(vec![wrong]);
     }
-    let empty = Structure::empty(stem(&name), Units { length, force });
+    let empty = ImportedStructure::empty(stem(&name), Units { length, force });
     bdf::read(path, open, empty, options.spc, &options.skip, findings).map_err(|error| unread(path, &error))
 }
 
 fn read_mesh(
     path: &Path,
     open: bdf::Open<'_>,
-    options: &Options,
-    findings: &mut Findings,
-) -> Result<Structure, Vec<Diagnostic>> {
+    options: &ImportOptions,
+    findings: &mut ImportFindings,
+) -> Result<ImportedStructure, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let mut wrong = Vec::new();
     if options.length.is_none() {
@@ -197,7 +201,7 @@ fn read_mesh(
     findings.files.push(name.clone());
     let to = sections.units;
     let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
-    let mut empty = Structure::empty(stem(&name), to);
+    let mut empty = ImportedStructure::empty(stem(&name), to);
     empty.up = options.up;
     // a binary mesh is no text, and its first lines say so
     let text = String::from_utf8_lossy(&bytes);

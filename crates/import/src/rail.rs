@@ -2,12 +2,12 @@
 
 use std::str::FromStr;
 
-use super::structure::{Rail, Structure};
+use super::structure::{ImportedRail, ImportedStructure};
 use formats::vector::{dot, length, minus, parallel, unit};
 
 /// A rail as asked for: `NAME=12,23,30-35` or `NAME=SET`, then `/offset=X,Y,Z` and `/axis=X,Y,Z`.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct RailRequest {
     name: String,
     items: Vec<Item>,
     offset: [f64; 3],
@@ -34,10 +34,10 @@ pub fn triple(text: &str) -> Result<[f64; 3], String> {
     }
 }
 
-impl FromStr for Asked {
+impl FromStr for RailRequest {
     type Err = String;
 
-    fn from_str(text: &str) -> Result<Asked, String> {
+    fn from_str(text: &str) -> Result<RailRequest, String> {
         let example = "must be NAME=ELEMENTS, such as runway=12,23,30-35, or NAME=SET";
         let (name, rest) = text.split_once('=').ok_or(example)?;
         if name.is_empty() || name.contains('.') {
@@ -47,7 +47,7 @@ impl FromStr for Asked {
         let list = parts.next().unwrap_or_default();
         let items: Option<Vec<Item>> = list.split(',').map(|item| Item::read(item.trim())).collect();
         let mut asked =
-            Asked { name: name.to_owned(), items: items.ok_or(example)?, offset: [0.0; 3], axis: None };
+            RailRequest { name: name.to_owned(), items: items.ok_or(example)?, offset: [0.0; 3], axis: None };
         for part in parts {
             match part.split_once('=') {
                 Some(("offset", value)) => {
@@ -82,7 +82,11 @@ impl Item {
 ///
 /// # Errors
 /// What must be otherwise, and a hint.
-pub fn lay(asked: &Asked, up: [f64; 3], structure: &Structure) -> Result<Rail, [String; 2]> {
+pub fn lay(
+    asked: &RailRequest,
+    up: [f64; 3],
+    structure: &ImportedStructure,
+) -> Result<ImportedRail, [String; 2]> {
     let members = members(asked, structure)?;
     let middle = |member: usize| {
         let [a, b] = structure.ends(member);
@@ -121,7 +125,7 @@ pub fn lay(asked: &Asked, up: [f64; 3], structure: &Structure) -> Result<Rail, [
     if stations.iter().any(|station| !station.is_finite()) || range <= 0.0 {
         return Err(["must have coordinates that a double can hold".to_owned(), hint.to_owned()]);
     }
-    Ok(Rail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
+    Ok(ImportedRail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
 }
 
 /// The part of a direction that is normal to up; `None` where that is less than a tenth of it.
@@ -133,7 +137,7 @@ fn level(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
 }
 
 /// The members of a rail in the order given, each once.
-fn members(asked: &Asked, structure: &Structure) -> Result<Vec<usize>, [String; 2]> {
+fn members(asked: &RailRequest, structure: &ImportedStructure) -> Result<Vec<usize>, [String; 2]> {
     let mut members: Vec<usize> = Vec::new();
     let mut named = vec![false; structure.members.len()];
     for item in &asked.items {
@@ -174,7 +178,7 @@ mod tests {
 
     #[test]
     fn rails_are_read_from_the_command_line() {
-        let asked: Asked = "runway=12,30-35,girder/offset=0,0.5,0/axis=1,0,0".parse().expect("a rail");
+        let asked: RailRequest = "runway=12,30-35,girder/offset=0,0.5,0/axis=1,0,0".parse().expect("a rail");
         assert_eq!(asked.name, "runway");
         assert_eq!(
             asked.items,
@@ -184,7 +188,7 @@ mod tests {
         for text in
             ["runway", "=1", "a.b=1", "a=", "a=1,,2", "a=1/offset=1,2", "a=1/height=3", "a=1/axis=1,2,nan"]
         {
-            assert!(text.parse::<Asked>().is_err(), "{text}");
+            assert!(text.parse::<RailRequest>().is_err(), "{text}");
         }
     }
 }

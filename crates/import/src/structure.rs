@@ -6,7 +6,7 @@ use formats::units::Units;
 
 /// A point with the name that its file gives it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Point {
+pub struct ImportedPoint {
     /// Name in the file, such as `GRID 101`; empty where there is none.
     pub name: String,
     /// Coordinates.
@@ -15,7 +15,7 @@ pub struct Point {
 
 /// A material.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Material {
+pub struct ImportedMaterial {
     /// Its name.
     pub name: String,
     /// Young's modulus.
@@ -28,7 +28,7 @@ pub struct Material {
 
 /// A cross section; local y and z as in the beam spec.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Section {
+pub struct ImportedSection {
     /// Its name.
     pub name: String,
     /// Its material by name.
@@ -49,7 +49,7 @@ pub struct Section {
 
 /// A member.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Member {
+pub struct ImportedMember {
     /// Number of the element in its file.
     pub id: u64,
     /// Indices of its points.
@@ -70,7 +70,7 @@ pub struct Member {
 
 /// A spring to ground.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Spring {
+pub struct ImportedSpring {
     /// Index of the point.
     pub point: usize,
     /// Index of the global freedom.
@@ -81,7 +81,7 @@ pub struct Spring {
 
 /// A rigid mass.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mass {
+pub struct ImportedMass {
     /// Index of the point.
     pub point: usize,
     /// Mass.
@@ -94,7 +94,7 @@ pub struct Mass {
 
 /// A rail along members.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Rail {
+pub struct ImportedRail {
     /// Its name.
     pub name: String,
     /// Where its coordinate is 0.
@@ -111,7 +111,7 @@ pub struct Rail {
 
 /// Everything that a beam spec in the general form can say.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Structure {
+pub struct ImportedStructure {
     /// Its name.
     pub name: String,
     /// Units of all numbers.
@@ -119,34 +119,34 @@ pub struct Structure {
     /// Direction up; absent = +y.
     pub up: Option<[f64; 3]>,
     /// Points.
-    pub points: Vec<Point>,
+    pub points: Vec<ImportedPoint>,
     /// Materials.
-    pub materials: Vec<Material>,
+    pub materials: Vec<ImportedMaterial>,
     /// Sections.
-    pub sections: Vec<Section>,
+    pub sections: Vec<ImportedSection>,
     /// Members.
-    pub members: Vec<Member>,
+    pub members: Vec<ImportedMember>,
     /// Held freedoms by point.
     pub supports: BTreeMap<usize, [bool; 6]>,
     /// Springs to ground.
-    pub springs: Vec<Spring>,
+    pub springs: Vec<ImportedSpring>,
     /// Rigid links between two points.
     pub links: Vec<[usize; 2]>,
     /// Masses.
-    pub masses: Vec<Mass>,
+    pub masses: Vec<ImportedMass>,
     /// Named sets of points.
     pub point_sets: Vec<(String, Vec<usize>)>,
     /// Named sets of members.
     pub cell_sets: Vec<(String, Vec<usize>)>,
     /// Rails.
-    pub rails: Vec<Rail>,
+    pub rails: Vec<ImportedRail>,
 }
 
-impl Structure {
+impl ImportedStructure {
     /// A structure without anything in it.
     #[must_use]
-    pub fn empty(name: String, units: Units) -> Structure {
-        Structure {
+    pub fn empty(name: String, units: Units) -> ImportedStructure {
+        ImportedStructure {
             name,
             units,
             up: None,

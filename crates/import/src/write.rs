@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::structure::{Rail, Section, Structure};
+use super::structure::{ImportedRail, ImportedSection, ImportedStructure};
 use formats::spec::{FORMAT, theory_word};
 
 const FREEDOMS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
@@ -12,7 +12,7 @@ pub const PARTS: usize = 32;
 
 /// The beam spec of a structure, in the general form; every number has the fewest digits that give back its bits.
 #[must_use]
-pub fn write(structure: &Structure) -> String {
+pub fn write(structure: &ImportedStructure) -> String {
     let mut spec = Map::new();
     let mut put = |key: &str, value: Value| {
         spec.insert(key.to_owned(), value);
@@ -72,7 +72,7 @@ fn empty(value: &Value) -> bool {
 }
 
 /// Columns of `cell_data` that say more than their defaults.
-fn cell_data(structure: &Structure) -> Value {
+fn cell_data(structure: &ImportedStructure) -> Value {
     let members = &structure.members;
     let mut data = Map::new();
     let mut put = |key: &str, needed: bool, column: Value| {
@@ -119,7 +119,7 @@ fn words(set: &[bool; 6]) -> Value {
     FREEDOMS.iter().zip(set).filter(|(_, on)| **on).map(|(word, _)| json!(word)).collect()
 }
 
-fn material(material: &super::structure::Material) -> Value {
+fn material(material: &super::structure::ImportedMaterial) -> Value {
     let mut object = Map::new();
     object.insert("name".to_owned(), json!(material.name));
     object.insert("E".to_owned(), json!(material.e));
@@ -129,7 +129,7 @@ fn material(material: &super::structure::Material) -> Value {
     Value::Object(object)
 }
 
-fn section(section: &Section) -> Value {
+fn section(section: &ImportedSection) -> Value {
     let mut object = Map::new();
     object.insert("name".to_owned(), json!(section.name));
     object.insert("material".to_owned(), json!(section.material));
@@ -147,7 +147,7 @@ fn section(section: &Section) -> Value {
     Value::Object(object)
 }
 
-fn rail_json(rail: &Rail) -> Value {
+fn rail_json(rail: &ImportedRail) -> Value {
     let segment = |member: &usize| {
         let mut object = Map::new();
         object.insert("cell".to_owned(), json!([0, member]));

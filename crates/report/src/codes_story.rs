@@ -3,19 +3,19 @@
 use crate::{Cell, Column, Section, Table};
 use formats::number::rounded;
 use formats::scene::Scene;
-use results::codes::{Codes, Row};
+use results::codes::{CodeCheck, CodeComparison};
 
 /// Digits of values: codes have no more.
 const DIGITS: usize = 5;
 
 /// The section of all runs that have one; `None`: the scene does not ask for it.
 #[must_use]
-pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section> {
-    let all: Vec<(&str, &Codes)> =
+pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Section> {
+    let all: Vec<(&str, &CodeCheck)> =
         runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
     let (_, first) = *all.first()?;
     let mut section = Section::new("Beside the codes").say(
-        "What the runs have beside values of codes for the same crane. Forces found include what moves alone. Codes give \
+        "What the runs have beside values of codes for the same crane. Forces found include what moves alone. CodeCheck give \
          values for design, with their own partial factors on top: a run that stays below one is no proof, a run above \
          one is a question.",
     );
@@ -31,8 +31,12 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
     columns.push(Column::new("value", ""));
     let mut rows = Vec::new();
     for row in &first.rows {
-        let found = |codes: &Codes| {
-            codes.rows.iter().find(|other| other.name == row.name).map(|other: &Row| other.found.value)
+        let found = |codes: &CodeCheck| {
+            codes
+                .rows
+                .iter()
+                .find(|other| other.name == row.name)
+                .map(|other: &CodeComparison| other.found.value)
         };
         let mut head = vec![Cell::from(row.what), Cell::from(scene.units.label(row.dimension))];
         head.extend(
@@ -50,7 +54,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
     let caption = "Found, and by the codes.".to_owned();
     let table = Table { caption, columns, rows };
     let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("of", "")];
-    let givens = first.givens.iter().map(|given| {
+    let factors = first.factors.iter().map(|given| {
         let value = &given.value;
         vec![
             Cell::from(given.name.replace('_', " ")),
@@ -64,7 +68,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&Codes>)]) -> Option<Section
     let factors = Table {
         caption: "Factors of the codes, and loads of one wheel by them.".to_owned(),
         columns: heads.map(|(name, unit)| Column::new(name, unit)).into(),
-        rows: givens.collect(),
+        rows: factors.collect(),
     };
     Some(section.table(table).table(factors))
 }

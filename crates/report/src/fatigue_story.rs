@@ -5,14 +5,14 @@ use formats::number::rounded;
 use formats::scene::Scene;
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
-use results::fatigue::Verdict;
+use results::fatigue::FatigueResult;
 
 /// Digits of stresses and damages.
 const DIGITS: usize = 4;
 
 /// The section of all runs; `None`: there are no stress points.
 #[must_use]
-pub fn section(scene: &Scene, runs: &[(&str, &[Verdict])]) -> Option<Section> {
+pub fn section(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> Option<Section> {
     if runs.iter().all(|(_, verdicts)| verdicts.is_empty()) {
         return None;
     }

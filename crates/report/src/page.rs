@@ -6,7 +6,7 @@ use super::number::number;
 use super::section::{Cell, Figure, Picture, Section, Table};
 use crate::chart::{Chart, Drawing};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
-use results::threads::side_by_side;
+use results::threads::parallel_map;
 use serde_json::json;
 
 const STYLE: &str = include_str!("style.css");
@@ -38,7 +38,7 @@ impl Report {
             .clone()
             .flat_map(|(s, section)| section.figures.iter().enumerate().map(move |(i, one)| (s, i, one)))
             .collect();
-        let drawn = side_by_side(&figures, threads, |running, (s, i, one)| figure(*s, *i, one, running + 1));
+        let drawn = parallel_map(&figures, threads, |running, (s, i, one)| figure(*s, *i, one, running + 1));
         let (mut drawn, mut tables) = (drawn.into_iter(), 0);
         let bodies: Result<Vec<Markup>, Error> =
             sections.map(|(i, s)| section(i, s, &mut tables, &mut drawn)).collect();

@@ -8,8 +8,8 @@ use formats::block::GridBlock;
 use formats::motion::{Cast, CastWheel};
 use formats::scene::{Body, Scene};
 use formats::units::{Dimension, Units};
-use foundations::Solved;
-use results::record::{Record, peak};
+use foundations::Solution;
+use results::record::{NamedColumns, peak};
 
 /// Points along a rail at which smooth pictures are sampled.
 const SAMPLES: usize = 61;
@@ -57,7 +57,7 @@ pub struct Labelled<'a> {
     /// Its scene.
     pub scene: &'a Scene,
     /// Its columns.
-    pub record: &'a Record,
+    pub record: &'a NamedColumns,
 }
 
 /// Paths of every body over its rail, all runs on one chart.
@@ -227,7 +227,7 @@ fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
 pub fn structure(
     name: &str,
     units: Units,
-    solved: &Solved,
+    solved: &Solution,
 ) -> Result<Vec<Plate>, Box<dyn std::error::Error>> {
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
@@ -292,7 +292,7 @@ pub fn girder(
     structure: usize,
     run: &Labelled,
     cast: &Cast,
-    solved: &Solved,
+    solved: &Solution,
 ) -> Result<Option<Plate>, Box<dyn std::error::Error>> {
     let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
     let Some([from, to]) = surface.range(0) else { return Ok(None) };

@@ -5,8 +5,8 @@ use crate::number;
 use crate::pictures::{Labelled, Plate};
 use formats::scene::Scene;
 use formats::units::Dimension;
-use results::record::Record;
-use results::response::{Comparison, Figures, rail_sums};
+use results::record::NamedColumns;
+use results::response::{ColumnStatistics, RunComparison, rail_sums};
 
 /// Most rails that are drawn.
 const RAILS: usize = 4;
@@ -17,7 +17,7 @@ const SMALL: f64 = 0.1;
 /// Vertical and lateral sums of each rail on the ground over time, their numbers below; none where
 /// there is one run alone. `comparison`: figures of these runs.
 #[must_use]
-pub fn rails(runs: &[Labelled], comparison: &Comparison) -> Vec<Plate> {
+pub fn rails(runs: &[Labelled], comparison: &RunComparison) -> Vec<Plate> {
     let [first, _, ..] = runs else { return Vec::new() };
     let grounded = |name: &String| {
         let rail = name.rsplit_once('.').map_or("", |(rail, _)| rail);
@@ -28,10 +28,10 @@ pub fn rails(runs: &[Labelled], comparison: &Comparison) -> Vec<Plate> {
     sums.flatten().filter_map(|column| plate(first.scene, &column, runs, comparison)).collect()
 }
 
-fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &Comparison) -> Option<Plate> {
+fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &RunComparison) -> Option<Plate> {
     let (rail, part) = column.rsplit_once('.')?;
     let word = if part == "lateral" { "lateral" } else { "vertical" };
-    let zero = |record: &Record| record.values(column).iter().all(|value| *value == 0.0);
+    let zero = |record: &NamedColumns| record.values(column).iter().all(|value| *value == 0.0);
     if runs.iter().all(|run| zero(run.record)) {
         return None;
     }
@@ -56,7 +56,7 @@ fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &Comparison
 }
 
 /// The numbers of one run in words.
-fn line(label: &str, found: &Figures, unit: &str) -> String {
+fn line(label: &str, found: &ColumnStatistics, unit: &str) -> String {
     let text = |value: f64| number(value, 4).unwrap_or_default();
     let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
     // about a mean of zero every swing is an excursion

@@ -7,7 +7,7 @@ use crate::pictures::{Labelled, Plate};
 use formats::scene::columns::{Column, Direction as Toward, Kind};
 use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
-use results::response::{Lines, Response};
+use results::response::{ColumnInfluence, Response};
 
 /// Most curves of one chart.
 const CURVES: usize = 8;
@@ -20,7 +20,7 @@ const SAMPLES: usize = 241;
 
 /// Reactions of the first run over time, the largest of them in all runs, and influence lines of named sections.
 #[must_use]
-pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Lines>]) -> Vec<Plate> {
+pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<ColumnInfluence>]) -> Vec<Plate> {
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
     let mut plates = reactions(runs, run, response);
     for bending in &response.bending {
@@ -112,7 +112,7 @@ fn compared(runs: &[Labelled], scene: &Scene, column: &Column) -> Plate {
 }
 
 /// Influence lines of the named sections on every rail that moves them.
-fn influences(scene: &Scene, response: &Response, lines: &[Option<Lines>]) -> Vec<Plate> {
+fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluence>]) -> Vec<Plate> {
     let mut plates = Vec::new();
     for (structure, lines) in scene.structures.iter().zip(lines) {
         let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
@@ -188,7 +188,7 @@ fn influence(
         format!("{} per unit of a wheel's load on {rail}, over the place of the wheel.", column.name);
     if let Some(envelope) = response.envelopes.iter().find(|envelope| envelope.column == column.name) {
         let unit = scene.units.label(column.dimension);
-        let told = |extreme: &results::response::Extreme| {
+        let told = |extreme: &results::response::ColumnExtreme| {
             format!(
                 "{} {unit} at t = {:.3} s",
                 crate::number(extreme.value, 5).unwrap_or_default(),

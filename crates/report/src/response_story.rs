@@ -4,8 +4,8 @@ use crate::{Cell, Column, Section, Table};
 use formats::number::rounded;
 use formats::scene::Scene;
 use formats::units::Dimension;
-use results::record::Record;
-use results::response::{Comparison, Response};
+use results::record::NamedColumns;
+use results::response::{Response, RunComparison};
 
 /// Most rows of a table.
 const ROWS: usize = 60;
@@ -63,7 +63,12 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
 ///
 /// `labels`: those of the runs that were compared; `record`: that of the first of them.
 #[must_use]
-pub fn beside(scene: &Scene, labels: &[&str], record: &Record, comparison: &Comparison) -> Option<Section> {
+pub fn beside(
+    scene: &Scene,
+    labels: &[&str],
+    record: &NamedColumns,
+    comparison: &RunComparison,
+) -> Option<Section> {
     let all: Vec<_> = comparison.columns().collect();
     if all.is_empty() {
         return None;

@@ -5,20 +5,20 @@ use crate::{Cell, Column, Report, Section, Table};
 use formats::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
 use formats::units::Dimension;
-use foundations::Solved;
-use results::cases::Outcome;
+use foundations::Solution;
+use results::outcome::CaseResult;
 use results::record::peak;
-use results::response::Comparison;
-use results::summary;
+use results::response::RunComparison;
+use results::run_error;
 use results::warning;
 
 /// Assembles the report.
 #[must_use]
 pub fn report(
     document: &Document,
-    outcomes: &[Outcome],
-    solved: &[Option<&Solved>],
-    comparison: &Comparison,
+    outcomes: &[CaseResult],
+    solved: &[Option<&Solution>],
+    comparison: &RunComparison,
     plates: Vec<Plate>,
 ) -> Report {
     let scene = document.scene();
@@ -38,7 +38,7 @@ pub fn report(
     sections.push(forces(scene, outcomes));
     sections.push(crate::response_story::section(scene, &outcomes[0].label, &outcomes[0].response));
     let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
-    sections.extend(crate::response_story::beside(scene, &labels, &outcomes[0].record, comparison));
+    sections.extend(crate::response_story::beside(scene, &labels, &outcomes[0].columns, comparison));
     let codes: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
     sections.extend(crate::codes_story::section(scene, &codes));
@@ -54,7 +54,7 @@ pub fn report(
 }
 
 /// Peaks of every body in every run.
-fn results(document: &Document, outcomes: &[Outcome]) -> Section {
+fn results(document: &Document, outcomes: &[CaseResult]) -> Section {
     let scene = document.scene();
     let length = scene.units.label(Dimension::LENGTH);
     let mut table = Table {
@@ -73,18 +73,18 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
     for body in &scene.bodies {
         let mut first = None;
         for outcome in outcomes {
-            let Some((i, deepest)) = peak(outcome.record.part(&body.name, "deflection")) else {
+            let Some((i, deepest)) = peak(outcome.columns.part(&body.name, "deflection")) else {
                 continue;
             };
             let base = *first.get_or_insert(deepest);
             let change = if base == 0.0 { 0.0 } else { 100.0 * (deepest / base - 1.0) };
-            let (status, _) = summary::status(&outcome.run.status);
+            let (status, _) = run_error::status(&outcome.run.status);
             table.rows.push(vec![
                 Cell::from(outcome.label.clone()),
                 Cell::from(body.name.clone()),
                 Cell::from(deepest),
-                Cell::from(outcome.record.part(&body.name, "x")[i]),
-                Cell::from(outcome.record.values("time")[i]),
+                Cell::from(outcome.columns.part(&body.name, "x")[i]),
+                Cell::from(outcome.columns.values("time")[i]),
                 Cell::from(change),
                 Cell::from(status.to_owned()),
             ]);
@@ -102,12 +102,12 @@ fn results(document: &Document, outcomes: &[Outcome]) -> Section {
 }
 
 /// What every structure is and how it was made.
-fn structures(scene: &Scene, solved: &[Option<&Solved>], choices: &[sim::Choice]) -> Section {
+fn structures(scene: &Scene, solved: &[Option<&Solution>], choices: &[sim::Choice]) -> Section {
     let mut section = Section::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
         let choice = choices.iter().find(|choice| choice.structure == s);
-        let word =
-            choice.map_or_else(|| structure.foundation.word().to_owned(), |c| foundations::word(c.rung));
+        let word = choice
+            .map_or_else(|| structure.foundation.word().to_owned(), |c| foundations::fidelity_name(c.rung));
         let name = &structure.name;
         section = section.fact(format!("{name}: foundation"), word, "").fact(
             format!("{name}: reading"),
@@ -115,7 +115,7 @@ fn structures(scene: &Scene, solved: &[Option<&Solved>], choices: &[sim::Choice]
             "",
         );
         if let Some(choice) = choice {
-            section = section.say(format!("{name}: {}.", foundations::reason(choice)));
+            section = section.say(format!("{name}: {}.", foundations::selection_reason(choice)));
         }
         let Some(solved) = solved else { continue };
         if let Some(certificate) = &solved.grid.certificate {
@@ -144,7 +144,7 @@ fn structures(scene: &Scene, solved: &[Option<&Solved>], choices: &[sim::Choice]
 }
 
 /// Range of every wheel's forces in the first run.
-fn forces(scene: &Scene, outcomes: &[Outcome]) -> Section {
+fn forces(scene: &Scene, outcomes: &[CaseResult]) -> Section {
     let unit = scene.units.label(Dimension::FORCE);
     let mut table = Table {
         caption: format!("Wheel forces of the run \"{}\".", outcomes[0].label),
@@ -157,9 +157,9 @@ fn forces(scene: &Scene, outcomes: &[Outcome]) -> Section {
         ],
         rows: Vec::new(),
     };
-    for wheel in &outcomes[0].cast.wheels {
+    for wheel in &outcomes[0].input.wheels {
         let name = &wheel.name;
-        let values = |part: &str| outcomes[0].record.part(name, part);
+        let values = |part: &str| outcomes[0].columns.part(name, part);
         let largest = |part: &str| values(part).iter().fold(0.0_f64, |max, value| max.max(value.abs()));
         let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);
         table.rows.push(vec![
@@ -174,7 +174,7 @@ fn forces(scene: &Scene, outcomes: &[Outcome]) -> Section {
 }
 
 /// The energy audit of the dynamic runs.
-fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
+fn audit(document: &Document, outcomes: &[CaseResult]) -> Section {
     let energy = document.scene().units.label(Dimension::MOMENT);
     let mut table = Table {
         caption: "Energy audit: what was lost and put in, and what does not add up, relative to the peak of the stored elastic energy.".to_owned(),
@@ -204,7 +204,7 @@ fn audit(document: &Document, outcomes: &[Outcome]) -> Section {
     }
     let mut section = Section::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in warning::of_case(&case.scene, outcome) {
+        for warning in warning::case_warnings(&case.scene, outcome) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));
         }
     }

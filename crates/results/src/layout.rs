@@ -3,24 +3,24 @@
 
 use sim::{Axle, Mount};
 
-use crate::record::Record;
+use crate::record::NamedColumns;
 use formats::scene::{Scene, Truck, seat};
 use foundations::Error;
 
 /// A scene with the places of the rails that ride on bodies.
-pub struct Layout<'s> {
+pub struct ScenePositions<'s> {
     scene: &'s Scene,
     mounts: Vec<Option<Mount>>,
 }
 
-impl<'s> Layout<'s> {
+impl<'s> ScenePositions<'s> {
     /// Of `scene`.
     ///
     /// # Errors
     /// A spec that no model can be made of.
-    pub fn new(scene: &'s Scene) -> Result<Layout<'s>, Error> {
+    pub fn new(scene: &'s Scene) -> Result<ScenePositions<'s>, Error> {
         let mounts = scene.structures.iter().map(foundations::mount).collect::<Result<_, _>>()?;
-        Ok(Layout { scene, mounts })
+        Ok(ScenePositions { scene, mounts })
     }
 
     /// Structures that ride on `body`, with their mass and their rails from its origin.
@@ -48,7 +48,7 @@ impl<'s> Layout<'s> {
 
     /// Origin of a body at a row.
     #[must_use]
-    pub fn origin(&self, record: &Record, body: usize, row: usize) -> [f64; 3] {
+    pub fn origin(&self, record: &NamedColumns, body: usize, row: usize) -> [f64; 3] {
         let own = &self.scene.bodies[body];
         let at = |part: &str| record.part(&own.name, part).get(row).copied().unwrap_or_default();
         if own.in_space {

@@ -8,7 +8,7 @@ use formats::units::Dimension;
 
 /// One column of a history file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Column {
+pub struct HistoryColumn {
     /// Its name.
     pub name: String,
     /// Dimension of its values; angles have none.
@@ -19,27 +19,27 @@ pub struct Column {
 
 /// A history as named columns, `time` first.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Record {
+pub struct NamedColumns {
     /// The columns.
-    pub columns: Vec<Column>,
+    pub columns: Vec<HistoryColumn>,
 }
 
-impl Record {
+impl NamedColumns {
     /// The quantities of a run of `scene`, in their order.
     #[must_use]
-    pub fn new(scene: &Scene, history: &History) -> Record {
+    pub fn new(scene: &Scene, history: &History) -> NamedColumns {
         let columns = quantities(scene).into_iter().map(|Quantity { name, dimension, terms }| {
             let parts: Vec<(Vec<f64>, f64)> =
                 terms.into_iter().map(|(channel, factor)| (history.column(channel), factor)).collect();
             let sum = |i: usize| parts.iter().fold(0.0, |sum, (values, factor)| sum + factor * values[i]);
-            Column { name, dimension, values: (0..history.len()).map(sum).collect() }
+            HistoryColumn { name, dimension, values: (0..history.len()).map(sum).collect() }
         });
-        Record { columns: columns.collect() }
+        NamedColumns { columns: columns.collect() }
     }
 
     /// Adds a column.
     pub fn push(&mut self, name: impl Into<String>, dimension: Dimension, values: Vec<f64>) {
-        self.columns.push(Column { name: name.into(), dimension, values });
+        self.columns.push(HistoryColumn { name: name.into(), dimension, values });
     }
 
     /// One column by name; empty where there is none.

@@ -1,38 +1,21 @@
 //! `summary.json`: what a run found, in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Choice, Predicted, Rung, Status, Tried};
+use sim::{Choice, Predicted, Rung, Tried};
 
-use crate::cases::Outcome;
 use crate::fatigue;
-use crate::record::Record;
+use crate::outcome::CaseResult;
+use crate::record::NamedColumns;
+use crate::run_error;
 use crate::warning;
 use formats::scene::{Analysis, Event, Scene, Structure, stepper_word};
 use formats::units::Dimension;
 
-/// Word of a run's status, and what it means for the user where it is not "done".
-#[must_use]
-pub fn status(status: &Status) -> (&'static str, Option<String>) {
-    match status {
-        Status::Done => ("done", None),
-        Status::Ended(_) => ("ended by event", None),
-        Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
-        Status::StepTooSmall(t) => (
-            "step too small",
-            Some(format!(
-                "no step was small enough at t = {t} s, or contacts opened and closed without end: the motion cannot be \
-                 followed"
-            )),
-        ),
-        Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
-    }
-}
-
 /// One run as JSON.
 #[must_use]
-pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
-    let Outcome { run, record, choices, .. } = outcome;
-    let (word, why) = status(&run.status);
+pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
+    let CaseResult { run, columns: record, choices, .. } = outcome;
+    let (word, why) = run_error::status(&run.status);
     let structures = scene.structures.iter().enumerate();
     let structures: Map<String, Value> =
         structures.map(|(s, one)| (one.name.clone(), foundation(one, choices, s))).collect();
@@ -59,7 +42,7 @@ pub fn run(scene: &Scene, outcome: &Outcome) -> Value {
         members.extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
         members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));
     }
-    let warnings = warning::of_case(scene, outcome);
+    let warnings = warning::case_warnings(scene, outcome);
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
     }
@@ -97,7 +80,7 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
     });
     if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
         entry["foundation"] = json!(rung(choice.rung));
-        entry["reason"] = json!(foundations::reason(choice));
+        entry["reason"] = json!(foundations::selection_reason(choice));
         entry["tolerance"] = json!(structure.tolerance);
         entry["estimate"] = json!(choice.estimate);
         entry["tried"] = choice.tried.iter().map(tried).collect();
@@ -106,7 +89,7 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
         }
         for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
             if !rungs.is_empty() {
-                entry[key] = rungs.iter().map(|rung| foundations::word(*rung)).collect();
+                entry[key] = rungs.iter().map(|rung| foundations::fidelity_name(*rung)).collect();
             }
         }
     }
@@ -130,10 +113,10 @@ const fn rung(rung: Rung) -> &'static str {
 
 fn tried(tried: &Tried) -> Value {
     json!({
-        "rung": foundations::word(tried.rung),
+        "rung": foundations::fidelity_name(tried.rung),
         // infinite where the runs could not be compared
         "estimate": tried.estimate.is_finite().then_some(tried.estimate),
-        "against": foundations::word(tried.against),
+        "against": foundations::fidelity_name(tried.against),
         "stages": tried.stages,
     })
 }
@@ -141,7 +124,7 @@ fn tried(tried: &Tried) -> Value {
 /// Errors expected without a run.
 fn predicted(own: &Predicted) -> Value {
     let errors: Map<String, Value> =
-        own.errors.iter().map(|(rung, error)| (foundations::word(*rung), json!(error))).collect();
+        own.errors.iter().map(|(rung, error)| (foundations::fidelity_name(*rung), json!(error))).collect();
     json!({
         "give": own.give,
         "speed": own.speed,
@@ -153,7 +136,7 @@ fn predicted(own: &Predicted) -> Value {
 }
 
 /// Largest and smallest value of every column, and when.
-fn peaks(record: &Record) -> Value {
+fn peaks(record: &NamedColumns) -> Value {
     let time = record.values("time");
     let mut peaks = Map::new();
     for column in record.columns.iter().skip(1).filter(|column| !column.values.is_empty()) {
@@ -174,7 +157,7 @@ fn peaks(record: &Record) -> Value {
 
 /// Units of the columns.
 #[must_use]
-pub fn units(scene: &Scene, record: &Record) -> Value {
+pub fn units(scene: &Scene, record: &NamedColumns) -> Value {
     let label = |dimension: Dimension| {
         if dimension == Dimension::NUMBER { "rad".to_owned() } else { scene.units.label(dimension) }
     };

@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What `work` makes of each of `items`, in their order, on at most `threads` threads; `None`: as many as the machine has.
 /// `work` gets the index as well.
-pub fn side_by_side<T: Sync, R: Send>(
+pub fn parallel_map<T: Sync, R: Send>(
     items: &[T],
     threads: Option<u16>,
     work: impl Fn(usize, &T) -> R + Sync,
@@ -37,13 +37,13 @@ pub fn side_by_side<T: Sync, R: Send>(
 
 #[cfg(test)]
 mod tests {
-    use super::side_by_side;
+    use super::parallel_map;
 
     #[test]
     fn results_keep_the_order_of_their_items_on_any_number_of_threads() {
         let items: Vec<u64> = (0..100).collect();
         for threads in [Some(0), Some(1), Some(3), None] {
-            let made = side_by_side(&items, threads, |index, item| (index, item * item));
+            let made = parallel_map(&items, threads, |index, item| (index, item * item));
             assert_eq!(made.len(), 100);
             assert!(
                 made.iter().enumerate().all(|(k, (index, square))| *index == k && *square == (k * k) as u64)

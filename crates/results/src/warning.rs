@@ -6,12 +6,12 @@ mod taut;
 
 use std::f64::consts::PI;
 
-pub use sense::of_spec;
+pub use sense::spec_warnings;
 
 use sim::Run;
 
-use crate::cases::Outcome;
-use crate::record::Record;
+use crate::outcome::CaseResult;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail, seat};
 use formats::spec::Form;
@@ -30,16 +30,16 @@ const FAST: f64 = 0.5;
 
 /// Those of a case's run, and of the foundations chosen for it.
 #[must_use]
-pub fn of_case(scene: &Scene, outcome: &Outcome) -> Vec<String> {
-    let mut all = warnings(scene, &outcome.cast, &outcome.record, &outcome.run);
+pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
+    let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
     all.extend(outcome.choices.iter().filter_map(|choice| {
         let structure = &scene.structures[choice.structure];
-        foundations::doubt(&structure.name, choice, structure.tolerance)
+        foundations::selection_doubt(&structure.name, choice, structure.tolerance)
     }));
     all
 }
 
-fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<String> {
+fn warnings(scene: &Scene, cast: &Cast, record: &NamedColumns, run: &Run) -> Vec<String> {
     let mut all = Vec::new();
     let residual = run.audit.residual();
     if residual > RESIDUAL {
@@ -50,7 +50,7 @@ fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<Strin
     }
     for structure in &scene.structures {
         if let Origin::Spec { spec, .. } = &structure.origin {
-            all.extend(of_spec(spec).into_iter().map(|told| format!("{}: {told}", structure.name)));
+            all.extend(spec_warnings(spec).into_iter().map(|told| format!("{}: {told}", structure.name)));
         }
     }
     all.extend(slip::of_scene(scene, record));
@@ -70,7 +70,7 @@ fn warnings(scene: &Scene, cast: &Cast, record: &Record, run: &Run) -> Vec<Strin
 /// The wheels of one rail.
 struct Wheels<'a> {
     cast: &'a Cast,
-    record: &'a Record,
+    record: &'a NamedColumns,
     rail: usize,
 }
 
@@ -198,7 +198,7 @@ fn unsymmetric(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Strin
     ))
 }
 
-fn off(cast: &Cast, record: &Record) -> Vec<String> {
+fn off(cast: &Cast, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
     for wheel in &cast.wheels {
         let forces = record.part(&wheel.name, "vertical");

@@ -7,7 +7,7 @@ mod steppers;
 
 use common::{GRAVITY, SPAN, give};
 use nalgebra::{Matrix4, Vector4};
-use steppers::{Oscillator, STEPPERS, State, Step, monodromy};
+use steppers::{Oscillator, OscillatorState, STEPPERS, StepMethod, monodromy};
 
 const SECTION: &str = "4 Steps in time";
 /// Excess of a spectral radius that is growth.
@@ -21,7 +21,7 @@ fn figure(what: String, known: f64) -> claims::Figure {
 ///
 /// # Source
 /// Hairer, Wanner, Solving Ordinary Differential Equations II, section IV.5.
-fn radau3(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: State) -> State {
+fn radau3(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> OscillatorState {
     let a = [[5.0 / 12.0, -1.0 / 12.0], [0.75, 0.25]];
     let nodes = [1.0 / 3.0, 1.0];
     // k_i = A(t + c_i h) (y + h sum a_ij k_j), A = [[0, 1], [-s, -d]]
@@ -45,14 +45,14 @@ fn radau3(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: State) -> State {
     [z + end(0), v + end(1), 0.0, 0.0]
 }
 
-fn all() -> Vec<(&'static str, usize, Step)> {
+fn all() -> Vec<(&'static str, usize, StepMethod)> {
     let mut out = STEPPERS.to_vec();
     out.push(("Radau IIA 3", 2, radau3));
     out
 }
 
 /// Longest step times frequency up to which z'' + 2 zeta z' + z = 0 does not grow; none below 50.
-fn limit(stepper: (usize, Step), zeta: f64) -> Option<f64> {
+fn limit(stepper: (usize, StepMethod), zeta: f64) -> Option<f64> {
     let of = Oscillator { damping: &|_| 2.0 * zeta, stiffness: &|_| 1.0 };
     let grows = |h: f64| monodromy(&of, stepper.1, stepper.0, h, 1) > 1.0 + GROWTH;
     let first = (1..5000).map(|i| 0.01 * f64::from(i)).find(|h| grows(*h))?;
@@ -105,7 +105,7 @@ impl Crossing {
         SPAN / self.speed * self.omega
     }
 
-    fn radius(&self, stepper: (usize, Step), count: usize) -> f64 {
+    fn radius(&self, stepper: (usize, StepMethod), count: usize) -> f64 {
         let stiffness = |t: f64| {
             let x = self.speed * t;
             self.omega * self.omega / (1.0 + 1e8 * give(x, x).0)
@@ -120,7 +120,7 @@ impl Crossing {
 }
 
 /// Shortest step times frequency, from 0.2 to 12, at which equal steps grow though the motion does not.
-fn first(stepper: (usize, Step), speed: f64) -> Option<f64> {
+fn first(stepper: (usize, StepMethod), speed: f64) -> Option<f64> {
     let crossing = Crossing::at(speed);
     let physical = crossing.physical();
     let [least, most] = [12.0, 0.2].map(|step: f64| (crossing.turns() / step).ceil().max(1.0) as usize);
@@ -130,7 +130,7 @@ fn first(stepper: (usize, Step), speed: f64) -> Option<f64> {
 }
 
 /// Whether `known`, step times frequency, is among those that grow at `speed`.
-fn grows(stepper: (usize, Step), speed: f64, known: f64) -> bool {
+fn grows(stepper: (usize, StepMethod), speed: f64, known: f64) -> bool {
     let crossing = Crossing::at(speed);
     let count = (crossing.turns() / known).round() as usize;
     crossing.radius(stepper, count) > crossing.physical().max(1.0) + GROWTH

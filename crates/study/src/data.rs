@@ -2,13 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
-use super::depth::Depth;
+use super::budget::Depth;
 use super::front::{excess, on_front};
 use super::investigate::Study;
-use super::point::{Outcome, Point};
-use super::quantity::Quantity;
-use super::reference::{MARGIN, Reference, foundation};
-use super::setting::Family;
+use super::point::{PointOutcome, StudyPoint};
+use super::quantity::ErrorGroup;
+use super::reference::{ConvergedReference, MARGIN, foundation};
+use super::setting::SettingFamily;
 use formats::scene::Scene;
 use results::record::bytes;
 
@@ -37,9 +37,9 @@ pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
     })
 }
 
-fn reference(own: &Reference) -> Value {
+fn reference(own: &ConvergedReference) -> Value {
     let each = |value: &dyn Fn(usize) -> Option<f64>| {
-        let all = Quantity::ALL.iter().enumerate();
+        let all = ErrorGroup::ALL.iter().enumerate();
         all.filter_map(|(k, q)| Some((q.word().to_owned(), json!(value(k)?)))).collect::<Map<String, Value>>()
     };
     json!({
@@ -54,8 +54,8 @@ fn reference(own: &Reference) -> Value {
     })
 }
 
-fn setting(point: &Point, fronts: &[&'static str]) -> Value {
-    let Point { setting, outcome } = point;
+fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
+    let StudyPoint { setting, outcome } = point;
     let structures = setting.scene.structures.iter().map(|own| (own.name.clone(), json!(foundation(own))));
     let mut out = json!({
         "family": setting.family.name(),
@@ -65,9 +65,9 @@ fn setting(point: &Point, fronts: &[&'static str]) -> Value {
         "foundation": structures.collect::<Map<String, Value>>(),
     });
     match outcome {
-        Outcome::Done(measured) => {
+        PointOutcome::Done(measured) => {
             out["status"] = json!("done");
-            let errors = Quantity::ALL.iter().zip(&measured.errors);
+            let errors = ErrorGroup::ALL.iter().zip(&measured.errors);
             let errors = errors.filter_map(|(quantity, own)| {
                 let own = (*own)?;
                 Some((quantity.word().to_owned(), json!({ "largest": own.largest, "peak": own.peak })))
@@ -77,14 +77,14 @@ fn setting(point: &Point, fronts: &[&'static str]) -> Value {
             out["rejected"] = json!(measured.counts.rejected);
             out["stages"] = json!(measured.counts.stages);
             out["events"] = json!(measured.counts.events);
-            out["freedoms"] = json!(measured.freedoms);
+            out["freedoms"] = json!(measured.dof_count);
             if let Some(memory) = measured.memory {
                 out["memory"] = json!({ "foundations": memory.foundations, "run": memory.run });
             }
             out["front_by_stages"] = json!(fronts);
         }
-        Outcome::Stopped => out["status"] = json!("stopped"),
-        Outcome::Refused(why) => {
+        PointOutcome::Stopped => out["status"] = json!("stopped"),
+        PointOutcome::Refused(why) => {
             out["status"] = json!("refused");
             out["why"] = json!(why);
         }
@@ -94,39 +94,43 @@ fn setting(point: &Point, fronts: &[&'static str]) -> Value {
 
 /// By how much the points of `family` are dearer than the cheapest that errs no more, by quantity: 1 on the front.
 #[must_use]
-pub fn excesses(study: &Study, family: Family, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<(Quantity, f64)> {
+pub fn excesses(
+    study: &Study,
+    family: SettingFamily,
+    cost: &dyn Fn(&StudyPoint) -> Option<f64>,
+) -> Vec<(ErrorGroup, f64)> {
     let Some(reference) = study.reference(family.against()) else { return Vec::new() };
-    let of = |quantity: Quantity| {
-        let least = reference.tells(quantity)?;
-        let place = |point: &Point| Some([cost(point)?, point.error(quantity)?.max(least)]);
+    let of = |quantity: ErrorGroup| {
+        let least = reference.resolution_of(quantity)?;
+        let place = |point: &StudyPoint| Some([cost(point)?, point.error(quantity)?.max(least)]);
         let all = study.points.iter().filter(|point| point.setting.family.against() == reference.against);
-        let all: Vec<(Family, [f64; 2])> =
+        let all: Vec<(SettingFamily, [f64; 2])> =
             all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
         let own = all.iter().find(|(known, _)| *known == family)?.1;
         let others: Vec<[f64; 2]> = all.into_iter().map(|(_, place)| place).collect();
         Some((quantity, excess(own, &others)))
     };
-    Quantity::ALL.into_iter().filter_map(of).collect()
+    ErrorGroup::ALL.into_iter().filter_map(of).collect()
 }
 
 /// The same as JSON, for the scene as written (by foundations and by methods) and for what "auto" chose.
-fn dearer(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Value {
-    let of = |family: Family| {
+fn dearer(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
+    let of = |family: SettingFamily| {
         let all = excesses(study, family, cost).into_iter();
         Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
     };
-    json!({ "as written": of(Family::Written), "auto": of(Family::Auto), "stepping": of(Family::Stepping) })
+    json!({ "as written": of(SettingFamily::Written), "auto": of(SettingFamily::Auto), "stepping": of(SettingFamily::Stepping) })
 }
 
 /// Contact solutions of a point.
 #[must_use]
-pub fn stages(point: &Point) -> Option<f64> {
+pub fn stages(point: &StudyPoint) -> Option<f64> {
     Some(point.measured()?.counts.stages as f64)
 }
 
 /// Which points are on the front of each quantity by `cost`, among those of one reference.
-fn fronts(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<Vec<usize>> {
-    let of = |quantity: Quantity| {
+fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<usize>> {
+    let of = |quantity: ErrorGroup| {
         let mut kept = Vec::new();
         for reference in &study.references {
             let least = reference.resolves(quantity);
@@ -141,18 +145,18 @@ fn fronts(study: &Study, cost: &dyn Fn(&Point) -> Option<f64>) -> Vec<Vec<usize>
         }
         kept
     };
-    Quantity::ALL.map(of).to_vec()
+    ErrorGroup::ALL.map(of).to_vec()
 }
 
 fn on(fronts: &[Vec<usize>], point: usize) -> Vec<&'static str> {
-    let all = Quantity::ALL.iter().zip(fronts);
+    let all = ErrorGroup::ALL.iter().zip(fronts);
     all.filter(|(_, own)| own.contains(&point)).map(|(quantity, _)| quantity.word()).collect()
 }
 
 /// `timing.json`: times of runs, in seconds that the thread worked.
 #[must_use]
 pub fn timing_json(study: &Study) -> Value {
-    let fronts = fronts(study, &Point::seconds);
+    let fronts = fronts(study, &StudyPoint::seconds);
     let points = study.points.iter().enumerate().filter_map(|(k, point)| {
         let measured = point.measured()?;
         let time = measured.time?;
@@ -169,7 +173,7 @@ pub fn timing_json(study: &Study) -> Value {
     let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
     json!({
         "clock": if cfg!(unix) { "time that the thread worked, s" } else { "time, s" },
-        "dearer": dearer(study, &Point::seconds),
+        "dearer": dearer(study, &StudyPoint::seconds),
         "settings": points.collect::<Vec<_>>(),
         "auto_with_its_trials": trials.map(|own| json!({
             "median": own.median, "least": own.least, "most": own.most, "repetitions": own.count,
@@ -183,7 +187,7 @@ pub fn timing_json(study: &Study) -> Value {
 /// None in practice: memory takes every byte.
 pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     let mut head: Vec<String> = ["family", "knob", "value", "against", "status"].map(str::to_owned).to_vec();
-    for quantity in Quantity::ALL {
+    for quantity in ErrorGroup::ALL {
         head.extend(["largest", "peak"].map(|kind| format!("{}.{kind}", quantity.word())));
     }
     head.extend(["steps", "rejected", "stages", "events", "freedoms"].map(str::to_owned));
@@ -191,15 +195,15 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(&head)?;
     for point in &study.points {
-        let Point { setting, outcome } = point;
+        let StudyPoint { setting, outcome } = point;
         let (family, against) = (setting.family, setting.family.against());
         let mut row = vec![family.name(), setting.knob.to_owned(), format!("{:?}", setting.value)];
         row.push(against.word().to_owned());
         row.push(
             match outcome {
-                Outcome::Done(_) => "done",
-                Outcome::Stopped => "stopped",
-                Outcome::Refused(_) => "refused",
+                PointOutcome::Done(_) => "done",
+                PointOutcome::Stopped => "stopped",
+                PointOutcome::Refused(_) => "refused",
             }
             .to_owned(),
         );
@@ -211,7 +215,7 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
                     row.extend(pair);
                 }
                 let sim::Counts { steps, rejected, stages, events } = measured.counts;
-                row.extend([steps, rejected, stages, events, measured.freedoms].map(|own| own.to_string()));
+                row.extend([steps, rejected, stages, events, measured.dof_count].map(|own| own.to_string()));
                 let bytes = measured.memory.map(|own| [own.foundations, own.run].map(|own| own.to_string()));
                 row.extend(bytes.unwrap_or_default());
             }

@@ -4,24 +4,24 @@ use std::ops::ControlFlow;
 
 use sim::Stepping;
 
+use super::budget::Depth;
 use super::cpu::{self, limited};
-use super::depth::Depth;
-use super::ladder::{self, Kinds, varies};
+use super::deviation::misfits;
+use super::ladder::{self, SceneKinds, varies};
 use super::memory::{self, Memory};
-use super::misfit::misfits;
-use super::point::{Measured, Outcome, Point};
-use super::quantity::Quantity;
-use super::reference::{Detail, Make, Reference, reference};
-use super::rig::{Rig, Workshop};
-use super::setting::{Against, Family, Setting};
+use super::point::{MeasuredPoint, PointOutcome, StudyPoint};
+use super::quantity::ErrorGroup;
+use super::reference::{ConvergedReference, Make, MeshDetail, reference};
+use super::setting::{Against, Setting, SettingFamily};
+use super::setup::{Rig, Workshop};
 use super::spread::Spread;
 use crate::Error;
 use crate::observer::Observer;
 use formats::motion::cast;
 use formats::scene::{Analysis, Scene};
-use foundations::Known;
-use results::cases::recorded;
-use results::plight;
+use foundations::SolvedStructure;
+use results::cases::records_structure;
+use results::run_error;
 
 /// Shorter runs than this are timed several at once.
 const BATCH: f64 = 2e-3;
@@ -36,11 +36,11 @@ pub struct Study {
     /// When it ends, s, where its references tell nothing of what comes after; `None`: with the scene.
     pub until: Option<f64>,
     /// What errors are measured against.
-    pub references: Vec<Reference>,
+    pub references: Vec<ConvergedReference>,
     /// References that could not be run, and why.
     pub lost: Vec<(Against, String)>,
     /// The settings, in order.
-    pub points: Vec<Point>,
+    pub points: Vec<StudyPoint>,
     /// What "auto" chose, or why it did not.
     pub auto: Result<Auto, String>,
 }
@@ -57,7 +57,7 @@ pub struct Auto {
 impl Study {
     /// The reference of a family.
     #[must_use]
-    pub fn reference(&self, against: Against) -> Option<&Reference> {
+    pub fn reference(&self, against: Against) -> Option<&ConvergedReference> {
         self.references.iter().find(|own| own.against == against)
     }
 }
@@ -66,8 +66,13 @@ impl Study {
 ///
 /// # Errors
 /// A scene that cannot start; references that cannot be run.
-pub fn study(scene: &Scene, known: &[Known], depth: &Depth, observer: &dyn Observer) -> Result<Study, Error> {
-    let kinds = Kinds::of(scene, known);
+pub fn study(
+    scene: &Scene,
+    known: &[SolvedStructure],
+    depth: &Depth,
+    observer: &dyn Observer,
+) -> Result<Study, Error> {
+    let kinds = SceneKinds::of(scene, known);
     let mut workshop = Workshop::new(scene, known);
     let asks = scene.structures.iter().any(|structure| structure.auto);
     let choose = |scene: &Scene| {
@@ -98,7 +103,7 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, observer: &dyn Obser
     let (auto, chosen) = first.unwrap_or_else(|| choose(scene));
     let chosen = chosen.map(|chosen| Scene { end, ..chosen });
     for reference in &references {
-        let told = Quantity::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
+        let told = ErrorGroup::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
         let told: Vec<String> =
             told.map(|own| format!("{} from {:.1e}", own.name(), reference.resolves(*own))).collect();
         observer.say(&format!(
@@ -109,20 +114,21 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, observer: &dyn Obser
         ));
     }
     let mut settings = ladder::settings(&own, known, kinds, depth);
-    let (family, knob) = (Family::Written, "accuracy");
+    let (family, knob) = (SettingFamily::Written, "accuracy");
     settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
     if kinds.varies && own.analysis == Analysis::Dynamic {
-        let family = Family::Stepping;
+        let family = SettingFamily::Stepping;
         settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
     }
     if let Some(chosen) = chosen {
-        let (family, value) = (Family::Auto, chosen.accuracy);
+        let (family, value) = (SettingFamily::Auto, chosen.accuracy);
         settings.push(Setting { family, knob, value, scene: chosen, stations: None });
     }
     if !kinds.varies {
         // errors of foundations mean nothing: only the scene's own can be run
-        settings
-            .retain(|setting| setting.family.against() == Against::Own || setting.family == Family::Written);
+        settings.retain(|setting| {
+            setting.family.against() == Against::Own || setting.family == SettingFamily::Written
+        });
     }
     let bar = observer.begin("running", settings.len() as u64);
     let mut rigs = Vec::new();
@@ -134,11 +140,11 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, observer: &dyn Obser
             Some(reference) => measure(&mut workshop, &setting, reference, depth),
             None => {
                 let why = lost.iter().find(|(own, _)| *own == against).map_or("", |(_, why)| why.as_str());
-                (None, Outcome::Refused(why.to_owned()))
+                (None, PointOutcome::Refused(why.to_owned()))
             }
         };
         rigs.push(rig);
-        points.push(Point { setting, outcome });
+        points.push(StudyPoint { setting, outcome });
         bar.reach(index as u64 + 1);
     }
     drop(bar);
@@ -148,17 +154,17 @@ pub fn study(scene: &Scene, known: &[Known], depth: &Depth, observer: &dyn Obser
 }
 
 /// References, and those that could not be run.
-type References = (Vec<Reference>, Vec<(Against, String)>);
+type References = (Vec<ConvergedReference>, Vec<(Against, String)>);
 
 /// What errors of settings of `own` are measured against.
 fn references(
     own: &Scene,
-    kinds: Kinds,
+    kinds: SceneKinds,
     workshop: &mut Workshop<'_>,
     depth: &Depth,
     observer: &dyn Observer,
 ) -> Result<References, Error> {
-    let whole = |detail: Detail| ladder::whole(own, kinds, detail);
+    let whole = |detail: MeshDetail| ladder::whole(own, kinds, detail);
     let massless = |_| ladder::massless(own);
     let written = |_| own.clone();
     let all: [(Against, &Make<'_>, bool); 3] = [
@@ -166,17 +172,17 @@ fn references(
         (Against::Massless, &massless, false),
         (Against::Own, &written, false),
     ];
-    let mut found: Vec<Reference> = Vec::new();
+    let mut found: Vec<ConvergedReference> = Vec::new();
     let mut lost = Vec::new();
     let mut seen: Vec<Scene> = Vec::new();
     for (against, make, meshes) in all {
         if against != Against::Own && !kinds.varies {
             continue;
         }
-        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(Detail::Modes(2)) };
+        let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(MeshDetail::Modes(2)) };
         let same = seen.iter().position(|own| *own == plain);
         let reference = match same {
-            Some(at) => Ok(Reference { against, ..Reference::clone(&found[at]) }),
+            Some(at) => Ok(ConvergedReference { against, ..ConvergedReference::clone(&found[at]) }),
             None => reference(workshop, against, make, meshes, depth),
         };
         match reference {
@@ -196,8 +202,8 @@ fn references(
 
 /// When a study of a scene of so many seconds ends before it: where some reference tells deflections and wheel forces down
 /// to `resolution` until then alone. `None`: all tell them to the end, or one of them for less than [`LEAST`] of it.
-fn until(references: &[Reference], end: f64, resolution: f64) -> Option<f64> {
-    let short = references.iter().filter(|reference| reference.asked() > resolution);
+fn until(references: &[ConvergedReference], end: f64, resolution: f64) -> Option<f64> {
+    let short = references.iter().filter(|reference| reference.worst_resolution() > resolution);
     let times = short.map(|reference| reference.horizon(resolution).unwrap_or(0.0));
     times.reduce(f64::min).filter(|time| *time >= LEAST * end)
 }
@@ -206,25 +212,25 @@ fn until(references: &[Reference], end: f64, resolution: f64) -> Option<f64> {
 fn measure(
     workshop: &mut Workshop<'_>,
     setting: &Setting,
-    reference: &Reference,
+    reference: &ConvergedReference,
     depth: &Depth,
-) -> (Option<(Rig, f64)>, Outcome) {
-    let refused = |why: String| (None, Outcome::Refused(why));
+) -> (Option<(Rig, f64)>, PointOutcome) {
+    let refused = |why: String| (None, PointOutcome::Refused(why));
     let rig = match workshop.rig(setting) {
         Ok(rig) => rig,
         Err(failure) => return refused(failure.to_string()),
     };
     let start = cpu::seconds();
-    let ran = memory::held(|| limited(depth.limit, |watch| rig.run(watch)));
+    let ran = memory::count_allocations(|| limited(depth.limit, |watch| rig.run(watch)));
     let run = match ran.out {
         Ok(run) => run,
-        Err(error) => return refused(plight::words(&error, &setting.scene)),
+        Err(error) => return refused(run_error::in_scene_names(&error, &setting.scene)),
     };
     let seconds = cpu::seconds() - start;
     match &run.status {
-        sim::Status::Stopped => return (None, Outcome::Stopped),
+        sim::Status::Stopped => return (None, PointOutcome::Stopped),
         status if !status.is_complete() => {
-            return refused(plight::why(status, &setting.scene).unwrap_or_default());
+            return refused(run_error::reason_incomplete(status, &setting.scene).unwrap_or_default());
         }
         _ => {}
     }
@@ -233,20 +239,20 @@ fn measure(
         Err(failure) => return refused(failure.to_string()),
     };
     // a second one: the first left modes and tables with the workshop
-    let foundations = memory::held(|| workshop.rig(setting)).kept;
-    let measured = Measured {
-        errors: misfits(&trace, &reference.trace),
+    let foundations = memory::count_allocations(|| workshop.rig(setting)).retained;
+    let measured = MeasuredPoint {
+        errors: misfits(&trace, &reference.columns),
         counts: run.counts,
-        freedoms: rig.freedoms(),
+        dof_count: rig.freedoms(),
         time: None,
         setup: rig.setup,
-        memory: foundations.zip(ran.most).map(|(foundations, run)| Memory { foundations, run }),
+        memory: foundations.zip(ran.peak).map(|(foundations, run)| Memory { foundations, run }),
     };
-    (Some((rig, seconds)), Outcome::Done(Box::new(measured)))
+    (Some((rig, seconds)), PointOutcome::Done(Box::new(measured)))
 }
 
 /// Lets "auto" choose every foundation that may vary: what it says, and the scene on its choice.
-fn auto(scene: &Scene, known: &[Known], depth: &Depth) -> (Result<Auto, String>, Option<Scene>) {
+fn auto(scene: &Scene, known: &[SolvedStructure], depth: &Depth) -> (Result<Auto, String>, Option<Scene>) {
     let mut chosen = asked(scene);
     let choices = match choose(&mut chosen, known, 10.0 * depth.limit) {
         Ok(choices) => choices,
@@ -256,7 +262,8 @@ fn auto(scene: &Scene, known: &[Known], depth: &Depth) -> (Result<Auto, String>,
         return (Err("no foundation may vary".to_owned()), None);
     }
     let name = |choice: &sim::Choice| chosen.structures[choice.structure].name.clone();
-    let reasons = choices.iter().map(|choice| (name(choice), foundations::reason(choice))).collect();
+    let reasons =
+        choices.iter().map(|choice| (name(choice), foundations::selection_reason(choice))).collect();
     for choice in choices.iter().filter(|choice| choice.predicted.is_some()) {
         chosen.accuracy = chosen.accuracy.min(sim::STEPPING * chosen.structures[choice.structure].tolerance);
     }
@@ -275,12 +282,13 @@ fn asked(scene: &Scene) -> Scene {
 }
 
 /// Lets "auto" choose, within `limit` seconds.
-fn choose(scene: &mut Scene, known: &[Known], limit: f64) -> Result<Vec<sim::Choice>, String> {
+fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Vec<sim::Choice>, String> {
     let cast = cast(scene).map_err(|failure| failure.to_string())?;
-    let recorded = recorded(scene, known);
-    let found = limited(limit, |watch| foundations::choose(scene, &cast.scene, known, &recorded, watch));
+    let recorded = records_structure(scene, known);
+    let found =
+        limited(limit, |watch| foundations::select_and_run(scene, &cast.scene, known, &recorded, watch));
     let found = found.map_err(|trouble| match trouble {
-        foundations::Error::Simulation(error) => plight::words(&error, scene),
+        foundations::Error::Simulation(error) => run_error::in_scene_names(&error, scene),
         other => other.to_string(),
     })?;
     match found.run.status {
@@ -294,7 +302,7 @@ fn time(
     study: &mut Study,
     rigs: &[Option<(Rig, f64)>],
     scene: &Scene,
-    known: &[Known],
+    known: &[SolvedStructure],
     depth: &Depth,
     observer: &dyn Observer,
 ) {
@@ -327,7 +335,7 @@ fn time(
         bar.reach(repetition as u64 + 1);
     }
     for (point, times) in study.points.iter_mut().zip(&times) {
-        if let Outcome::Done(measured) = &mut point.outcome {
+        if let PointOutcome::Done(measured) = &mut point.outcome {
             measured.time = Spread::of(times);
         }
     }
@@ -339,19 +347,19 @@ fn time(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::misfit::Trace;
+    use crate::deviation::Trace;
 
     /// Two runs of ten seconds whose wheel forces part by a tenth from `time` on.
-    fn parted(against: Against, time: usize) -> Reference {
+    fn parted(against: Against, time: usize) -> ConvergedReference {
         let trace = |shift: f64| {
             let force = |k: usize| if k < time { 1.0 } else { 1.0 + shift };
             let columns = vec![
-                ("body.deflection".to_owned(), Quantity::Deflection, vec![1.0; 11]),
-                ("wheel.vertical".to_owned(), Quantity::WheelForce, (0..11).map(force).collect()),
+                ("body.deflection".to_owned(), ErrorGroup::Deflection, vec![1.0; 11]),
+                ("wheel.vertical".to_owned(), ErrorGroup::WheelForce, (0..11).map(force).collect()),
             ];
             Trace { time: (0..11).map(|k| k as f64).collect(), columns }
         };
-        Reference::new(against, trace(0.0), trace(0.1), Default::default())
+        ConvergedReference::new(against, trace(0.0), trace(0.1), Default::default())
     }
 
     #[test]
@@ -371,8 +379,8 @@ mod tests {
     #[test]
     fn a_reference_that_is_cut_tells_what_is_left() {
         let mut own = parted(Against::Own, 6);
-        assert!((own.asked() - 1.0).abs() < 1e-12, "ten times a tenth");
+        assert!((own.worst_resolution() - 1.0).abs() < 1e-12, "ten times a tenth");
         own.cut(5.0);
-        assert_eq!((own.asked(), own.trace.time.len()), (0.0, 6));
+        assert_eq!((own.worst_resolution(), own.columns.time.len()), (0.0, 6));
     }
 }

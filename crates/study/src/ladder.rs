@@ -2,15 +2,15 @@
 
 use sim::Method;
 
-use super::depth::Depth;
-use super::reference::Detail;
-use super::setting::{Family, Setting};
+use super::budget::Depth;
+use super::reference::MeshDetail;
+use super::setting::{Setting, SettingFamily};
 use formats::scene::{Analysis, Foundation, Handover, Origin, Reading, Scene, Structure};
-use foundations::{Known, solved_of};
+use foundations::{SolvedStructure, solution_of};
 
 /// What a scene's structures can be.
 #[derive(Clone, Copy, Debug)]
-pub struct Kinds {
+pub struct SceneKinds {
     /// Some structure has a beam spec whose foundation may vary: no ties.
     pub varies: bool,
     /// Every such structure has mass.
@@ -19,16 +19,16 @@ pub struct Kinds {
     pub is_girder: bool,
 }
 
-impl Kinds {
+impl SceneKinds {
     /// Of the structures of `scene`.
     #[must_use]
-    pub fn of(scene: &Scene, known: &[Known]) -> Kinds {
+    pub fn of(scene: &Scene, known: &[SolvedStructure]) -> SceneKinds {
         let solved = || {
             let all = scene.structures.iter().filter(|structure| varies(structure));
-            all.filter_map(|structure| solved_of(known, &structure.origin))
+            all.filter_map(|structure| solution_of(known, &structure.origin))
         };
-        let has_mass = |solved| foundations::modes_of(solved, 1).is_ok_and(|modes| modes.is_some());
-        Kinds {
+        let has_mass = |solved| foundations::excited_modes(solved, 1).is_ok_and(|modes| modes.is_some());
+        SceneKinds {
             varies: solved().next().is_some(),
             has_mass: solved().all(has_mass),
             is_girder: solved().all(|solved| solved.girder.is_some()),
@@ -59,24 +59,24 @@ pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
 }
 
 /// The mesh that "auto" takes as the top.
-fn mesh(scene: &Scene, known: &[Known]) -> Scene {
+fn mesh(scene: &Scene, known: &[SolvedStructure]) -> Scene {
     with(scene, |structure| {
-        let elements = foundations::elements(solved_of(known, &structure.origin));
+        let elements = foundations::mesh_elements(solution_of(known, &structure.origin));
         Foundation::Full { elements, damping: structure.damping }
     })
 }
 
 /// The structure with all that is known of it, to such a detail; without mass, the exact surface.
 #[must_use]
-pub fn whole(scene: &Scene, kinds: Kinds, detail: Detail) -> Scene {
+pub fn whole(scene: &Scene, kinds: SceneKinds, detail: MeshDetail) -> Scene {
     if !kinds.has_mass || scene.analysis != Analysis::Dynamic {
         return massless(scene);
     }
     with(scene, |structure| {
         let damping = structure.damping;
         match detail {
-            Detail::Modes(modes) => Foundation::Modal { modes, damping },
-            Detail::Mesh(elements) => Foundation::Full { elements, damping },
+            MeshDetail::Modes(modes) => Foundation::Modal { modes, damping },
+            MeshDetail::Mesh(elements) => Foundation::Full { elements, damping },
         }
     })
 }
@@ -93,7 +93,7 @@ pub fn massless(scene: &Scene) -> Scene {
 
 /// The settings of a study of `scene`, whose foundations are chosen.
 #[must_use]
-pub fn settings(scene: &Scene, known: &[Known], kinds: Kinds, depth: &Depth) -> Vec<Setting> {
+pub fn settings(scene: &Scene, known: &[SolvedStructure], kinds: SceneKinds, depth: &Depth) -> Vec<Setting> {
     let mut list = List { depth, dynamic: scene.analysis == Analysis::Dynamic, all: Vec::new() };
     if kinds.varies {
         list.foundations(scene, known, kinds);
@@ -112,11 +112,11 @@ struct List<'d> {
 }
 
 impl List<'_> {
-    fn add(&mut self, family: Family, knob: &'static str, value: f64, scene: Scene) {
+    fn add(&mut self, family: SettingFamily, knob: &'static str, value: f64, scene: Scene) {
         self.all.push(Setting { family, knob, value, scene, stations: None });
     }
 
-    fn by_accuracy(&mut self, family: Family, scene: &Scene) {
+    fn by_accuracy(&mut self, family: SettingFamily, scene: &Scene) {
         // equilibria know no accuracy
         let all = if self.dynamic { self.depth.accuracies.as_slice() } else { &[self.depth.fine] };
         for &accuracy in all {
@@ -124,20 +124,20 @@ impl List<'_> {
         }
     }
 
-    fn foundations(&mut self, scene: &Scene, known: &[Known], kinds: Kinds) {
+    fn foundations(&mut self, scene: &Scene, known: &[SolvedStructure], kinds: SceneKinds) {
         let scene = &Scene { stepping: sim::Stepping::default(), ..scene.clone() };
         let fine = Scene { accuracy: self.depth.fine, ..massless(scene) };
-        self.by_accuracy(Family::Rigid, &with(&fine, |_| Foundation::Rigid));
+        self.by_accuracy(SettingFamily::Rigid, &with(&fine, |_| Foundation::Rigid));
         if kinds.is_girder {
             for &count in &self.depth.parts {
                 let handover = Handover::Blend { length: None };
                 let scene = with(&fine, |_| Foundation::Parts { count, handover, damping: 0.0 });
-                self.add(Family::Parts, "parts", count as f64, scene);
+                self.add(SettingFamily::Parts, "parts", count as f64, scene);
             }
         }
-        self.by_accuracy(Family::Influence, &fine);
+        self.by_accuracy(SettingFamily::Influence, &fine);
         if kinds.has_mass && self.dynamic {
-            for family in [Family::Modal, Family::Pure] {
+            for family in [SettingFamily::Modal, SettingFamily::Pure] {
                 for &modes in &self.depth.modes {
                     let scene = with(&fine, |own| Foundation::Modal { modes, damping: own.damping });
                     self.add(family, "modes", modes as f64, scene);
@@ -145,9 +145,9 @@ impl List<'_> {
             }
             for &elements in &self.depth.elements {
                 let scene = with(&fine, |own| Foundation::Full { elements, damping: own.damping });
-                self.add(Family::Mesh, "elements", elements as f64, scene);
+                self.add(SettingFamily::Mesh, "elements", elements as f64, scene);
             }
-            self.by_accuracy(Family::Full, &mesh(scene, known));
+            self.by_accuracy(SettingFamily::Full, &mesh(scene, known));
         }
     }
 
@@ -156,7 +156,7 @@ impl List<'_> {
         let exact = Scene { accuracy, stepping, ..scene.clone() };
         let rails = scene.structures.iter().filter(|own| varies(own)).flat_map(|own| &own.rails);
         let stations = rails.map(|rail| rail.stations.len()).max().unwrap_or(0);
-        self.add(Family::Table(Reading::Exact), "stations", stations as f64, exact);
+        self.add(SettingFamily::Table(Reading::Exact), "stations", stations as f64, exact);
         for reading in [Reading::Natural, Reading::Akispl, Reading::Cubspl] {
             for &count in &self.depth.stations {
                 let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());
@@ -164,7 +164,7 @@ impl List<'_> {
                 for structure in scene.structures.iter_mut().filter(|structure| varies(structure)) {
                     structure.reading = reading;
                 }
-                let family = Family::Table(reading);
+                let family = SettingFamily::Table(reading);
                 let stations = Some(count);
                 self.all.push(Setting { family, knob: "stations", value: count as f64, scene, stations });
             }
@@ -176,14 +176,14 @@ impl List<'_> {
             for &accuracy in &self.depth.accuracies {
                 let stepping = sim::Stepping { method, step: None };
                 let scene = Scene { accuracy, stepping, ..scene.clone() };
-                self.add(Family::Adaptive(method), "accuracy", accuracy, scene);
+                self.add(SettingFamily::Adaptive(method), "accuracy", accuracy, scene);
             }
         }
         for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
             for &count in &self.depth.steps {
                 let stepping = sim::Stepping { method, step: Some(scene.end / f64::from(count)) };
                 let scene = Scene { accuracy: self.depth.fine, stepping, ..scene.clone() };
-                self.add(Family::Fixed(method), "steps", f64::from(count), scene);
+                self.add(SettingFamily::Fixed(method), "steps", f64::from(count), scene);
             }
         }
     }

@@ -20,43 +20,43 @@ impl Memory {
 }
 
 /// What came of a job, with the bytes that it still holds, and the most that it held at once; none where nobody counts.
-pub struct Held<T> {
+pub struct AllocationCount<T> {
     /// What it gave.
     pub out: T,
     /// Bytes of it.
-    pub kept: Option<u64>,
+    pub retained: Option<u64>,
     /// The most at once.
-    pub most: Option<u64>,
+    pub peak: Option<u64>,
 }
 
 /// Counts what `job` allocates on this thread.
 #[cfg(feature = "memory")]
-pub fn held<T>(job: impl FnOnce() -> T) -> Held<T> {
+pub fn count_allocations<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
     let mut out = None;
     let info = allocation_counter::measure(|| out = Some(job()));
-    Held {
+    AllocationCount {
         out: out.expect("the job ran"),
-        kept: u64::try_from(info.bytes_current).ok(),
-        most: Some(info.bytes_max),
+        retained: u64::try_from(info.bytes_current).ok(),
+        peak: Some(info.bytes_max),
     }
 }
 
 /// Counts nothing.
 #[cfg(not(feature = "memory"))]
-pub fn held<T>(job: impl FnOnce() -> T) -> Held<T> {
-    Held { out: job(), kept: None, most: None }
+pub fn held<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
+    AllocationCount { out: job(), kept: None, most: None }
 }
 
 #[cfg(all(test, feature = "memory"))]
 mod tests {
-    use super::held;
+    use super::count_allocations;
 
     #[test]
     fn what_is_kept_and_what_was_held_at_once_are_told() {
-        let found = held(|| {
+        let found = count_allocations(|| {
             drop(vec![0_u8; 5000]);
             vec![0_u8; 1000]
         });
-        assert_eq!((found.out.len(), found.kept, found.most), (1000, Some(1000), Some(5000)));
+        assert_eq!((found.out.len(), found.retained, found.peak), (1000, Some(1000), Some(5000)));
     }
 }

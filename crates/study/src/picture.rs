@@ -2,14 +2,14 @@
 
 use super::front::front;
 use super::investigate::Study;
-use super::point::{Outcome, Point};
-use super::quantity::Quantity;
-use super::setting::{Against, Family};
+use super::point::{PointOutcome, StudyPoint};
+use super::quantity::ErrorGroup;
+use super::setting::{Against, SettingFamily};
 use report::chart::{Axis, Chart, Error, Series, Style, stack};
 
 /// A picture, and whether equal studies may differ in it: it has times.
 #[derive(Clone, Debug)]
-pub struct Picture {
+pub struct StudyPicture {
     /// Its name in the folder `plots`, without ending.
     pub name: String,
     /// The SVG file.
@@ -32,25 +32,25 @@ enum Cost {
 }
 
 /// Which families a chart shows.
-type Takes = fn(Family) -> bool;
+type Takes = fn(SettingFamily) -> bool;
 
-fn is_foundation(family: Family) -> bool {
-    family.against() == Against::Whole && !matches!(family, Family::Written | Family::Auto)
+fn is_foundation(family: SettingFamily) -> bool {
+    family.against() == Against::Whole && !matches!(family, SettingFamily::Written | SettingFamily::Auto)
 }
 
-fn is_method(family: Family) -> bool {
+fn is_method(family: SettingFamily) -> bool {
     family.against() == Against::Own
 }
 
-fn is_table(family: Family) -> bool {
-    matches!(family, Family::Table(_))
+fn is_table(family: SettingFamily) -> bool {
+    matches!(family, SettingFamily::Table(_))
 }
 
 /// All charts of a study: each is a file with a chart a quantity, below each other.
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
-pub fn pictures(study: &Study, name: &str) -> Result<Vec<Picture>, Error> {
+pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
     let all: [(&str, &str, Takes, Cost); 10] = [
         ("foundations-time", "foundations", is_foundation, Cost::Time),
         ("foundations-stages", "foundations", is_foundation, Cost::Stages),
@@ -59,28 +59,28 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<Picture>, Error> {
         ("methods-stages", "methods of integration", is_method, Cost::Stages),
         ("tables-time", "readings of tables", is_table, Cost::Time),
         ("stations", "readings of tables", is_table, Cost::Knob),
-        ("modes", "modes", |own| matches!(own, Family::Modal | Family::Pure), Cost::Knob),
-        ("parts", "rigid parts", |own| own == Family::Parts, Cost::Knob),
-        ("elements", "elements", |own| own == Family::Mesh, Cost::Knob),
+        ("modes", "modes", |own| matches!(own, SettingFamily::Modal | SettingFamily::Pure), Cost::Knob),
+        ("parts", "rigid parts", |own| own == SettingFamily::Parts, Cost::Knob),
+        ("elements", "elements", |own| own == SettingFamily::Mesh, Cost::Knob),
     ];
     let mut out = Vec::new();
     for (file, what, takes, cost) in all {
         let mut charts = Vec::new();
-        for quantity in Quantity::ALL {
+        for quantity in ErrorGroup::ALL {
             if let Some(chart) = chart(study, name, what, takes, cost, quantity) {
                 charts.push(chart.svg()?);
             }
         }
         if !charts.is_empty() {
             let svg = stack(&charts);
-            out.push(Picture { name: file.to_owned(), svg, varies: cost == Cost::Time });
+            out.push(StudyPicture { name: file.to_owned(), svg, varies: cost == Cost::Time });
         }
     }
     Ok(out)
 }
 
 /// Cost of a point, where it has one.
-fn cost_of(point: &Point, cost: Cost) -> Option<f64> {
+fn cost_of(point: &StudyPoint, cost: Cost) -> Option<f64> {
     let measured = point.measured()?;
     let value = match cost {
         Cost::Time => 1e3 * measured.time?.median,
@@ -98,14 +98,14 @@ fn chart(
     what: &str,
     takes: Takes,
     cost: Cost,
-    quantity: Quantity,
+    quantity: ErrorGroup,
 ) -> Option<Chart> {
     let shown = || study.points.iter().filter(|point| takes(point.setting.family));
     let against = shown().next()?.setting.family.against();
     let reference = study.reference(against)?;
-    let least = reference.tells(quantity)?;
+    let least = reference.resolution_of(quantity)?;
     // errors below what the reference can tell stand at that line
-    let place = |point: &Point| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
+    let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
     let knob = shown().next()?.setting.knob;
     let x = match cost {
         Cost::Time => Axis::new("time of a run (median; bar: least to most)", "ms"),
@@ -129,7 +129,7 @@ fn chart(
         title += &format!(", until {time} s");
     }
     let mut chart = Chart::new(title, x.log(), Axis::new("largest error / largest value", "").log());
-    let mut families: Vec<Family> = Vec::new();
+    let mut families: Vec<SettingFamily> = Vec::new();
     for point in shown() {
         if !families.contains(&point.setting.family) {
             families.push(point.setting.family);
@@ -137,7 +137,7 @@ fn chart(
     }
     let mut all: Vec<[f64; 2]> = Vec::new();
     for family in families {
-        let own: Vec<&Point> = shown().filter(|point| point.setting.family == family).collect();
+        let own: Vec<&StudyPoint> = shown().filter(|point| point.setting.family == family).collect();
         let points: Vec<[f64; 2]> = own.iter().filter_map(|point| place(point)).collect();
         if points.is_empty() {
             continue;
@@ -168,7 +168,7 @@ fn chart(
         Style::Limit,
         vec![[low, least], [high, least]],
     ));
-    let gone = shown().filter(|point| !matches!(point.outcome, Outcome::Done(_))).count();
+    let gone = shown().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
     chart.note = format!(
         "Largest difference at an output time by the largest value there is; points on the dashed line err by no more than that. \
          Reference: {}; beside it {}: {:.1e} apart.",
@@ -189,18 +189,18 @@ fn marks(
     all: &mut Vec<[f64; 2]>,
     cost: Cost,
     against: Against,
-    place: &dyn Fn(&Point) -> Option<[f64; 2]>,
+    place: &dyn Fn(&StudyPoint) -> Option<[f64; 2]>,
 ) {
     if against != Against::Whole {
         return;
     }
-    for (family, label) in [(Family::Written, "as written"), (Family::Auto, "auto's choice")] {
+    for (family, label) in [(SettingFamily::Written, "as written"), (SettingFamily::Auto, "auto's choice")] {
         let own = study.points.iter().find(|point| point.setting.family == family).and_then(place);
         let Some(own) = own else { continue };
         chart.series.push(Series::new(label, Style::Points, vec![own]));
         all.push(own);
         let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
-        if let (Family::Auto, Cost::Time, Some(trials)) = (family, cost, trials) {
+        if let (SettingFamily::Auto, Cost::Time, Some(trials)) = (family, cost, trials) {
             let at = vec![[1e3 * trials.median, own[1]]];
             let spread = vec![[1e3 * trials.least, 1e3 * trials.most]];
             chart.series.push(Series::new("auto with its trials", Style::Points, at).spread(spread));

@@ -1,25 +1,25 @@
 //! What came of a setting.
 
+use super::deviation::Misfit;
 use super::memory::Memory;
-use super::misfit::Misfit;
-use super::quantity::Quantity;
+use super::quantity::ErrorGroup;
 use super::setting::Setting;
 use super::spread::Spread;
 
 /// A setting with what came of it.
 #[derive(Clone, Debug)]
-pub struct Point {
+pub struct StudyPoint {
     /// The setting.
     pub setting: Setting,
     /// What came of it.
-    pub outcome: Outcome,
+    pub outcome: PointOutcome,
 }
 
 /// What came of a setting.
 #[derive(Clone, Debug)]
-pub enum Outcome {
+pub enum PointOutcome {
     /// It ran to its end.
-    Done(Box<Measured>),
+    Done(Box<MeasuredPoint>),
     /// It took longer than a setting may.
     Stopped,
     /// It could not be set up or did not reach its end; why.
@@ -28,13 +28,13 @@ pub enum Outcome {
 
 /// Error and cost of a run.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct MeasuredPoint {
     /// Errors, one a group.
-    pub errors: [Option<Misfit>; Quantity::COUNT],
+    pub errors: [Option<Misfit>; ErrorGroup::COUNT],
     /// Steps, stages, events.
     pub counts: sim::Counts,
     /// Freedoms of the foundations.
-    pub freedoms: usize,
+    pub dof_count: usize,
     /// Times of runs, in seconds that the thread worked.
     pub time: Option<Spread>,
     /// Seconds that it took to make the foundations.
@@ -43,20 +43,20 @@ pub struct Measured {
     pub memory: Option<Memory>,
 }
 
-impl Point {
+impl StudyPoint {
     /// What was measured, where it ran to its end.
     #[must_use]
-    pub fn measured(&self) -> Option<&Measured> {
+    pub fn measured(&self) -> Option<&MeasuredPoint> {
         match &self.outcome {
-            Outcome::Done(measured) => Some(measured),
-            Outcome::Stopped | Outcome::Refused(_) => None,
+            PointOutcome::Done(measured) => Some(measured),
+            PointOutcome::Stopped | PointOutcome::Refused(_) => None,
         }
     }
 
     /// Largest error in a group.
     #[must_use]
-    pub fn error(&self, quantity: Quantity) -> Option<f64> {
-        let at = Quantity::ALL.iter().position(|own| *own == quantity)?;
+    pub fn error(&self, quantity: ErrorGroup) -> Option<f64> {
+        let at = ErrorGroup::ALL.iter().position(|own| *own == quantity)?;
         self.measured()?.errors[at].map(|own| own.largest)
     }
 

@@ -2,11 +2,11 @@
 
 use formats::scene::Scene;
 use formats::units::Dimension;
-use results::record::Column;
+use results::record::HistoryColumn;
 
 /// A group of columns that have one scale.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum ErrorGroup {
     /// Deflections of bodies, of rails under wheels, and of gauges.
     Deflection,
     /// Vertical forces of wheels on rails.
@@ -19,14 +19,14 @@ pub enum Quantity {
     Moment,
 }
 
-impl Quantity {
+impl ErrorGroup {
     /// All of them, in the order of charts.
-    pub const ALL: [Quantity; Quantity::COUNT] = [
-        Quantity::Deflection,
-        Quantity::WheelForce,
-        Quantity::LateralForce,
-        Quantity::Reaction,
-        Quantity::Moment,
+    pub const ALL: [ErrorGroup; ErrorGroup::COUNT] = [
+        ErrorGroup::Deflection,
+        ErrorGroup::WheelForce,
+        ErrorGroup::LateralForce,
+        ErrorGroup::Reaction,
+        ErrorGroup::Moment,
     ];
     /// How many they are.
     pub const COUNT: usize = 5;
@@ -37,11 +37,11 @@ impl Quantity {
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
-            Quantity::Deflection => "deflection",
-            Quantity::WheelForce => "wheel_force",
-            Quantity::LateralForce => "lateral_force",
-            Quantity::Reaction => "reaction",
-            Quantity::Moment => "moment",
+            ErrorGroup::Deflection => "deflection",
+            ErrorGroup::WheelForce => "wheel_force",
+            ErrorGroup::LateralForce => "lateral_force",
+            ErrorGroup::Reaction => "reaction",
+            ErrorGroup::Moment => "moment",
         }
     }
 
@@ -49,8 +49,8 @@ impl Quantity {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
-            Quantity::WheelForce => "wheel force",
-            Quantity::LateralForce => "lateral wheel force",
+            ErrorGroup::WheelForce => "wheel force",
+            ErrorGroup::LateralForce => "lateral wheel force",
             _ => self.word(),
         }
     }
@@ -58,13 +58,13 @@ impl Quantity {
     /// The group of a column of a run of `scene`; `own`: what the scene records by itself, else what its structures
     /// answer. Shears inside structures have none: they jump where a wheel passes.
     #[must_use]
-    pub fn of(column: &Column, scene: &Scene, own: bool, is_reaction: bool) -> Option<Quantity> {
+    pub fn of(column: &HistoryColumn, scene: &Scene, own: bool, is_reaction: bool) -> Option<ErrorGroup> {
         let name = column.name.as_str();
         let ends = |part: &str| name.ends_with(part);
         if !own {
             return match column.dimension {
-                Dimension::MOMENT => Some(Quantity::Moment),
-                Dimension::FORCE if is_reaction => Some(Quantity::Reaction),
+                Dimension::MOMENT => Some(ErrorGroup::Moment),
+                Dimension::FORCE if is_reaction => Some(ErrorGroup::Reaction),
                 _ => None,
             };
         }
@@ -76,11 +76,11 @@ impl Quantity {
         };
         match column.dimension {
             Dimension::LENGTH if ends(".deflection") || ends(".rail_deflection") || is_gauge() => {
-                Some(Quantity::Deflection)
+                Some(ErrorGroup::Deflection)
             }
-            Dimension::FORCE if ends(".vertical") => Some(Quantity::WheelForce),
-            Dimension::FORCE if ends(".lateral") => Some(Quantity::LateralForce),
-            Dimension::FORCE if ends(".reaction") => Some(Quantity::Reaction),
+            Dimension::FORCE if ends(".vertical") => Some(ErrorGroup::WheelForce),
+            Dimension::FORCE if ends(".lateral") => Some(ErrorGroup::LateralForce),
+            Dimension::FORCE if ends(".reaction") => Some(ErrorGroup::Reaction),
             _ => None,
         }
     }

@@ -2,15 +2,15 @@
 
 use sim::{Method, Stepping};
 
+use super::budget::Depth;
 use super::cpu::limited;
-use super::depth::Depth;
-use super::misfit::{Trace, horizon, misfits};
-use super::quantity::Quantity;
-use super::rig::Workshop;
-use super::setting::{Against, Family, Setting};
+use super::deviation::{Trace, horizon, misfits};
+use super::quantity::ErrorGroup;
+use super::setting::{Against, Setting, SettingFamily};
+use super::setup::Workshop;
 use crate::Error;
 use formats::scene::{Analysis, Scene, stepper_word};
-use results::plight;
+use results::run_error;
 
 /// How much closer than the smallest error told the two finest runs must agree.
 pub const MARGIN: f64 = 10.0;
@@ -23,88 +23,88 @@ const CLOSE: f64 = 1e-9;
 
 /// How finely a structure with mass is resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Detail {
+pub enum MeshDetail {
     /// So many of its lowest natural modes, and the static give of all others.
     Modes(usize),
     /// All modes of a mesh of so many elements a member.
     Mesh(usize),
 }
 
-impl Detail {
+impl MeshDetail {
     /// The same by half as many.
-    const fn half(self) -> Detail {
+    const fn half(self) -> MeshDetail {
         match self {
-            Detail::Modes(count) => Detail::Modes(count / 2),
-            Detail::Mesh(count) => Detail::Mesh(count / 2),
+            MeshDetail::Modes(count) => MeshDetail::Modes(count / 2),
+            MeshDetail::Mesh(count) => MeshDetail::Mesh(count / 2),
         }
     }
 }
 
 /// What makes a scene of such a detail.
-pub type Make<'m> = dyn Fn(Detail) -> Scene + 'm;
+pub type Make<'m> = dyn Fn(MeshDetail) -> Scene + 'm;
 
 /// A converged run, and how far from it the one next to it is.
 #[derive(Clone, Debug)]
-pub struct Reference {
+pub struct ConvergedReference {
     /// What it is the reference for.
     pub against: Against,
     /// The run itself.
-    pub trace: Trace,
+    pub columns: Trace,
     /// The one beside it.
-    pub beside: Trace,
+    pub second: Trace,
     /// The two settings in words: the run's, and that of the one beside it.
     pub words: [String; 2],
     /// Largest difference of the two in each group.
-    pub difference: [Option<f64>; Quantity::COUNT],
+    pub difference: [Option<f64>; ErrorGroup::COUNT],
     /// Largest differences of the pairs before in what a study must tell, by the accuracy asked.
     pub approach: Vec<(f64, f64)>,
 }
 
-impl Reference {
+impl ConvergedReference {
     /// `trace` as the reference, which tells as much as it is close to `beside`; `words`: the settings of both.
     #[must_use]
-    pub fn new(against: Against, trace: Trace, beside: Trace, words: [String; 2]) -> Reference {
-        let difference = differences(&beside, &trace);
-        Reference { against, trace, beside, words, difference, approach: Vec::new() }
+    pub fn new(against: Against, columns: Trace, second: Trace, words: [String; 2]) -> ConvergedReference {
+        let difference = differences(&second, &columns);
+        ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
     }
 
     /// The smallest error that it can tell in a group; infinite where it does not know the group.
     #[must_use]
-    pub fn resolves(&self, quantity: Quantity) -> f64 {
-        let at = Quantity::ALL.iter().position(|own| *own == quantity);
+    pub fn resolves(&self, quantity: ErrorGroup) -> f64 {
+        let at = ErrorGroup::ALL.iter().position(|own| *own == quantity);
         let difference = at.and_then(|at| self.difference[at]);
         difference.map_or(f64::INFINITY, |difference| MARGIN * difference.max(f64::EPSILON))
     }
 
     /// The same, where it tells more than whether a run is of any use.
     #[must_use]
-    pub fn tells(&self, quantity: Quantity) -> Option<f64> {
+    pub fn resolution_of(&self, quantity: ErrorGroup) -> Option<f64> {
         Some(self.resolves(quantity)).filter(|least| *least <= UNTOLD)
     }
 
     /// The larger of those of deflections and vertical wheel forces.
     #[must_use]
-    pub fn asked(&self) -> f64 {
-        self.difference[..Quantity::ASKED].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
+    pub fn worst_resolution(&self) -> f64 {
+        self.difference[..ErrorGroup::ASKED].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
     }
 
     /// Until when it tells deflections and vertical wheel forces down to `resolution`: the last output time to which the two
     /// runs are close enough. `None`: not even at the first.
     #[must_use]
     pub fn horizon(&self, resolution: f64) -> Option<f64> {
-        horizon(&self.beside, &self.trace, &Quantity::ALL[..Quantity::ASKED], resolution / MARGIN)
+        horizon(&self.second, &self.columns, &ErrorGroup::ALL[..ErrorGroup::ASKED], resolution / MARGIN)
     }
 
     /// The same reference for the motion until `time`, s.
     pub fn cut(&mut self, time: f64) {
-        self.trace.cut(time);
-        self.beside.cut(time);
-        self.difference = differences(&self.beside, &self.trace);
+        self.columns.cut(time);
+        self.second.cut(time);
+        self.difference = differences(&self.second, &self.columns);
     }
 }
 
 /// Largest difference of two runs in each group.
-fn differences(run: &Trace, reference: &Trace) -> [Option<f64>; Quantity::COUNT] {
+fn differences(run: &Trace, reference: &Trace) -> [Option<f64>; ErrorGroup::COUNT] {
     misfits(run, reference).map(|own| own.map(|own| own.largest))
 }
 
@@ -121,23 +121,23 @@ pub fn reference(
     make: &Make<'_>,
     meshes: bool,
     depth: &Depth,
-) -> Result<Reference, Error> {
+) -> Result<ConvergedReference, Error> {
     let mut search = Search { best: None, approach: Vec::new(), why: String::new() };
-    let modes = depth.references.iter().map(|&(accuracy, modes)| (accuracy, Detail::Modes(modes)));
+    let modes = depth.references.iter().map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
     search.climb(workshop, against, make, modes, depth)?;
-    let is_near = search.best.as_ref().is_some_and(|best| best.asked() <= depth.resolution);
+    let is_near = search.best.as_ref().is_some_and(|best| best.worst_resolution() <= depth.resolution);
     if meshes && !is_near {
-        let all = depth.meshes.iter().map(|&(accuracy, elements)| (accuracy, Detail::Mesh(elements)));
+        let all = depth.meshes.iter().map(|&(accuracy, elements)| (accuracy, MeshDetail::Mesh(elements)));
         search.climb(workshop, against, make, all, depth)?;
     }
     let untold = || Error::NoReference(search.why.clone());
     let best = search.best.ok_or_else(untold)?;
-    Ok(Reference { approach: search.approach, ..best })
+    Ok(ConvergedReference { approach: search.approach, ..best })
 }
 
 /// The closest pair so far.
 struct Search {
-    best: Option<Reference>,
+    best: Option<ConvergedReference>,
     approach: Vec<(f64, f64)>,
     /// Why it ended.
     why: String,
@@ -150,7 +150,7 @@ impl Search {
         workshop: &mut Workshop<'_>,
         against: Against,
         make: &Make<'_>,
-        rungs: impl Iterator<Item = (f64, Detail)>,
+        rungs: impl Iterator<Item = (f64, MeshDetail)>,
         depth: &Depth,
     ) -> Result<(), Error> {
         let wanted = (depth.resolution / MARGIN * 1e-2).max(CLOSE);
@@ -170,10 +170,10 @@ impl Search {
                     }
                     Err(failure) => return Err(failure),
                 };
-            let found = Reference::new(against, trace, beside, [method, second]);
+            let found = ConvergedReference::new(against, trace, beside, [method, second]);
             let largest = found.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
-            self.approach.push((accuracy, found.asked() / MARGIN));
-            if self.best.as_ref().is_none_or(|best| found.asked() < best.asked()) {
+            self.approach.push((accuracy, found.worst_resolution() / MARGIN));
+            if self.best.as_ref().is_none_or(|best| found.worst_resolution() < best.worst_resolution()) {
                 self.best = Some(found);
             }
             if largest < wanted {
@@ -223,15 +223,15 @@ fn one(
     let stepping = Stepping { method, step: None };
     let scene = Scene { accuracy, stepping, ..scene.clone() };
     let setting =
-        Setting { family: Family::Written, knob: "accuracy", value: accuracy, scene, stations: None };
+        Setting { family: SettingFamily::Written, knob: "accuracy", value: accuracy, scene, stations: None };
     let rig = workshop.rig(&setting)?;
     let run = match limited(limit, |watch| rig.run(watch)) {
         Ok(run) => run,
         Err(sim::Error::Method { .. }) => return Ok(Ok(None)),
-        Err(error) => return Err(Error::Run(plight::words(&error, &setting.scene))),
+        Err(error) => return Err(Error::Run(run_error::in_scene_names(&error, &setting.scene))),
     };
     if !run.status.is_complete() {
-        return Ok(Err(plight::why(&run.status, &setting.scene).unwrap_or_default()));
+        return Ok(Err(run_error::reason_incomplete(&run.status, &setting.scene).unwrap_or_default()));
     }
     let mut trace = workshop.trace(&rig, &run)?;
     let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);

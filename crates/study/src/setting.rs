@@ -6,7 +6,7 @@ use formats::scene::{Reading, Scene, stepper_word};
 
 /// What varies along a curve of a chart, everything else alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Family {
+pub enum SettingFamily {
     /// Rails that do not give, by accuracy.
     Rigid,
     /// Chains of rigid parts, by their number.
@@ -62,7 +62,7 @@ impl Against {
 #[derive(Clone, Debug)]
 pub struct Setting {
     /// The curve it belongs to.
-    pub family: Family,
+    pub family: SettingFamily,
     /// What varies along the curve, in words, such as `accuracy`.
     pub knob: &'static str,
     /// Its value.
@@ -73,24 +73,24 @@ pub struct Setting {
     pub stations: Option<usize>,
 }
 
-impl Family {
+impl SettingFamily {
     /// Its name in legends and files.
     #[must_use]
     pub fn name(self) -> String {
         match self {
-            Family::Rigid => "rigid".into(),
-            Family::Parts => "parts".into(),
-            Family::Influence => "influence".into(),
-            Family::Modal => "modal".into(),
-            Family::Pure => "modal, no residual".into(),
-            Family::Mesh => "mesh".into(),
-            Family::Full => "full".into(),
-            Family::Adaptive(own) => stepper_word(own).into(),
-            Family::Fixed(own) => format!("{}, equal steps", stepper_word(own)),
-            Family::Table(Reading::Exact) => "exact surface".into(),
-            Family::Table(reading) => format!("{} tables", reading.word()),
-            Family::Written | Family::Stepping => "as written".into(),
-            Family::Auto => "auto".into(),
+            SettingFamily::Rigid => "rigid".into(),
+            SettingFamily::Parts => "parts".into(),
+            SettingFamily::Influence => "influence".into(),
+            SettingFamily::Modal => "modal".into(),
+            SettingFamily::Pure => "modal, no residual".into(),
+            SettingFamily::Mesh => "mesh".into(),
+            SettingFamily::Full => "full".into(),
+            SettingFamily::Adaptive(own) => stepper_word(own).into(),
+            SettingFamily::Fixed(own) => format!("{}, equal steps", stepper_word(own)),
+            SettingFamily::Table(Reading::Exact) => "exact surface".into(),
+            SettingFamily::Table(reading) => format!("{} tables", reading.word()),
+            SettingFamily::Written | SettingFamily::Stepping => "as written".into(),
+            SettingFamily::Auto => "auto".into(),
         }
     }
 
@@ -98,8 +98,8 @@ impl Family {
     #[must_use]
     pub const fn against(self) -> Against {
         match self {
-            Family::Adaptive(_) | Family::Fixed(_) | Family::Stepping => Against::Own,
-            Family::Table(_) => Against::Massless,
+            SettingFamily::Adaptive(_) | SettingFamily::Fixed(_) | SettingFamily::Stepping => Against::Own,
+            SettingFamily::Table(_) => Against::Massless,
             _ => Against::Whole,
         }
     }
@@ -107,7 +107,7 @@ impl Family {
     /// Whether its modes are to leave out the static give of the others.
     #[must_use]
     pub const fn is_pure(self) -> bool {
-        matches!(self, Family::Pure)
+        matches!(self, SettingFamily::Pure)
     }
 }
 

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use splines::check::{Extreme, Strip, Way, deviation, places};
 use splines::{Axis, Compliance, Error, Search, Sheet, Surface, Table};
 
-use crate::appraisal::Manner;
+use crate::table_quality::TableReadingMethod;
 use formats::block::GridBlock;
 use formats::grid::{Grid, GridRail, axes};
 
@@ -19,9 +19,9 @@ const TIGHTER: f64 = 0.7;
 
 /// What is wanted.
 #[derive(Clone, Debug)]
-pub struct Goal {
+pub struct StationGoal {
     /// How the tables will be read.
-    pub manner: Manner,
+    pub manner: TableReadingMethod,
     /// Error allowed, of the largest coefficient.
     pub tolerance: f64,
     /// Directions that must keep it.
@@ -30,7 +30,7 @@ pub struct Goal {
 
 /// Stations of one rail.
 #[derive(Clone, Debug)]
-pub struct Chosen {
+pub struct ChosenStations {
     /// The rail's name.
     pub rail: String,
     /// Its stations and the error of the reading at them.
@@ -49,11 +49,11 @@ pub struct BlockError {
 }
 
 /// A grid at chosen stations.
-pub struct Choice {
+pub struct StationChoice {
     /// The grid.
     pub grid: Grid,
     /// Its rails.
-    pub rails: Vec<Chosen>,
+    pub rails: Vec<ChosenStations>,
     /// Blocks between two rails, and those that the goal leaves out.
     pub others: Vec<BlockError>,
 }
@@ -62,10 +62,10 @@ pub struct Choice {
 ///
 /// # Errors
 /// As [`splines::stations()`].
-pub fn choose(grid: &Grid, surface: &Surface, goal: &Goal) -> Result<Choice, Error> {
+pub fn choose(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<StationChoice, Error> {
     let mut tolerance = goal.tolerance;
     for round in 0.. {
-        let choice = attempt(grid, surface, &Goal { tolerance, ..goal.clone() })?;
+        let choice = attempt(grid, surface, &StationGoal { tolerance, ..goal.clone() })?;
         let wanted = |block: &&BlockError| block.ways.iter().all(|way| goal.axes.contains(&way.1));
         let worst = choice.others.iter().filter(wanted).map(|block| block.error).fold(0.0, f64::max);
         if worst <= goal.tolerance {
@@ -79,7 +79,7 @@ pub fn choose(grid: &Grid, surface: &Surface, goal: &Goal) -> Result<Choice, Err
     Err(Error::NoSheets)
 }
 
-fn attempt(grid: &Grid, surface: &Surface, goal: &Goal) -> Result<Choice, Error> {
+fn attempt(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<StationChoice, Error> {
     let mut rails = Vec::new();
     for (rail, given) in grid.rails.iter().enumerate() {
         let range = surface.range(rail).ok_or(Error::NoRail { rail })?;
@@ -94,12 +94,13 @@ fn attempt(grid: &Grid, surface: &Surface, goal: &Goal) -> Result<Choice, Error>
             tolerance: goal.tolerance,
             most: MOST,
         };
-        rails.push(Chosen { rail: given.name.clone(), stations: splines::stations(&search)? });
+        rails.push(ChosenStations { rail: given.name.clone(), stations: splines::stations(&search)? });
     }
-    let named = |rail: &Chosen| GridRail { name: rail.rail.clone(), stations: rail.stations.at.clone() };
+    let named =
+        |rail: &ChosenStations| GridRail { name: rail.rail.clone(), stations: rail.stations.at.clone() };
     let grid = at(grid, surface, rails.iter().map(named).collect())?;
     let others = others(&grid, surface, goal)?;
-    Ok(Choice { grid, rails, others })
+    Ok(StationChoice { grid, rails, others })
 }
 
 /// The same blocks at other stations.
@@ -140,8 +141,8 @@ fn assemble(parts: &[Vec<DMatrix<f64>>]) -> DMatrix<f64> {
 }
 
 /// Errors of the blocks that no rail's own search has seen.
-fn others(grid: &Grid, surface: &Surface, goal: &Goal) -> Result<Vec<BlockError>, Error> {
-    if goal.manner == Manner::Exact {
+fn others(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Vec<BlockError>, Error> {
+    if goal.manner == TableReadingMethod::Exact {
         return Ok(Vec::new());
     }
     let sheets = sheets(grid)?;
@@ -200,10 +201,10 @@ fn sheets(grid: &Grid) -> Result<Vec<Sheet>, Error> {
     Ok(out)
 }
 
-impl Choice {
+impl StationChoice {
     /// The stations and their errors as JSON.
     #[must_use]
-    pub fn json(&self, goal: &Goal) -> Value {
+    pub fn json(&self, goal: &StationGoal) -> Value {
         let name = |way: Way| json!({ "rail": self.grid.rails[way.0].name, "axis": word(way.1) });
         let error = |ways: [Way; 2], relative: f64, worst: Extreme| {
             json!({
@@ -230,7 +231,7 @@ impl Choice {
 
     /// The same for people, a line a rail and one for what the goal leaves out.
     #[must_use]
-    pub fn lines(&self, goal: &Goal) -> Vec<String> {
+    pub fn lines(&self, goal: &StationGoal) -> Vec<String> {
         let mut out: Vec<String> = self
             .rails
             .iter()

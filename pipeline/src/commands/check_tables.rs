@@ -2,13 +2,13 @@
 
 use std::path::Path;
 
-use crate::cli::{Global, Splines};
+use crate::cli::{Global, SplinesArgs};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use formats::diagnostic::Diagnostic;
 use report::chart::stack;
-use study::appraisal::{Findings, Manner, Settings, Subject, json, picture, text};
+use study::table_quality::{Settings, TableQuality, TableReadingMethod, TableSource, json, picture, text};
 
 /// Reads the grid or the tables, tells the findings on standard output, draws them where a file is named.
 ///
@@ -17,22 +17,24 @@ use study::appraisal::{Findings, Manner, Settings, Subject, json, picture, text}
 ///
 /// # Errors
 /// What is wrong with the input; an ending without a format; a file that cannot be written.
-pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
+pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     let form = args.output.as_deref().map(form).transpose()?;
-    let subject = Subject::open(&args.grid)?;
+    let subject = TableSource::open(&args.grid)?;
     let progress = Progress::new(global);
     let settings = Settings {
         load: args.load,
         spacing: args.spacing,
         beyond: args.beyond,
-        judged: args
-            .tolerance
-            .map(|tolerance| (args.reading.map_or(Manner::Akispl, Manner::from), tolerance)),
+        judged: args.tolerance.map(|tolerance| {
+            (args.reading.map_or(TableReadingMethod::Akispl, TableReadingMethod::from), tolerance)
+        }),
     };
     let mut all = Vec::with_capacity(subject.items.len());
     let bar = progress.bar("checking", subject.items.len() as u64);
     for index in 0..subject.items.len() {
-        all.push(Findings::of(&subject, index, &settings).map_err(|error| refuse(&subject, index, &error))?);
+        all.push(
+            TableQuality::of(&subject, index, &settings).map_err(|error| refuse(&subject, index, &error))?,
+        );
         bar.set(index as u64 + 1);
     }
     drop(bar);
@@ -71,7 +73,7 @@ fn form(path: &Path) -> Result<Form, Failure> {
     }
 }
 
-fn drawing(subject: &Subject, all: &[Findings]) -> Result<String, Failure> {
+fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failure> {
     let mut pictures = Vec::new();
     for found in all {
         for plate in picture::plates(subject, found).map_err(Failure::untrusted)? {
@@ -88,7 +90,7 @@ fn drawing(subject: &Subject, all: &[Findings]) -> Result<String, Failure> {
 }
 
 /// A surface that has no answer within a table.
-fn refuse(subject: &Subject, index: usize, error: &splines::Error) -> Failure {
+fn refuse(subject: &TableSource, index: usize, error: &splines::Error) -> Failure {
     let item = &subject.items[index];
     let wrong = format!("SPLINE/{} cannot be checked: {error}", item.id);
     Diagnostic::of_file(&subject.file, wrong).hint("does the surface belong to these tables?").into()

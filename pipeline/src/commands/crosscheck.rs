@@ -3,11 +3,13 @@
 use fea::{Girder, Theory};
 use serde_json::{Value, json};
 
-use crate::cli::{Crosscheck, Global};
-use crate::crosscheck::{self, Comparison, Environment, Error, Grid, Outcome, Peer, Station, plot};
+use crate::cli::{CrosscheckArgs, Global};
+use crate::crosscheck::{
+    self, Environment, Error, Peer, PeerComparison, PeerOutcome, PlainGrid, Station, plot,
+};
 use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
-use crate::output::{self, Folder};
+use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::block::GridBlock;
 use formats::diagnostic::Diagnostic;
@@ -24,16 +26,16 @@ const RECTANGLE: f64 = 5.0 / 6.0;
 /// # Errors
 /// What is wrong with the spec; a structure that does not stand; a Python environment that cannot be made; a
 /// difference; nothing that could be compared.
-pub fn run(args: &Crosscheck, global: Global) -> Result<Exit, Failure> {
+pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let (inputs, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
     let mut spec = Spec::read(&source, None)?;
     if let Some(theory) = args.theory {
         spec = spec.with_theory(theory.into());
     }
-    let folder = args.output.as_deref().map(Folder::new).transpose()?;
+    let folder = args.output.as_deref().map(OutputFolder::new).transpose()?;
     let mut check = Check::new(&source, spec)?;
-    let mut result = Comparison { rails: check.rails(), ..Comparison::default() };
+    let mut result = PeerComparison { rails: check.rails(), ..PeerComparison::default() };
     for peer in Peer::ALL {
         if peer.straight() && !matches!(check.spec.form, Form::Girder(_)) {
             let why = "it takes straight girders, the short form of a spec".to_owned();
@@ -69,7 +71,7 @@ struct Check<'a> {
 }
 
 /// Grids of a spec between its stations.
-type Grids = Vec<(GridBlock, Grid)>;
+type Grids = Vec<(GridBlock, PlainGrid)>;
 
 impl<'a> Check<'a> {
     fn new(source: &'a Source, spec: Spec) -> Result<Self, Failure> {
@@ -90,13 +92,13 @@ impl<'a> Check<'a> {
     fn solve(&self, spec: &Spec) -> Result<Grids, Failure> {
         let solved = foundations::solve(spec).map_err(|error| spec.refuse(self.source, &error))?;
         let block = |block: &nalgebra::DMatrix<f64>| {
-            block.row_iter().map(|row| row.iter().copied().collect()).collect::<Grid>()
+            block.row_iter().map(|row| row.iter().copied().collect()).collect::<PlainGrid>()
         };
         Ok(solved.grid.blocks.iter().map(|(quantity, values)| (*quantity, block(values))).collect())
     }
 
     /// The comparison with one code, or why there is none.
-    fn compare(&mut self, peer: Peer, progress: &Progress) -> Result<Result<Outcome, String>, Failure> {
+    fn compare(&mut self, peer: Peer, progress: &Progress) -> Result<Result<PeerOutcome, String>, Failure> {
         let theory = peer.theory(self.spec.theory);
         let mut spec = self.spec.clone().with_theory(theory);
         let mut notes = Vec::new();
@@ -162,7 +164,7 @@ fn broken(error: &Error) -> Failure {
 }
 
 /// Files of the output folder: the result for machines and people, and pictures of the differences.
-fn fill(folder: &mut Folder, result: &Comparison, spec: &Spec) -> Result<(), Failure> {
+fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Result<(), Failure> {
     folder.add("crosscheck.json", format!("{:#}\n", result.json()));
     folder.add("crosscheck.txt", result.table());
     let unit = spec.units.label(Dimension::LENGTH);
@@ -184,10 +186,10 @@ fn fill(folder: &mut Folder, result: &Comparison, spec: &Spec) -> Result<(), Fai
 }
 
 /// A girder as plain stiffnesses.
-fn stiffnesses(girder: &Girder) -> crosscheck::Girder {
+fn stiffnesses(girder: &Girder) -> crosscheck::PlainGirder {
     let sheared = girder.theory == Theory::Timoshenko;
     let shear = |area: Option<f64>| area.zip(girder.g).filter(|_| sheared).map(|(area, g)| g * area);
-    crosscheck::Girder {
+    crosscheck::PlainGirder {
         spans: girder.spans.clone(),
         overhangs: girder.overhangs,
         stations: girder.stations.clone(),

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::run::solve_all;
-use crate::cli::{Deck as Arguments, Global};
+use crate::cli::{DeckArgs as Arguments, Global};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use deck::{self, Form, check};
+use deck::{self, DeckForm, check};
 use formats::diagnostic::Diagnostic;
 use formats::scene::Document;
-use foundations::specs;
+use foundations::distinct_specs;
 
 /// Writes the data set to the file named, with its command file beside it, or to standard output.
 ///
@@ -27,11 +27,11 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
-    let known = solve_all(&document, &specs(&only), &progress)?;
+    let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args
         .form
-        .map(Form::from)
-        .unwrap_or_else(|| Form::of_readings(scene.structures.iter().map(|structure| structure.reading)));
+        .map(DeckForm::from)
+        .unwrap_or_else(|| DeckForm::of_readings(scene.structures.iter().map(|structure| structure.reading)));
     let file = args.scene.display().to_string();
     let plan = deck::plan(scene, &known, form, &file)?;
     let model = args.output.as_deref().map_or_else(|| scene.name.clone(), stem);

@@ -3,7 +3,7 @@
 use serde_json::{Map, Value, json};
 use splines::{Rank, Surface};
 
-use crate::cli::Splines;
+use crate::cli::SplinesArgs;
 use crate::exit::Failure;
 use crate::progress::Progress;
 use formats::diagnostic::Diagnostic;
@@ -16,7 +16,7 @@ use formats::tables::{self, TableSet};
 /// # Errors
 /// Tables without a factored form.
 pub(super) fn factored(
-    args: &Splines,
+    args: &SplinesArgs,
     set: &TableSet,
     exact: Option<&(Surface, Vec<GridRail>)>,
     input: &Input,

@@ -1,6 +1,6 @@
 //! `girderway fea`: the influence grid of a beam spec.
 
-use crate::cli::{Fea, Global};
+use crate::cli::{FeaArgs, Global};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -21,7 +21,7 @@ const LARGE: usize = 1000;
 ///
 /// # Errors
 /// What is wrong with the spec; a structure that does not stand; a file that cannot be written.
-pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
+pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let (_, source) = Inputs::open(&args.spec)?;
     let mut spec = Spec::read(&source, None)?;
@@ -35,7 +35,7 @@ pub fn run(args: &Fea, global: Global) -> Result<Exit, Failure> {
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
     }
-    for warning in warning::of_spec(&spec) {
+    for warning in warning::spec_warnings(&spec) {
         progress.say(&format!("warning: {warning}"));
     }
     for note in &solved.grid.notes {

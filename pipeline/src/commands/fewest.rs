@@ -3,7 +3,7 @@
 use serde_json::{Map, Value};
 use splines::{Axis, Surface};
 
-use crate::cli::Splines;
+use crate::cli::SplinesArgs;
 use crate::exit::Failure;
 use crate::progress::Progress;
 use formats::block::GridBlock;
@@ -11,16 +11,16 @@ use formats::fault::{Fault, Faults};
 use formats::grid::{self, Grid};
 use formats::place::Place;
 use formats::source::Source;
-use study::appraisal::Manner;
-use study::stations::{self, Goal};
+use study::stations::{self, StationGoal};
+use study::table_quality::TableReadingMethod;
 
 /// The grid at the fewest stations that keep the tolerance; told on standard error and, for programs, in `told`.
 ///
 /// # Errors
 /// A grid without its surface or the directions asked for; a tolerance that no stations keep.
 pub(super) fn chosen(
-    args: &Splines,
-    (manner, tolerance): (Manner, f64),
+    args: &SplinesArgs,
+    (manner, tolerance): (TableReadingMethod, f64),
     source: &Source,
     (grid, surface): (&Grid, Option<&Surface>),
     progress: &Progress,
@@ -36,7 +36,7 @@ pub(super) fn chosen(
     axes.sort_unstable();
     axes.dedup();
     if axes.is_empty() {
-        axes = if manner == Manner::Exact { vec![Axis::Vertical] } else { stations::usual(grid) };
+        axes = if manner == TableReadingMethod::Exact { vec![Axis::Vertical] } else { stations::usual(grid) };
     }
     for axis in &axes {
         let direct = GridBlock::ALL.into_iter().find(|quantity| grid::axes(*quantity) == (*axis, *axis));
@@ -45,7 +45,7 @@ pub(super) fn chosen(
             return Err(refuse(Fault::new(&root.key("influence"), wrong)));
         }
     }
-    let goal = Goal { manner, tolerance, axes };
+    let goal = StationGoal { manner, tolerance, axes };
     let stage = progress.stage("stations");
     let found = stations::choose(grid, surface, &goal);
     drop(stage);

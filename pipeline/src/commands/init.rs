@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::cli::{Global, Init, Starter};
+use crate::cli::{Global, InitArgs, Starter};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -39,11 +39,11 @@ const fn files(starter: Starter) -> Files {
 ///
 /// # Errors
 /// Files that are there already; a folder that cannot be; what the file system refuses.
-pub fn run(args: &Init, global: Global) -> Result<Exit, Failure> {
+pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let folder = args.folder.clone().unwrap_or_else(|| PathBuf::from("."));
     // a folder that cannot be is told before anything is made
-    output::Folder::new(&folder)?;
+    output::OutputFolder::new(&folder)?;
     let files: Vec<(PathBuf, &str)> =
         files(args.what).iter().map(|(name, text)| (place(&folder, name), *text)).collect();
     let taken: Vec<Diagnostic> = files

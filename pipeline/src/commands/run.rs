@@ -5,24 +5,25 @@ use std::sync::Arc;
 
 use serde_json::{Map, Value, json};
 
-use crate::cli::{Global, Scene as Arguments};
-use crate::clock::Clock;
+use crate::cli::{Global, SceneArgs as Arguments};
+use crate::clock::StageClock;
 use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
-use crate::output::{self, Folder};
+use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::inputs::Input;
 use formats::scene::{Document, Scene};
 use formats::spec::Spec;
 use formats::{grid_file, tables};
-use foundations::{Known, Solved, solved_of, specs};
+use foundations::{Solution, SolvedStructure, distinct_specs, solution_of};
 use report::pictures::{self, Labelled, Plate};
 use report::{animation, story};
-use results::cases::{Outcome, simulate};
+use results::cases::simulate;
+use results::outcome::CaseResult;
 use results::record::peak;
-use results::response::{Comparison, Response};
-use results::threads::side_by_side;
-use results::{fatigue, plight, summary, warning};
+use results::response::{Response, RunComparison};
+use results::threads::parallel_map;
+use results::{fatigue, run_error, summary, warning};
 
 /// The main job: from a scene to its output folder.
 ///
@@ -34,16 +35,16 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 }
 
 /// Where the structures' solutions come from: the document, and the output folder.
-type Source = fn(&Document, &Path, &Progress) -> Result<Vec<Known>, Failure>;
+type Source = fn(&Document, &Path, &Progress) -> Result<Vec<SolvedStructure>, Failure>;
 
 /// `run` and `sim` alike, on what `structures` brings.
 pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Source) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let mut clock = Clock::new();
+    let mut clock = StageClock::new();
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&scene.name));
-    let mut folder = Folder::new(&path)?;
+    let mut folder = OutputFolder::new(&path)?;
     clock.lap("read");
 
     let known = structures(&document, &path, &progress)?;
@@ -53,39 +54,41 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     drop(bar);
     clock.lap("simulation");
 
-    for ((name, ..), entry) in specs(&document).iter().zip(&known) {
-        let solved = &entry.solved;
+    for ((name, ..), entry) in distinct_specs(&document).iter().zip(&known) {
+        let solved = &entry.solution;
         folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, solved.surface.as_ref()));
         if let Some(text) = tables::adm(name, &solved.grid).map_err(trouble)? {
             folder.add(&format!("{name}.adm"), text);
         }
     }
-    let sheets = side_by_side(&outcomes, global.threads, |_, outcome| outcome.record.csv());
+    let sheets = parallel_map(&outcomes, global.threads, |_, outcome| outcome.columns.csv());
     for ((case, outcome), sheet) in document.cases.iter().zip(&outcomes).zip(sheets) {
         let name = case
             .label
             .as_ref()
             .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
         folder.add(&name, sheet.map_err(trouble)?);
-        if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.record).map_err(trouble)? {
+        if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.columns).map_err(trouble)? {
             folder.add(&name.replacen("history", "cycles", 1), cycles);
         }
     }
-    let runs: Vec<_> =
-        outcomes.iter().map(|outcome| (outcome.label.as_str(), &outcome.record, &outcome.response)).collect();
-    let comparison = Comparison::new(&runs, global.threads);
+    let runs: Vec<_> = outcomes
+        .iter()
+        .map(|outcome| (outcome.label.as_str(), &outcome.columns, &outcome.response))
+        .collect();
+    let comparison = RunComparison::new(&runs, global.threads);
     let summary = summary_of(&document, &outcomes, comparison.json(&runs));
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
     let plates = plates(scene, &document, &outcomes, &known, &comparison)?;
-    let drawn = side_by_side(&plates, global.threads, |_, plate| plate.svg());
+    let drawn = parallel_map(&plates, global.threads, |_, plate| plate.svg());
     for (plate, svg) in plates.iter().zip(drawn) {
         folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?);
     }
     clock.lap("plots");
-    let solved: Vec<Option<&Solved>> =
-        scene.structures.iter().map(|structure| solved_of(&known, &structure.origin)).collect();
+    let solved: Vec<Option<&Solution>> =
+        scene.structures.iter().map(|structure| solution_of(&known, &structure.origin)).collect();
     let report = story::report(&document, &outcomes, &solved, &comparison, plates);
     folder.add("report.html", report.html(global.threads).map_err(trouble)?);
     clock.lap("report");
@@ -97,7 +100,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
 
 /// Says how it went; the exit status is that of the worst run.
 fn finish(
-    outcomes: &[Outcome],
+    outcomes: &[CaseResult],
     summary: &Value,
     written: &Path,
     document: &Document,
@@ -108,16 +111,16 @@ fn finish(
     let unit = scene.units.length.word();
     for outcome in outcomes {
         for body in &scene.bodies {
-            let Some((_, deepest)) = peak(outcome.record.part(&body.name, "deflection")) else { continue };
+            let Some((_, deepest)) = peak(outcome.columns.part(&body.name, "deflection")) else { continue };
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
     for (outcome, case) in outcomes.iter().zip(&document.cases) {
         for choice in &outcome.choices {
             let name = &scene.structures[choice.structure].name;
-            progress.say(&format!("{}: {name}: {}", outcome.label, foundations::reason(choice)));
+            progress.say(&format!("{}: {name}: {}", outcome.label, foundations::selection_reason(choice)));
         }
-        for warning in warning::of_case(&case.scene, outcome) {
+        for warning in warning::case_warnings(&case.scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
     }
@@ -127,14 +130,15 @@ fn finish(
         output::print(&output::json(&result))?;
     }
     let failed = outcomes.iter().zip(&document.cases).find_map(|(outcome, case)| {
-        plight::why(&outcome.run.status, &case.scene).map(|why| format!("{}: {why}", outcome.label))
+        run_error::reason_incomplete(&outcome.run.status, &case.scene)
+            .map(|why| format!("{}: {why}", outcome.label))
     });
     failed.map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
 }
 
 /// Solves every spec of every case once.
-fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<Known>, Failure> {
-    solve_all(document, &specs(document), progress)
+fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
+    solve_all(document, &distinct_specs(document), progress)
 }
 
 /// Solves the given specs of a document.
@@ -142,8 +146,8 @@ pub(super) fn solve_all(
     document: &Document,
     specs: &[(String, &str, &Arc<Spec>)],
     progress: &Progress,
-) -> Result<Vec<Known>, Failure> {
-    let mut known: Vec<Known> = Vec::new();
+) -> Result<Vec<SolvedStructure>, Failure> {
+    let mut known: Vec<SolvedStructure> = Vec::new();
     let stage = progress.stage("solving the structures");
     for &(_, file, spec) in specs {
         let solved = foundations::solve(spec).map_err(|error| {
@@ -152,18 +156,18 @@ pub(super) fn solve_all(
                 _ => Failure::untrusted(error),
             }
         })?;
-        known.push(Known { spec: Arc::clone(spec), solved });
+        known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved });
     }
     drop(stage);
     Ok(known)
 }
 
-fn summary_of(document: &Document, outcomes: &[Outcome], comparison: Map<String, Value>) -> Value {
+fn summary_of(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
     let scene = document.scene();
     let mut result = summary::run(scene, &outcomes[0]);
     result["format"] = json!("girderway-summary/1");
     result["name"] = json!(scene.name);
-    result["units"] = summary::units(scene, &outcomes[0].record);
+    result["units"] = summary::units(scene, &outcomes[0].columns);
     let compare: Map<String, Value> = document
         .cases
         .iter()
@@ -183,9 +187,9 @@ fn summary_of(document: &Document, outcomes: &[Outcome], comparison: Map<String,
 fn plates(
     scene: &Scene,
     document: &Document,
-    outcomes: &[Outcome],
-    known: &[Known],
-    comparison: &Comparison,
+    outcomes: &[CaseResult],
+    known: &[SolvedStructure],
+    comparison: &RunComparison,
 ) -> Result<Vec<Plate>, Failure> {
     let labelled: Vec<Labelled> = document
         .cases
@@ -194,7 +198,7 @@ fn plates(
         .map(|(case, outcome)| Labelled {
             label: outcome.label.clone(),
             scene: &case.scene,
-            record: &outcome.record,
+            record: &outcome.columns,
         })
         .collect();
     let fired: Vec<(f64, &str)> = outcomes[0]
@@ -203,17 +207,17 @@ fn plates(
         .iter()
         .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
         .collect();
-    let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].cast)?.into_iter().collect();
+    let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].input)?.into_iter().collect();
     plates.extend(pictures::travel(&labelled[0], &fired));
     plates.extend(report::rails(&labelled, comparison));
     plates.extend(pictures::paths(&labelled));
-    plates.extend(pictures::wheels(&labelled[0], &outcomes[0].cast));
+    plates.extend(pictures::wheels(&labelled[0], &outcomes[0].input));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
     plates.extend(report::responses(&labelled, &responses, &outcomes[0].lines));
     for (index, structure) in scene.structures.iter().enumerate() {
-        let Some(solved) = solved_of(known, &structure.origin) else { continue };
+        let Some(solved) = solution_of(known, &structure.origin) else { continue };
         plates.extend(
-            pictures::girder(&structure.name, index, &labelled[0], &outcomes[0].cast, solved)
+            pictures::girder(&structure.name, index, &labelled[0], &outcomes[0].input, solved)
                 .map_err(trouble)?,
         );
         plates.extend(pictures::structure(&structure.name, scene.units, solved).map_err(trouble)?);

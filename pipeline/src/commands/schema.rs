@@ -1,6 +1,6 @@
 //! `girderway schema`: the JSON Schema of a format.
 
-use crate::cli::{Format, Global, Schema};
+use crate::cli::{Global, SchemaArg, SchemaArgs};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -10,11 +10,11 @@ use formats::schema;
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn run(args: &Schema, global: Global) -> Result<Exit, Failure> {
+pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
     let schema = match args.format {
-        Format::Beam => schema::beam(),
-        Format::Grid => schema::grid(),
-        Format::Scene => schema::scene(),
+        SchemaArg::Beam => schema::beam(),
+        SchemaArg::Grid => schema::grid(),
+        SchemaArg::Scene => schema::scene(),
     };
     output::deliver(args.output.as_deref(), &output::json(&schema), &Progress::new(global))?;
     Ok(Exit::Done)

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use serde_json::Value;
 
 use super::run::job;
-use crate::cli::{Global, Scene as Arguments};
+use crate::cli::{Global, SceneArgs as Arguments};
 use crate::exit::{Exit, Failure};
 use crate::manifest::MANIFEST;
 use crate::progress::Progress;
@@ -15,8 +15,8 @@ use formats::grid_file;
 use formats::inputs::Inputs;
 use formats::scene::Document;
 use formats::spec::Spec;
-use foundations::Solved;
-use foundations::{Known, specs};
+use foundations::Solution;
+use foundations::{SolvedStructure, distinct_specs};
 
 /// Simulates on the grids of the output folder, and writes the folder anew.
 ///
@@ -27,18 +27,18 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 }
 
 /// The grids and surfaces of the folder, one for each spec.
-fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<Known>, Failure> {
-    let mut known: Vec<Known> = Vec::new();
-    for (name, file, spec) in specs(document) {
+fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
+    let mut known: Vec<SolvedStructure> = Vec::new();
+    for (name, file, spec) in distinct_specs(document) {
         // ties belong to the scene, which may have changed
         if !spec.pads().is_empty() {
             let solved = foundations::solve(spec).map_err(Failure::untrusted)?;
-            known.push(Known { spec: Arc::clone(spec), solved });
+            known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved });
             continue;
         }
         unchanged(document, folder, file)?;
         let path = folder.join(format!("grid-{name}.json"));
-        known.push(Known { spec: Arc::clone(spec), solved: solved(spec, &path)? });
+        known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved(spec, &path)? });
     }
     Ok(known)
 }
@@ -64,7 +64,7 @@ fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failu
 }
 
 /// Grid and exact surface from a grid file.
-fn solved(spec: &Spec, path: &Path) -> Result<Solved, Failure> {
+fn solved(spec: &Spec, path: &Path) -> Result<Solution, Failure> {
     let (_, source) = Inputs::open(path)?;
     let (grid, surface) = grid_file::read(&source)?;
     let wrong = |why: &str| Failure::Input(vec![Diagnostic::of_file(source.name.clone(), why.to_owned())]);
@@ -73,5 +73,5 @@ fn solved(spec: &Spec, path: &Path) -> Result<Solved, Failure> {
     }
     let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
     let (model, rails) = spec.model().map_err(Failure::untrusted)?;
-    Ok(Solved { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned(), size: None })
+    Ok(Solution { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned(), size: None })
 }

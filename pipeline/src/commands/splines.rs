@@ -6,7 +6,7 @@ use splines::Surface;
 
 use super::factored::factored;
 use super::{check_tables, fewest};
-use crate::cli::{Global, Splines, TableForm};
+use crate::cli::{Global, SplinesArgs, TableFormArg};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
@@ -18,7 +18,7 @@ use formats::inputs::{Input, Inputs};
 use formats::place::Place;
 use formats::tables::{self, Format, TableSet};
 use formats::units::Units;
-use study::appraisal::Manner;
+use study::table_quality::TableReadingMethod;
 
 /// Reads a grid or tables, writes the tables in the format of the file's ending, as an ADAMS data set to
 /// standard output.
@@ -26,7 +26,7 @@ use study::appraisal::Manner;
 /// # Errors
 /// What is wrong with the input; an ending without a format; tables without a factored form; a file that cannot
 /// be written.
-pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
+pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     if args.check {
         return check_tables::run(args, global);
     }
@@ -51,8 +51,10 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
         }
     }
     match args.form {
-        Some(TableForm::Table) => set = tables::expand(&set),
-        Some(TableForm::Factored) => set = factored(args, &set, exact.as_ref(), input, &progress, &mut told)?,
+        Some(TableFormArg::Table) => set = tables::expand(&set),
+        Some(TableFormArg::Factored) => {
+            set = factored(args, &set, exact.as_ref(), input, &progress, &mut told)?
+        }
         None => {}
     }
     if let Some(digits) = args.digits {
@@ -73,8 +75,8 @@ pub fn run(args: &Splines, global: Global) -> Result<Exit, Failure> {
 }
 
 /// Refuses flags that do not go together.
-fn fits(args: &Splines) -> Result<(), Failure> {
-    let factored = args.form == Some(TableForm::Factored);
+fn fits(args: &SplinesArgs) -> Result<(), Failure> {
+    let factored = args.form == Some(TableFormArg::Factored);
     let (wrong, hint) = if args.tolerance.is_some() && args.reading.is_none() && !factored {
         ("--tolerance is that of a reading", "add --reading akispl, --check or --form factored")
     } else if args.rank.is_some() && !factored {
@@ -91,7 +93,7 @@ fn fits(args: &Splines) -> Result<(), Failure> {
 type Given = (TableSet, Option<(Surface, Vec<GridRail>)>);
 
 fn given(
-    args: &Splines,
+    args: &SplinesArgs,
     input: &Input,
     progress: &Progress,
     told_more: &mut Map<String, Value>,
@@ -111,7 +113,7 @@ fn given(
         let fault = Diagnostic::of_file(&input.shown, "a grid says its units itself");
         return Err(fault.hint("leave out --length and --force").into());
     }
-    if let Some(wanted) = args.reading.map(Manner::from).zip(args.tolerance) {
+    if let Some(wanted) = args.reading.map(TableReadingMethod::from).zip(args.tolerance) {
         grid = fewest::chosen(args, wanted, &source, (&grid, surface.as_ref()), progress, told_more)?;
     }
     for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {

@@ -5,16 +5,16 @@ use std::path::PathBuf;
 use serde_json::json;
 
 use super::run::solve_all;
-use crate::cli::{Global, Study as Arguments};
+use crate::cli::{Global, StudyArgs as Arguments};
 use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
-use crate::output::{self, Folder};
+use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::diagnostic::Diagnostic;
 use formats::scene::{Case, Document};
-use foundations::{Known, specs};
-use study::stability::{self, Subject, Verdict};
-use study::{self, Depth, Family, Point, Study};
+use foundations::{SolvedStructure, distinct_specs};
+use study::stability::{self, MapSubject, MapVerdict};
+use study::{self, Depth, SettingFamily, Study, StudyPoint};
 
 /// Runs a scene on a ladder of settings, measures errors and times, and draws them.
 ///
@@ -28,12 +28,12 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     document.cases = vec![case(&document, args)?];
     let scene = document.scene().clone();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&name));
-    let mut folder = Folder::new(&path)?;
+    let mut folder = OutputFolder::new(&path)?;
     let mut depth = if args.quick { Depth::quick() } else { Depth::full() };
     depth.limit = args.limit.unwrap_or(depth.limit);
     depth.resolution = args.resolution.unwrap_or(depth.resolution);
 
-    let known = solve_all(&document, &specs(&document), &progress)?;
+    let known = solve_all(&document, &distinct_specs(&document), &progress)?;
     if args.stability {
         return stability(args, &document, &known, folder, global);
     }
@@ -53,16 +53,16 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     });
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
     for (family, who) in [
-        (Family::Written, "as written"),
-        (Family::Auto, "auto's choice"),
-        (Family::Stepping, "as written, beside other methods on its foundations"),
+        (SettingFamily::Written, "as written"),
+        (SettingFamily::Auto, "auto's choice"),
+        (SettingFamily::Stepping, "as written, beside other methods on its foundations"),
     ] {
-        let dearer = |cost: &dyn Fn(&Point) -> Option<f64>| {
+        let dearer = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
             let all = study::excesses(&study, family, cost).into_iter();
             let told: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
             told.join(", ")
         };
-        let [time, work] = [dearer(&Point::seconds), dearer(&study::stages)];
+        let [time, work] = [dearer(&StudyPoint::seconds), dearer(&study::stages)];
         if !work.is_empty() {
             progress.say(&format!(
                 "{who}, by the cheapest setting that errs no more: time {time}; contact solutions {work}"
@@ -81,12 +81,12 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 fn stability(
     args: &Arguments,
     document: &Document,
-    known: &[Known],
-    mut folder: Folder,
+    known: &[SolvedStructure],
+    mut folder: OutputFolder,
     global: Global,
 ) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let subject = Subject::of(document.scene(), known).map_err(Failure::Differs)?;
+    let subject = MapSubject::of(document.scene(), known).map_err(Failure::Differs)?;
     let (maps, absent) = stability::maps(&subject, args.quick, &progress);
     let result = stability::json(&maps, &absent);
     folder.add("stability.json", output::json(&result));
@@ -103,7 +103,7 @@ fn stability(
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
     for map in &maps {
         for layer in map.layers.iter().filter(|layer| layer.is_ours) {
-            let counts = Verdict::WORDS.iter().zip(layer.counts()).filter(|(_, count)| *count > 0);
+            let counts = MapVerdict::WORDS.iter().zip(layer.counts()).filter(|(_, count)| *count > 0);
             let told: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
             progress.say(&format!("{}: {}: {}", map.name, layer.method, told.join(", ")));
         }
@@ -149,15 +149,15 @@ fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
         return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
     }
-    let worst = study.references.iter().max_by(|a, b| a.asked().total_cmp(&b.asked()));
-    match worst.filter(|worst| worst.asked() > depth.resolution) {
+    let worst = study.references.iter().max_by(|a, b| a.worst_resolution().total_cmp(&b.worst_resolution()));
+    match worst.filter(|worst| worst.worst_resolution() > depth.resolution) {
         None => Ok(Exit::Done),
         Some(worst) => Err(Failure::Untrusted(format!(
             "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
              wheel forces below {:.1e} cannot be told; asked for: {:.1e}  hint: raise --limit or --resolution",
             worst.against.word(),
-            worst.asked() / study::MARGIN,
-            worst.asked(),
+            worst.worst_resolution() / study::MARGIN,
+            worst.worst_resolution(),
             depth.resolution
         ))),
     }

@@ -8,7 +8,7 @@ use serde::Serialize;
 /// Every support holds vertical, lateral and twist, the first also the length; slopes are free. Unknown
 /// stiffnesses leave out the grids that need them; absent shear stiffnesses mean a beam rigid in shear.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
-pub struct Girder {
+pub struct PlainGirder {
     /// Lengths between supports, first to last.
     pub spans: Vec<f64>,
     /// Lengths beyond the first and the last support.
@@ -37,7 +37,7 @@ pub struct Girder {
     pub shear_lateral: Option<f64>,
 }
 
-impl Girder {
+impl PlainGirder {
     /// Checks every number.
     ///
     /// # Errors

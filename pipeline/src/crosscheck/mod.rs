@@ -6,6 +6,7 @@
 pub mod environment;
 pub mod error;
 pub mod girder;
+pub mod grid;
 pub mod outcome;
 pub mod peer;
 pub mod plot;
@@ -13,10 +14,11 @@ pub mod run;
 
 pub use environment::Environment;
 pub use error::Error;
-pub use girder::Girder;
-pub use outcome::{Comparison, Difference, Outcome};
-pub use peer::{Answer, Measure, Peer};
-pub use run::{Grid, Station, again, ask, crosscheck, influence};
+pub use girder::PlainGirder;
+pub use grid::{PlainGrid, Station};
+pub use outcome::{BlockDifference, PeerComparison, PeerOutcome};
+pub use peer::{Peer, PeerAnswer, PeerMeasure};
+pub use run::{again, ask, crosscheck, influence};
 
 #[cfg(test)]
 mod tests;

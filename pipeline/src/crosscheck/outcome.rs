@@ -1,14 +1,14 @@
 //! Differences between codes.
 
-use super::peer::{Measure, Peer};
-use super::run::{Grid, Station};
+use super::grid::{PlainGrid, Station};
+use super::peer::{Peer, PeerMeasure};
 use formats::block::GridBlock;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
 /// The largest difference between two grids of one quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct BlockDifference {
     /// Which grid.
     pub quantity: GridBlock,
     /// Number of entries compared.
@@ -29,10 +29,10 @@ pub struct Difference {
     pub profile: Vec<f64>,
 }
 
-impl Difference {
+impl BlockDifference {
     /// No entry compared yet.
-    pub(super) fn none(quantity: GridBlock) -> Difference {
-        Difference {
+    pub(super) fn none(quantity: GridBlock) -> BlockDifference {
+        BlockDifference {
             quantity,
             entries: 0,
             scale: 0.0,
@@ -48,7 +48,7 @@ impl Difference {
 
 /// Result of a cross-check with one code.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Outcome {
+pub struct PeerOutcome {
     /// Which code.
     pub peer: Peer,
     /// Its name with its version.
@@ -60,7 +60,7 @@ pub struct Outcome {
     /// Largest relative difference that counts as agreement.
     pub tolerance: f64,
     /// One a compared grid.
-    pub differences: Vec<Difference>,
+    pub differences: Vec<BlockDifference>,
     /// Grids that only one side has.
     pub skipped: Vec<GridBlock>,
     /// Stations compared.
@@ -68,12 +68,12 @@ pub struct Outcome {
     /// What a reader should know.
     pub notes: Vec<String>,
     /// The other code's grids.
-    pub theirs: Vec<(GridBlock, Grid)>,
+    pub theirs: Vec<(GridBlock, PlainGrid)>,
     /// Indices of the stations compared among all.
     pub chosen: Vec<usize>,
 }
 
-impl Outcome {
+impl PeerOutcome {
     /// Something was compared, and all of it agrees.
     pub fn agrees(&self) -> bool {
         !self.differences.is_empty() && self.differences.iter().all(|d| d.relative <= self.tolerance)
@@ -93,7 +93,7 @@ impl Outcome {
             "other",
             "difference",
         ];
-        let place = |d: &Difference, k: usize| match rails {
+        let place = |d: &BlockDifference, k: usize| match rails {
             [_, _, ..] => {
                 format!("{} {}", rails.get(d.rails[k]).map_or("", String::as_str), d.at[k])
             }
@@ -134,8 +134,8 @@ impl Outcome {
             (false, false) => "DISAGREE",
         };
         let measure = match self.peer.measure() {
-            Measure::Largest => "of the largest entry",
-            Measure::Diagonal => "of sqrt(Gii Gjj)",
+            PeerMeasure::Largest => "of the largest entry",
+            PeerMeasure::Diagonal => "of sqrt(Gii Gjj)",
         };
         let _ = writeln!(text, "{verdict} (tolerance {:.0e} {measure})", self.tolerance);
         text
@@ -159,8 +159,8 @@ impl Outcome {
         let stations: Vec<Value> =
             self.stations.iter().map(|(rail, x)| json!({ "rail": name(*rail), "x": x })).collect();
         let measure = match self.peer.measure() {
-            Measure::Largest => "largest entry",
-            Measure::Diagonal => "sqrt(Gii Gjj)",
+            PeerMeasure::Largest => "largest entry",
+            PeerMeasure::Diagonal => "sqrt(Gii Gjj)",
         };
         json!({
             "code": self.code, "elements": self.elements, "theory": self.theory, "measure": measure,
@@ -172,20 +172,20 @@ impl Outcome {
 
 /// Result of a cross-check with all codes.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Comparison {
+pub struct PeerComparison {
     /// Names of the rails.
     pub rails: Vec<String>,
     /// Codes that were compared.
-    pub outcomes: Vec<Outcome>,
+    pub outcomes: Vec<PeerOutcome>,
     /// Codes that were not, and why.
     pub absent: Vec<(Peer, String)>,
 }
 
-impl Comparison {
+impl PeerComparison {
     /// At least one code was compared, and all that were agree.
     pub fn agrees(&self) -> bool {
         let mut compared = self.outcomes.iter().filter(|o| !o.differences.is_empty()).peekable();
-        compared.peek().is_some() && compared.all(Outcome::agrees)
+        compared.peek().is_some() && compared.all(PeerOutcome::agrees)
     }
 
     /// The result as text: a table a code.

@@ -2,7 +2,7 @@
 
 use super::environment::{Environment, tail};
 use super::error::Error;
-use super::run::Grid;
+use super::grid::PlainGrid;
 use fea::Theory;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -34,7 +34,7 @@ pub enum Peer {
 
 /// What a difference is measured by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
+pub enum PeerMeasure {
     /// The largest entry of the grid; for a coupling the geometric mean of those of its two direct grids.
     Largest,
     /// sqrt(G_ii G_jj) of the direct grids, at least [`FLOOR`] of its largest value.
@@ -87,10 +87,10 @@ impl Peer {
 
     /// What its differences are measured by.
     #[must_use]
-    pub const fn measure(self) -> Measure {
+    pub const fn measure(self) -> PeerMeasure {
         match self {
-            Peer::ScikitFem | Peer::Solid => Measure::Largest,
-            Peer::OpenSees | Peer::PyNite => Measure::Diagonal,
+            Peer::ScikitFem | Peer::Solid => PeerMeasure::Largest,
+            Peer::OpenSees | Peer::PyNite => PeerMeasure::Diagonal,
         }
     }
 
@@ -112,7 +112,7 @@ impl Peer {
         question: &impl Serialize,
         environment: &Environment,
         say: &mut dyn FnMut(&str),
-    ) -> Result<Answer, Error> {
+    ) -> Result<PeerAnswer, Error> {
         let python = environment.prepare(say)?;
         let file = |path: &Path| {
             let path = path.to_owned();
@@ -142,7 +142,7 @@ impl Peer {
         if !output.status.success() || !matches!(written, Some(Ok(()))) {
             return Err(Error::Script { code: self.name(), output: tail(&output) });
         }
-        let reply: Answer = serde_json::from_slice(&output.stdout).map_err(answer)?;
+        let reply: PeerAnswer = serde_json::from_slice(&output.stdout).map_err(answer)?;
         match reply.refused {
             Some(why) => Err(Error::Refused(why)),
             None => Ok(reply),
@@ -153,7 +153,7 @@ impl Peer {
 /// What a script answers.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields, default)]
-pub struct Answer {
+pub struct PeerAnswer {
     /// Why there is no answer.
     pub refused: Option<String>,
     /// Versions by package.
@@ -163,7 +163,7 @@ pub struct Answer {
     /// Stations of the grids among those of the spec; all where absent.
     pub stations: Option<Vec<usize>>,
     /// Grids by name; absent where a stiffness is unknown.
-    pub influence: BTreeMap<String, Option<Grid>>,
+    pub influence: BTreeMap<String, Option<PlainGrid>>,
     /// What a reader should know.
     pub notes: Vec<String>,
     /// Largest difference that the code's own modelling explains.

@@ -1,6 +1,6 @@
 //! Pictures of differences.
 
-use super::outcome::Outcome;
+use super::outcome::PeerOutcome;
 use report::chart::{Axis, Chart, Series, Style};
 
 /// Differences below this are drawn here: a logarithmic axis has no zero.
@@ -8,7 +8,7 @@ const LEAST: f64 = 1e-17;
 
 /// The largest difference of each grid over the station of the deflection, one chart a rail.
 #[must_use]
-pub fn charts(outcome: &Outcome, rails: &[String], unit: &str) -> Vec<Chart> {
+pub fn charts(outcome: &PeerOutcome, rails: &[String], unit: &str) -> Vec<Chart> {
     let of_rail = |(rail, name): (usize, &String)| {
         let here = |k: &usize| outcome.stations[*k].0 == rail;
         let kept: Vec<usize> = (0..outcome.stations.len()).filter(here).collect();

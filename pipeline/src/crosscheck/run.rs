@@ -2,27 +2,22 @@
 
 use super::environment::Environment;
 use super::error::Error;
-use super::girder::Girder;
-use super::outcome::{Difference, Outcome};
-use super::peer::{Answer, FLOOR, Measure, Peer};
+use super::girder::PlainGirder;
+use super::grid::{PlainGrid, Station};
+use super::outcome::{BlockDifference, PeerOutcome};
+use super::peer::{FLOOR, Peer, PeerAnswer, PeerMeasure};
 use formats::block::GridBlock;
 use serde::Serialize;
-
-/// A square grid: row deflection, column load.
-pub type Grid = Vec<Vec<f64>>;
-
-/// Rail and coordinate of a station.
-pub type Station = (usize, f64);
 
 /// Influence grids of a girder from scikit-fem.
 ///
 /// # Errors
 /// For an unusable girder, and where Python, its environment or the script fails.
 pub fn influence(
-    girder: &Girder,
+    girder: &PlainGirder,
     environment: &Environment,
     say: &mut dyn FnMut(&str),
-) -> Result<Answer, Error> {
+) -> Result<PeerAnswer, Error> {
     girder.check()?;
     Peer::ScikitFem.ask(girder, environment, say)
 }
@@ -35,12 +30,12 @@ pub fn influence(
 /// # Errors
 /// As [`influence`]; [`Error::Shape`] and [`Error::NotFinite`] for grids that cannot be compared.
 pub fn crosscheck(
-    girder: &Girder,
-    ours: &[(GridBlock, Grid)],
+    girder: &PlainGirder,
+    ours: &[(GridBlock, PlainGrid)],
     tolerance: f64,
     environment: &Environment,
     say: &mut dyn FnMut(&str),
-) -> Result<Outcome, Error> {
+) -> Result<PeerOutcome, Error> {
     girder.check()?;
     let stations: Vec<Station> = girder.stations.iter().map(|x| (0, *x)).collect();
     let mut outcome = ask(Peer::ScikitFem, girder, ours, &stations, environment, say)?;
@@ -59,14 +54,14 @@ pub fn crosscheck(
 pub fn ask(
     peer: Peer,
     question: &impl Serialize,
-    ours: &[(GridBlock, Grid)],
+    ours: &[(GridBlock, PlainGrid)],
     stations: &[Station],
     environment: &Environment,
     say: &mut dyn FnMut(&str),
-) -> Result<Outcome, Error> {
+) -> Result<PeerOutcome, Error> {
     check(ours, stations.len())?;
     let answer = peer.ask(question, environment, say)?;
-    let mut theirs: Vec<(GridBlock, Grid)> = GridBlock::ALL
+    let mut theirs: Vec<(GridBlock, PlainGrid)> = GridBlock::ALL
         .into_iter()
         .filter_map(|q| Some((q, answer.influence.get(q.name())?.clone()?)))
         .collect();
@@ -86,7 +81,7 @@ pub fn ask(
         }
         _ => format!("{} {}", peer.name(), version(peer.name())),
     };
-    Ok(Outcome {
+    Ok(PeerOutcome {
         peer,
         code,
         elements: answer.elements,
@@ -103,7 +98,7 @@ pub fn ask(
 
 /// Grids between some of the stations.
 #[must_use]
-pub fn part(grids: &[(GridBlock, Grid)], chosen: &[usize]) -> Vec<(GridBlock, Grid)> {
+pub fn part(grids: &[(GridBlock, PlainGrid)], chosen: &[usize]) -> Vec<(GridBlock, PlainGrid)> {
     let pick = |row: &Vec<f64>| chosen.iter().map(|j| row[*j]).collect();
     grids
         .iter()
@@ -111,7 +106,7 @@ pub fn part(grids: &[(GridBlock, Grid)], chosen: &[usize]) -> Vec<(GridBlock, Gr
         .collect()
 }
 
-fn check(grids: &[(GridBlock, Grid)], stations: usize) -> Result<(), Error> {
+fn check(grids: &[(GridBlock, PlainGrid)], stations: usize) -> Result<(), Error> {
     for (quantity, grid) in grids {
         let quantity = *quantity;
         if grid.len() != stations || grid.iter().any(|row| row.len() != stations) {
@@ -134,7 +129,7 @@ struct Scale {
 }
 
 impl Scale {
-    fn new(quantity: GridBlock, grids: &[(GridBlock, Grid)], measure: Measure) -> Scale {
+    fn new(quantity: GridBlock, grids: &[(GridBlock, PlainGrid)], measure: PeerMeasure) -> Scale {
         let find = |q| grids.iter().find(|(known, _)| *known == q).map(|(_, grid)| grid);
         let largest = |q| find(q).into_iter().flatten().flatten().fold(0.0, |a: f64, v: &f64| a.max(v.abs()));
         let [row, column] = quantity.direct();
@@ -144,11 +139,11 @@ impl Scale {
         };
         let diagonal = |q| find(q).into_iter().flat_map(|g| g.iter().enumerate().map(|(i, row)| row[i]));
         let sides: [Vec<f64>; 2] = match measure {
-            Measure::Largest => [Vec::new(), Vec::new()],
-            Measure::Diagonal => [row, column].map(|q| diagonal(q).collect()),
+            PeerMeasure::Largest => [Vec::new(), Vec::new()],
+            PeerMeasure::Diagonal => [row, column].map(|q| diagonal(q).collect()),
         };
         let [rows, columns] = sides;
-        let least = if measure == Measure::Largest || rows.is_empty() || columns.is_empty() {
+        let least = if measure == PeerMeasure::Largest || rows.is_empty() || columns.is_empty() {
             whole
         } else {
             FLOOR * whole
@@ -166,12 +161,12 @@ impl Scale {
 
 /// Differences of the grids that both sides have, and the quantities that only one has.
 pub(super) fn compare(
-    ours: &[(GridBlock, Grid)],
-    theirs: &[(GridBlock, Grid)],
+    ours: &[(GridBlock, PlainGrid)],
+    theirs: &[(GridBlock, PlainGrid)],
     stations: &[Station],
-    measure: Measure,
-) -> (Vec<Difference>, Vec<GridBlock>) {
-    let find = |side: &'_ [(GridBlock, Grid)], q| side.iter().position(|(other, _)| *other == q);
+    measure: PeerMeasure,
+) -> (Vec<BlockDifference>, Vec<GridBlock>) {
+    let find = |side: &'_ [(GridBlock, PlainGrid)], q| side.iter().position(|(other, _)| *other == q);
     let (mut differences, mut skipped) = (Vec::new(), Vec::new());
     for quantity in GridBlock::ALL {
         let (a, b) = match (find(ours, quantity), find(theirs, quantity)) {
@@ -183,7 +178,7 @@ pub(super) fn compare(
             }
         };
         let scale = Scale::new(quantity, theirs, measure);
-        let mut worst = Difference { relative: -1.0, ..Difference::none(quantity) };
+        let mut worst = BlockDifference { relative: -1.0, ..BlockDifference::none(quantity) };
         let mut profile = Vec::with_capacity(a.len());
         let mut entries = 0;
         for (i, (row, other)) in a.iter().zip(b).enumerate() {
@@ -196,21 +191,21 @@ pub(super) fn compare(
                 largest = largest.max(relative);
                 if relative > worst.relative {
                     let [at, load] = [stations[i], stations[j]];
-                    worst = Difference {
+                    worst = BlockDifference {
                         rails: [at.0, load.0],
                         at: [at.1, load.1],
                         scale: by,
                         ours: *ours,
                         theirs: *theirs,
                         relative,
-                        ..Difference::none(quantity)
+                        ..BlockDifference::none(quantity)
                     };
                 }
             }
             profile.push(largest);
         }
         if entries > 0 {
-            differences.push(Difference { entries, profile, ..worst });
+            differences.push(BlockDifference { entries, profile, ..worst });
         }
     }
     (differences, skipped)
@@ -218,6 +213,6 @@ pub(super) fn compare(
 
 /// The differences of other grids of ours from the answer that an outcome holds.
 #[must_use]
-pub fn again(outcome: &Outcome, ours: &[(GridBlock, Grid)]) -> Vec<Difference> {
+pub fn again(outcome: &PeerOutcome, ours: &[(GridBlock, PlainGrid)]) -> Vec<BlockDifference> {
     compare(&part(ours, &outcome.chosen), &outcome.theirs, &outcome.stations, outcome.peer.measure()).0
 }

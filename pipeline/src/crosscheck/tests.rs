@@ -5,14 +5,14 @@ use super::*;
 use formats::block::GridBlock;
 use std::path::PathBuf;
 
-fn girder() -> Girder {
-    Girder {
+fn girder() -> PlainGirder {
+    PlainGirder {
         spans: vec![60.0],
         overhangs: [15.0, 15.0],
         stations: vec![-15.0, 30.0, 75.0],
         rail_height: 3.6615,
         bending_vertical: Some(9.528 * 4.32e9),
-        ..Girder::default()
+        ..PlainGirder::default()
     }
 }
 
@@ -30,7 +30,7 @@ fn largest_difference_is_found_with_its_place() {
     let mut theirs = ours.clone();
     theirs[0].1[1][0] += 1e-3;
     theirs.push((GridBlock::Lateral, vec![vec![0.0; 2]; 2]));
-    let (found, skipped) = compare(&ours, &theirs, &stations, Measure::Largest);
+    let (found, skipped) = compare(&ours, &theirs, &stations, PeerMeasure::Largest);
     assert_eq!(skipped, [GridBlock::Lateral]);
     assert_eq!((found.len(), found[0].at, found[0].entries), (1, [10.0, 0.0], 4));
     assert!((found[0].relative - 2.5e-4).abs() < 1e-15);
@@ -45,13 +45,13 @@ fn coupling_is_measured_by_its_direct_grids() {
         (GridBlock::VerticalLateral, grid(0.0)),
     ];
     let ours = vec![(GridBlock::VerticalLateral, grid(0.6))];
-    let (found, _) = compare(&ours, &theirs, &[(0, 0.0)], Measure::Largest);
+    let (found, _) = compare(&ours, &theirs, &[(0, 0.0)], PeerMeasure::Largest);
     assert!((found[0].relative - 0.1).abs() < 1e-15, "0.6 of sqrt(4 x 9)");
 }
 
 #[test]
 fn nothing_compared_is_no_agreement() {
-    let mut outcome = Outcome {
+    let mut outcome = PeerOutcome {
         peer: Peer::ScikitFem,
         code: "scikit-fem".into(),
         elements: String::new(),
@@ -66,16 +66,16 @@ fn nothing_compared_is_no_agreement() {
     };
     assert!(!outcome.agrees());
     assert!(outcome.table(&[]).contains("nothing compared"));
-    let empty = Comparison { outcomes: vec![outcome.clone()], ..Comparison::default() };
-    assert!(!empty.agrees() && !Comparison::default().agrees());
-    assert!(Comparison::default().table().contains("nothing compared"));
-    outcome.differences.push(Difference {
+    let empty = PeerComparison { outcomes: vec![outcome.clone()], ..PeerComparison::default() };
+    assert!(!empty.agrees() && !PeerComparison::default().agrees());
+    assert!(PeerComparison::default().table().contains("nothing compared"));
+    outcome.differences.push(BlockDifference {
         entries: 1,
         scale: 1.0,
         ours: 1.0,
         theirs: 1.0,
         profile: vec![0.0],
-        ..Difference::none(GridBlock::Vertical)
+        ..BlockDifference::none(GridBlock::Vertical)
     });
     assert!(outcome.agrees());
     outcome.differences[0].relative = 2e-9;
@@ -94,7 +94,7 @@ fn missing_python_is_named_and_nothing_is_left_behind() {
 
 #[test]
 fn unusable_girders_are_refused_before_python_starts() {
-    let refuse = |change: &dyn Fn(&mut Girder)| {
+    let refuse = |change: &dyn Fn(&mut PlainGirder)| {
         let mut girder = girder();
         change(&mut girder);
         influence(&girder, &nowhere(), &mut |_| {}).expect_err("the girder is unusable").to_string()

@@ -5,18 +5,18 @@ use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Influence, Probe};
 
-use super::states::Case;
+use super::states::CheckCase;
 use super::step;
 use crate::Error;
-use crate::ids::{Slot, number, variable};
-use crate::{Form, Plan};
+use crate::ids::{VariableSlot, number, variable};
+use crate::{DeckForm, DeckPlan};
 
 /// Components of a wheel's force, in the order of GFORCE.
 pub const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "TX", "TY", "TZ"];
 
 /// Differences over many states.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Difference {
+pub struct CheckDifference {
     /// What was compared.
     pub what: &'static str,
     /// States.
@@ -32,7 +32,7 @@ pub struct Difference {
     pub failed: Option<(String, usize)>,
 }
 
-impl Difference {
+impl CheckDifference {
     /// Largest of the components.
     #[must_use]
     pub fn largest_of_all(&self) -> f64 {
@@ -48,7 +48,7 @@ impl Difference {
 
 /// What the simulator has the deck find at one state.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wanted {
+pub struct ExpectedForces {
     /// Each wheel's GFORCE: on the wheel, in the frame of its rail.
     pub forces: Vec<[f64; 6]>,
     /// VARIABLEs by identifier: a first guess where the deck's own does not lead to a solution.
@@ -62,7 +62,11 @@ pub struct Wanted {
 ///
 /// # Errors
 /// What the tables refuse.
-pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Result<Wanted, Error> {
+pub fn expected_forces(
+    plan: &DeckPlan<'_>,
+    foundations: &[Foundation],
+    case: &CheckCase,
+) -> Result<ExpectedForces, Error> {
     let forces = &case.forces;
     let (mut out, mut variables) = (Vec::with_capacity(plan.wheels.len()), Vec::new());
     for (w, wheel) in plan.wheels.iter().enumerate() {
@@ -70,10 +74,10 @@ pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Resul
         let arm = plan.kind(w).radius - depth;
         let (down, side, along) = (forces.vertical[w], forces.lateral[w], forces.traction[w]);
         out.push([-along, down, -side, arm * side, 0.0, -arm * along]);
-        variables.push((variable(w, Slot::Penetration), depth));
-        variables.push((variable(w, Slot::Press), down));
-        variables.push((variable(w, Slot::Flange), side));
-        variables.push((variable(w, Slot::Traction), along));
+        variables.push((variable(w, VariableSlot::Penetration), depth));
+        variables.push((variable(w, VariableSlot::Press), down));
+        variables.push((variable(w, VariableSlot::Flange), side));
+        variables.push((variable(w, VariableSlot::Traction), along));
         if let Some(id) = plan.contacts[wheel.contact].diff {
             variables.push((step::variable(id), depth));
         }
@@ -83,13 +87,13 @@ pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Resul
         let (mut probes, mut loads) = (Vec::new(), Vec::new());
         for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
             let x = place(case, wheel.body, wheel.hub);
-            let mut add = |axis: Axis, load: f64, slot: Slot| {
+            let mut add = |axis: Axis, load: f64, slot: VariableSlot| {
                 probes.push(Probe { rail: wheel.rail, x, axis });
                 loads.push((w, load, slot));
             };
-            add(Axis::Vertical, -forces.vertical[w], Slot::Rise);
+            add(Axis::Vertical, -forces.vertical[w], VariableSlot::Rise);
             if plan.kind(w).flange.is_some() {
-                add(Axis::Lateral, forces.lateral[w], Slot::Shift);
+                add(Axis::Lateral, forces.lateral[w], VariableSlot::Shift);
             }
         }
         let mut influence = Influence::zeros(probes.len());
@@ -100,25 +104,25 @@ pub fn wanted(plan: &Plan<'_>, foundations: &[Foundation], case: &Case) -> Resul
             };
             let moved = of(&influence.value);
             variables.push((variable(w, slot), moved));
-            if slot == Slot::Shift {
-                variables.push((variable(w, Slot::Sideways), side(plan, case, w) - moved));
+            if slot == VariableSlot::Shift {
+                variables.push((variable(w, VariableSlot::Sideways), side(plan, case, w) - moved));
             }
-            if plan.form == Form::Factored {
+            if plan.form == DeckForm::Factored {
                 out[w][0] += own * of(&influence.slope);
             }
         }
     }
-    Ok(Wanted { forces: out, variables })
+    Ok(ExpectedForces { forces: out, variables })
 }
 
 /// Rail coordinate of a wheel.
-fn place(case: &Case, body: usize, hub: [f64; 3]) -> f64 {
+fn place(case: &CheckCase, body: usize, hub: [f64; 3]) -> f64 {
     let [x, _, _, _, yaw, pitch] = case.instant.displacement[body];
     x + hub[0] + yaw * hub[2] - pitch * hub[1]
 }
 
 /// Lateral displacement of a wheel where it touches its rail.
-fn side(plan: &Plan<'_>, case: &Case, w: usize) -> f64 {
+fn side(plan: &DeckPlan<'_>, case: &CheckCase, w: usize) -> f64 {
     let wheel = &plan.wheels[w];
     let [_, _, z, roll, yaw, _] = case.instant.displacement[wheel.body];
     let arm = plan.kind(w).radius - case.forces.penetration[wheel.contact];
@@ -128,7 +132,12 @@ fn side(plan: &Plan<'_>, case: &Case, w: usize) -> f64 {
 /// Solves the data set at `state` from its own initial values; where that fails, from those of the simulator.
 ///
 /// A first guess decides whether Newton's method converges, not to what: a wrong deck has other solutions.
-fn solve(set: &DataSet, model: &Model, state: &State, wanted: &Wanted) -> Result<Solution, adams::Error> {
+fn solve(
+    set: &DataSet,
+    model: &Model,
+    state: &State,
+    wanted: &ExpectedForces,
+) -> Result<Solution, adams::Error> {
     model.solve(state).or_else(|error| {
         let mut set = set.clone();
         for statement in set.statements.iter_mut().filter(|one| one.keyword == "VARIABLE") {
@@ -147,14 +156,14 @@ fn solve(set: &DataSet, model: &Model, state: &State, wanted: &Wanted) -> Result
 /// # Errors
 /// A data set that cannot be executed.
 pub fn compare(
-    plan: &Plan<'_>,
+    plan: &DeckPlan<'_>,
     set: &DataSet,
     (what, asked): (&'static str, Option<f64>),
-    wanted: &[Wanted],
+    wanted: &[ExpectedForces],
     states: impl Iterator<Item = State>,
-) -> Result<Difference, Error> {
+) -> Result<CheckDifference, Error> {
     let model = Model::new(set)?;
-    let mut out = Difference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
+    let mut out = CheckDifference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
     let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
     let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
     for (state, wanted) in states.zip(wanted) {

@@ -11,15 +11,15 @@ mod step;
 
 use adams::{DataSet, Model};
 
-pub use compare::{COMPONENTS, Difference, Wanted};
-pub use path::Path;
+pub use compare::{COMPONENTS, CheckDifference, ExpectedForces};
+pub use path::SweepDifference;
 
-use self::poses::{Carrier, Turns, state};
+use self::poses::{CarrierPose, Turns, state};
 use sim::ContactForces;
 
 use self::random::Random;
-use self::states::Case;
-use super::Plan;
+use self::states::CheckCase;
+use super::DeckPlan;
 use crate::Error;
 
 /// Largest difference of forces, of the largest force.
@@ -45,7 +45,7 @@ pub struct Count {
 }
 
 impl Count {
-    fn of(cases: &[Case]) -> Count {
+    fn of(cases: &[CheckCase]) -> Count {
         let count =
             |is: &dyn Fn(&ContactForces) -> bool| cases.iter().filter(|case| is(&case.forces)).count();
         Count {
@@ -60,20 +60,21 @@ impl Count {
 
 /// What a check found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Report {
+pub struct CheckReport {
     /// The random states.
     pub states: Count,
     /// Forces at random states.
-    pub forces: Vec<Difference>,
+    pub forces: Vec<CheckDifference>,
     /// The quasi-static path; `None` where a body is free along its rail.
-    pub path: Option<Path>,
+    pub path: Option<SweepDifference>,
 }
 
-impl Report {
+impl CheckReport {
     /// Whether everything that is judged is as asked.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.forces.iter().all(Difference::holds) && self.path.as_ref().is_none_or(Path::holds)
+        self.forces.iter().all(CheckDifference::holds)
+            && self.path.as_ref().is_none_or(SweepDifference::holds)
     }
 }
 
@@ -82,15 +83,17 @@ impl Report {
 ///
 /// # Errors
 /// A text that cannot be executed; a scene without states to compare.
-pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Error> {
+pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckReport, Error> {
     let set = DataSet::read(text)?;
     let model = Model::new(&set)?;
     let mut stepped = set.clone();
     step::discretise(plan, &mut stepped);
     let foundations = plan.foundations()?;
     let cases = states::states(plan, &foundations, count)?;
-    let wanted: Vec<Wanted> =
-        cases.iter().map(|case| compare::wanted(plan, &foundations, case)).collect::<Result<_, _>>()?;
+    let wanted: Vec<ExpectedForces> = cases
+        .iter()
+        .map(|case| compare::expected_forces(plan, &foundations, case))
+        .collect::<Result<_, _>>()?;
     let sample = count.min(SAMPLE);
     let mut forces = Vec::new();
     let small = cases.iter().map(|case| state(plan, case, Turns::Small, None));
@@ -100,7 +103,7 @@ pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Error>
     let mut carried = stepped.clone();
     let part = mount::mount(&mut carried);
     let mut random = Random::new(2);
-    let carriers: Vec<Carrier> = (0..sample).map(|_| mount::carrier(part, &mut random)).collect();
+    let carriers: Vec<CarrierPose> = (0..sample).map(|_| mount::carrier(part, &mut random)).collect();
     let moving = cases.iter().zip(&carriers).map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
     let what = ("the same, rails on a moving part", Some(CARRIED));
     forces.push(compare::compare(plan, &carried, what, &wanted[..sample], moving)?);
@@ -109,5 +112,5 @@ pub fn check(plan: &Plan<'_>, text: &str, count: usize) -> Result<Report, Error>
     let what = ("the same, finite rotations", None);
     forces.push(compare::compare(plan, &stepped, what, &wanted[..sample], finite)?);
     let path = path::path(plan, &model, &foundations)?;
-    Ok(Report { states: Count::of(&cases), forces, path })
+    Ok(CheckReport { states: Count::of(&cases), forces, path })
 }

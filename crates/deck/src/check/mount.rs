@@ -3,7 +3,7 @@
 use adams::{DataSet, Pose, Statement, Value};
 use nalgebra::{Matrix3, Vector3};
 
-use super::poses::Carrier;
+use super::poses::CarrierPose;
 use super::random::Random;
 use crate::plan::GROUND;
 use crate::start::rotation;
@@ -32,10 +32,10 @@ pub fn mount(set: &mut DataSet) -> u32 {
 }
 
 /// A random motion of the carrier: turned by any angle, at up to one radian a second and a length a second.
-pub fn carrier(part: u32, random: &mut Random) -> Carrier {
+pub fn carrier(part: u32, random: &mut Random) -> CarrierPose {
     let mut vector = |size: f64| std::array::from_fn::<f64, 3, _>(|_| random.around(size));
     let rows = rotation(vector(2.0));
     let [origin, velocity, spin] = [vector(10.0), vector(1.0), vector(1.0)].map(Vector3::from);
     let turn = Matrix3::from_fn(|i, j| rows[i][j]);
-    Carrier { part, pose: Pose::moving(origin, turn, velocity, spin) }
+    CarrierPose { part, pose: Pose::moving(origin, turn, velocity, spin) }
 }

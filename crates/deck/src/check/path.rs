@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use adams::Model;
 use sim::{Analysis, Channel, Foundation, Freedom, Status};
 
+use crate::DeckPlan;
 use crate::Error;
-use crate::Plan;
 use crate::ids::number;
 
 /// Places compared along the path, the first left out.
@@ -17,7 +17,7 @@ const ASKED: f64 = 1e-4;
 
 /// How far the two paths are apart.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Path {
+pub struct SweepDifference {
     /// Places compared.
     pub places: usize,
     /// Largest difference of the height of a body's origin.
@@ -32,7 +32,7 @@ pub struct Path {
     pub failed: Option<String>,
 }
 
-impl Path {
+impl SweepDifference {
     /// Largest difference asked for, of the largest sinking and force.
     #[must_use]
     pub fn asked(&self) -> f64 {
@@ -59,10 +59,10 @@ impl Path {
 /// # Errors
 /// A scene that the simulator refuses.
 pub(super) fn path(
-    plan: &Plan<'_>,
+    plan: &DeckPlan<'_>,
     model: &Model,
     foundations: &[Foundation],
-) -> Result<Option<Path>, Error> {
+) -> Result<Option<SweepDifference>, Error> {
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
         return Ok(None);
     }
@@ -70,7 +70,8 @@ pub(super) fn path(
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = scene.end / f64::from(PLACES);
     let run = sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
-    let mut out = Path { places: 0, height: 0.0, deepest: 0.0, force: 0.0, largest: 0.0, failed: None };
+    let mut out =
+        SweepDifference { places: 0, height: 0.0, deepest: 0.0, force: 0.0, largest: 0.0, failed: None };
     if let Status::StepTooSmall(t) | Status::Refused(t, _) = run.status {
         out.failed = Some(format!("the simulator stopped at t = {t}"));
         return Ok(Some(out));

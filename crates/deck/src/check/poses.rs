@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use adams::{Pose, State};
 use nalgebra::{Matrix3, Vector3};
 
-use super::states::Case;
+use super::states::CheckCase;
 use super::step;
-use crate::Plan;
+use crate::DeckPlan;
 use crate::start;
 
 /// How the simulator's small rotations become the parts' rotations.
@@ -21,7 +21,7 @@ pub enum Turns {
 
 /// A part that carries all rails and turns about itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Carrier {
+pub struct CarrierPose {
     /// Its PART.
     pub part: u32,
     /// Its motion.
@@ -30,7 +30,7 @@ pub struct Carrier {
 
 /// The state of the deck's parts at `case`, one step before it for penetrations: see [`step`].
 #[must_use]
-pub fn state(plan: &Plan<'_>, case: &Case, turns: Turns, carrier: Option<Carrier>) -> State {
+pub fn state(plan: &DeckPlan<'_>, case: &CheckCase, turns: Turns, carrier: Option<CarrierPose>) -> State {
     let mut parts = BTreeMap::new();
     let instant = &case.instant;
     let bodies: Vec<Pose> = (0..plan.bodies.len()).map(|b| body(plan, case, b, turns)).collect();
@@ -61,7 +61,7 @@ pub fn state(plan: &Plan<'_>, case: &Case, turns: Turns, carrier: Option<Carrier
     State { time: instant.time, parts, differentials }
 }
 
-fn body(plan: &Plan<'_>, case: &Case, b: usize, turns: Turns) -> Pose {
+fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
     let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
     let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[b];
     let [height, side] = plan.bodies[b].datum;

@@ -2,9 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{COMPONENTS, Report};
+use super::{COMPONENTS, CheckReport};
 
-impl Report {
+impl CheckReport {
     /// Lines of a table.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {

@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, DVector};
 use sim::{ContactForces, Foundation, Instant, contact_forces};
 
 use super::random::Random;
+use crate::DeckPlan;
 use crate::Error;
-use crate::Plan;
 use formats::scene::Along;
 
 /// Largest force that the simulator may find at a penetration, of the force that it was made from: where wheels are
@@ -32,7 +32,7 @@ const SPEED: f64 = 1.0;
 
 /// A state and what acts there.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct CheckCase {
     /// The state; penetrations are those of contacts that act.
     pub instant: Instant,
     /// The simulator's forces.
@@ -49,7 +49,11 @@ pub struct Case {
 ///
 /// # Errors
 /// A scene the simulator refuses, or without such states.
-pub fn states(plan: &Plan<'_>, foundations: &[Foundation], count: usize) -> Result<Vec<Case>, Error> {
+pub fn states(
+    plan: &DeckPlan<'_>,
+    foundations: &[Foundation],
+    count: usize,
+) -> Result<Vec<CheckCase>, Error> {
     let mut random = Random::new(1);
     let scales = Scales::of(plan);
     let mut out = Vec::with_capacity(count);
@@ -73,11 +77,11 @@ pub fn states(plan: &Plan<'_>, foundations: &[Foundation], count: usize) -> Resu
 
 /// Gives penetrations to the contacts that keep them, and finds the forces.
 fn settle(
-    plan: &Plan<'_>,
+    plan: &DeckPlan<'_>,
     foundations: &[Foundation],
     mut instant: Instant,
     random: &mut Random,
-) -> Result<Option<Case>, sim::Error> {
+) -> Result<Option<CheckCase>, sim::Error> {
     let scene = &plan.cast.scene;
     let one = |instant: &Instant| {
         contact_forces(scene, foundations, std::slice::from_ref(instant)).map(|mut all| all.swap_remove(0))
@@ -103,12 +107,12 @@ fn settle(
         law.bilateral || (force >= 0.0 && (force == 0.0 || p > 0.0) && (acts || p <= 0.0))
     });
     let rate = (0..plan.contacts.len()).map(|c| rate(plan, &instant, &forces, c)).collect();
-    Ok(fits.then_some(Case { instant, forces, rate }))
+    Ok(fits.then_some(CheckCase { instant, forces, rate }))
 }
 
 /// Penetrations and forces of the contacts that keep them and press: those of springs, with dampers of random rates beside them,
 /// in balance with the rail's give; Newton's method on p + G F(p, p') = e.
-fn plant(plan: &Plan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
+fn plant(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
     let reach = |c: usize| open.penetration[c];
     let mut active: Vec<usize> =
@@ -154,7 +158,7 @@ fn plant(plan: &Plan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usi
 }
 
 /// The rate that goes with the force and penetration of contact `c`.
-fn rate(plan: &Plan<'_>, instant: &Instant, forces: &ContactForces, c: usize) -> f64 {
+fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize) -> f64 {
     let contact = &plan.contacts[c];
     let law = &plan.kind(contact.wheels.start).normal;
     let point = law.at(forces.penetration[c], 0.0);
@@ -179,7 +183,7 @@ struct Scales {
 }
 
 impl Scales {
-    fn of(plan: &Plan<'_>) -> Scales {
+    fn of(plan: &DeckPlan<'_>) -> Scales {
         let mut out = Scales { sink: vec![], reach: vec![], side: vec![], speed: vec![], range: vec![] };
         for (b, body) in plan.cast.scene.bodies.iter().enumerate() {
             let own: Vec<usize> = (0..plan.wheels.len()).filter(|&w| plan.wheels[w].body == b).collect();
@@ -211,7 +215,7 @@ impl Scales {
     }
 
     /// A state; `None` where a wheel would be off its rail.
-    fn instant(&self, plan: &Plan<'_>, random: &mut Random) -> Option<Instant> {
+    fn instant(&self, plan: &DeckPlan<'_>, random: &mut Random) -> Option<Instant> {
         let scene = &plan.cast.scene;
         let time = random.between(0.0, scene.end);
         let (mut displacement, mut speed) = (Vec::new(), Vec::new());

@@ -5,7 +5,7 @@
 
 use adams::{DataSet, Statement, Value};
 
-use crate::Plan;
+use crate::DeckPlan;
 use crate::plan::ContactPlan;
 
 /// Identifiers of the VARIABLEs that stand for DIF.
@@ -23,7 +23,7 @@ const RAMPED: f64 = 0.3;
 /// Length of the step of each contact, c/k, in which the damper counts as much as the spring; less where it is ramped:
 /// a steep ramp then leaves one solution.
 #[must_use]
-pub fn lengths(plan: &Plan<'_>) -> Vec<f64> {
+pub fn lengths(plan: &DeckPlan<'_>) -> Vec<f64> {
     let length = |contact: &ContactPlan| {
         let law = &plan.kind(contact.wheels.start).normal;
         let share = if law.depth > 0.0 { RAMPED } else { 1.0 };
@@ -34,7 +34,7 @@ pub fn lengths(plan: &Plan<'_>) -> Vec<f64> {
 
 /// Replaces every implicit DIFF: its DIF is then the value before the step, and a VARIABLE takes its place in
 /// expressions.
-pub fn discretise(plan: &Plan<'_>, set: &mut DataSet) {
+pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
     for (contact, length) in plan.contacts.iter().zip(lengths(plan)) {
         let Some(id) = contact.diff else { continue };
         let implicit = |one: &&mut Statement| {

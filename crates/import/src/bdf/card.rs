@@ -1,14 +1,14 @@
 //! Cards: a name and its fields, from lines in small, large or free field.
 
 use super::field::number;
-use super::line::Line;
-use crate::findings::{Finding, Findings, Spot};
+use super::line::BulkLine;
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 /// A field of a card, where it stands.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Field {
+pub struct CardField {
     /// Where it begins.
-    pub at: Spot,
+    pub at: FilePlace,
     /// Its text without blanks around it, in capital letters; empty where it is blank.
     pub text: String,
 }
@@ -19,22 +19,22 @@ pub struct Card {
     /// Its name in capital letters, without the `*` of large fields.
     pub name: String,
     /// Where it begins.
-    pub at: Spot,
+    pub at: FilePlace,
     /// Fields after the name, eight a line; continuation markers are left out.
-    pub fields: Vec<Field>,
+    pub fields: Vec<CardField>,
 }
 
 /// One line, taken apart.
 struct Parts {
     head: String,
-    fields: Vec<Field>,
+    fields: Vec<CardField>,
     tail: String,
     large: bool,
 }
 
 /// Joins lines to cards.
 #[must_use]
-pub fn cards(lines: &[Line], findings: &mut Findings) -> Vec<Card> {
+pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
     let mut cards: Vec<Card> = Vec::new();
     let mut tail = String::new();
     // whether the lines since the last card belong to one that could not be read
@@ -50,7 +50,7 @@ pub fn cards(lines: &[Line], findings: &mut Findings) -> Vec<Card> {
             let name = parts.head.trim_end_matches('*').trim_end().to_owned();
             lost = !plain(&name);
             if lost {
-                let finding = Finding::new(line.at, "", "must be the name of a card").got(&parts.head);
+                let finding = ImportFinding::new(line.at, "", "must be the name of a card").got(&parts.head);
                 let hint = "a name is letters and digits; `=` and `/` are not read";
                 findings.error(finding.hint(hint));
             } else {
@@ -63,7 +63,7 @@ pub fn cards(lines: &[Line], findings: &mut Findings) -> Vec<Card> {
             Some(card) if !lost => card,
             _ => {
                 if cards.is_empty() {
-                    let finding = Finding::new(line.at, "", "continues no card");
+                    let finding = ImportFinding::new(line.at, "", "continues no card");
                     findings.error(
                         finding.hint("a line that begins with blanks, `+` or `*` continues the one above"),
                     );
@@ -72,18 +72,18 @@ pub fn cards(lines: &[Line], findings: &mut Findings) -> Vec<Card> {
             }
         };
         if line.gap && parts.head.is_empty() {
-            let finding = Finding::new(line.at, &card.name, "must not continue over a blank line");
+            let finding = ImportFinding::new(line.at, &card.name, "must not continue over a blank line");
             findings.error(finding.hint("mark a blank continuation with + in its first column"));
         }
         let expected = tail.trim_start_matches(['+', '*']).trim();
         if !expected.is_empty() && !marker.is_empty() && expected != marker {
             let finding =
-                Finding::new(line.at, &card.name, format!("must continue with the marker {expected}"));
+                ImportFinding::new(line.at, &card.name, format!("must continue with the marker {expected}"));
             findings.error(finding.got(marker).hint("put each continuation right after its card"));
         }
         let whole = if parts.large { 4 } else { 8 };
         while card.fields.len() % whole != 0 {
-            card.fields.push(Field { at: line.at, text: String::new() });
+            card.fields.push(CardField { at: line.at, text: String::new() });
         }
         card.fields.extend(parts.fields);
         tail = parts.tail;
@@ -95,18 +95,18 @@ fn plain(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_uppercase()) && name.chars().all(|c| c.is_ascii_alphanumeric())
 }
 
-fn take_apart(line: &Line, findings: &mut Findings) -> Option<Parts> {
+fn take_apart(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     if line.text.contains(',') { free(line, findings) } else { Some(fixed(line)) }
 }
 
 /// Small or large field: columns 1 to 8, then eight of eight or four of sixteen, then the marker.
-fn fixed(line: &Line) -> Parts {
+fn fixed(line: &BulkLine) -> Parts {
     let chars: Vec<char> = line.text.chars().take(80).collect();
     let cut = |from: usize, to: usize| {
         let part: String =
             chars.get(from.min(chars.len())..to.min(chars.len())).into_iter().flatten().collect();
         let blanks = part.chars().take_while(|c| *c == ' ').count();
-        Field { at: Spot { column: from + blanks + 1, ..line.at }, text: part.trim().to_uppercase() }
+        CardField { at: FilePlace { column: from + blanks + 1, ..line.at }, text: part.trim().to_uppercase() }
     };
     let head = cut(0, 8).text;
     let large = head.ends_with('*') || head.starts_with('*');
@@ -116,13 +116,13 @@ fn fixed(line: &Line) -> Parts {
 }
 
 /// Free field: parts between commas; eight of them, or four where the name has its `*`, then the marker.
-fn free(line: &Line, findings: &mut Findings) -> Option<Parts> {
+fn free(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     let mut fields = Vec::new();
     let mut column = 1;
     for part in line.text.split(',') {
         let blanks = part.chars().take_while(|c| *c == ' ').count();
-        let at = Spot { column: column + blanks, ..line.at };
-        fields.push(Field { at, text: part.trim().to_uppercase() });
+        let at = FilePlace { column: column + blanks, ..line.at };
+        fields.push(CardField { at, text: part.trim().to_uppercase() });
         column += part.chars().count() + 1;
     }
     let head = fields.remove(0).text;
@@ -135,11 +135,11 @@ fn free(line: &Line, findings: &mut Findings) -> Option<Parts> {
     let marker = tail.is_empty() || tail.starts_with('+') || number(&tail).is_none();
     if fields.len() > count + 1 || !marker {
         let what = if large { "four fields in a line of large fields" } else { "eight fields in a line" };
-        let finding = Finding::new(fields[count].at, &head, format!("has more than {what}"));
+        let finding = ImportFinding::new(fields[count].at, &head, format!("has more than {what}"));
         findings.error(finding.hint("go on in the next line, which begins with a comma or +"));
         return None;
     }
-    fields.resize(count, Field { at: line.at, text: String::new() });
+    fields.resize(count, CardField { at: line.at, text: String::new() });
     Some(Parts { head, fields, tail, large })
 }
 
@@ -147,13 +147,13 @@ fn free(line: &Line, findings: &mut Findings) -> Option<Parts> {
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> (Vec<Card>, Findings) {
-        let mut findings = Findings::default();
-        let lines: Vec<Line> = text
+    fn read(text: &str) -> (Vec<Card>, ImportFindings) {
+        let mut findings = ImportFindings::default();
+        let lines: Vec<BulkLine> = text
             .lines()
             .enumerate()
-            .map(|(index, text)| Line {
-                at: Spot { file: 0, line: index + 1, column: 1 },
+            .map(|(index, text)| BulkLine {
+                at: FilePlace { file: 0, line: index + 1, column: 1 },
                 text: text.to_owned(),
                 gap: false,
             })
@@ -202,7 +202,7 @@ mod tests {
         let (cards, _) = read("GRID           1              2.\nGRID, 2,,3.");
         assert_eq!(cards[0].fields[0].at.column, 16);
         assert_eq!(cards[0].fields[2].at.column, 31);
-        assert_eq!(cards[1].fields[0].at, Spot { file: 0, line: 2, column: 7 });
+        assert_eq!(cards[1].fields[0].at, FilePlace { file: 0, line: 2, column: 7 });
         assert_eq!(cards[1].fields[2].at.column, 10);
     }
 

@@ -3,17 +3,17 @@
 use std::collections::BTreeMap;
 
 use super::card::{Card, cards};
-use super::element::{self, Element};
+use super::element::{self, ElementCard};
 use super::field::{Number, number};
-use super::fields::Fields;
-use super::grid::{self, Grid, System};
-use super::line::Line;
-use super::lump::{self, Mass, Spring};
-use super::material::{Material, material};
+use super::fields::CardFields;
+use super::grid::{self, CoordinateCard, GridCard};
+use super::line::BulkLine;
+use super::lump::{self, MassCard, SpringCard};
+use super::material::{MaterialCard, material};
 use super::property::{self, Property};
 use super::rigid::{self, Rigid};
-use super::support::{self, Hold};
-use crate::findings::{Finding, Findings, Spot};
+use super::support::{self, SupportCard};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 /// Cards that change nothing of a structure at rest, or nothing that a beam spec says: left out with a warning.
 const LEFT_OUT: &[&str] = &[
@@ -34,69 +34,69 @@ const UNUSED: &[&str] = &[
 
 /// A deck, card by card.
 #[derive(Debug, Default)]
-pub struct Deck {
+pub struct BulkDeck {
     /// GRID by number.
-    pub grids: BTreeMap<u64, Grid>,
+    pub grids: BTreeMap<u64, GridCard>,
     /// GRDSET.
-    pub defaults: grid::Defaults,
+    pub defaults: grid::GridDefaults,
     /// CORD2R by number.
-    pub systems: BTreeMap<u64, System>,
+    pub systems: BTreeMap<u64, CoordinateCard>,
     /// MAT1 by number.
-    pub materials: BTreeMap<u64, Material>,
+    pub materials: BTreeMap<u64, MaterialCard>,
     /// PBAR, PBARL, PBEAM, PBEAML and PROD by number.
     pub properties: BTreeMap<u64, Property>,
     /// CBAR, CBEAM, CROD and CONROD by number.
-    pub elements: BTreeMap<u64, Element>,
+    pub elements: BTreeMap<u64, ElementCard>,
     /// RBE2 and RBAR.
     pub rigid: Vec<Rigid>,
     /// CONM2.
-    pub masses: Vec<Mass>,
+    pub masses: Vec<MassCard>,
     /// CELAS1 and CELAS2.
-    pub springs: Vec<Spring>,
+    pub springs: Vec<SpringCard>,
     /// PELAS by number.
-    pub stiffness: BTreeMap<u64, (Spot, f64)>,
+    pub stiffness: BTreeMap<u64, (FilePlace, f64)>,
     /// SPC and SPC1.
-    pub holds: Vec<Hold>,
+    pub holds: Vec<SupportCard>,
     /// SPCADD by number.
     pub adds: BTreeMap<u64, Vec<u64>>,
     /// Whether there is case control.
     pub controlled: bool,
     /// Sets that case control chooses.
-    pub control: Vec<(u64, Spot)>,
+    pub control: Vec<(u64, FilePlace)>,
     /// Factor of all masses.
     pub wtmass: Option<f64>,
 }
 
-impl Deck {
+impl BulkDeck {
     /// Sorts the lines of a deck; cards named in `skip` are left out without a word.
-    pub fn new(lines: &[Line], skip: &[String], findings: &mut Findings) -> Deck {
-        let mut deck = Deck::default();
+    pub fn new(lines: &[BulkLine], skip: &[String], findings: &mut ImportFindings) -> BulkDeck {
+        let mut deck = BulkDeck::default();
         let bulk = deck.control(lines, skip, findings);
         let cards = cards(bulk, findings);
         let cards: Vec<&Card> = cards.iter().filter(|card| !skip.contains(&card.name)).collect();
         // defaults first: they hold for the cards before them too
-        let mut bars = element::Defaults::default();
-        let mut beams = element::Defaults::default();
-        let mut seen: BTreeMap<&str, Spot> = BTreeMap::new();
+        let mut bars = element::BarDefaults::default();
+        let mut beams = element::BarDefaults::default();
+        let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
         for card in &cards {
             let slot = match card.name.as_str() {
                 "BAROR" => &mut bars,
                 "BEAMOR" => &mut beams,
                 "GRDSET" => {
-                    let mut fields = Fields { card, findings };
+                    let mut fields = CardFields { card, findings };
                     deck.defaults = grid::defaults(&mut fields).unwrap_or_default();
                     once(&mut seen, card, findings);
                     continue;
                 }
                 _ => continue,
             };
-            *slot = element::defaults(&mut Fields { card, findings }).unwrap_or_default();
+            *slot = element::defaults(&mut CardFields { card, findings }).unwrap_or_default();
             once(&mut seen, card, findings);
         }
-        let mut left_out: BTreeMap<&str, (Spot, usize)> = BTreeMap::new();
-        let mut unknown: BTreeMap<&str, (Spot, usize)> = BTreeMap::new();
+        let mut left_out: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
+        let mut unknown: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
         for card in &cards {
-            let mut fields = Fields { card, findings };
+            let mut fields = CardFields { card, findings };
             match card.name.as_str() {
                 "CBAR" => deck.element(element::bar(&mut fields, &bars), findings),
                 "CBEAM" => deck.element(element::bar(&mut fields, &beams), findings),
@@ -108,19 +108,25 @@ impl Deck {
             }
         }
         for (name, (at, number)) in left_out {
-            findings.warn(Finding::new(at, name, format!("left out, {}", cards_of(number))));
+            findings.warn(ImportFinding::new(at, name, format!("left out, {}", cards_of(number))));
         }
         for (name, (at, number)) in unknown {
             let hint = format!("{}; if it does not matter, add --skip {name}", advice(name));
-            findings
-                .error(Finding::new(at, name, format!("cannot be taken, {}", cards_of(number))).hint(hint));
+            findings.error(
+                ImportFinding::new(at, name, format!("cannot be taken, {}", cards_of(number))).hint(hint),
+            );
         }
         deck
     }
 
     /// Reads executive and case control; gives the bulk data.
-    fn control<'l>(&mut self, lines: &'l [Line], skip: &[String], findings: &mut Findings) -> &'l [Line] {
-        let word = |line: &Line, n: usize| {
+    fn control<'l>(
+        &mut self,
+        lines: &'l [BulkLine],
+        skip: &[String],
+        findings: &mut ImportFindings,
+    ) -> &'l [BulkLine] {
+        let word = |line: &BulkLine, n: usize| {
             let mut words = line.text.split([' ', '=', ',', '(']).filter(|word| !word.is_empty());
             words.nth(n).unwrap_or_default().to_ascii_uppercase()
         };
@@ -128,7 +134,7 @@ impl Deck {
         let Some(&begin) = begins.first() else {
             if let Some(line) = lines.iter().find(|line| word(line, 0) == "CEND") {
                 findings.error(
-                    Finding::new(line.at, "CEND", "must be followed by BEGIN BULK")
+                    ImportFinding::new(line.at, "CEND", "must be followed by BEGIN BULK")
                         .hint("bulk data follow BEGIN BULK; a deck of bulk data alone has neither"),
                 );
                 return &[];
@@ -137,7 +143,7 @@ impl Deck {
         };
         for &other in &begins[1..] {
             findings.error(
-                Finding::new(lines[other].at, "BEGIN", "must stand once")
+                ImportFinding::new(lines[other].at, "BEGIN", "must stand once")
                     .hint("superelements cannot be taken"),
             );
         }
@@ -152,12 +158,13 @@ impl Deck {
                 ("SPC", Some(set)) => self.control.push((set, line.at)),
                 ("SPC", None) => {
                     findings.error(
-                        Finding::new(line.at, "SPC", "must be a whole number above 0").got(word(line, 1)),
+                        ImportFinding::new(line.at, "SPC", "must be a whole number above 0")
+                            .got(word(line, 1)),
                     );
                 }
                 ("MPC", _) if skip.iter().all(|name| name != "MPC") => {
                     let hint = "constraints by equations cannot be taken; rigid links are RBE2 and RBAR; to leave them out, add --skip MPC";
-                    findings.error(Finding::new(line.at, "MPC", "cannot be taken").hint(hint));
+                    findings.error(ImportFinding::new(line.at, "MPC", "cannot be taken").hint(hint));
                 }
                 _ => {}
             }
@@ -165,7 +172,7 @@ impl Deck {
         &lines[begin + 1..]
     }
 
-    fn weight(&mut self, fields: &mut Fields<'_, '_>) {
+    fn weight(&mut self, fields: &mut CardFields<'_, '_>) {
         if let Some(value) = property::positive(fields, 2, "WTMASS") {
             if self.wtmass.is_some() {
                 fields.refuse(2, "WTMASS", "must stand once", "");
@@ -174,14 +181,14 @@ impl Deck {
         }
     }
 
-    fn element(&mut self, read: Option<(u64, Element)>, findings: &mut Findings) {
+    fn element(&mut self, read: Option<(u64, ElementCard)>, findings: &mut ImportFindings) {
         let Some((id, element)) = read else { return };
         let (kind, card) = (element.kind.clone(), element.card);
         put(&mut self.elements, id, element, |other| other.card, card, &kind, findings);
     }
 
     /// Takes a card that belongs to a structure; false where it is none.
-    fn take(&mut self, name: &str, fields: &mut Fields<'_, '_>) -> bool {
+    fn take(&mut self, name: &str, fields: &mut CardFields<'_, '_>) -> bool {
         let at = fields.card.at;
         match name {
             "GRID" => {
@@ -243,30 +250,30 @@ fn put<T>(
     map: &mut BTreeMap<u64, T>,
     id: u64,
     entry: T,
-    card: impl Fn(&T) -> Spot,
-    at: Spot,
+    card: impl Fn(&T) -> FilePlace,
+    at: FilePlace,
     name: &str,
-    findings: &mut Findings,
+    findings: &mut ImportFindings,
 ) {
     if let Some(other) = map.get(&id) {
         let other = card(other);
         let file =
             if other.file == at.file { String::new() } else { format!(" of {}", findings.files[other.file]) };
         let expected = format!("must not stand there twice: line {}{file} has this number", other.line);
-        findings.error(Finding::new(at, format!("{name} {id}"), expected));
+        findings.error(ImportFinding::new(at, format!("{name} {id}"), expected));
         return;
     }
     map.insert(id, entry);
 }
 
-fn once<'c>(seen: &mut BTreeMap<&'c str, Spot>, card: &'c Card, findings: &mut Findings) {
+fn once<'c>(seen: &mut BTreeMap<&'c str, FilePlace>, card: &'c Card, findings: &mut ImportFindings) {
     if let Some(other) = seen.insert(&card.name, card.at) {
         let expected = format!("must stand once; line {} has one", other.line);
-        findings.error(Finding::new(card.at, &card.name, expected));
+        findings.error(ImportFinding::new(card.at, &card.name, expected));
     }
 }
 
-fn count<'c>(counts: &mut BTreeMap<&'c str, (Spot, usize)>, card: &'c Card) {
+fn count<'c>(counts: &mut BTreeMap<&'c str, (FilePlace, usize)>, card: &'c Card) {
     counts.entry(&card.name).or_insert((card.at, 0)).1 += 1;
 }
 

@@ -1,9 +1,9 @@
 //! CBAR, CBEAM, CROD, CONROD, BAROR and BEAMOR: members.
 
 use super::field::{Number, number};
-use super::fields::Fields;
+use super::fields::CardFields;
 use super::property::{Property, rod_from};
-use crate::findings::Spot;
+use crate::findings::FilePlace;
 
 /// Where local y of a member points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub enum Orientation {
 
 /// How a member knows its property.
 #[derive(Clone, Debug)]
-pub enum Section {
+pub enum SectionOf {
     /// By number.
     Number(u64),
     /// Its own.
@@ -25,13 +25,13 @@ pub enum Section {
 
 /// A member as its card has it.
 #[derive(Clone, Debug)]
-pub struct Element {
+pub struct ElementCard {
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// Name of its card.
     pub kind: String,
     /// Its property.
-    pub section: Section,
+    pub section: SectionOf,
     /// Its grids.
     pub grids: [u64; 2],
     /// Where local y points; `None` for rods.
@@ -44,23 +44,23 @@ pub struct Element {
 
 /// What BAROR and BEAMOR give to blank fields.
 #[derive(Clone, Debug, Default)]
-pub struct Defaults {
+pub struct BarDefaults {
     property: Option<u64>,
     orientation: Option<Orientation>,
     frame: Option<String>,
 }
 
 /// Reads BAROR or BEAMOR.
-pub fn defaults(card: &mut Fields<'_, '_>) -> Option<Defaults> {
+pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<BarDefaults> {
     let property = if card.blank(2) { Some(None) } else { card.id(2, "PID").map(Some) };
     let orientation = orientation(card)?;
     let frame = (!card.blank(8)).then(|| card.text(8).to_owned());
     card.end(9);
-    Some(Defaults { property: property?, orientation, frame })
+    Some(BarDefaults { property: property?, orientation, frame })
 }
 
 /// Fields 5 to 7: a vector, or a grid; `Some(None)` where all are blank.
-fn orientation(card: &mut Fields<'_, '_>) -> Option<Option<Orientation>> {
+fn orientation(card: &mut CardFields<'_, '_>) -> Option<Option<Orientation>> {
     if (5..8).all(|index| card.blank(index)) {
         return Some(None);
     }
@@ -71,7 +71,7 @@ fn orientation(card: &mut Fields<'_, '_>) -> Option<Option<Orientation>> {
 }
 
 /// Reads CBAR or CBEAM.
-pub fn bar(card: &mut Fields<'_, '_>, defaults: &Defaults) -> Option<(u64, Element)> {
+pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64, ElementCard)> {
     let id = card.id(1, "EID")?;
     let property = card.id_or(2, "PID", defaults.property.unwrap_or(id));
     let grids = ends(card, 3);
@@ -98,10 +98,10 @@ pub fn bar(card: &mut Fields<'_, '_>, defaults: &Defaults) -> Option<(u64, Eleme
     }
     card.end(last);
     let [a, b] = pins;
-    let element = Element {
+    let element = ElementCard {
         card: card.card.at,
         kind: card.card.name.clone(),
-        section: Section::Number(property?),
+        section: SectionOf::Number(property?),
         grids: grids?,
         orientation: given?,
         pins: [a?, b?],
@@ -110,7 +110,7 @@ pub fn bar(card: &mut Fields<'_, '_>, defaults: &Defaults) -> Option<(u64, Eleme
     element.orientation.is_some().then_some((id, element))
 }
 
-fn ends(card: &mut Fields<'_, '_>, first: usize) -> Option<[u64; 2]> {
+fn ends(card: &mut CardFields<'_, '_>, first: usize) -> Option<[u64; 2]> {
     let a = card.id(first, "GA");
     let b = card.id(first + 1, "GB");
     let (a, b) = (a?, b?);
@@ -121,24 +121,24 @@ fn ends(card: &mut Fields<'_, '_>, first: usize) -> Option<[u64; 2]> {
 }
 
 /// Reads CROD.
-pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
+pub fn rod(card: &mut CardFields<'_, '_>) -> Option<(u64, ElementCard)> {
     let id = card.id(1, "EID")?;
     let property = card.id_or(2, "PID", id);
     let grids = ends(card, 3);
     card.end(5);
-    Some((id, plain(card, Section::Number(property?), grids?)))
+    Some((id, plain(card, SectionOf::Number(property?), grids?)))
 }
 
 /// Reads CONROD, a rod with its own property.
-pub fn own_rod(card: &mut Fields<'_, '_>) -> Option<(u64, Element)> {
+pub fn own_rod(card: &mut CardFields<'_, '_>) -> Option<(u64, ElementCard)> {
     let id = card.id(1, "EID")?;
     let grids = ends(card, 2);
     let property = rod_from(card, 4);
-    Some((id, plain(card, Section::Own(Box::new(property?)), grids?)))
+    Some((id, plain(card, SectionOf::Own(Box::new(property?)), grids?)))
 }
 
-fn plain(card: &Fields<'_, '_>, section: Section, grids: [u64; 2]) -> Element {
-    Element {
+fn plain(card: &CardFields<'_, '_>, section: SectionOf, grids: [u64; 2]) -> ElementCard {
+    ElementCard {
         card: card.card.at,
         kind: card.card.name.clone(),
         section,

@@ -1,20 +1,20 @@
 //! Fields of a card by number, read as what they must be.
 
-use super::card::{Card, Field};
+use super::card::{Card, CardField};
 use super::field::{Number, freedoms, number};
-use crate::findings::{Finding, Findings, Spot};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::fault::number as written;
 
 /// Reads the fields of one card; field 1 is the first after the name.
 #[derive(Debug)]
-pub struct Fields<'c, 'f> {
+pub struct CardFields<'c, 'f> {
     /// The card.
     pub card: &'c Card,
     /// Where faults go.
-    pub findings: &'f mut Findings,
+    pub findings: &'f mut ImportFindings,
 }
 
-static BLANK: Field = Field { at: Spot { file: 0, line: 0, column: 0 }, text: String::new() };
+static BLANK: CardField = CardField { at: FilePlace { file: 0, line: 0, column: 0 }, text: String::new() };
 
 /// A text with everything that is not ASCII as `\u{...}`.
 fn ascii(text: &str) -> String {
@@ -22,14 +22,14 @@ fn ascii(text: &str) -> String {
     text.chars().map(escape).collect()
 }
 
-impl Fields<'_, '_> {
+impl CardFields<'_, '_> {
     /// The text of a field; empty where it is blank or beyond the card's end.
     #[must_use]
     pub fn text(&self, index: usize) -> &str {
         &self.field(index).text
     }
 
-    fn field(&self, index: usize) -> &Field {
+    fn field(&self, index: usize) -> &CardField {
         index.checked_sub(1).and_then(|index| self.card.fields.get(index)).unwrap_or(&BLANK)
     }
 
@@ -41,7 +41,7 @@ impl Fields<'_, '_> {
 
     /// Where a field stands; the card where it is beyond its end.
     #[must_use]
-    pub fn at(&self, index: usize) -> Spot {
+    pub fn at(&self, index: usize) -> FilePlace {
         let at = self.field(index).at;
         if at.line == 0 || self.blank(index) { self.card.at } else { at }
     }
@@ -55,9 +55,9 @@ impl Fields<'_, '_> {
 
     /// A fault of a field.
     #[must_use]
-    pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> Finding {
+    pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> ImportFinding {
         let about = if name.is_empty() { self.label() } else { format!("{}: {name}", self.label()) };
-        let finding = Finding::new(self.at(index), about, expected);
+        let finding = ImportFinding::new(self.at(index), about, expected);
         if self.blank(index) { finding } else { finding.got(ascii(self.text(index))) }
     }
 
@@ -161,7 +161,7 @@ impl Fields<'_, '_> {
         };
         if value != 0.0 {
             let fault = self.fault(index, name, "can only be 0 or blank").hint(hint);
-            self.findings.error(Finding { found: Some(written(value)), ..fault });
+            self.findings.error(ImportFinding { found: Some(written(value)), ..fault });
             return None;
         }
         Some(())

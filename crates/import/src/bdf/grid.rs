@@ -2,15 +2,15 @@
 
 use std::collections::BTreeMap;
 
-use super::fields::Fields;
-use crate::findings::{Finding, Findings, Spot};
+use super::fields::CardFields;
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::vector::{cross, dot, minus, unit};
 
 /// A point as its card has it.
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub struct GridCard {
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// Coordinates in the system `cp`.
     pub at: [f64; 3],
     /// System of the coordinates; `None` where blank.
@@ -20,12 +20,12 @@ pub struct Grid {
     /// Freedoms held; `None` where blank.
     pub fix: Option<[bool; 6]>,
     /// Places of `cp` and `cd`.
-    pub spots: [Spot; 2],
+    pub spots: [FilePlace; 2],
 }
 
 /// What GRDSET gives to blank fields of GRID.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Defaults {
+pub struct GridDefaults {
     cp: u64,
     cd: u64,
     fix: [bool; 6],
@@ -33,9 +33,9 @@ pub struct Defaults {
 
 /// A rectangular system.
 #[derive(Clone, Debug)]
-pub struct System {
+pub struct CoordinateCard {
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// The system that its points are given in.
     pub reference: u64,
     /// Origin, a point of its z axis, a point of its x-z plane.
@@ -44,14 +44,15 @@ pub struct System {
 
 /// Origin and axes in the basic system.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct CoordinateFrame {
     origin: [f64; 3],
     axes: [[f64; 3]; 3],
 }
 
-const BASIC: Frame = Frame { origin: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
+const BASIC: CoordinateFrame =
+    CoordinateFrame { origin: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 
-impl Frame {
+impl CoordinateFrame {
     /// A point of this system in the basic one; the same bits where this is the basic one.
     fn basic(&self, at: [f64; 3]) -> [f64; 3] {
         if self.axes == BASIC.axes {
@@ -69,7 +70,7 @@ impl Frame {
 }
 
 /// Reads GRID.
-pub fn grid(card: &mut Fields<'_, '_>) -> Option<(u64, Grid)> {
+pub fn grid(card: &mut CardFields<'_, '_>) -> Option<(u64, GridCard)> {
     let id = card.id(1, "ID")?;
     let cp = if card.blank(2) { Some(None) } else { card.whole(2, "CP").map(Some) };
     let at = card.vector(3, ["X1", "X2", "X3"]);
@@ -85,28 +86,28 @@ pub fn grid(card: &mut Fields<'_, '_>) -> Option<(u64, Grid)> {
     card.zero(8, "SEID", "superelements cannot be taken");
     card.end(9);
     let spots = [card.at(2), card.at(6)];
-    Some((id, Grid { card: card.card.at, at: at?, cp: cp?, cd: cd?, fix: fix?, spots }))
+    Some((id, GridCard { card: card.card.at, at: at?, cp: cp?, cd: cd?, fix: fix?, spots }))
 }
 
 /// Reads GRDSET.
-pub fn defaults(card: &mut Fields<'_, '_>) -> Option<Defaults> {
+pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<GridDefaults> {
     let cp = card.whole(2, "CP");
     let cd = card.whole(6, "CD");
     let fix = card.freedoms(7, "PS");
     card.zero(8, "SEID", "superelements cannot be taken");
     card.end(9);
-    Some(Defaults { cp: cp?, cd: cd?, fix: fix? })
+    Some(GridDefaults { cp: cp?, cd: cd?, fix: fix? })
 }
 
 /// Reads CORD2R.
-pub fn system(card: &mut Fields<'_, '_>) -> Option<(u64, System)> {
+pub fn system(card: &mut CardFields<'_, '_>) -> Option<(u64, CoordinateCard)> {
     let id = card.id(1, "CID")?;
     let reference = card.whole(2, "RID");
     let a = card.vector(3, ["A1", "A2", "A3"]);
     let b = card.vector(6, ["B1", "B2", "B3"]);
     let c = card.vector(9, ["C1", "C2", "C3"]);
     card.end(12);
-    Some((id, System { card: card.card.at, reference: reference?, points: [a?, b?, c?] }))
+    Some((id, CoordinateCard { card: card.card.at, reference: reference?, points: [a?, b?, c?] }))
 }
 
 /// A point in the basic system.
@@ -120,19 +121,22 @@ pub struct Resolved {
 
 /// Takes all points to the basic system.
 pub fn resolve(
-    grids: &BTreeMap<u64, Grid>,
-    defaults: Defaults,
-    systems: &BTreeMap<u64, System>,
-    findings: &mut Findings,
+    grids: &BTreeMap<u64, GridCard>,
+    defaults: GridDefaults,
+    systems: &BTreeMap<u64, CoordinateCard>,
+    findings: &mut ImportFindings,
 ) -> BTreeMap<u64, Resolved> {
     let frames = frames(systems, findings);
     let mut resolved = BTreeMap::new();
     for (&id, grid) in grids {
         let [cp, cd] = [grid.cp.unwrap_or(defaults.cp), grid.cd.unwrap_or(defaults.cd)];
-        let known = |system: u64, at: Spot, name: &str, findings: &mut Findings| {
+        let known = |system: u64, at: FilePlace, name: &str, findings: &mut ImportFindings| {
             if !systems.contains_key(&system) && system != 0 {
-                let finding =
-                    Finding::new(at, format!("GRID {id}: {name}"), "must be 0 or the number of a CORD2R");
+                let finding = ImportFinding::new(
+                    at,
+                    format!("GRID {id}: {name}"),
+                    "must be 0 or the number of a CORD2R",
+                );
                 findings.error(finding.got(system));
             }
             frames.get(&system).copied()
@@ -142,7 +146,7 @@ pub fn resolve(
         if turned.is_some_and(|frame| !frame.parallel()) {
             let about = format!("GRID {id}: CD");
             let finding =
-                Finding::new(grid.spots[1], about, "must be a system with the axes of the basic one");
+                ImportFinding::new(grid.spots[1], about, "must be a system with the axes of the basic one");
             findings
                 .error(finding.got(cd).hint("supports and springs of a beam spec are along the global axes"));
         }
@@ -151,16 +155,23 @@ pub fn resolve(
         if at.iter().all(|part| part.is_finite()) {
             resolved.insert(id, Resolved { at, fix: grid.fix.unwrap_or(defaults.fix) });
         } else {
-            findings.error(Finding::new(grid.card, format!("GRID {id}"), "must lie at finite coordinates"));
+            findings.error(ImportFinding::new(
+                grid.card,
+                format!("GRID {id}"),
+                "must lie at finite coordinates",
+            ));
         }
     }
     resolved
 }
 
 /// Frames of all systems, whatever their order.
-fn frames(systems: &BTreeMap<u64, System>, findings: &mut Findings) -> BTreeMap<u64, Frame> {
+fn frames(
+    systems: &BTreeMap<u64, CoordinateCard>,
+    findings: &mut ImportFindings,
+) -> BTreeMap<u64, CoordinateFrame> {
     let mut frames = BTreeMap::from([(0, BASIC)]);
-    let mut left: Vec<(&u64, &System)> = systems.iter().collect();
+    let mut left: Vec<(&u64, &CoordinateCard)> = systems.iter().collect();
     while !left.is_empty() {
         let before = left.len();
         left.retain(|(id, system)| {
@@ -170,11 +181,11 @@ fn frames(systems: &BTreeMap<u64, System>, findings: &mut Findings) -> BTreeMap<
             let y = z.and_then(|z| unit(cross(z, minus(c, a))));
             match (y, z) {
                 (Some(y), Some(z)) => {
-                    frames.insert(**id, Frame { origin: a, axes: [cross(y, z), y, z] });
+                    frames.insert(**id, CoordinateFrame { origin: a, axes: [cross(y, z), y, z] });
                 }
                 _ => {
                     let expected = "its three points must not lie on one line";
-                    findings.error(Finding::new(system.card, format!("CORD2R {id}"), expected));
+                    findings.error(ImportFinding::new(system.card, format!("CORD2R {id}"), expected));
                 }
             }
             false
@@ -183,7 +194,7 @@ fn frames(systems: &BTreeMap<u64, System>, findings: &mut Findings) -> BTreeMap<
             for (id, system) in left.drain(..) {
                 let about = format!("CORD2R {id}: RID");
                 let expected = "must lead to the basic system, which is 0";
-                findings.error(Finding::new(system.card, about, expected).got(system.reference));
+                findings.error(ImportFinding::new(system.card, about, expected).got(system.reference));
             }
         }
     }

@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::findings::{Finding, Findings, Spot};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::inputs::cannot_read;
 
 /// Reads a file.
@@ -14,9 +14,9 @@ const MOST_FILES: usize = 1000;
 
 /// A line without its comment; never blank.
 #[derive(Clone, Debug)]
-pub struct Line {
+pub struct BulkLine {
     /// Where it begins.
-    pub at: Spot,
+    pub at: FilePlace,
     /// Its characters.
     pub text: String,
     /// Whether the line above is blank.
@@ -27,7 +27,7 @@ pub struct Line {
 ///
 /// # Errors
 /// The first file's own reason why it cannot be read; includes are findings.
-pub fn read(path: &Path, open: Open<'_>, findings: &mut Findings) -> io::Result<Vec<Line>> {
+pub fn read(path: &Path, open: Open<'_>, findings: &mut ImportFindings) -> io::Result<Vec<BulkLine>> {
     let bytes = open(path)?;
     let mut reader = Reader { open, lines: Vec::new(), stack: Vec::new(), main: folder(path), ended: false };
     reader.file(path, &bytes, findings);
@@ -40,14 +40,14 @@ fn folder(path: &Path) -> PathBuf {
 
 struct Reader<'a> {
     open: Open<'a>,
-    lines: Vec<Line>,
+    lines: Vec<BulkLine>,
     stack: Vec<PathBuf>,
     main: PathBuf,
     ended: bool,
 }
 
 impl Reader<'_> {
-    fn file(&mut self, path: &Path, bytes: &[u8], findings: &mut Findings) {
+    fn file(&mut self, path: &Path, bytes: &[u8], findings: &mut ImportFindings) {
         let file = findings.files.len();
         findings.files.push(path.display().to_string());
         self.stack.push(path.to_path_buf());
@@ -55,7 +55,7 @@ impl Reader<'_> {
         let text = String::from_utf8_lossy(bytes);
         let mut gap = false;
         for (index, raw) in text.lines().enumerate() {
-            let at = Spot { file, line: index + 1, column: 1 };
+            let at = FilePlace { file, line: index + 1, column: 1 };
             let text = raw.split('$').next().unwrap_or_default().trim_end();
             if text.trim().is_empty() {
                 gap |= raw.trim().is_empty();
@@ -66,7 +66,7 @@ impl Reader<'_> {
             } else if text.trim_start().to_ascii_uppercase().starts_with("ENDDATA") {
                 self.ended = true;
             } else {
-                self.lines.push(Line { at, text: expanded(text), gap });
+                self.lines.push(BulkLine { at, text: expanded(text), gap });
             }
             gap = false;
             if self.ended {
@@ -76,8 +76,8 @@ impl Reader<'_> {
         self.stack.pop();
     }
 
-    fn include(&mut self, from: &Path, name: Result<&str, ()>, at: Spot, findings: &mut Findings) {
-        let refuse = |expected: &str, hint: &str| Finding::new(at, "INCLUDE", expected).hint(hint);
+    fn include(&mut self, from: &Path, name: Result<&str, ()>, at: FilePlace, findings: &mut ImportFindings) {
+        let refuse = |expected: &str, hint: &str| ImportFinding::new(at, "INCLUDE", expected).hint(hint);
         let Ok(name) = name else {
             let hint = "write INCLUDE 'file name' in one line";
             findings.error(refuse("must name a file between quotation marks", hint));

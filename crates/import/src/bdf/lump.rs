@@ -1,14 +1,14 @@
 //! CONM2, CELAS1 and CELAS2: masses and springs at grids.
 
 use super::field::{Number, number};
-use super::fields::Fields;
-use crate::findings::Spot;
+use super::fields::CardFields;
+use crate::findings::FilePlace;
 
 /// A mass at a grid, before WTMASS.
 #[derive(Clone, Debug)]
-pub struct Mass {
+pub struct MassCard {
     /// Where its grid is named.
-    pub at: Spot,
+    pub at: FilePlace,
     /// Name and number of its card.
     pub label: String,
     /// Its grid.
@@ -25,9 +25,9 @@ pub struct Mass {
 
 /// A spring between a freedom of a grid and another, or ground.
 #[derive(Clone, Debug)]
-pub struct Spring {
+pub struct SpringCard {
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// Name and number of its card.
     pub label: String,
     /// Its stiffness, or the number of a PELAS with its place.
@@ -46,7 +46,7 @@ pub enum Stiffness {
 }
 
 /// Reads CONM2.
-pub fn mass(card: &mut Fields<'_, '_>) -> Option<Mass> {
+pub fn mass(card: &mut CardFields<'_, '_>) -> Option<MassCard> {
     card.id(1, "EID")?;
     let grid = card.id(2, "G");
     let absolute = card.text(3) == "-1";
@@ -62,7 +62,7 @@ pub fn mass(card: &mut Fields<'_, '_>) -> Option<Mass> {
     card.end(15);
     let [x, y, z] = inertia;
     products.into_iter().collect::<Option<Vec<_>>>()?;
-    Some(Mass {
+    Some(MassCard {
         at: card.at(2),
         label: card.label(),
         grid: grid?,
@@ -74,7 +74,7 @@ pub fn mass(card: &mut Fields<'_, '_>) -> Option<Mass> {
 }
 
 /// Reads CELAS1 or CELAS2.
-pub fn spring(card: &mut Fields<'_, '_>) -> Option<Spring> {
+pub fn spring(card: &mut CardFields<'_, '_>) -> Option<SpringCard> {
     let id = card.id(1, "EID")?;
     let stiffness = if card.card.name == "CELAS1" {
         card.id_or(2, "PID", id).map(Stiffness::Number)
@@ -102,5 +102,5 @@ pub fn spring(card: &mut Fields<'_, '_>) -> Option<Spring> {
         card.refuse(3, "G1", "is missing", "a spring needs a grid");
         return None;
     }
-    Some(Spring { card: card.card.at, label: card.label(), stiffness: stiffness?, ends })
+    Some(SpringCard { card: card.card.at, label: card.label(), stiffness: stiffness?, ends })
 }

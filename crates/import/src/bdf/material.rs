@@ -1,13 +1,13 @@
 //! MAT1.
 
-use super::fields::Fields;
-use crate::findings::Spot;
+use super::fields::CardFields;
+use crate::findings::FilePlace;
 
 /// A material.
 #[derive(Clone, Debug)]
-pub struct Material {
+pub struct MaterialCard {
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// Young's modulus.
     pub e: f64,
     /// Shear modulus, where it is known.
@@ -17,7 +17,7 @@ pub struct Material {
 }
 
 /// Reads MAT1; of E, G and NU any two give the third: E = 2 (1 + NU) G.
-pub fn material(card: &mut Fields<'_, '_>) -> Option<(u64, Material)> {
+pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
     let id = card.id(1, "MID")?;
     let e = card.optional(2, "E");
     let g = card.optional(3, "G");
@@ -49,5 +49,5 @@ pub fn material(card: &mut Fields<'_, '_>) -> Option<(u64, Material)> {
     if !finite {
         card.refuse(2, "E", "must give moduli that a double can hold", "");
     }
-    finite.then_some((id, Material { card: card.card.at, e, g, density }))
+    finite.then_some((id, MaterialCard { card: card.card.at, e, g, density }))
 }

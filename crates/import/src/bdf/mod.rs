@@ -23,8 +23,8 @@ use std::path::Path;
 
 pub use line::Open;
 
-use super::findings::Findings;
-use super::structure::Structure;
+use super::findings::ImportFindings;
+use super::structure::ImportedStructure;
 
 /// Reads a deck into `empty`, a structure that has its name and units. `spc`: the set of supports; `skip`: cards to
 /// leave out.
@@ -34,13 +34,13 @@ use super::structure::Structure;
 pub fn read(
     path: &Path,
     open: Open<'_>,
-    empty: Structure,
+    empty: ImportedStructure,
     spc: Option<u64>,
     skip: &[String],
-    findings: &mut Findings,
-) -> io::Result<Structure> {
+    findings: &mut ImportFindings,
+) -> io::Result<ImportedStructure> {
     let lines = line::read(path, open, findings)?;
-    let deck = deck::Deck::new(&lines, skip, findings);
+    let deck = deck::BulkDeck::new(&lines, skip, findings);
     // what refers to a card that could not be read is no fault of its own
     if findings.wrong() {
         return Ok(empty);

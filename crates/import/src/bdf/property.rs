@@ -1,7 +1,7 @@
 //! PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS: what elements resist with.
 
-use super::fields::Fields;
-use crate::findings::Spot;
+use super::fields::CardFields;
+use crate::findings::FilePlace;
 use formats::fault::nearest;
 use formats::shape::{Refusal, SHAPES, dimensions, properties};
 
@@ -9,7 +9,7 @@ use formats::shape::{Refusal, SHAPES, dimensions, properties};
 #[derive(Clone, Debug)]
 pub struct Property {
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// Name of its card.
     pub kind: String,
     /// Its material.
@@ -31,13 +31,13 @@ pub struct Property {
 const NO_PRODUCT: &str = "give the principal second moments, and turn the orientation of the elements";
 
 /// Reads PROD.
-pub fn rod(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+pub fn rod(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     Some((id, rod_from(card, 2)?))
 }
 
 /// The property of a rod whose fields MID, A, J, C, NSM begin at `first`, and end the card.
-pub fn rod_from(card: &mut Fields<'_, '_>, first: usize) -> Option<Property> {
+pub fn rod_from(card: &mut CardFields<'_, '_>, first: usize) -> Option<Property> {
     let material = card.id(first, "MID");
     let area = positive(card, first + 1, "A");
     let j = card.not_negative(first + 2, "J");
@@ -57,7 +57,7 @@ pub fn rod_from(card: &mut Fields<'_, '_>, first: usize) -> Option<Property> {
 }
 
 /// A real number above 0.
-pub fn positive(card: &mut Fields<'_, '_>, index: usize, name: &str) -> Option<f64> {
+pub fn positive(card: &mut CardFields<'_, '_>, index: usize, name: &str) -> Option<f64> {
     let value = card.real(index, name)?;
     if value <= 0.0 {
         card.refuse(index, name, "must be positive", "");
@@ -66,7 +66,7 @@ pub fn positive(card: &mut Fields<'_, '_>, index: usize, name: &str) -> Option<f
 }
 
 /// Reads PBAR.
-pub fn bar(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
     let area = positive(card, 3, "A");
@@ -94,7 +94,7 @@ pub fn bar(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
 }
 
 /// Whether a bar bends in both planes, or in none.
-fn whole(card: &mut Fields<'_, '_>, property: &Property) -> bool {
+fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let [i1, i2] = property.bending.map(|value| value > 0.0);
     let hint = "give both second moments, or neither for a bar that only changes its length";
     if i1 != i2 {
@@ -110,15 +110,16 @@ fn whole(card: &mut Fields<'_, '_>, property: &Property) -> bool {
 const STATIONS: &str = "beams vary linearly from end A to end B: cut others at their stations";
 
 /// Reads PBEAM; between its ends it must vary linearly.
-pub fn beam(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
     let own = stiffness(card, 3, None);
     let nsm = card.not_negative(8, "NSM");
     let (own, nsm) = (own?, nsm?);
     let rows = card.card.fields.len().div_ceil(8);
-    let station = |card: &Fields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
-    let blank = |card: &Fields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
+    let station =
+        |card: &CardFields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
+    let blank = |card: &CardFields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
     // the second row has places for stresses, unless stations begin at once
     let mut row = if station(card, 1) { 1 } else { 2 };
     let mut other = own;
@@ -177,7 +178,7 @@ pub fn beam(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
 }
 
 /// A, I1, I2 and J from a field on, with I12 between; those that are blank are `own`.
-fn stiffness(card: &mut Fields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
+fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
     let mut number = |index: usize, name: &str, k: usize| match own {
         Some(own) if card.blank(index) => Some(own[k]),
         _ if k == 0 => positive(card, index, name),
@@ -195,7 +196,7 @@ fn stiffness(card: &mut Fields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> 
 }
 
 /// Reads PBARL or PBEAML; between its ends a beam must vary linearly.
-pub fn shaped(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
+pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
     if !card.blank(3) && card.text(3) != "MSCBML0" {
@@ -232,7 +233,7 @@ pub fn shaped(card: &mut Fields<'_, '_>) -> Option<(u64, Property)> {
 }
 
 /// Whether the further mass can be spread over the area.
-fn spread(card: &mut Fields<'_, '_>, property: &Property, index: usize) -> bool {
+fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> bool {
     let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
         let hint = "give the further mass as CONM2";
@@ -243,7 +244,7 @@ fn spread(card: &mut Fields<'_, '_>, property: &Property, index: usize) -> bool 
 
 /// The property of a shape.
 fn section(
-    card: &mut Fields<'_, '_>,
+    card: &mut CardFields<'_, '_>,
     shape: &str,
     dimensions: &[f64],
     material: u64,
@@ -275,7 +276,7 @@ fn section(
 }
 
 /// The dimensions of a PBEAML at end B, where they differ from those at end A.
-fn stations(card: &mut Fields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
+fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
     let count = dimensions.len();
     let last = card.last();
     let mut first = 10 + count;
@@ -307,7 +308,7 @@ fn stations(card: &mut Fields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<O
 }
 
 /// Reads PELAS: one or two springs.
-pub fn springs(card: &mut Fields<'_, '_>) -> Vec<(u64, Spot, f64)> {
+pub fn springs(card: &mut CardFields<'_, '_>) -> Vec<(u64, FilePlace, f64)> {
     let mut springs = Vec::new();
     for first in [1, 5] {
         if first == 5 && card.blank(5) {

@@ -3,32 +3,40 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use super::deck::Deck;
-use super::element::{Element, Orientation, Section as Given};
+use super::deck::BulkDeck;
+use super::element::{ElementCard, Orientation, SectionOf as Given};
 use super::grid::{self, Resolved};
 use super::lump::Stiffness;
 use super::property::Property;
 use super::support;
 use crate::PARTS;
-use crate::findings::{Finding, Findings, Spot};
-use crate::structure::{Mass, Material, Member, Point, Section, Spring, Structure};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
+use crate::structure::{
+    ImportedMass, ImportedMaterial, ImportedMember, ImportedPoint, ImportedSection, ImportedSpring,
+    ImportedStructure,
+};
 use formats::vector::{minus, parallel};
 
 /// What a deck becomes, step by step.
 struct Resolver<'d, 'f> {
-    deck: &'d Deck,
+    deck: &'d BulkDeck,
     grids: BTreeMap<u64, Resolved>,
     index: BTreeMap<u64, usize>,
     /// Index of the section of each property in use; true for that at end B.
     sections: BTreeMap<(u64, bool), usize>,
     /// Names of the materials written.
     materials: Vec<String>,
-    structure: Structure,
-    findings: &'f mut Findings,
+    structure: ImportedStructure,
+    findings: &'f mut ImportFindings,
 }
 
 /// Makes a structure of a deck; `empty` has its name and units, `asked` is the set of supports that the user chose.
-pub fn resolve(deck: &Deck, empty: Structure, asked: Option<u64>, findings: &mut Findings) -> Structure {
+pub fn resolve(
+    deck: &BulkDeck,
+    empty: ImportedStructure,
+    asked: Option<u64>,
+    findings: &mut ImportFindings,
+) -> ImportedStructure {
     let grids = grid::resolve(&deck.grids, deck.defaults, &deck.systems, findings);
     let mut resolver = Resolver {
         deck,
@@ -65,17 +73,17 @@ impl Resolver<'_, '_> {
         for id in used {
             if let Some(grid) = self.grids.get(&id) {
                 self.index.insert(id, self.structure.points.len());
-                self.structure.points.push(Point { name: format!("GRID {id}"), at: grid.at });
+                self.structure.points.push(ImportedPoint { name: format!("GRID {id}"), at: grid.at });
             }
         }
     }
 
     /// The index of a grid that exists.
-    fn point(&mut self, id: u64, at: Spot, about: &str) -> Option<usize> {
+    fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
         let index = self.index.get(&id).copied();
         // a grid that could not be read has its own error
         if index.is_none() && !self.deck.grids.contains_key(&id) {
-            self.findings.error(Finding::new(at, about, "names a grid that is not there").got(id));
+            self.findings.error(ImportFinding::new(at, about, "names a grid that is not there").got(id));
         }
         index
     }
@@ -83,7 +91,7 @@ impl Resolver<'_, '_> {
     fn members(&mut self) {
         let deck = self.deck;
         if deck.elements.is_empty() {
-            let finding = Finding::new(Spot { line: 1, column: 1, file: 0 }, "", "has no member");
+            let finding = ImportFinding::new(FilePlace { line: 1, column: 1, file: 0 }, "", "has no member");
             self.findings.error(finding.hint("members are CBAR, CBEAM, CROD and CONROD"));
         }
         for (&id, element) in &deck.elements {
@@ -93,7 +101,7 @@ impl Resolver<'_, '_> {
         }
     }
 
-    fn member(&mut self, id: u64, element: &Element) -> Option<Member> {
+    fn member(&mut self, id: u64, element: &ElementCard) -> Option<ImportedMember> {
         let about = format!("{} {id}", element.kind);
         let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
         let deck = self.deck;
@@ -101,7 +109,8 @@ impl Resolver<'_, '_> {
             Given::Own(property) => (id, property.as_ref()),
             Given::Number(number) => {
                 let Some(property) = deck.properties.get(number) else {
-                    let finding = Finding::new(element.card, about, "names a property that is not there");
+                    let finding =
+                        ImportFinding::new(element.card, about, "names a property that is not there");
                     self.findings.error(finding.got(number));
                     return None;
                 };
@@ -116,7 +125,7 @@ impl Resolver<'_, '_> {
         if !fits {
             let expected = format!("cannot have the property {} {number}", property.kind);
             let hint = "CBAR takes PBAR and PBARL, CBEAM takes PBEAM and PBEAML, CROD takes PROD";
-            self.findings.error(Finding::new(element.card, about, expected).hint(hint));
+            self.findings.error(ImportFinding::new(element.card, about, expected).hint(hint));
             return None;
         }
         let section = self.section(number, property, "", &about)?;
@@ -129,7 +138,7 @@ impl Resolver<'_, '_> {
         let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + element.offsets[end][axis]);
         let along = minus(tip(1), tip(0));
         if along == [0.0; 3] {
-            let finding = Finding::new(element.card, about, "must have a length between its ends");
+            let finding = ImportFinding::new(element.card, about, "must have a length between its ends");
             self.findings.error(finding.hint("its ends coincide, offsets included"));
             return None;
         }
@@ -138,7 +147,7 @@ impl Resolver<'_, '_> {
             Some(Orientation::Grid(grid)) => {
                 let Some(there) = self.grids.get(&grid) else {
                     if !deck.grids.contains_key(&grid) {
-                        let finding = Finding::new(
+                        let finding = ImportFinding::new(
                             element.card,
                             format!("{about}: G0"),
                             "names a grid that is not there",
@@ -153,11 +162,12 @@ impl Resolver<'_, '_> {
         };
         let bends = property.bending[0] > 0.0;
         if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
-            let finding = Finding::new(element.card, about, "its orientation must not be zero or along it");
+            let finding =
+                ImportFinding::new(element.card, about, "its orientation must not be zero or along it");
             self.findings.error(finding.hint("X1, X2, X3 or G0 give the side of the local y axis"));
             return None;
         }
-        let mut member = Member {
+        let mut member = ImportedMember {
             id,
             points: [a, b],
             truss: false,
@@ -172,7 +182,7 @@ impl Resolver<'_, '_> {
     }
 
     /// What a member without some stiffness becomes: releases that take the same out of a beam, or a truss.
-    fn kind(&mut self, member: &mut Member, property: &Property, along: [f64; 3]) {
+    fn kind(&mut self, member: &mut ImportedMember, property: &Property, along: [f64; 3]) {
         let bends = property.bending[0] > 0.0;
         let twists = property.j > 0.0;
         if !bends && !twists {
@@ -204,7 +214,8 @@ impl Resolver<'_, '_> {
         }
         let name = format!("{} {number}", property.kind);
         let Some(found) = self.deck.materials.get(&property.material) else {
-            let finding = Finding::new(property.card, format!("{name}: MID"), "must be the number of a MAT1");
+            let finding =
+                ImportFinding::new(property.card, format!("{name}: MID"), "must be the number of a MAT1");
             self.findings.error(finding.got(property.material));
             return None;
         };
@@ -213,24 +224,30 @@ impl Resolver<'_, '_> {
         let sheared = bends && property.shear.iter().any(|k| *k > 0.0);
         if found.g.is_none() && (property.j > 0.0 || sheared) {
             let expected = format!("is missing, and {name} of {about} needs it");
-            let finding = Finding::new(found.card, format!("MAT1 {}: G", property.material), expected);
+            let finding = ImportFinding::new(found.card, format!("MAT1 {}: G", property.material), expected);
             self.findings.error(finding.hint("give G, or NU"));
             return None;
         }
         if bends && property.j == 0.0 {
-            let finding =
-                Finding::new(property.card, &name, "has no J: its members turn freely about their axes");
+            let finding = ImportFinding::new(
+                property.card,
+                &name,
+                "has no J: its members turn freely about their axes",
+            );
             self.findings.warn(finding.hint("taken as a release of rx; the J written is a placeholder"));
         }
         if !bends && property.j > 0.0 {
-            let finding =
-                Finding::new(property.card, &name, "has J: its rods are taken as beams hinged at both ends");
+            let finding = ImportFinding::new(
+                property.card,
+                &name,
+                "has J: its rods are taken as beams hinged at both ends",
+            );
             self.findings.warn(finding.hint("the Iy and Iz written are placeholders"));
         }
         if property.end.is_some() {
             let expected = format!("is tapered, and solved in {PARTS} uniform parts a member");
             self.findings.warn(
-                Finding::new(property.card, &name, expected)
+                ImportFinding::new(property.card, &name, expected)
                     .hint("`parts` of the spec may say another number"),
             );
         }
@@ -242,7 +259,7 @@ impl Resolver<'_, '_> {
             material = format!("{material} and NSM of {name}");
         }
         if !density.is_finite() {
-            self.findings.error(Finding::new(
+            self.findings.error(ImportFinding::new(
                 property.card,
                 &name,
                 "must have a mass that a double can hold",
@@ -253,13 +270,13 @@ impl Resolver<'_, '_> {
             self.materials.push(material.clone());
             let density = (density > 0.0).then_some(density);
             let (e, g) = (found.e, found.g);
-            self.structure.materials.push(Material { name: material.clone(), e, g, density });
+            self.structure.materials.push(ImportedMaterial { name: material.clone(), e, g, density });
         }
         let round = property.area * property.area / (4.0 * PI);
         let bending = |i: f64| if bends { Some(i) } else { (property.j > 0.0).then_some(round) };
         let torsion = if property.j > 0.0 { Some(property.j) } else { bends.then_some(i1 + i2) };
         let shear = |k: f64| (bends && k > 0.0).then_some(k * property.area);
-        let section = Section {
+        let section = ImportedSection {
             name: format!("{name}{end}"),
             material,
             area: Some(property.area),
@@ -271,7 +288,7 @@ impl Resolver<'_, '_> {
         };
         let numbers = [section.iy, section.iz, section.j, section.shear_y, section.shear_z];
         if numbers.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
-            self.findings.error(Finding::new(
+            self.findings.error(ImportFinding::new(
                 property.card,
                 &name,
                 "must have properties that a double can hold",
@@ -293,7 +310,11 @@ impl Resolver<'_, '_> {
             for (grid, at) in &rigid.to {
                 let Some(to) = self.point(*grid, *at, &rigid.label) else { continue };
                 if from == to {
-                    self.findings.error(Finding::new(*at, &rigid.label, "must not link a grid to itself"));
+                    self.findings.error(ImportFinding::new(
+                        *at,
+                        &rigid.label,
+                        "must not link a grid to itself",
+                    ));
                 } else {
                     self.structure.links.push([from, to]);
                 }
@@ -310,7 +331,7 @@ impl Resolver<'_, '_> {
             if mass.absolute {
                 offset = minus(offset, self.structure.points[point].at);
             }
-            let entry = Mass {
+            let entry = ImportedMass {
                 point,
                 mass: mass.mass * wtmass,
                 inertia: mass.inertia.map(|value| value * wtmass),
@@ -320,7 +341,7 @@ impl Resolver<'_, '_> {
             if finite(&entry.inertia) && finite(&entry.offset) && entry.mass.is_finite() {
                 self.structure.masses.push(entry);
             } else {
-                self.findings.error(Finding::new(
+                self.findings.error(ImportFinding::new(
                     mass.at,
                     &mass.label,
                     "must be a mass that a double can hold",
@@ -341,7 +362,7 @@ impl Resolver<'_, '_> {
         }
         let sets =
             support::chosen(&deck.holds, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
-        let mut idle: BTreeMap<u64, Spot> = BTreeMap::new();
+        let mut idle: BTreeMap<u64, FilePlace> = BTreeMap::new();
         for hold in &deck.holds {
             if !sets.contains(&hold.set) {
                 idle.entry(hold.set).or_insert(hold.card);
@@ -355,7 +376,7 @@ impl Resolver<'_, '_> {
             for (grid, at) in &hold.grids {
                 if !deck.grids.contains_key(grid) {
                     self.findings
-                        .error(Finding::new(*at, &about, "names a grid that is not there").got(grid));
+                        .error(ImportFinding::new(*at, &about, "names a grid that is not there").got(grid));
                 }
                 held.extend(self.index.get(grid));
             }
@@ -367,7 +388,7 @@ impl Resolver<'_, '_> {
             }
         }
         for (set, at) in idle {
-            self.findings.warn(Finding::new(
+            self.findings.warn(ImportFinding::new(
                 at,
                 format!("SPC set {set}"),
                 "is not the one chosen, and left out",
@@ -385,14 +406,15 @@ impl Resolver<'_, '_> {
                     Some((_, k)) => *k,
                     None => {
                         let finding =
-                            Finding::new(spring.card, &spring.label, "names a PELAS that is not there");
+                            ImportFinding::new(spring.card, &spring.label, "names a PELAS that is not there");
                         self.findings.error(finding.got(number));
                         continue;
                     }
                 },
             };
             if k <= 0.0 {
-                let finding = Finding::new(spring.card, &spring.label, "must have a positive stiffness");
+                let finding =
+                    ImportFinding::new(spring.card, &spring.label, "must have a positive stiffness");
                 self.findings.error(finding.got(k));
                 continue;
             }
@@ -412,15 +434,19 @@ impl Resolver<'_, '_> {
             match free.as_slice() {
                 _ if !known => {}
                 [(point, freedom)] => {
-                    self.structure.springs.push(Spring { point: *point, freedom: *freedom, k });
+                    self.structure.springs.push(ImportedSpring { point: *point, freedom: *freedom, k });
                 }
                 [] => {
-                    let finding = Finding::new(spring.card, &spring.label, "left out: all its ends are held");
+                    let finding =
+                        ImportFinding::new(spring.card, &spring.label, "left out: all its ends are held");
                     self.findings.warn(finding);
                 }
                 _ => {
-                    let finding =
-                        Finding::new(spring.card, &spring.label, "must have one end at ground, or held");
+                    let finding = ImportFinding::new(
+                        spring.card,
+                        &spring.label,
+                        "must have one end at ground, or held",
+                    );
                     self.findings.error(finding.hint("springs between two moving grids cannot be taken"));
                 }
             }

@@ -1,8 +1,8 @@
 //! RBE2 and RBAR: rigid links.
 
 use super::field::{Number, number};
-use super::fields::Fields;
-use crate::findings::Spot;
+use super::fields::CardFields;
+use crate::findings::FilePlace;
 
 /// Links from one grid to others.
 #[derive(Clone, Debug)]
@@ -10,16 +10,16 @@ pub struct Rigid {
     /// Name and number of its card.
     pub label: String,
     /// The grid that leads.
-    pub from: (u64, Spot),
+    pub from: (u64, FilePlace),
     /// The grids that follow.
-    pub to: Vec<(u64, Spot)>,
+    pub to: Vec<(u64, FilePlace)>,
 }
 
 const WHOLE: [bool; 6] = [true; 6];
 const PARTIAL: &str = "links that leave freedoms of their ends free cannot be taken";
 
 /// Reads RBE2.
-pub fn rbe2(card: &mut Fields<'_, '_>) -> Option<Rigid> {
+pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
     card.id(1, "EID")?;
     let from = card.id(2, "GN");
     let fix = card.freedoms(3, "CM")?;
@@ -46,7 +46,7 @@ pub fn rbe2(card: &mut Fields<'_, '_>) -> Option<Rigid> {
 }
 
 /// Reads RBAR.
-pub fn rbar(card: &mut Fields<'_, '_>) -> Option<Rigid> {
+pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
     card.id(1, "EID")?;
     let a = card.id(2, "GA");
     let b = card.id(3, "GB");

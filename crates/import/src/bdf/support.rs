@@ -2,18 +2,18 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::fields::Fields;
-use crate::findings::{Finding, Findings, Spot};
+use super::fields::CardFields;
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 /// Freedoms of some grids held by a set.
 #[derive(Clone, Debug)]
-pub struct Hold {
+pub struct SupportCard {
     /// Number of the set.
     pub set: u64,
     /// Where its card is.
-    pub card: Spot,
+    pub card: FilePlace,
     /// Grids, each with the place where it is named.
-    pub grids: Vec<(u64, Spot)>,
+    pub grids: Vec<(u64, FilePlace)>,
     /// Ranges of grids: those of them that exist are meant.
     pub ranges: Vec<[u64; 2]>,
     /// Freedoms.
@@ -21,7 +21,7 @@ pub struct Hold {
 }
 
 /// Reads SPC: up to two grids.
-pub fn spc(card: &mut Fields<'_, '_>) -> Vec<Hold> {
+pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
     let mut holds = Vec::new();
     let Some(set) = card.id(1, "SID") else { return holds };
     for first in [2, 5] {
@@ -33,7 +33,7 @@ pub fn spc(card: &mut Fields<'_, '_>) -> Vec<Hold> {
         let moved = card.zero(first + 2, "D", "supports that move cannot be taken");
         if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
             let grids = vec![(grid, card.at(first))];
-            holds.push(Hold { set, card: card.card.at, grids, ranges: Vec::new(), fix });
+            holds.push(SupportCard { set, card: card.card.at, grids, ranges: Vec::new(), fix });
         }
     }
     card.end(8);
@@ -41,11 +41,11 @@ pub fn spc(card: &mut Fields<'_, '_>) -> Vec<Hold> {
 }
 
 /// Reads SPC1: a list of grids, or a range.
-pub fn spc1(card: &mut Fields<'_, '_>) -> Option<Hold> {
+pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
     let set = card.id(1, "SID")?;
     let fix = card.freedoms(2, "C")?;
     let last = card.last();
-    let mut hold = Hold { set, card: card.card.at, grids: Vec::new(), ranges: Vec::new(), fix };
+    let mut hold = SupportCard { set, card: card.card.at, grids: Vec::new(), ranges: Vec::new(), fix };
     let mut index = 3;
     while index <= last {
         if card.blank(index) {
@@ -74,7 +74,7 @@ pub fn spc1(card: &mut Fields<'_, '_>) -> Option<Hold> {
 }
 
 /// Reads SPCADD: a set of sets.
-pub fn spcadd(card: &mut Fields<'_, '_>) -> Option<(u64, Vec<u64>)> {
+pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
     let set = card.id(1, "SID")?;
     let mut parts = Vec::new();
     for index in 2..=card.last() {
@@ -90,21 +90,21 @@ pub fn spcadd(card: &mut Fields<'_, '_>) -> Option<(u64, Vec<u64>)> {
 /// `asked`: by the user; `controlled`: whether the deck has case control; `control`: what that chooses, with its place.
 /// Where neither chooses, the only one.
 pub fn chosen(
-    holds: &[Hold],
+    holds: &[SupportCard],
     adds: &BTreeMap<u64, Vec<u64>>,
     asked: Option<u64>,
     controlled: bool,
-    control: &[(u64, Spot)],
-    findings: &mut Findings,
+    control: &[(u64, FilePlace)],
+    findings: &mut ImportFindings,
 ) -> BTreeSet<u64> {
     let plain: BTreeSet<u64> = holds.iter().map(|hold| hold.set).collect();
     let known: Vec<String> = plain.iter().chain(adds.keys()).map(u64::to_string).collect();
     let list =
         if known.is_empty() { "there is none".to_owned() } else { format!("there is {}", known.join(", ")) };
     let selected: BTreeSet<u64> = control.iter().map(|(set, _)| *set).collect();
-    let first = control.first().map_or(Spot::default(), |(_, at)| *at);
+    let first = control.first().map_or(FilePlace::default(), |(_, at)| *at);
     let (set, at) = match (asked, selected.len()) {
-        (Some(set), _) => (set, Spot::default()),
+        (Some(set), _) => (set, FilePlace::default()),
         (None, 1) => (*selected.first().unwrap_or(&0), first),
         (None, 0) => {
             let tops: Vec<u64> = if adds.is_empty() {
@@ -119,28 +119,31 @@ pub fn chosen(
                         let at = holds.first().map_or(first, |hold| hold.card);
                         let told =
                             format!("set {only} is taken: case control chooses none, and there is no other");
-                        findings.warn(Finding::new(at, "SPC", told));
+                        findings.warn(ImportFinding::new(at, "SPC", told));
                     }
-                    (*only, Spot::default())
+                    (*only, FilePlace::default())
                 }
                 _ => {
                     let at = holds.first().map_or(first, |hold| hold.card);
-                    let finding =
-                        Finding::new(at, "SPC", "must be chosen: case control chooses none of several sets");
+                    let finding = ImportFinding::new(
+                        at,
+                        "SPC",
+                        "must be chosen: case control chooses none of several sets",
+                    );
                     findings.error(finding.hint(format!("add --spc N; {list}")));
                     return BTreeSet::new();
                 }
             }
         }
         (None, _) => {
-            let finding = Finding::new(first, "SPC", "must be the same in all subcases");
+            let finding = ImportFinding::new(first, "SPC", "must be the same in all subcases");
             findings.error(finding.hint(format!("choose with --spc N; {list}")));
             return BTreeSet::new();
         }
     };
     if let Some(parts) = adds.get(&set) {
         for part in parts.iter().filter(|part| !plain.contains(part)) {
-            findings.error(Finding::new(
+            findings.error(ImportFinding::new(
                 at,
                 format!("SPCADD {set}"),
                 format!("names set {part}, which is not there"),
@@ -149,7 +152,8 @@ pub fn chosen(
         return parts.iter().copied().collect();
     }
     if !plain.contains(&set) {
-        let finding = Finding::new(at, "SPC", "must be the number of a set of SPC, SPC1 or SPCADD").got(set);
+        let finding =
+            ImportFinding::new(at, "SPC", "must be the number of a set of SPC, SPC1 or SPCADD").got(set);
         findings.error(finding.hint(list));
     }
     BTreeSet::from([set])

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::text::{Record, Section, sections};
-use crate::findings::{Finding, Findings, Spot};
+use super::text::{MeshBlock, MeshRecord, sections};
+use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format msh41 -o NEW.msh";
 
@@ -19,12 +19,12 @@ pub struct Mesh {
     /// Nodes of each entity of dimension 0.
     pub points: BTreeMap<u64, Vec<u64>>,
     /// Line cells by number: curve, nodes, place.
-    pub lines: BTreeMap<u64, (u64, [u64; 2], Spot)>,
+    pub lines: BTreeMap<u64, (u64, [u64; 2], FilePlace)>,
 }
 
 impl Mesh {
     /// Reads a mesh; what is wrong is among the findings.
-    pub fn read(text: &str, findings: &mut Findings) -> Mesh {
+    pub fn read(text: &str, findings: &mut ImportFindings) -> Mesh {
         let mut mesh = Mesh::default();
         // the first line says what the others are
         if !plain_41(text, findings) {
@@ -33,7 +33,11 @@ impl Mesh {
         let mut seen = Vec::new();
         for mut section in sections(text, findings) {
             if seen.contains(&section.name) {
-                findings.error(Finding::new(section.at, format!("${}", section.name), "must stand once"));
+                findings.error(ImportFinding::new(
+                    section.at,
+                    format!("${}", section.name),
+                    "must stand once",
+                ));
                 continue;
             }
             seen.push(section.name);
@@ -44,7 +48,7 @@ impl Mesh {
                 "Nodes" => mesh.read_nodes(&mut section, findings),
                 "Elements" => mesh.read_elements(&mut section, findings),
                 "PartitionedEntities" => {
-                    let finding = Finding::new(section.at, "$PartitionedEntities", "cannot be taken");
+                    let finding = ImportFinding::new(section.at, "$PartitionedEntities", "cannot be taken");
                     findings.error(finding.hint("write the mesh without partitions"));
                     None
                 }
@@ -53,14 +57,14 @@ impl Mesh {
         }
         for needed in ["Entities", "Nodes", "Elements"] {
             if !seen.contains(&needed) && !findings.wrong() {
-                let at = Spot { file: 0, line: 1, column: 1 };
-                findings.error(Finding::new(at, format!("${needed}"), "is missing").hint(CONVERT));
+                let at = FilePlace { file: 0, line: 1, column: 1 };
+                findings.error(ImportFinding::new(at, format!("${needed}"), "is missing").hint(CONVERT));
             }
         }
         mesh
     }
 
-    fn read_names(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+    fn read_names(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
         let count = section.next(findings)?.whole(0, "number of names", findings)?;
         for _ in 0..count {
             let record = section.next(findings)?;
@@ -68,17 +72,17 @@ impl Mesh {
             let tag = record.tag(1, "physical group", findings)?;
             let name = record.line.split_once('"').and_then(|(_, rest)| rest.strip_suffix('"'));
             let Some(name) = name.filter(|name| !name.is_empty()) else {
-                findings.error(Finding::new(record.at, "name", "must stand between quotation marks"));
+                findings.error(ImportFinding::new(record.at, "name", "must stand between quotation marks"));
                 return None;
             };
             if self.names.insert((dimension, tag), name.to_owned()).is_some() {
-                findings.error(Finding::new(record.at, "physical group", "has two names").got(tag));
+                findings.error(ImportFinding::new(record.at, "physical group", "has two names").got(tag));
             }
         }
         Some(())
     }
 
-    fn read_entities(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+    fn read_entities(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
         let head = section.next(findings)?;
         let names = ["points", "curves", "surfaces", "volumes"];
         let mut counts = [0; 4];
@@ -97,14 +101,14 @@ impl Mesh {
                     list.push(record.tag(index, "physical group", findings)?);
                 }
                 if self.groups.insert((dimension, tag), list).is_some() {
-                    findings.error(Finding::new(record.at, "entity", "stands there twice").got(tag));
+                    findings.error(ImportFinding::new(record.at, "entity", "stands there twice").got(tag));
                 }
             }
         }
         Some(())
     }
 
-    fn read_nodes(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+    fn read_nodes(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
         let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
         for _ in 0..blocks {
             let head = section.next(findings)?;
@@ -123,7 +127,7 @@ impl Mesh {
                     place[axis] = record.real(axis, name, findings)?;
                 }
                 if self.nodes.insert(tag, place).is_some() {
-                    findings.error(Finding::new(at, "node", "stands there twice").got(tag));
+                    findings.error(ImportFinding::new(at, "node", "stands there twice").got(tag));
                 }
                 if dimension == 0 {
                     self.points.entry(entity).or_default().push(tag);
@@ -133,9 +137,9 @@ impl Mesh {
         Some(())
     }
 
-    fn read_elements(&mut self, section: &mut Section<'_>, findings: &mut Findings) -> Option<()> {
+    fn read_elements(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
         let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
-        let mut others: BTreeMap<u64, (Spot, u64)> = BTreeMap::new();
+        let mut others: BTreeMap<u64, (FilePlace, u64)> = BTreeMap::new();
         for _ in 0..blocks {
             let head = section.next(findings)?;
             let dimension = head.whole(0, "dimension", findings)?;
@@ -163,24 +167,24 @@ impl Mesh {
             if matches!(kind, 8 | 26..=28) {
                 let hint = "mesh with Mesh.ElementOrder = 1";
                 findings.error(
-                    Finding::new(at, about, format!("{name} cannot be taken: members have two nodes"))
+                    ImportFinding::new(at, about, format!("{name} cannot be taken: members have two nodes"))
                         .hint(hint),
                 );
             } else {
-                findings.warn(Finding::new(at, about, format!("{name} are left out, {count} of them")));
+                findings.warn(ImportFinding::new(at, about, format!("{name} are left out, {count} of them")));
             }
         }
         Some(())
     }
 
-    fn line(&mut self, curve: u64, record: &Record<'_>, findings: &mut Findings) -> Option<()> {
+    fn line(&mut self, curve: u64, record: &MeshRecord<'_>, findings: &mut ImportFindings) -> Option<()> {
         let tag = record.whole(0, "element", findings)?;
         let nodes = [record.whole(1, "node", findings)?, record.whole(2, "node", findings)?];
         if nodes[0] == nodes[1] {
-            findings.error(Finding::new(record.at, format!("element {tag}"), "must join two nodes"));
+            findings.error(ImportFinding::new(record.at, format!("element {tag}"), "must join two nodes"));
         }
         if self.lines.insert(tag, (curve, nodes, record.at)).is_some() {
-            findings.error(Finding::new(record.at, "element", "stands there twice").got(tag));
+            findings.error(ImportFinding::new(record.at, "element", "stands there twice").got(tag));
         }
         Some(())
     }
@@ -204,20 +208,21 @@ const fn kind_name(kind: u64) -> &'static str {
 }
 
 /// Whether the file says that it is text in format 4.1.
-fn plain_41(text: &str, findings: &mut Findings) -> bool {
+fn plain_41(text: &str, findings: &mut ImportFindings) -> bool {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let at = |line: usize| Spot { file: 0, line: line + 1, column: 1 };
+    let at = |line: usize| FilePlace { file: 0, line: line + 1, column: 1 };
     let first = lines.next();
     if first.is_none_or(|(_, line)| line.trim() != "$MeshFormat") {
         let line = first.map_or(0, |(line, _)| line);
-        findings
-            .error(Finding::new(at(line), "", "must begin with $MeshFormat").hint("is this a gmsh mesh?"));
+        findings.error(
+            ImportFinding::new(at(line), "", "must begin with $MeshFormat").hint("is this a gmsh mesh?"),
+        );
         return false;
     }
     let (line, format) = lines.next().unwrap_or((1, ""));
     let words: Vec<&str> = format.split_ascii_whitespace().collect();
     let refuse = |expected: &str, found: &str| {
-        Finding::new(at(line), "$MeshFormat", expected).got(found).hint(CONVERT)
+        ImportFinding::new(at(line), "$MeshFormat", expected).got(found).hint(CONVERT)
     };
     match words.as_slice() {
         ["4.1", "0", ..] => true,

@@ -11,8 +11,8 @@ use std::collections::BTreeMap;
 
 pub use sections::{FORMAT, Sections};
 
-use super::findings::{Finding, Findings};
-use super::structure::{Member, Point, Structure};
+use super::findings::{ImportFinding, ImportFindings};
+use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use mesh::Mesh;
 
@@ -23,9 +23,9 @@ pub fn read(
     text: &str,
     factor: f64,
     groups: &Sections,
-    empty: Structure,
-    findings: &mut Findings,
-) -> Structure {
+    empty: ImportedStructure,
+    findings: &mut ImportFindings,
+) -> ImportedStructure {
     let mesh = Mesh::read(text, findings);
     let mut structure = empty;
     if findings.wrong() {
@@ -41,7 +41,7 @@ pub fn read(
         let [a, b] = nodes.map(|node| index.get(&node).copied());
         let (Some(a), Some(b)) = (a, b) else {
             let missing = nodes.into_iter().find(|node| !index.contains_key(node)).unwrap_or_default();
-            findings.error(Finding::new(at, about, "names a node that is not there").got(missing));
+            findings.error(ImportFinding::new(at, about, "names a node that is not there").got(missing));
             continue;
         };
         let names: Vec<&str> = names(&mesh, 1, curve);
@@ -57,7 +57,7 @@ pub fn read(
                     list(&names)
                 );
                 let hint = format!("in the sections file: {}", known.join(", "));
-                findings.error(Finding::new(at, format!("curve {curve}"), expected).hint(hint));
+                findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
             }
             continue;
         };
@@ -65,7 +65,7 @@ pub fn read(
         let along = minus(structure.points[b].at, structure.points[a].at);
         let orientation = group.orientation.or(structure.up);
         if along == [0.0; 3] {
-            findings.error(Finding::new(at, about, "must have a length"));
+            findings.error(ImportFinding::new(at, about, "must have a length"));
             continue;
         }
         if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
@@ -73,7 +73,7 @@ pub fn read(
                 told.push(curve);
                 let hint = format!("give \"{name}\" an `orientation` in `members` of the sections file");
                 findings.error(
-                    Finding::new(at, about, "must have an orientation that is not along it").hint(hint),
+                    ImportFinding::new(at, about, "must have an orientation that is not along it").hint(hint),
                 );
             }
             continue;
@@ -81,7 +81,7 @@ pub fn read(
         for name in names {
             sets.entry(name).or_default().push(structure.members.len());
         }
-        structure.members.push(Member {
+        structure.members.push(ImportedMember {
             id,
             points: [a, b],
             truss: group.truss,
@@ -93,9 +93,9 @@ pub fn read(
         });
     }
     if structure.members.is_empty() && !findings.wrong() {
-        let at = super::findings::Spot { file: 0, line: 1, column: 1 };
+        let at = super::findings::FilePlace { file: 0, line: 1, column: 1 };
         let hint = "mesh the curves (gmsh -1), and put them in physical groups";
-        findings.error(Finding::new(at, "", "has no line cells").hint(hint));
+        findings.error(ImportFinding::new(at, "", "has no line cells").hint(hint));
     }
     structure.cell_sets = sets.into_iter().map(|(name, set)| (name.to_owned(), set)).collect();
     structure
@@ -116,7 +116,7 @@ fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
 }
 
 /// Nodes of line cells and of physical points, in the order of their numbers, with sets for the latter.
-fn points(mesh: &Mesh, factor: f64, structure: &mut Structure) -> BTreeMap<u64, usize> {
+fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeMap<u64, usize> {
     let mut named: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
     for (entity, nodes) in &mesh.points {
         for name in names(mesh, 0, *entity) {
@@ -131,7 +131,7 @@ fn points(mesh: &Mesh, factor: f64, structure: &mut Structure) -> BTreeMap<u64, 
     for node in used {
         if let Some(at) = mesh.nodes.get(&node) {
             index.insert(node, structure.points.len());
-            structure.points.push(Point { name: String::new(), at: at.map(|part| part * factor) });
+            structure.points.push(ImportedPoint { name: String::new(), at: at.map(|part| part * factor) });
         }
     }
     for (name, mut nodes) in named {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Deserialize;
 
-use crate::structure::{Material, Section};
+use crate::structure::{ImportedMaterial, ImportedSection};
 use formats::check::Check;
 use formats::diagnostic::Diagnostic;
 use formats::entries::Entries;
@@ -70,7 +70,7 @@ struct RawMember {
 
 /// What the members of a physical group are.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Group {
+pub struct SectionGroup {
     /// Index of the section.
     pub section: usize,
     /// Whether only their change of length counts.
@@ -87,11 +87,11 @@ pub struct Sections {
     /// Its units.
     pub units: Units,
     /// Materials in its order.
-    pub materials: Vec<Material>,
+    pub materials: Vec<ImportedMaterial>,
     /// Sections in its order.
-    pub sections: Vec<Section>,
+    pub sections: Vec<ImportedSection>,
     /// Groups by name: those of `members`, and one for each section that is not among them.
-    pub groups: BTreeMap<String, Group>,
+    pub groups: BTreeMap<String, SectionGroup>,
 }
 
 const FREEDOMS: [(&str, usize); 6] = [("ux", 0), ("uy", 1), ("uz", 2), ("rx", 3), ("ry", 4), ("rz", 5)];
@@ -122,9 +122,9 @@ impl Sections {
     }
 }
 
-fn materials(raw: &Raw, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Material> {
+fn materials(raw: &Raw, root: &Place<'_>, check: &mut Check<'_>) -> Vec<ImportedMaterial> {
     let list = root.key("materials");
-    let mut materials: Vec<Material> = Vec::new();
+    let mut materials: Vec<ImportedMaterial> = Vec::new();
     for (index, raw) in check.faults.need(&raw.materials, root, "materials").into_iter().flatten().enumerate()
     {
         let at = list.index(index);
@@ -136,14 +136,19 @@ fn materials(raw: &Raw, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Material
         let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
         let density =
             raw.density.map(|value| check.not_negative(value, &at.key("density"), Dimension::DENSITY, ""));
-        materials.push(Material { name, e, g, density });
+        materials.push(ImportedMaterial { name, e, g, density });
     }
     materials
 }
 
-fn sections(raw: &Raw, materials: &[Material], root: &Place<'_>, check: &mut Check<'_>) -> Vec<Section> {
+fn sections(
+    raw: &Raw,
+    materials: &[ImportedMaterial],
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<ImportedSection> {
     let list = root.key("sections");
-    let mut sections: Vec<Section> = Vec::new();
+    let mut sections: Vec<ImportedSection> = Vec::new();
     for (index, raw) in check.faults.need(&raw.sections, root, "sections").into_iter().flatten().enumerate() {
         let at = list.index(index);
         let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
@@ -157,7 +162,7 @@ fn sections(raw: &Raw, materials: &[Material], root: &Place<'_>, check: &mut Che
         }
         let mut number =
             |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
-        sections.push(Section {
+        sections.push(ImportedSection {
             name,
             material,
             area: number(raw.area, "A", Dimension::AREA),
@@ -181,17 +186,17 @@ fn unknown(faults: &mut Faults, at: &Place<'_>, what: &str, name: &str, known: &
 
 fn groups(
     raw: &Raw,
-    materials: &[Material],
-    sections: &[Section],
+    materials: &[ImportedMaterial],
+    sections: &[ImportedSection],
     root: &Place<'_>,
     faults: &mut Faults,
-) -> BTreeMap<String, Group> {
+) -> BTreeMap<String, SectionGroup> {
     let mut groups = BTreeMap::new();
     let place = root.key("members");
     let list = root.key("sections");
     for (name, raw) in raw.members.iter().flat_map(|members| &members.0) {
         let at = place.key(name);
-        let mut group = Group { orientation: raw.orientation, ..Group::default() };
+        let mut group = SectionGroup { orientation: raw.orientation, ..SectionGroup::default() };
         let wanted = raw.section.as_ref().unwrap_or(name);
         let position = sections.iter().position(|section| section.name == *wanted);
         let kinds = [("beam", false), ("truss", true)];
@@ -227,10 +232,10 @@ fn groups(
     for (index, section) in sections.iter().enumerate() {
         // a section that `members` does not speak of is for the group of its own name
         if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
-            groups.insert(section.name.clone(), Group { section: index, ..Group::default() });
+            groups.insert(section.name.clone(), SectionGroup { section: index, ..SectionGroup::default() });
         }
         // what a beam needs; a truss has its length alone
-        let used: Vec<&Group> = groups.values().filter(|group| group.section == index).collect();
+        let used: Vec<&SectionGroup> = groups.values().filter(|group| group.section == index).collect();
         let beams = used.iter().any(|group| !group.truss);
         let at = list.index(index);
         for (key, value) in [("A", section.area), ("Iy", section.iy), ("Iz", section.iz), ("J", section.j)] {

@@ -14,7 +14,7 @@ use formats::motion::Cast;
 use formats::scene::Scene;
 use formats::units::Dimension;
 use foundations::Error;
-use results::layout::Layout;
+use results::layout::ScenePositions;
 
 /// Most frames.
 const FRAMES: usize = 400;
@@ -25,7 +25,7 @@ const BAR: f64 = 48.0;
 struct View<'v> {
     scene: &'v Scene,
     cast: &'v Cast,
-    layout: Layout<'v>,
+    layout: ScenePositions<'v>,
     run: &'v Labelled<'v>,
     /// Rows of the record that are frames.
     rows: Vec<usize>,
@@ -95,7 +95,7 @@ pub fn plate(run: &Labelled, cast: &Cast) -> Result<Option<Plate>, Error> {
     }
     let every = time.len().div_ceil(FRAMES);
     let rows: Vec<usize> = (0..time.len()).step_by(every).collect();
-    let layout = Layout::new(scene)?;
+    let layout = ScenePositions::new(scene)?;
     let largest = |row: &usize| {
         let grounded = cast.wheels.iter().filter(|wheel| layout.axle(wheel.rail).is_none());
         let forces = grounded.map(|wheel| run.record.part(&wheel.name, "vertical")[*row]);

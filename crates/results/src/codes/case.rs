@@ -3,9 +3,9 @@
 use practice::skew::Pairs;
 use practice::{aist, buffer, cmaa, drive, factor, osha, skew};
 
-use super::found::Found;
-use super::measures::{Measures, to_si};
-use super::rows::Value;
+use super::found::MeasuredCrane;
+use super::measures::{CraneData, to_si};
+use super::value::CodeValue;
 use formats::scene::{Practice, Scene};
 use formats::units::Dimension;
 
@@ -17,28 +17,28 @@ const OSHA: &str = "29 CFR 1910.179";
 
 /// Values of one row; what a formula refuses is left out.
 #[derive(Default)]
-pub(super) struct Values(pub Vec<Value>);
+pub(super) struct CodeValues(pub Vec<CodeValue>);
 
-impl Values {
+impl CodeValues {
     fn add(
         mut self,
         code: &'static str,
         clause: &'static str,
         formula: impl Into<String>,
         value: Option<f64>,
-    ) -> Values {
+    ) -> CodeValues {
         if let Some(value) = value.filter(|value| value.is_finite()) {
-            self.0.push(Value { code, clause, formula: formula.into(), value });
+            self.0.push(CodeValue { code, clause, formula: formula.into(), value });
         }
         self
     }
 }
 
 /// All that the formulas read.
-pub(super) struct Case<'c> {
+pub(super) struct CodeCase<'c> {
     pub practice: &'c Practice,
-    pub measures: &'c Measures,
-    pub found: &'c Found,
+    pub measures: &'c CraneData,
+    pub found: &'c MeasuredCrane,
     /// Gravity of the scene.
     pub gravity: f64,
     /// Metres a unit of length.
@@ -51,15 +51,20 @@ pub(super) struct Case<'c> {
     pub full: Option<practice::WheelLoads>,
 }
 
-impl<'c> Case<'c> {
-    pub fn new(scene: &Scene, practice: &'c Practice, measures: &'c Measures, found: &'c Found) -> Case<'c> {
+impl<'c> CodeCase<'c> {
+    pub fn new(
+        scene: &Scene,
+        practice: &'c Practice,
+        measures: &'c CraneData,
+        found: &'c MeasuredCrane,
+    ) -> CodeCase<'c> {
         let metre = to_si(scene.units).factor(Dimension::LENGTH);
         let phi2 = practice
             .hoisting
             .zip(measures.speeds[2])
             .and_then(|(class, speed)| factor::phi2(class, speed * metre).ok());
         let released = |action: &sim::Action| matches!(action, sim::Action::Release { .. });
-        Case {
+        CodeCase {
             practice,
             measures,
             found,
@@ -78,12 +83,12 @@ impl<'c> Case<'c> {
         (full > 0.0).then(|| raised / full)
     }
 
-    pub fn vertical(&self) -> Values {
+    pub fn vertical(&self) -> CodeValues {
         let hlf = self.measures.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
         let dlf = self.measures.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
         let hoisted = hlf.unwrap_or(0.15);
         let moved = dlf.unwrap_or(1.1);
-        Values::default()
+        CodeValues::default()
             .add(EN, "Table 2.4", "phi4, travelling on rails within tolerance", Some(factor::PHI4))
             .add(
                 EN,
@@ -109,10 +114,10 @@ impl<'c> Case<'c> {
             )
     }
 
-    pub fn lifting(&self) -> Values {
+    pub fn lifting(&self) -> CodeValues {
         let speed = self.measures.speeds[2];
         let hlf = speed.and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
-        Values::default().add(EN, "Tables 2.4, 2.5", "phi2 = phi2,min + beta2 v", self.phi2).add(
+        CodeValues::default().add(EN, "Tables 2.4, 2.5", "phi2 = phi2,min + beta2 v", self.phi2).add(
             CMAA,
             "3.3.2.1.4.2 (2010)",
             "1 + HLF, 0.5 % per ft/min within 15 and 50 %",
@@ -120,18 +125,23 @@ impl<'c> Case<'c> {
         )
     }
 
-    pub fn release(&self) -> Values {
+    pub fn release(&self) -> CodeValues {
         let phi3 = factor::phi3(1.0, 1.0, self.practice.release).ok();
-        Values::default().add(EN, "Table 2.4", "phi3 = 1 - (dm/m)(1 + beta3), all of the load let go", phi3)
+        CodeValues::default().add(
+            EN,
+            "Table 2.4",
+            "phi3 = 1 - (dm/m)(1 + beta3), all of the load let go",
+            phi3,
+        )
     }
 
-    pub fn lateral(&self) -> Values {
+    pub fn lateral(&self) -> CodeValues {
         let crane = &self.measures.crane;
         let moving = crane.lifted + crane.trolley;
         let thrust = aist::side_thrust(self.practice.kind, crane).ok();
         let shares = self.practice.kind.shares();
         let inertia = self.found.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
-        Values::default()
+        CodeValues::default()
             .add(
                 AIST,
                 "3.7.2, Table 3.2 (2021)",
@@ -155,13 +165,13 @@ impl<'c> Case<'c> {
             )
     }
 
-    pub fn flange(&self) -> Values {
+    pub fn flange(&self) -> CodeValues {
         let (span, base) = (self.measures.crane.span, self.measures.base());
         let near = self.full.map(|full| full.near);
         let share = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
         let (guide, angle) = self.skewing().unzip();
         let told = angle.map_or_else(String::new, |angle| format!(" at {angle:.4} rad"));
-        Values::default()
+        CodeValues::default()
             .add(EN, "2.7.4, Tables 2.7 to 2.9", format!("guide force S = f lambda_S sum Q{told}"), guide)
             .add(EN, "2.7.2", "H_T,1 = phi5 xi2 M/a of the drives", self.drives().map(|drives| drives.heavy))
             .add(
@@ -214,11 +224,11 @@ impl<'c> Case<'c> {
         drive::traction(&travel).ok()
     }
 
-    pub fn longitudinal(&self) -> Values {
+    pub fn longitudinal(&self) -> CodeValues {
         let most = self.measures.driven[0].max(self.measures.driven[1]);
         let loads = self.full.map(|full| vec![full.near; most]);
         let phi5 = factor::phi5(self.practice.drives)[1];
-        Values::default()
+        CodeValues::default()
             .add(
                 EN,
                 "2.7.2, 2.7.3, Table 2.6",
@@ -233,7 +243,7 @@ impl<'c> Case<'c> {
             )
     }
 
-    pub fn buffer(&self) -> Values {
+    pub fn buffer(&self) -> CodeValues {
         let crane = &self.measures.crane;
         let mass = (crane.bridge + crane.trolley) / self.gravity;
         let force = |factor: f64, speed: Option<f64>| {
@@ -241,7 +251,7 @@ impl<'c> Case<'c> {
         };
         let rated = |share: f64| self.measures.speeds[0].map(|speed| share * speed);
         let phi7 = buffer::phi7(0.5).ok();
-        Values::default()
+        CodeValues::default()
             .add(
                 EN,
                 "2.11.1, Table 2.10",
@@ -269,7 +279,7 @@ impl<'c> Case<'c> {
     }
 
     /// Two cranes that run into each other.
-    pub fn collision(&self) -> Values {
+    pub fn collision(&self) -> CodeValues {
         let energy = self.measures.between.zip(self.measures.speeds[0]).and_then(|(other, speed)| {
             let crane = &self.measures.crane;
             let own = (crane.bridge + crane.trolley) / self.gravity;
@@ -278,13 +288,13 @@ impl<'c> Case<'c> {
         let force = energy.zip(self.measures.between);
         let force = force.map(|(energy, other)| (2.0 * energy * other.stiffness).sqrt());
         let formula = "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
-        Values::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
+        CodeValues::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
     }
 
-    pub fn way(&self, body: usize) -> Values {
+    pub fn way(&self, body: usize) -> CodeValues {
         let limit =
             self.found.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
-        Values::default().add(
+        CodeValues::default().add(
             OSHA,
             "(f)(4)(vii)",
             "at most the way of 6 s at the speed when they come on",

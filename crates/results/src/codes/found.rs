@@ -2,8 +2,8 @@
 
 use practice::Mark;
 
-use super::measures::Measures;
-use crate::record::Record;
+use super::measures::CraneData;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::{Practice, Scene, end_stops, seat};
 
@@ -19,7 +19,7 @@ const TRACTION: usize = 2;
 
 /// What a run has; `None`: the scene has no such thing, or it is zero throughout.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Found {
+pub struct MeasuredCrane {
     /// Vertical force of a rail over what statics puts on it with the trolley where it is: the largest.
     pub rail: Option<Mark>,
     /// The same of a wheel.
@@ -44,16 +44,16 @@ pub struct Found {
     pub brakes: [Option<(Mark, f64)>; 2],
 }
 
-impl Found {
+impl MeasuredCrane {
     /// From the columns of a run.
     #[must_use]
     pub fn new(
         scene: &Scene,
         practice: &Practice,
         cast: &Cast,
-        measures: &Measures,
-        record: &Record,
-    ) -> Found {
+        measures: &CraneData,
+        record: &NamedColumns,
+    ) -> MeasuredCrane {
         let time = record.values("time");
         let forces: Vec<[&[f64]; 3]> = cast
             .wheels
@@ -68,7 +68,7 @@ impl Found {
             .filter(|(_, wheel)| practice.trolley == Some(seat(scene, wheel.body).0))
             .map(|(w, _)| w)
             .collect();
-        let mut found = Found::default();
+        let mut found = MeasuredCrane::default();
         let places = practice.trolley.map(|trolley| record.part(&scene.bodies[trolley].name, "x"));
         for (row, &t) in time.iter().enumerate() {
             let x = places.and_then(|places| places.get(row));
@@ -113,7 +113,7 @@ impl Found {
     }
 
     /// Forces of the end stops of the crane's rails, and the speed at which they are met.
-    fn stops(&mut self, scene: &Scene, practice: &Practice, record: &Record) {
+    fn stops(&mut self, scene: &Scene, practice: &Practice, record: &NamedColumns) {
         let stops = end_stops(scene, practice);
         let forces: Vec<&[f64]> = stops.map(|stop| record.part(&stop.name, "force")).collect();
         let speed = record.part(&scene.bodies[practice.crane].name, "speed");
@@ -135,7 +135,7 @@ fn raise(mark: &mut Option<Mark>, value: f64, time: f64) {
 }
 
 /// Largest change of speed over half a second, by time.
-fn acceleration(record: &Record, body: &str) -> Option<f64> {
+fn acceleration(record: &NamedColumns, body: &str) -> Option<f64> {
     let (time, speed) = (record.values("time"), record.part(body, "speed"));
     let mut from = 0;
     let mut most = 0.0_f64;
@@ -152,7 +152,7 @@ fn acceleration(record: &Record, body: &str) -> Option<f64> {
 }
 
 /// Way of a body from where its brakes come on to a stand, when it stands, and the speed at first.
-fn brakes(record: &Record, body: &str) -> Option<(Mark, f64)> {
+fn brakes(record: &NamedColumns, body: &str) -> Option<(Mark, f64)> {
     let [x, speed, brake] = ["x", "speed", "brake"].map(|part| record.part(body, part));
     let on = brake.iter().position(|force| *force != 0.0)?.saturating_sub(1);
     let first = speed.get(on)?.abs();

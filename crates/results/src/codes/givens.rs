@@ -2,24 +2,24 @@
 
 use practice::{aist, buffer, cmaa, factor};
 
-use super::case::{AIST, CMAA, Case, EN};
-use super::rows::Value;
+use super::case::{AIST, CMAA, CodeCase, EN};
+use super::value::CodeValue;
 use formats::units::Dimension;
 
 /// A factor or a wheel load that a code has for the crane, whatever the run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Given {
+pub struct CodeFactor {
     /// Its name in summaries.
     pub name: &'static str,
     /// Its dimension.
     pub dimension: Dimension,
     /// Code, clause, formula and value.
-    pub value: Value,
+    pub value: CodeValue,
 }
 
 /// Factors of the codes, and loads of one wheel by them.
 #[must_use]
-pub(super) fn givens(case: &Case) -> Vec<Given> {
+pub(super) fn givens(case: &CodeCase) -> Vec<CodeFactor> {
     let (practice, measures) = (case.practice, case.measures);
     let si = |speed: Option<f64>| speed.map(|speed| speed * case.metre);
     let phi5 = factor::phi5(practice.drives);
@@ -95,7 +95,11 @@ pub(super) fn givens(case: &Case) -> Vec<Given> {
     ];
     let kept = list.into_iter().filter_map(|(name, dimension, code, clause, formula, value)| {
         let value = value.filter(|value| value.is_finite())?;
-        Some(Given { name, dimension, value: Value { code, clause, formula: formula.to_owned(), value } })
+        Some(CodeFactor {
+            name,
+            dimension,
+            value: CodeValue { code, clause, formula: formula.to_owned(), value },
+        })
     });
     kept.collect()
 }

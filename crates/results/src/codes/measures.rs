@@ -2,8 +2,8 @@
 
 use sim::Action;
 
-use crate::layout::Layout;
-use crate::record::Record;
+use crate::layout::ScenePositions;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::{Along, Practice, Scene, across, end_stops, seat};
 use formats::units::{Dimension, Scale, Units};
@@ -11,7 +11,7 @@ use foundations::Error;
 
 /// A crane on two rails, in the units of its scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Measures {
+pub struct CraneData {
     /// Weights and span, the trolley at its nearest to a rail.
     pub crane: practice::Crane,
     /// Whether that place is the run's, not given.
@@ -59,13 +59,18 @@ pub(super) fn to_si(units: Units) -> Scale {
     Scale { from: units, to: Units::SI }
 }
 
-impl Measures {
+impl CraneData {
     /// Of the crane that `practice` names.
     ///
     /// # Errors
     /// A spec that no model can be made of.
-    pub fn new(scene: &Scene, practice: &Practice, cast: &Cast, record: &Record) -> Result<Measures, Error> {
-        let layout = Layout::new(scene)?;
+    pub fn new(
+        scene: &Scene,
+        practice: &Practice,
+        cast: &Cast,
+        record: &NamedColumns,
+    ) -> Result<CraneData, Error> {
+        let layout = ScenePositions::new(scene)?;
         let g = scene.gravity;
         let all: Vec<(usize, [f64; 3])> = (0..scene.bodies.len()).map(|body| seat(scene, body)).collect();
         let mut fixed: Vec<[f64; 2]> = scene
@@ -128,7 +133,7 @@ impl Measures {
             approach: practice.approach.or(nearest).unwrap_or(0.5 * span).min(span),
             wheels: u32::try_from(wheels[0].len().max(wheels[1].len())).unwrap_or(u32::MAX),
         };
-        Ok(Measures {
+        Ok(CraneData {
             crane,
             approach_is_found: practice.approach.is_none() && nearest.is_some(),
             across,
@@ -166,7 +171,7 @@ impl Measures {
 }
 
 /// The first buffer between the crane and another body.
-fn between(scene: &Scene, practice: &Practice, layout: &Layout) -> Option<Between> {
+fn between(scene: &Scene, practice: &Practice, layout: &ScenePositions) -> Option<Between> {
     let met = scene.stops.iter().enumerate().find_map(|(index, stop)| {
         let meeting = stop.meetings.first()?;
         let pair = [stop.against?, meeting.body];
@@ -205,7 +210,7 @@ fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
     out
 }
 
-impl Measures {
+impl CraneData {
     /// Names and values for a summary or a report.
     #[must_use]
     pub fn list(&self) -> Vec<(&'static str, f64, Dimension)> {

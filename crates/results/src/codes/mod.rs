@@ -5,45 +5,47 @@ mod found;
 mod givens;
 mod measures;
 mod rows;
+mod value;
 
-pub use found::Found;
-pub use givens::Given;
-pub use measures::Measures;
-pub use rows::{Row, Value};
+pub use found::MeasuredCrane;
+pub use givens::CodeFactor;
+pub use measures::CraneData;
+pub use rows::CodeComparison;
+pub use value::CodeValue;
 
 use serde_json::{Map, json};
 
-use self::case::Case;
+use self::case::CodeCase;
 use self::givens::givens;
 use self::rows::rows;
-use crate::record::Record;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::Scene;
 use foundations::Error;
 
 /// A run beside the codes.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Codes {
+pub struct CodeCheck {
     /// The crane as they see it.
-    pub measures: Measures,
+    pub measures: CraneData,
     /// Factors of the codes, and wheel loads by them.
-    pub givens: Vec<Given>,
+    pub factors: Vec<CodeFactor>,
     /// Quantity by quantity.
-    pub rows: Vec<Row>,
+    pub rows: Vec<CodeComparison>,
 }
 
-impl Codes {
+impl CodeCheck {
     /// Of a run of a scene with the member `practice`.
     ///
     /// # Errors
     /// A spec that no model can be made of.
-    pub fn new(scene: &Scene, cast: &Cast, record: &Record) -> Result<Option<Codes>, Error> {
+    pub fn new(scene: &Scene, cast: &Cast, record: &NamedColumns) -> Result<Option<CodeCheck>, Error> {
         let Some(practice) = &scene.practice else { return Ok(None) };
-        let measures = Measures::new(scene, practice, cast, record)?;
-        let found = Found::new(scene, practice, cast, &measures, record);
-        let case = Case::new(scene, practice, &measures, &found);
+        let measures = CraneData::new(scene, practice, cast, record)?;
+        let found = MeasuredCrane::new(scene, practice, cast, &measures, record);
+        let case = CodeCase::new(scene, practice, &measures, &found);
         let (rows, givens) = (rows(&case), givens(&case));
-        Ok(Some(Codes { measures, givens, rows }))
+        Ok(Some(CodeCheck { measures, factors: givens, rows }))
     }
 
     /// As the member `practice` of a run's summary.
@@ -57,7 +59,7 @@ impl Codes {
             .collect();
         let rows: Map<_, _> = self.rows.iter().map(|row| (row.name.to_owned(), row.json())).collect();
         let givens: Map<_, _> =
-            self.givens.iter().map(|given| (given.name.to_owned(), given.value.json())).collect();
+            self.factors.iter().map(|given| (given.name.to_owned(), given.value.json())).collect();
         json!({ "factors": givens, "crane": crane, "approach_from_run": self.measures.approach_is_found, "values": rows })
     }
 }

@@ -3,31 +3,13 @@
 use practice::Mark;
 use serde_json::json;
 
-use super::case::Case;
+use super::case::CodeCase;
+use super::value::CodeValue;
 use formats::units::Dimension;
-
-/// A value of a code.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Value {
-    /// The code.
-    pub code: &'static str,
-    /// Where in it.
-    pub clause: &'static str,
-    /// How it comes about.
-    pub formula: String,
-    /// The value.
-    pub value: f64,
-}
-
-impl Value {
-    pub(super) fn json(&self) -> serde_json::Value {
-        json!({ "code": self.code, "clause": self.clause, "formula": self.formula, "value": self.value + 0.0 })
-    }
-}
 
 /// One quantity.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub struct CodeComparison {
     /// Its name in summaries.
     pub name: &'static str,
     /// In words.
@@ -37,14 +19,14 @@ pub struct Row {
     /// What the run has.
     pub found: Mark,
     /// What codes have.
-    pub values: Vec<Value>,
+    pub values: Vec<CodeValue>,
 }
 
-impl Row {
+impl CodeComparison {
     /// As a member of `values`.
     #[must_use]
     pub fn json(&self) -> serde_json::Value {
-        let values = self.values.iter().map(Value::json);
+        let values = self.values.iter().map(CodeValue::json);
         json!({
             "what": self.what,
             "found": { "value": self.found.value + 0.0, "time": self.found.time },
@@ -55,7 +37,7 @@ impl Row {
 
 /// All quantities that the run has.
 #[must_use]
-pub(super) fn rows(case: &Case) -> Vec<Row> {
+pub(super) fn rows(case: &CodeCase) -> Vec<CodeComparison> {
     let found = case.found;
     let list = [
         (
@@ -119,7 +101,7 @@ pub(super) fn rows(case: &Case) -> Vec<Row> {
         ),
     ];
     let kept = list.into_iter().filter_map(|(name, what, dimension, found, values)| {
-        Some(Row { name, what, dimension, found: found?, values: values.0 })
+        Some(CodeComparison { name, what, dimension, found: found?, values: values.0 })
     });
     kept.collect()
 }

@@ -5,7 +5,7 @@ use practice::{Cycle, Damage, Strength, aisc, rainflow};
 use serde_json::{Map, Value, json};
 
 use crate::Error;
-use crate::record::{Record, bytes};
+use crate::record::{NamedColumns, bytes};
 use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
@@ -19,7 +19,7 @@ enum Resistance {
 
 /// One stress point of one run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Verdict {
+pub struct FatigueResult {
     /// Name of the stress column.
     pub column: String,
     /// Its detail category.
@@ -84,7 +84,7 @@ impl Resistance {
 ///
 /// # Errors
 /// A history that cannot be counted.
-pub fn verdicts(scene: &Scene, record: &Record) -> Result<Vec<Verdict>, Error> {
+pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<FatigueResult>, Error> {
     let mut all = Vec::new();
     for structure in &scene.structures {
         let Origin::Spec { spec, .. } = &structure.origin else { continue };
@@ -106,7 +106,7 @@ fn verdict(
     column: String,
     detail: Detail,
     values: &[f64],
-) -> Result<Verdict, practice::Error> {
+) -> Result<FatigueResult, practice::Error> {
     let fatigue = &scene.output.fatigue;
     let resistance = Resistance::new(detail, fatigue, scene.units)?;
     let cycles = rainflow(values, fatigue.history)?;
@@ -116,7 +116,7 @@ fn verdict(
         .collect::<Result<Vec<f64>, practice::Error>>()?;
     let damage = resistance.miner(&cycles)?;
     let [reference, limit] = resistance.ranges();
-    Ok(Verdict {
+    Ok(FatigueResult {
         column,
         detail,
         cycles,
@@ -129,7 +129,7 @@ fn verdict(
     })
 }
 
-impl Verdict {
+impl FatigueResult {
     /// As a member of `fatigue`.
     #[must_use]
     pub fn json(&self) -> Value {
@@ -157,7 +157,7 @@ impl Verdict {
 
 /// The member `fatigue` of a run's summary; `None`: it has no stress points.
 #[must_use]
-pub fn json(verdicts: &[Verdict]) -> Option<Value> {
+pub fn json(verdicts: &[FatigueResult]) -> Option<Value> {
     let all: Map<_, _> = verdicts.iter().map(|verdict| (verdict.column.clone(), verdict.json())).collect();
     (!all.is_empty()).then_some(Value::Object(all))
 }
@@ -166,7 +166,7 @@ pub fn json(verdicts: &[Verdict]) -> Option<Value> {
 ///
 /// # Errors
 /// None in practice: memory takes every byte.
-pub fn csv(verdicts: &[Verdict], record: &Record) -> Result<Option<Vec<u8>>, csv::Error> {
+pub fn csv(verdicts: &[FatigueResult], record: &NamedColumns) -> Result<Option<Vec<u8>>, csv::Error> {
     if verdicts.is_empty() {
         return Ok(None);
     }

@@ -4,11 +4,11 @@ use fea::{Component, Effect, Frame, Model};
 use nalgebra::Vector3;
 use sim::Channel;
 
-use super::line::{Lines, Part};
-use super::loaded::{Loaded, spread};
+use super::line::{ColumnInfluence, Part};
+use super::loaded::{LoadedStructure, spread};
 use formats::scene::columns::{Column, Kind};
 use formats::units::Dimension;
-use foundations::Solved;
+use foundations::Solution;
 
 /// Sections along a rail, about.
 const SECTIONS: usize = 192;
@@ -32,8 +32,8 @@ pub struct Bending {
 ///
 /// # Errors
 /// What the frame refuses.
-pub(super) fn of(loaded: &Loaded<'_>, solved: &Solved) -> Result<Vec<Bending>, fea::Error> {
-    let Loaded { scene, s, history, laid, .. } = *loaded;
+pub(super) fn of(loaded: &LoadedStructure<'_>, solved: &Solution) -> Result<Vec<Bending>, fea::Error> {
+    let LoadedStructure { scene, s, history, laid, .. } = *loaded;
     let (model, rails) = (&solved.model, &solved.rails);
     let frame = Frame::new(model, rails)?;
     let line = frame.line()?;
@@ -57,7 +57,7 @@ pub(super) fn of(loaded: &Loaded<'_>, solved: &Solved) -> Result<Vec<Bending>, f
         Column { name: String::new(), dimension: Dimension::MOMENT, kind: Kind::Section, direction: None };
     let owner: Vec<Part> = (0..effects.len()).map(|column| Part { column, weight: 1.0 }).collect();
     let columns = vec![column; effects.len()];
-    let lines = Lines::of(&frame, solved, laid, scene.gravity, columns, &effects, owner)?;
+    let lines = ColumnInfluence::of(&frame, solved, laid, scene.gravity, columns, &effects, owner)?;
     let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
     let mut now = vec![0.0; places.len()];
     let mut extremes = vec![[f64::NEG_INFINITY, f64::INFINITY]; places.len()];

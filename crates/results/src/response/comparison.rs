@@ -3,9 +3,9 @@
 use practice::{Mark, Tone, View, dominant, resample, response};
 use serde_json::{Map, Value, json};
 
-use super::{Natural, Response};
-use crate::record::Record;
-use crate::threads::side_by_side;
+use super::{Response, SceneMode};
+use crate::record::NamedColumns;
+use crate::threads::parallel_map;
 
 /// Share of the run, at its end, that counts as settled.
 const SETTLED: f64 = 0.25;
@@ -23,7 +23,7 @@ const FEWEST: usize = 64;
 
 /// A history in the few numbers that engineers compare.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figures {
+pub struct ColumnStatistics {
     /// Mean over the last quarter of the run.
     pub settled: f64,
     /// Largest value.
@@ -39,7 +39,7 @@ pub struct Figures {
 /// Runs beside each other: every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel
 /// forces, in figures.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Comparison {
+pub struct RunComparison {
     rows: Vec<Row>,
 }
 
@@ -48,47 +48,47 @@ pub struct Comparison {
 struct Row {
     column: String,
     /// One a run; `None`: it has not got the column, or too few rows.
-    figures: Vec<Option<Figures>>,
+    figures: Vec<Option<ColumnStatistics>>,
     /// Whether it is zero in every run.
     is_zero: bool,
 }
 
-impl Comparison {
+impl RunComparison {
     /// The figures of all runs, on at most `threads` threads. Empty where there is one run alone.
     #[must_use]
-    pub fn new(runs: &[(&str, &Record, &Response)], threads: Option<u16>) -> Comparison {
-        let [(_, record, first), _, ..] = runs else { return Comparison::default() };
+    pub fn new(runs: &[(&str, &NamedColumns, &Response)], threads: Option<u16>) -> RunComparison {
+        let [(_, record, first), _, ..] = runs else { return RunComparison::default() };
         let own = first.columns.iter().map(|column| column.name.clone());
         let names: Vec<String> = rail_sums(record).into_iter().flatten().chain(own).collect();
-        let rows = side_by_side(&names, threads, |_, name| {
-            let is_zero = |record: &Record| record.values(name).iter().all(|value| *value == 0.0);
+        let rows = parallel_map(&names, threads, |_, name| {
+            let is_zero = |record: &NamedColumns| record.values(name).iter().all(|value| *value == 0.0);
             Row {
                 column: name.clone(),
-                figures: runs.iter().map(|(_, record, _)| Figures::new(record, name)).collect(),
+                figures: runs.iter().map(|(_, record, _)| ColumnStatistics::new(record, name)).collect(),
                 is_zero: runs.iter().all(|(_, record, _)| is_zero(record)),
             }
         });
-        Comparison { rows }
+        RunComparison { rows }
     }
 
     /// Figures of a column, one a run.
     #[must_use]
-    pub fn of(&self, column: &str) -> Option<&[Option<Figures>]> {
+    pub fn of(&self, column: &str) -> Option<&[Option<ColumnStatistics>]> {
         self.rows.iter().find(|row| row.column == column).map(|row| row.figures.as_slice())
     }
 
     /// Columns that all runs have and that are not zero in all of them, with their figures, one a run.
-    pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&Figures>)> {
+    pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&ColumnStatistics>)> {
         self.rows.iter().filter(|row| !row.is_zero).filter_map(|row| {
-            let all: Option<Vec<&Figures>> = row.figures.iter().map(Option::as_ref).collect();
+            let all: Option<Vec<&ColumnStatistics>> = row.figures.iter().map(Option::as_ref).collect();
             Some((row.column.as_str(), all?))
         })
     }
 
     /// Settled mean, peak, least value, excursions and waves by column and by the label of the run; `runs`: those it was made of.
     #[must_use]
-    pub fn json(&self, runs: &[(&str, &Record, &Response)]) -> Map<String, Value> {
-        let of_runs = |figures: Vec<&Figures>| -> Map<String, Value> {
+    pub fn json(&self, runs: &[(&str, &NamedColumns, &Response)]) -> Map<String, Value> {
+        let of_runs = |figures: Vec<&ColumnStatistics>| -> Map<String, Value> {
             let pairs = runs.iter().zip(figures);
             pairs
                 .map(|((label, _, response), one)| ((*label).to_owned(), one.json(&response.modes)))
@@ -99,7 +99,7 @@ impl Comparison {
 }
 
 /// Columns of the sums of wheel forces on each rail, vertical, then lateral if there are any.
-pub fn rail_sums(record: &Record) -> Vec<Vec<String>> {
+pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
     let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
     let of = |rail: &str| {
         let lateral = format!("{rail}.lateral");
@@ -110,10 +110,10 @@ pub fn rail_sums(record: &Record) -> Vec<Vec<String>> {
     rails.map(of).collect()
 }
 
-impl Figures {
+impl ColumnStatistics {
     /// The numbers of one column, `None` where it has too few rows or the run has not got it.
     #[must_use]
-    pub fn new(record: &Record, column: &str) -> Option<Figures> {
+    pub fn new(record: &NamedColumns, column: &str) -> Option<ColumnStatistics> {
         let (times, values) = (record.values("time"), record.values(column));
         let (first, last) = (*times.first()?, *times.last()?);
         if values.len() != times.len() || times.len() < FEWEST || last <= first {
@@ -134,7 +134,7 @@ impl Figures {
         // slower than two waves is the way of the crane, no vibration
         let band = [2.0 / (SETTLED * length), 0.5 / step];
         let late = resample(times, values, view.settled, step).ok()?;
-        Some(Figures {
+        Some(ColumnStatistics {
             settled: found.mean,
             peak: found.peak,
             least: found.least,
@@ -149,9 +149,9 @@ impl Figures {
         self.waves.first().map(|tone| tone.frequency)
     }
 
-    fn json(&self, modes: &[Natural]) -> Value {
+    fn json(&self, modes: &[SceneMode]) -> Value {
         let wave = |tone: &Tone| {
-            let mode = Natural::of(modes, tone.frequency).map(|mode| mode.name.as_str());
+            let mode = SceneMode::of(modes, tone.frequency).map(|mode| mode.name.as_str());
             json!({"hz": tone.frequency, "amplitude": tone.amplitude, "mode": mode})
         };
         json!({
@@ -196,11 +196,11 @@ mod tests {
     use formats::units::Dimension;
 
     /// A record with a damped wave of `hz` about `mean`, and its response.
-    fn wave(hz: f64, mean: f64) -> (Record, Response) {
+    fn wave(hz: f64, mean: f64) -> (NamedColumns, Response) {
         let times: Vec<f64> = (0..=1000).map(|i| f64::from(i) * 0.01).collect();
         let values =
             times.iter().map(|t| mean + (-0.3 * t).exp() * (std::f64::consts::TAU * hz * t).cos()).collect();
-        let mut record = Record::default();
+        let mut record = NamedColumns::default();
         record.push("time", Dimension::NUMBER, times);
         record.push("a", Dimension::NUMBER, values);
         let column =
@@ -213,7 +213,7 @@ mod tests {
     fn a_slower_run_has_the_lower_frequency_and_the_same_mean() {
         let (slow, fast) = (wave(2.0, 5.0), wave(4.0, 5.0));
         let runs = [("flexible", &slow.0, &slow.1), ("rigid", &fast.0, &fast.1)];
-        let found = Comparison::new(&runs, Some(1)).json(&runs);
+        let found = RunComparison::new(&runs, Some(1)).json(&runs);
         for (label, hz) in [("flexible", 2.0), ("rigid", 4.0)] {
             let at = &found["a"][label];
             let near = |value: &Value, wanted: f64, by: f64| {
@@ -229,6 +229,6 @@ mod tests {
     fn a_lone_run_is_beside_nothing() {
         let (record, response) = wave(2.0, 5.0);
         let runs = [("only", &record, &response)];
-        assert!(Comparison::new(&runs, Some(1)).json(&runs).is_empty());
+        assert!(RunComparison::new(&runs, Some(1)).json(&runs).is_empty());
     }
 }

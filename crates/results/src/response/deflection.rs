@@ -4,11 +4,11 @@ use practice::cmaa;
 use serde_json::{Value, json};
 use splines::{Axis, Error, Probe};
 
-use super::loaded::{Loaded, spread};
+use super::loaded::{LoadedStructure, spread};
 use super::spans::spans;
-use super::wheel_load::WheelLoad;
+use super::wheel_load::WheelLoadHistory;
 use formats::scene::Origin;
-use foundations::Solved;
+use foundations::Solution;
 
 /// Places looked at within a span.
 const PLACES: usize = 7;
@@ -73,14 +73,14 @@ impl Deflection {
 ///
 /// # Errors
 /// A place beyond a rail.
-pub(super) fn of(loaded: &Loaded<'_>, solved: Option<&Solved>) -> Result<Vec<Deflection>, Error> {
-    let Loaded { scene, s, history, laid, .. } = *loaded;
+pub(super) fn of(loaded: &LoadedStructure<'_>, solved: Option<&Solution>) -> Result<Vec<Deflection>, Error> {
+    let LoadedStructure { scene, s, history, laid, .. } = *loaded;
     let (Origin::Spec { spec, .. }, Some(solved), true, None) =
         (&scene.structures[s].origin, solved, loaded.is_known(), &laid.foundation.parts)
     else {
         return Ok(Vec::new());
     };
-    let all: Vec<Vec<WheelLoad>> = (0..history.len()).map(|row| loaded.on(row)).collect();
+    let all: Vec<Vec<WheelLoadHistory>> = (0..history.len()).map(|row| loaded.on(row)).collect();
     let lateral = all.iter().flatten().any(|load| load.force[2] != 0.0);
     let axes: &[(Axis, &'static str)] = match lateral {
         true => &[(Axis::Vertical, "vertical"), (Axis::Lateral, "lateral")],
@@ -93,7 +93,7 @@ pub(super) fn of(loaded: &Loaded<'_>, solved: Option<&Solved>) -> Result<Vec<Def
             .map_or_else(|| spans(spec, &solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
         for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
             let [from, to] = span;
-            let inside = |load: &WheelLoad| {
+            let inside = |load: &WheelLoadHistory| {
                 load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
             };
             let rows: Vec<usize> = (0..all.len()).filter(|&i| all[i].iter().any(inside)).collect();

@@ -5,13 +5,13 @@ use nalgebra::Vector3;
 use serde_json::{Value, json};
 use splines::{Axis, Error, Probe};
 
-use super::loaded::{Loaded, spread};
+use super::loaded::{LoadedStructure, spread};
 use super::spans::spans;
-use super::wheel_load::WheelLoad;
+use super::wheel_load::WheelLoadHistory;
 use formats::scene::Origin;
 use formats::spec::Form;
 use formats::units::{Dimension, Scale, Units};
-use foundations::Solved;
+use foundations::Solution;
 
 /// Output times looked at.
 const TIMES: usize = 300;
@@ -62,8 +62,8 @@ impl Drift {
 ///
 /// # Errors
 /// A place beyond a rail.
-pub(super) fn of(loaded: &Loaded<'_>, solved: Option<&Solved>) -> Result<Vec<Drift>, Error> {
-    let Loaded { scene, s, history, laid, .. } = *loaded;
+pub(super) fn of(loaded: &LoadedStructure<'_>, solved: Option<&Solution>) -> Result<Vec<Drift>, Error> {
+    let LoadedStructure { scene, s, history, laid, .. } = *loaded;
     let own = &scene.structures[s];
     let (Origin::Spec { spec, .. }, Some(solved), true, None, None) =
         (&own.origin, solved, loaded.is_known(), &laid.foundation.parts, own.on)
@@ -73,7 +73,7 @@ pub(super) fn of(loaded: &Loaded<'_>, solved: Option<&Solved>) -> Result<Vec<Dri
     if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
         return Ok(Vec::new());
     }
-    let all: Vec<(usize, Vec<WheelLoad>)> =
+    let all: Vec<(usize, Vec<WheelLoadHistory>)> =
         spread(history.len(), TIMES).map(|row| (row, loaded.on(row))).collect();
     let pushed = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
     let mut found = Vec::new();

@@ -3,26 +3,26 @@
 use serde_json::{Map, Value, json};
 use sim::{Channel, Freedom, History};
 
-use super::wheel_load::WheelLoads;
-use crate::record::Record;
+use super::wheel_load::WheelLoadHistories;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::Scene;
 use formats::scene::columns::Column;
 
 /// Largest and smallest value of one column.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Envelope {
+pub struct ColumnEnvelope {
     /// Its name.
     pub column: String,
     /// The largest value.
-    pub max: Extreme,
+    pub max: ColumnExtreme,
     /// The smallest.
-    pub min: Extreme,
+    pub min: ColumnExtreme,
 }
 
 /// A value, and what was elsewhere at that time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Extreme {
+pub struct ColumnExtreme {
     /// The value.
     pub value: f64,
     /// Row of the record.
@@ -35,7 +35,7 @@ pub struct Extreme {
     pub wheels: Vec<(String, [f64; 3])>,
 }
 
-impl Envelope {
+impl ColumnEnvelope {
     /// Of `columns` of `record`, which has the rows of `history`.
     ///
     /// # Errors
@@ -45,9 +45,9 @@ impl Envelope {
         scene: &Scene,
         cast: &Cast,
         history: &History,
-        loads: &WheelLoads,
-        record: &Record,
-    ) -> Result<Vec<Envelope>, practice::Error> {
+        loads: &WheelLoadHistories,
+        record: &NamedColumns,
+    ) -> Result<Vec<ColumnEnvelope>, practice::Error> {
         if columns.is_empty() {
             return Ok(Vec::new());
         }
@@ -56,9 +56,9 @@ impl Envelope {
         let found = practice::envelope(&[run], columns.len())?;
         let extreme = |index: usize, at: &practice::Instant| {
             let value = at.values[index];
-            Extreme { value, time: at.time, ..elsewhere(at.sample, scene, cast, history, loads) }
+            ColumnExtreme { value, time: at.time, ..elsewhere(at.sample, scene, cast, history, loads) }
         };
-        let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| Envelope {
+        let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| ColumnEnvelope {
             column: column.name.clone(),
             max: extreme(index, &found.most),
             min: extreme(index, &found.least),
@@ -73,7 +73,7 @@ impl Envelope {
     }
 }
 
-impl Extreme {
+impl ColumnExtreme {
     fn json(&self) -> Value {
         let bodies: Map<String, Value> = self
             .bodies
@@ -90,7 +90,13 @@ impl Extreme {
 }
 
 /// What is at a row of the history.
-fn elsewhere(row: usize, scene: &Scene, cast: &Cast, history: &History, loads: &WheelLoads) -> Extreme {
+fn elsewhere(
+    row: usize,
+    scene: &Scene,
+    cast: &Cast,
+    history: &History,
+    loads: &WheelLoadHistories,
+) -> ColumnExtreme {
     let sample = history.sample(row);
     let of =
         |channel: Channel| history.channels().iter().position(|c| *c == channel).map_or(0.0, |at| sample[at]);
@@ -105,5 +111,5 @@ fn elsewhere(row: usize, scene: &Scene, cast: &Cast, history: &History, loads: &
         let [along, up, side] = load.force;
         (wheel.name.clone(), [0.0 - up, side, along])
     });
-    Extreme { value: 0.0, row, time: sample[0], bodies: bodies.collect(), wheels: wheels.collect() }
+    ColumnExtreme { value: 0.0, row, time: sample[0], bodies: bodies.collect(), wheels: wheels.collect() }
 }

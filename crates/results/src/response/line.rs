@@ -7,13 +7,13 @@ use nalgebra::{DMatrix, Vector3};
 use splines::{Axis, Effects, Probe};
 
 use super::part_inertia::part_inertia;
-use super::wheel_load::WheelLoad;
+use super::wheel_load::WheelLoadHistory;
 use formats::effect::COMPONENTS;
 use formats::scene::columns;
 use formats::scene::columns::{Column, Direction, Kind};
 use formats::spec::{Spec, StressPoint};
 use formats::units::Dimension;
-use foundations::{Laid, Motion, Solved};
+use foundations::{BuiltFoundation, MotionBasis, Solution};
 
 /// Share of the largest of a kind below which a column is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -25,7 +25,7 @@ const ROUNDING: f64 = 1e-12;
 /// A: influence lines of the exact structure; F: wheel forces; q'': accelerations of the foundation's freedoms; S:
 /// effects of the inertia of the model behind them; E_0: of the own weight. Damping forces inside the structure are
 /// part of it: over all supports the ground gives what wheels press, less the structure's change of momentum.
-pub struct Lines {
+pub struct ColumnInfluence {
     columns: Vec<Column>,
     effects: Effects,
     /// What each effect is part of: springs and supports of one freedom of a point are one column, stresses sum forces.
@@ -43,7 +43,7 @@ pub(super) struct Part {
     pub weight: f64,
 }
 
-impl Lines {
+impl ColumnInfluence {
     /// Those of the columns that are `wanted` (by kind and name); `None` where none is.
     ///
     /// # Errors
@@ -51,11 +51,11 @@ impl Lines {
     pub fn new(
         name: &str,
         spec: &Spec,
-        solved: &Solved,
-        laid: &Laid,
+        solved: &Solution,
+        laid: &BuiltFoundation,
         gravity: f64,
         wanted: &dyn Fn(Kind, &str) -> bool,
-    ) -> Result<Option<Lines>, fea::Error> {
+    ) -> Result<Option<ColumnInfluence>, fea::Error> {
         let (model, rails) = (&solved.model, &solved.rails);
         let [reactions, sections] = columns::names(name, spec);
         let stresses = columns::stresses(name, spec);
@@ -118,7 +118,7 @@ impl Lines {
                 });
             }
         }
-        let out = Lines::of(&frame, solved, laid, gravity, columns, &effects, owner)?;
+        let out = ColumnInfluence::of(&frame, solved, laid, gravity, columns, &effects, owner)?;
         let felt = out.felt();
         if !felt.contains(&true) {
             return Ok(None);
@@ -132,13 +132,13 @@ impl Lines {
     /// What the frame refuses.
     pub(super) fn of(
         frame: &Frame,
-        solved: &Solved,
-        laid: &Laid,
+        solved: &Solution,
+        laid: &BuiltFoundation,
         gravity: f64,
         columns: Vec<Column>,
         effects: &[Effect],
         owner: Vec<Part>,
-    ) -> Result<Lines, fea::Error> {
+    ) -> Result<ColumnInfluence, fea::Error> {
         let model = &solved.model;
         let inertia = inertia(effects, laid, solved)?;
         let weight = frame.inertial(model, effects, &[])?.rigid;
@@ -147,7 +147,7 @@ impl Lines {
             .map(|e| -gravity * (0..3).map(|k| weight[(e, k)] * up[k]).sum::<f64>())
             .collect();
         let lines = frame.influence_lines(model, effects)?;
-        let mut out = Lines {
+        let mut out = ColumnInfluence {
             inertia: DMatrix::zeros(columns.len(), inertia.ncols()),
             dead: vec![0.0; columns.len()],
             columns,
@@ -202,7 +202,7 @@ impl Lines {
         model: &Model,
         frame: &Frame,
         effects: &[Effect],
-    ) -> Result<Lines, fea::Error> {
+    ) -> Result<ColumnInfluence, fea::Error> {
         if !kept.contains(&false) {
             return Ok(self);
         }
@@ -212,7 +212,7 @@ impl Lines {
         let moved = |part: &Part| Part { column: number(part.column), ..*part };
         let (effects, owner): (Vec<Effect>, Vec<Part>) =
             effects.iter().zip(&self.owner).filter(of).map(|(e, part)| (*e, moved(part))).unzip();
-        Ok(Lines {
+        Ok(ColumnInfluence {
             effects: frame.influence_lines(model, &effects)?,
             owner,
             inertia: self.inertia.select_rows(&rows),
@@ -249,7 +249,7 @@ impl Lines {
     /// resists all of the loads; those that it does not are left out.
     pub fn at<'l>(
         &self,
-        loads: impl Iterator<Item = &'l WheelLoad>,
+        loads: impl Iterator<Item = &'l WheelLoadHistory>,
         acceleration: &[f64],
         out: &mut [f64],
     ) -> bool {
@@ -292,14 +292,18 @@ impl Lines {
 }
 
 /// Effects of the inertia of what moves, effects x freedoms.
-fn inertia(effects: &[Effect], laid: &Laid, solved: &Solved) -> Result<DMatrix<f64>, fea::Error> {
+fn inertia(
+    effects: &[Effect],
+    laid: &BuiltFoundation,
+    solved: &Solution,
+) -> Result<DMatrix<f64>, fea::Error> {
     match &laid.motion {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
-        Some(Motion::Modes { frame, refined }) => {
+        Some(MotionBasis::Modes { frame, refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
             Ok(frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
         }
-        Some(Motion::Parts(parts)) => match &solved.girder {
+        Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),
             None => Ok(DMatrix::zeros(effects.len(), parts.basis.ncols())),
         },

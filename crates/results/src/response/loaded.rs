@@ -3,23 +3,23 @@
 use sim::{Channel, Foundation, History};
 use splines::{Axis, Error, Influence, Probe};
 
-use super::wheel_load::{WheelLoad, WheelLoads};
+use super::wheel_load::{WheelLoadHistories, WheelLoadHistory};
 use formats::scene::Scene;
-use foundations::Laid;
+use foundations::BuiltFoundation;
 
 /// A structure under the wheels of a run.
-pub(super) struct Loaded<'a> {
+pub(super) struct LoadedStructure<'a> {
     pub scene: &'a Scene,
     /// Index of the structure in the scene.
     pub s: usize,
     pub history: &'a History,
-    pub loads: &'a WheelLoads,
-    pub laid: &'a Laid,
+    pub loads: &'a WheelLoadHistories,
+    pub laid: &'a BuiltFoundation,
 }
 
-impl Loaded<'_> {
+impl LoadedStructure<'_> {
     /// Wheel loads on it at an output time.
-    pub fn on(&self, row: usize) -> Vec<WheelLoad> {
+    pub fn on(&self, row: usize) -> Vec<WheelLoadHistory> {
         let all = self.loads.at(self.history.sample(row)).into_iter();
         all.filter(|load| load.structure == self.s).collect()
     }
@@ -41,7 +41,7 @@ impl Loaded<'_> {
     pub fn displacements(
         &self,
         probes: &[Probe],
-        on: &[WheelLoad],
+        on: &[WheelLoadHistory],
         row: usize,
     ) -> Result<Option<Vec<f64>>, Error> {
         let foundation = &self.laid.foundation;
@@ -70,7 +70,7 @@ pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
 fn displacements(
     foundation: &Foundation,
     probes: &[Probe],
-    loads: &[WheelLoad],
+    loads: &[WheelLoadHistory],
     q: &[f64],
 ) -> Result<Vec<f64>, Error> {
     let mut out = vec![0.0; probes.len()];

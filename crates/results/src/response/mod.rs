@@ -17,27 +17,27 @@ mod uplift;
 mod wheel_load;
 
 pub use bending::Bending;
-pub use comparison::{Comparison, Figures, rail_sums};
+pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use deflection::Deflection;
 pub use drift::Drift;
-pub use envelope::{Envelope, Extreme};
-pub use line::Lines;
-pub use natural::Natural;
+pub use envelope::{ColumnEnvelope, ColumnExtreme};
+pub use line::ColumnInfluence;
+pub use natural::SceneMode;
 pub use spans::spans;
 pub use sway::Sway;
 pub use uplift::Uplift;
-pub use wheel_load::{WheelLoad, WheelLoads};
+pub use wheel_load::{WheelLoadHistories, WheelLoadHistory};
 
-use loaded::Loaded;
+use loaded::LoadedStructure;
 use serde_json::{Map, Value, json};
 use sim::{Channel, History};
 
 use crate::Error;
-use crate::record::Record;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::{Origin, Pick, Scene};
-use foundations::{Known, Laid, Solved, solved_of};
+use foundations::{BuiltFoundation, Solution, SolvedStructure, solution_of};
 
 /// What a run's structures answered.
 #[derive(Clone, Debug, Default)]
@@ -47,7 +47,7 @@ pub struct Response {
     /// By the structures' own weight, one a column; in the columns where the scene's output asks for it.
     pub dead: Vec<f64>,
     /// Extremes of the columns.
-    pub envelopes: Vec<Envelope>,
+    pub envelopes: Vec<ColumnEnvelope>,
     /// Extremes of the bending moments along the rails, where they were asked for.
     pub bending: Vec<Bending>,
     /// Sag of the spans.
@@ -59,27 +59,35 @@ pub struct Response {
     /// Where bodies in space have been.
     pub sways: Vec<Sway>,
     /// Natural modes of the scene towards its end.
-    pub modes: Vec<Natural>,
+    pub modes: Vec<SceneMode>,
     /// What is left out, and why.
     pub notes: Vec<String>,
 }
 
 /// Whether each structure of `scene` may have columns that its freedoms are needed for.
 #[must_use]
-pub fn answers(scene: &Scene, known: &[Known]) -> Vec<bool> {
+pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<bool> {
     let few = columns::few(scene);
     let some = |pick: &Pick, few: bool| !matches!(pick, Pick::None) && (few || !matches!(pick, Pick::Few));
     let output = &scene.output;
     let asked =
         some(&output.reactions, few[0]) || some(&output.sections, few[1]) || some(&output.stresses, few[2]);
-    scene.structures.iter().map(|structure| asked && solved_of(known, &structure.origin).is_some()).collect()
+    scene
+        .structures
+        .iter()
+        .map(|structure| asked && solution_of(known, &structure.origin).is_some())
+        .collect()
 }
 
 /// Influence lines of every structure of `scene` for the columns it asks for; `None` where it asks for none.
 ///
 /// # Errors
 /// A structure that does not stand.
-pub fn lines(scene: &Scene, laid: &[Laid], solved: &[Option<&Solved>]) -> Result<Vec<Option<Lines>>, Error> {
+pub fn lines(
+    scene: &Scene,
+    laid: &[BuiltFoundation],
+    solved: &[Option<&Solution>],
+) -> Result<Vec<Option<ColumnInfluence>>, Error> {
     let few = columns::few(scene);
     let each = scene.structures.iter().zip(laid).zip(solved).map(|((structure, laid), solved)| {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else { return Ok(None) };
@@ -91,7 +99,7 @@ pub fn lines(scene: &Scene, laid: &[Laid], solved: &[Option<&Solved>]) -> Result
             };
             pick.takes(name, few)
         };
-        Lines::new(&structure.name, spec, solved, laid, scene.gravity, &wanted)
+        ColumnInfluence::new(&structure.name, spec, solved, laid, scene.gravity, &wanted)
             .map_err(|source| Error::Lines { structure: structure.name.clone(), source })
     });
     each.collect()
@@ -106,12 +114,12 @@ impl Response {
         scene: &Scene,
         cast: &Cast,
         history: &History,
-        laid: &[Laid],
-        solved: &[Option<&Solved>],
-        lines: &[Option<Lines>],
-        record: &mut Record,
+        laid: &[BuiltFoundation],
+        solved: &[Option<&Solution>],
+        lines: &[Option<ColumnInfluence>],
+        record: &mut NamedColumns,
     ) -> Result<Response, Error> {
-        let loads = WheelLoads::new(scene, cast, history);
+        let loads = WheelLoadHistories::new(scene, cast, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
             let Some(lines) = lines else { continue };
@@ -141,11 +149,11 @@ impl Response {
                 response.columns.push(column.clone());
             }
         }
-        response.envelopes = Envelope::all(&response.columns, scene, cast, history, &loads, record)
+        response.envelopes = ColumnEnvelope::all(&response.columns, scene, cast, history, &loads, record)
             .map_err(Error::Envelope)?;
         for (s, structure) in scene.structures.iter().enumerate() {
             let failed = |source| Error::Rails { structure: structure.name.clone(), source };
-            let loaded = Loaded { scene, s, history, loads: &loads, laid: &laid[s] };
+            let loaded = LoadedStructure { scene, s, history, loads: &loads, laid: &laid[s] };
             response.deflections.extend(deflection::of(&loaded, solved[s]).map_err(failed)?);
             response.drifts.extend(drift::of(&loaded, solved[s]).map_err(failed)?);
         }
@@ -163,15 +171,15 @@ impl Response {
         scene: &Scene,
         cast: &Cast,
         history: &History,
-        laid: &[Laid],
-        solved: &[Option<&Solved>],
+        laid: &[BuiltFoundation],
+        solved: &[Option<&Solution>],
     ) -> Result<(), Error> {
-        let loads = WheelLoads::new(scene, cast, history);
+        let loads = WheelLoadHistories::new(scene, cast, history);
         for (s, (laid, solved)) in laid.iter().zip(solved).enumerate() {
             let is_known = laid.foundation.freedoms() == 0 || laid.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
             let failed = |source| Error::Lines { structure: scene.structures[s].name.clone(), source };
-            let loaded = Loaded { scene, s, history, loads: &loads, laid };
+            let loaded = LoadedStructure { scene, s, history, loads: &loads, laid };
             self.bending.extend(bending::of(&loaded, solved).map_err(failed)?);
         }
         Ok(())
@@ -202,7 +210,7 @@ impl Response {
             out.insert("sway".into(), Value::Object(all.collect()));
         }
         if !self.modes.is_empty() {
-            out.insert("natural_modes".into(), self.modes.iter().map(Natural::json).collect());
+            out.insert("natural_modes".into(), self.modes.iter().map(SceneMode::json).collect());
         }
         out
     }

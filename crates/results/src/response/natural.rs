@@ -22,7 +22,7 @@ const WHERE: f64 = 0.875;
 
 /// A natural mode of a scene.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Natural {
+pub struct SceneMode {
     /// Cycles per unit of time.
     pub hz: f64,
     /// What moves most, such as `ladle.Y + trolley.y`.
@@ -31,11 +31,11 @@ pub struct Natural {
     pub shares: Vec<(String, f64)>,
 }
 
-impl Natural {
+impl SceneMode {
     /// Modes of the bodies of `scene` on `foundations` where they are towards the end of `run`, of one wave at least in its
     /// time; none where they cannot be found, or where events have changed what hangs on ropes.
     #[must_use]
-    pub fn all(scene: &Scene, cast: &Cast, foundations: &[Foundation], run: &Run) -> Vec<Natural> {
+    pub fn all(scene: &Scene, cast: &Cast, foundations: &[Foundation], run: &Run) -> Vec<SceneMode> {
         let freedoms: usize = foundations.iter().map(Foundation::freedoms).sum();
         let rules = &cast.scene.actuators.rules;
         let lets_go = |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
@@ -54,11 +54,11 @@ impl Natural {
             .map(Option::unwrap_or_default)
             .collect();
         let found = natural_modes(&cast.scene, foundations, times[at], &places);
-        let modes = found.ok().flatten().into_iter().flatten().map(|mode| Natural::new(scene, &mode));
+        let modes = found.ok().flatten().into_iter().flatten().map(|mode| SceneMode::new(scene, &mode));
         modes.filter(|mode| mode.hz * last >= 1.0).collect()
     }
 
-    fn new(scene: &Scene, mode: &NaturalMode) -> Natural {
+    fn new(scene: &Scene, mode: &NaturalMode) -> SceneMode {
         let mut shares: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
         for (body, own) in scene.bodies.iter().zip(&mode.share) {
             let words = if body.in_space {
@@ -74,13 +74,13 @@ impl Natural {
         let most = |(k, (_, share)): &(usize, &(String, f64))| *k == 0 || *share >= NAMED;
         let names: Vec<&str> =
             shares.iter().enumerate().filter(most).map(|(_, (name, _))| name.as_str()).collect();
-        Natural { hz: mode.omega / TAU, name: names.join(" + "), shares }
+        SceneMode { hz: mode.omega / TAU, name: names.join(" + "), shares }
     }
 
     /// The mode nearest to a wave of `hz` among `modes`, where one is near.
     #[must_use]
-    pub fn of(modes: &[Natural], hz: f64) -> Option<&Natural> {
-        let apart = |mode: &Natural| (mode.hz / hz).ln().abs();
+    pub fn of(modes: &[SceneMode], hz: f64) -> Option<&SceneMode> {
+        let apart = |mode: &SceneMode| (mode.hz / hz).ln().abs();
         modes.iter().min_by(|a, b| apart(a).total_cmp(&apart(b))).filter(|mode| apart(mode) < NEAR)
     }
 

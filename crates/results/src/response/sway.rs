@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::record::Record;
+use crate::record::NamedColumns;
 use formats::scene::Scene;
 
 /// Range of a body in space.
@@ -24,7 +24,7 @@ impl Sway {
 }
 
 /// Of every body in space.
-pub(super) fn all(scene: &Scene, record: &Record) -> Vec<Sway> {
+pub(super) fn all(scene: &Scene, record: &NamedColumns) -> Vec<Sway> {
     let bodies = scene.bodies.iter().filter(|body| body.in_space);
     let range = |values: &[f64]| {
         let least = values.iter().copied().reduce(f64::min)?;

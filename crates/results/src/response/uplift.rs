@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use crate::record::Record;
+use crate::record::NamedColumns;
 use formats::motion::Cast;
 
 /// A stretch of time in which a wheel does not press on its rail.
@@ -25,7 +25,7 @@ impl Uplift {
 }
 
 /// All of them, wheel by wheel, as far as output times show them.
-pub(super) fn all(cast: &Cast, record: &Record) -> Vec<Uplift> {
+pub(super) fn all(cast: &Cast, record: &NamedColumns) -> Vec<Uplift> {
     let time = record.values("time");
     let of = |name: &str| {
         let found = stretches(time, record.part(name, "vertical"));

@@ -7,7 +7,7 @@ use formats::scene::Scene;
 
 /// The force of one wheel, or of one end stop, on its rail.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelLoad {
+pub struct WheelLoadHistory {
     /// Index of the structure.
     pub structure: usize,
     /// Rail within the structure.
@@ -21,7 +21,7 @@ pub struct WheelLoad {
 /// Reads wheel loads off samples of a history.
 ///
 /// The force that a prescribed motion needs comes from nowhere on the rails.
-pub struct WheelLoads {
+pub struct WheelLoadHistories {
     wheels: Vec<Wheel>,
     stops: Vec<Stop>,
 }
@@ -42,10 +42,10 @@ struct Wheel {
     first: usize,
 }
 
-impl WheelLoads {
+impl WheelLoadHistories {
     /// Of every wheel of `cast`, in its order.
     #[must_use]
-    pub fn new(scene: &Scene, cast: &Cast, history: &History) -> WheelLoads {
+    pub fn new(scene: &Scene, cast: &Cast, history: &History) -> WheelLoadHistories {
         let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
         let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
@@ -67,24 +67,24 @@ impl WheelLoads {
                 side: meeting.side,
             })
         });
-        WheelLoads { wheels: wheels.collect(), stops: stops.collect() }
+        WheelLoadHistories { wheels: wheels.collect(), stops: stops.collect() }
     }
 
     /// Loads of all wheels at a sample, in their order, then of the end stops.
     #[must_use]
-    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
-        let mut loads: Vec<WheelLoad> = self
+    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoadHistory> {
+        let mut loads: Vec<WheelLoadHistory> = self
             .wheels
             .iter()
             .map(|wheel| {
                 let [x, vertical, lateral, traction] = std::array::from_fn(|k| sample[wheel.first + k]);
                 let force = [traction, 0.0 - vertical, lateral];
-                WheelLoad { structure: wheel.structure, rail: wheel.rail, x, force }
+                WheelLoadHistory { structure: wheel.structure, rail: wheel.rail, x, force }
             })
             .collect();
         loads.extend(self.stops.iter().map(|stop| {
             let force = [stop.side * sample[stop.channel], 0.0, 0.0];
-            WheelLoad { structure: stop.structure, rail: stop.rail, x: stop.x, force }
+            WheelLoadHistory { structure: stop.structure, rail: stop.rail, x: stop.x, force }
         }));
         loads
     }

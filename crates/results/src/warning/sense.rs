@@ -18,7 +18,7 @@ const GAP: f64 = 0.5;
 
 /// What looks like a slip in a spec, in words.
 #[must_use]
-pub fn of_spec(spec: &Spec) -> Vec<String> {
+pub fn spec_warnings(spec: &Spec) -> Vec<String> {
     let scale = Scale { from: spec.units, to: Units::SI };
     let mut all = Vec::new();
     match &spec.form {
@@ -121,7 +121,7 @@ mod tests {
 
     fn told(text: &str) -> Vec<String> {
         let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
-        of_spec(&Spec::read(&source, None).expect("a sound spec"))
+        spec_warnings(&Spec::read(&source, None).expect("a sound spec"))
     }
 
     const FRAME: &str = r#"{"format": "girderway-beam/1", "units": {"length": "ft", "force": "kip", "time": "s"},

@@ -1,7 +1,7 @@
 //! Numbers of a scene that are rarely meant: weights given as masses, bodies that turn without inertia, structures that
 //! stand beside the body below them, ropes pulled beyond what ropes bear.
 
-use crate::record::Record;
+use crate::record::NamedColumns;
 use formats::fault::number;
 use formats::number::rounded;
 use formats::scene::{Analysis, Body, Origin, Scene, seat};
@@ -19,7 +19,7 @@ const STRETCHED: f64 = 0.03;
 
 /// What looks like a slip in a scene, in words.
 #[must_use]
-pub(super) fn of_scene(scene: &Scene, record: &Record) -> Vec<String> {
+pub(super) fn of_scene(scene: &Scene, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
@@ -121,7 +121,7 @@ fn reach(places: &[[f64; 3]], k: usize) -> [f64; 2] {
 }
 
 /// Ropes that are pulled beyond what ropes bear.
-fn stretched(scene: &Scene, record: &Record) -> Vec<String> {
+fn stretched(scene: &Scene, record: &NamedColumns) -> Vec<String> {
     let told = scene.ropes.iter().filter_map(|rope| {
         let tension = record.part(&rope.name, "tension").iter().copied().fold(0.0, f64::max);
         let share = tension / rope.stiffness;

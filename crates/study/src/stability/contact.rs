@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 use sim::Instant;
 
-use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::{finite, spread};
-use super::subject::Subject;
+use super::subject::MapSubject;
 use formats::units::Dimension;
 use report::chart::{Series, Style};
 
@@ -47,7 +47,13 @@ fn lagged(give: f64, k: f64, mass: f64, load: f64, h: f64) -> f64 {
 }
 
 /// Error of the program's forces, or its message.
-fn ours(subject: &Subject<'_>, offsets: &[f64], k: f64, x: f64, give: &DMatrix<f64>) -> Result<f64, String> {
+fn ours(
+    subject: &MapSubject<'_>,
+    offsets: &[f64],
+    k: f64,
+    x: f64,
+    give: &DMatrix<f64>,
+) -> Result<f64, String> {
     let wanted = DVector::from_element(offsets.len(), subject.load);
     let d = (give * &wanted)[0] + subject.load / k;
     // a body that neither turns nor tilts has one displacement: forces of it, not of even loads
@@ -75,12 +81,12 @@ fn ours(subject: &Subject<'_>, offsets: &[f64], k: f64, x: f64, give: &DMatrix<f
 
 /// The map.
 #[must_use]
-pub fn map(subject: &Subject<'_>, points: usize) -> Map {
+pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let axes = [
-        Scale::new("place along the rail", &subject.unit(Dimension::LENGTH), false),
-        Scale::new("stiffness of a wheel", &subject.unit(Dimension::STIFFNESS), true),
+        MapScale::new("place along the rail", &subject.unit(Dimension::LENGTH), false),
+        MapScale::new("stiffness of a wheel", &subject.unit(Dimension::STIFFNESS), true),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "contact",
         "Ways to find contact forces",
         axes,
@@ -135,10 +141,10 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
                     // what a lag leaves of its start: it need not have come to rest, but not have grown
                     let allowed = if index == 2 { 1e-3 } else { ALLOWED };
                     let (value, verdict) = match found {
-                        Ok(error) => (error, Verdict::of(error, allowed, OBVIOUS)),
-                        Err(why) => (0.0, Verdict::Refused(why)),
+                        Ok(error) => (error, MapVerdict::of(error, allowed, OBVIOUS)),
+                        Err(why) => (0.0, MapVerdict::Refused(why)),
                     };
-                    layer.cells.push(Cell { at: [x, k], value: finite(value), verdict });
+                    layer.cells.push(MapPoint { at: [x, k], value: finite(value), verdict });
                 }
             }
         }
@@ -156,7 +162,7 @@ fn inside(line: Vec<[f64; 2]>, values: &[f64]) -> Vec<[f64; 2]> {
 }
 
 /// Distance from the first support to where `value` first reaches 1.
-fn reach(subject: &Subject<'_>, value: &dyn Fn(f64) -> f64) -> Option<f64> {
+fn reach(subject: &MapSubject<'_>, value: &dyn Fn(f64) -> f64) -> Option<f64> {
     let mid = 0.5 * subject.length();
     let (mut low, mut high) = (0.0, mid);
     let at = |share: f64| value(subject.span[0] + share);

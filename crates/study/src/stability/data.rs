@@ -2,12 +2,12 @@
 
 use serde_json::{Map as Object, Value, json};
 
-use super::map::{Layer, Map, Verdict};
+use super::map::{Layer, MapVerdict, StabilityMap};
 use results::record::bytes;
 
 /// `stability.json`: counts, numbers found and messages of every map, and why others are absent.
 #[must_use]
-pub fn json(maps: &[Map], absent: &[(String, String)]) -> Value {
+pub fn json(maps: &[StabilityMap], absent: &[(String, String)]) -> Value {
     let points = |ours: bool| {
         let layers = maps.iter().flat_map(|map| &map.layers).filter(|layer| layer.is_ours == ours);
         layers.map(|layer| layer.cells.len()).sum::<usize>()
@@ -15,13 +15,13 @@ pub fn json(maps: &[Map], absent: &[(String, String)]) -> Value {
     json!({
         "format": "girderway-stability/1",
         "points": { "girderway": points(true), "others": points(false) },
-        "silently_wrong": maps.iter().map(Map::silent).sum::<usize>(),
+        "silently_wrong": maps.iter().map(StabilityMap::silent).sum::<usize>(),
         "maps": maps.iter().map(map).collect::<Vec<_>>(),
         "absent": absent.iter().map(|(name, why)| (name.clone(), json!(why))).collect::<Object<String, Value>>(),
     })
 }
 
-fn map(own: &Map) -> Value {
+fn map(own: &StabilityMap) -> Value {
     let axis = |k: usize| json!({ "label": own.axes[k].label, "unit": own.axes[k].unit });
     let found = own.findings.iter().map(|finding| json!({ "what": finding.what, "value": finding.value }));
     json!({
@@ -36,10 +36,10 @@ fn map(own: &Map) -> Value {
 }
 
 fn layer(own: &Layer) -> Value {
-    let counts = Verdict::WORDS.iter().zip(own.counts());
+    let counts = MapVerdict::WORDS.iter().zip(own.counts());
     let mut messages: Vec<(&str, usize)> = Vec::new();
     for cell in &own.cells {
-        let Verdict::Refused(why) = &cell.verdict else { continue };
+        let MapVerdict::Refused(why) = &cell.verdict else { continue };
         match messages.iter_mut().find(|(known, _)| known == why) {
             Some((_, count)) => *count += 1,
             None => messages.push((why, 1)),
@@ -58,7 +58,7 @@ fn layer(own: &Layer) -> Value {
 ///
 /// # Errors
 /// None in practice: memory takes every byte.
-pub fn csv(maps: &[Map]) -> Result<Vec<u8>, csv::Error> {
+pub fn csv(maps: &[StabilityMap]) -> Result<Vec<u8>, csv::Error> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["map", "method", "x", "y", "verdict", "value"])?;
     for map in maps {

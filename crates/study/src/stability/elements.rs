@@ -3,8 +3,8 @@
 use fea::{Frame, Member, Model, Rail, Segment, Support};
 use splines::{Axis, Probe};
 
-use super::map::{Cell, Layer, Map, Scale, Verdict};
-use super::subject::Subject;
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::subject::MapSubject;
 use report::chart::{Series, Style};
 
 /// Error that is none to an engineer, and one that nobody overlooks.
@@ -107,10 +107,11 @@ fn exact(x: f64) -> f64 {
 
 /// Both maps: equal elements, and one that is short.
 #[must_use]
-pub fn maps(subject: &Subject<'_>, most: u32) -> Vec<Map> {
+pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
     let title = format!("{}: elements against error in double precision", subject.name);
-    let axes = |label: &str| [Scale::new(label, "", true), Scale::new("relative error at midspan", "", true)];
-    let mut equal = Map::new(
+    let axes =
+        |label: &str| [MapScale::new(label, "", true), MapScale::new("relative error at midspan", "", true)];
+    let mut equal = StabilityMap::new(
         "elements",
         &title,
         axes("equal elements of a simply supported span"),
@@ -118,7 +119,7 @@ pub fn maps(subject: &Subject<'_>, most: u32) -> Vec<Map> {
     );
     let many: Vec<Vec<f64>> = (1..=most).map(|i| vec![1.0 / f64::from(1 << i); 1 << i]).collect();
     fill(&mut equal, many.iter().map(|own| (own.len() as f64, own.clone(), own.len() / 2)));
-    let mut short = Map::new(
+    let mut short = StabilityMap::new(
         "short-element",
         "One short element among two long ones: error in double precision",
         axes("length of the short element by the span"),
@@ -130,7 +131,7 @@ pub fn maps(subject: &Subject<'_>, most: u32) -> Vec<Map> {
     vec![equal, short]
 }
 
-fn fill(map: &mut Map, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
+fn fill(map: &mut StabilityMap, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
     let mut layers = [("doubles, banded Cholesky", false), ("girderway", true)]
         .map(|(method, ours)| Layer::new(method, ours));
     let mut bounds = Vec::new();
@@ -139,11 +140,11 @@ fn fill(map: &mut Map, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
         let wanted = exact(place);
         let relative = |found: f64| (found / wanted - 1.0).abs().max(LEAST);
         let (value, verdict) = match naive(&lengths, node) {
-            Some(found) => (relative(found), Verdict::of(relative(found), ALLOWED, OBVIOUS)),
-            None => (1.0, Verdict::Refused("the matrix is not positive definite".to_owned())),
+            Some(found) => (relative(found), MapVerdict::of(relative(found), ALLOWED, OBVIOUS)),
+            None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
         };
         map.find(format!("doubles: relative error at {x}"), value);
-        layers[0].cells.push(Cell { at: [x, value], value, verdict });
+        layers[0].cells.push(MapPoint { at: [x, value], value, verdict });
         let (value, verdict) = match ours(&lengths, node) {
             Ok((found, bound)) => {
                 bounds.push([x, bound.max(LEAST)]);
@@ -153,15 +154,15 @@ fn fill(map: &mut Map, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
                 (
                     error,
                     if is_right {
-                        Verdict::Right
+                        MapVerdict::Right
                     } else {
-                        Verdict::of(error.max(2.0 * ALLOWED), ALLOWED, OBVIOUS)
+                        MapVerdict::of(error.max(2.0 * ALLOWED), ALLOWED, OBVIOUS)
                     },
                 )
             }
-            Err(why) => (1.0, Verdict::Refused(why)),
+            Err(why) => (1.0, MapVerdict::Refused(why)),
         };
-        layers[1].cells.push(Cell { at: [x, value], value, verdict });
+        layers[1].cells.push(MapPoint { at: [x, value], value, verdict });
     }
     layers[1].lines.push(Series::new("girderway's certified bound", Style::Line, bounds));
     map.layers.extend(layers);

@@ -7,11 +7,11 @@ use sim::{Channel, Foundation, Freedom};
 use splines::check::{Strip, work};
 use splines::{Axis, Compliance, Kind, Reading, Sheet};
 
-use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
-use super::subject::Subject;
+use super::subject::MapSubject;
 use formats::units::Dimension;
-use foundations::sheets;
+use foundations::influence_blocks;
 use results::warning::RESIDUAL;
 
 /// Growth, 1/time by the frequency of the wheels on their springs, that is none.
@@ -82,7 +82,7 @@ fn undamped(of: Matrix2<f64>) -> f64 {
 ///
 /// # Errors
 /// A truck of one wheel; a table that no reading takes.
-pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
+pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, String> {
     let (Some(first), Some(last)) = (subject.offsets.first(), subject.offsets.last()) else {
         return Err("a truck without wheels".to_owned());
     };
@@ -91,17 +91,18 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         return Err("a truck of one wheel cannot pitch".to_owned());
     }
     let axes = [
-        Scale::new("place of the bogie", &subject.unit(Dimension::LENGTH), false),
-        Scale::new("damper of a wheel to the ground", &subject.unit(Dimension::DAMPING), true),
+        MapScale::new("place of the bogie", &subject.unit(Dimension::LENGTH), false),
+        MapScale::new("damper of a wheel to the ground", &subject.unit(Dimension::DAMPING), true),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "excitation",
         "A bogie at rest on tables: does it shake itself?",
         axes,
         "Two wheels under a body whose centre of mass is where growth is largest; wrong where the motion grows: structures \
          only take energy, a table that is not symmetric gives some.",
     );
-    let tables = sheets(subject.structure, Some(subject.solved)).map_err(|failure| failure.to_string())?;
+    let tables =
+        influence_blocks(subject.structure, Some(subject.solved)).map_err(|failure| failure.to_string())?;
     let read = |kind: Kind| Reading::new(kind, &tables).map_err(|error| error.to_string());
     let (akispl, cubspl, natural) = (read(Kind::Akispl)?, read(Kind::Cubspl)?, read(Kind::Natural)?);
     let readings: [(&str, &dyn Compliance, bool); 4] = [
@@ -202,8 +203,8 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
                 let Some(value) = growth(compliance, Bogie { x, law: [subject.stiffness, c], ..at }) else {
                     continue;
                 };
-                let verdict = if value <= NONE * omega { Verdict::Right } else { Verdict::Wrong };
-                cells.push(Cell { at: [x, c], value, verdict });
+                let verdict = if value <= NONE * omega { MapVerdict::Right } else { MapVerdict::Wrong };
+                cells.push(MapPoint { at: [x, c], value, verdict });
             }
         }
         let method = if is_ours && !name.starts_with("girderway") {
@@ -218,11 +219,11 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
         let own = Bogie { law: [subject.stiffness, c], ..at };
         let growth = growth(&akispl, own).unwrap_or_default();
         let (value, verdict) = match told(subject, &tables, own, growth) {
-            Ok((_, residual)) if residual > RESIDUAL => (residual, Verdict::Warned),
-            Ok((grown, residual)) => (residual, if grown { Verdict::Wrong } else { Verdict::Right }),
-            Err(why) => (0.0, Verdict::Refused(why)),
+            Ok((_, residual)) if residual > RESIDUAL => (residual, MapVerdict::Warned),
+            Ok((grown, residual)) => (residual, if grown { MapVerdict::Wrong } else { MapVerdict::Right }),
+            Err(why) => (0.0, MapVerdict::Refused(why)),
         };
-        cells.push(Cell { at: [at.x, c], value, verdict });
+        cells.push(MapPoint { at: [at.x, c], value, verdict });
     }
     map.layers.push(Layer::new("girderway told to read by akispl, worst place", true).with(cells));
     Ok(map)
@@ -230,7 +231,7 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Result<Map, String> {
 
 /// Whether the motion has grown in a run of the program on AKISPL for `EFOLDINGS` times the time in which it grows by e,
 /// or, where it does not, for as many periods; and the energy residual of the run, from which on the program warns.
-fn told(subject: &Subject<'_>, tables: &[Sheet], own: Bogie, growth: f64) -> Result<(bool, f64), String> {
+fn told(subject: &MapSubject<'_>, tables: &[Sheet], own: Bogie, growth: f64) -> Result<(bool, f64), String> {
     let reading = Reading::new(Kind::Akispl, tables).map_err(|error| error.to_string())?;
     let [k, c] = own.law;
     let omega = (2.0 * k / own.mass).sqrt();
@@ -249,7 +250,7 @@ fn told(subject: &Subject<'_>, tables: &[Sheet], own: Bogie, growth: f64) -> Res
     let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()));
     let run = run.map_err(|error| error.to_string())?;
     if !run.status.is_complete() {
-        return Err(results::summary::status(&run.status).1.unwrap_or_default());
+        return Err(results::run_error::status(&run.status).1.unwrap_or_default());
     }
     let speed = run.history.column(Channel::Speed(0, Freedom::Y));
     let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, own| most.max(own.abs()));

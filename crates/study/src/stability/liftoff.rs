@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use sim::{Channel, Status};
 
-use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
-use super::subject::Subject;
+use super::subject::MapSubject;
 use report::chart::{Series, Style};
 
 /// Error of the largest midspan deflection, by the static one, that is none.
@@ -73,7 +73,7 @@ fn reference(beta: f64) -> Passage {
 }
 
 /// The same by the program, on a stiff wheel that `pulls` (or not); least force by the weight.
-fn ours(subject: &Subject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
+fn ours(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
     let length = subject.length();
     let mid = 0.5 * (subject.span[0] + subject.span[1]);
     let give = subject.at(mid);
@@ -92,7 +92,7 @@ fn ours(subject: &Subject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64),
     let run = sim::run(&scene, &[subject.foundation()], &mut |_| ControlFlow::Continue(()));
     let run = run.map_err(|error| error.to_string())?;
     if run.status != Status::Done {
-        return Err(results::summary::status(&run.status).1.unwrap_or_default());
+        return Err(results::run_error::status(&run.status).1.unwrap_or_default());
     }
     let statical = subject.load * give;
     let forces = run.history.column(Channel::Vertical(0));
@@ -107,12 +107,12 @@ fn ours(subject: &Subject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64),
 
 /// The map.
 #[must_use]
-pub fn map(subject: &Subject<'_>, points: usize) -> Map {
+pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let axes = [
-        Scale::new("beta = g L^2 / (16 v^2 S)", "", true),
-        Scale::new("place where contact is lost / span (1: it is not)", "", false),
+        MapScale::new("beta = g L^2 / (16 v^2 S)", "", true),
+        MapScale::new("place where contact is lost / span (1: it is not)", "", false),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "lift-off",
         "A rigid mass crosses a beam without mass: does the force pull?",
         axes,
@@ -142,11 +142,11 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
                 Ok((own, least)) => {
                     let apart = (own.factor - right.factor).abs().max(0.2 * (own.lost - right.lost).abs());
                     let error = if least < -1e-6 { 1.0 } else { apart };
-                    (own.lost, error, Verdict::of(error, ALLOWED, OBVIOUS))
+                    (own.lost, error, MapVerdict::of(error, ALLOWED, OBVIOUS))
                 }
-                Err(why) => (right.lost, 0.0, Verdict::Refused(why)),
+                Err(why) => (right.lost, 0.0, MapVerdict::Refused(why)),
             };
-            layer.cells.push(Cell { at: [beta, at], value, verdict });
+            layer.cells.push(MapPoint { at: [beta, at], value, verdict });
         }
     }
     let line = Series::new("by Stokes' equation", Style::Line, lost);

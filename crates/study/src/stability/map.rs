@@ -4,7 +4,7 @@ use report::chart::Series;
 
 /// What a method gave at a point.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
+pub enum MapVerdict {
     /// What it should.
     Right,
     /// Numbers that look like any others, and are not right; nobody is told.
@@ -17,7 +17,7 @@ pub enum Verdict {
     Refused(String),
 }
 
-impl Verdict {
+impl MapVerdict {
     /// Their words, in the order of charts.
     pub const WORDS: [&'static str; 5] =
         ["right", "silently wrong", "diverges", "wrong, with a warning", "refused"];
@@ -26,38 +26,38 @@ impl Verdict {
     #[must_use]
     pub const fn word(&self) -> &'static str {
         let at = match self {
-            Verdict::Right => 0,
-            Verdict::Wrong => 1,
-            Verdict::Diverged => 2,
-            Verdict::Warned => 3,
-            Verdict::Refused(_) => 4,
+            MapVerdict::Right => 0,
+            MapVerdict::Wrong => 1,
+            MapVerdict::Diverged => 2,
+            MapVerdict::Warned => 3,
+            MapVerdict::Refused(_) => 4,
         };
-        Verdict::WORDS[at]
+        MapVerdict::WORDS[at]
     }
 
     /// Of an error: right up to `allowed`, without bound beyond `obvious`.
     #[must_use]
-    pub fn of(error: f64, allowed: f64, obvious: f64) -> Verdict {
+    pub fn of(error: f64, allowed: f64, obvious: f64) -> MapVerdict {
         if error <= allowed {
-            Verdict::Right
+            MapVerdict::Right
         } else if error < obvious {
-            Verdict::Wrong
+            MapVerdict::Wrong
         } else {
             // not a number included
-            Verdict::Diverged
+            MapVerdict::Diverged
         }
     }
 }
 
 /// A point of a map.
 #[derive(Clone, Debug)]
-pub struct Cell {
+pub struct MapPoint {
     /// Place on the map.
     pub at: [f64; 2],
     /// What the verdict follows from, such as a spectral radius or an error.
     pub value: f64,
     /// The verdict.
-    pub verdict: Verdict,
+    pub verdict: MapVerdict,
 }
 
 /// One method over the map.
@@ -68,7 +68,7 @@ pub struct Layer {
     /// Whether it is what the program does.
     pub is_ours: bool,
     /// Its points.
-    pub cells: Vec<Cell>,
+    pub cells: Vec<MapPoint>,
     /// Lines over them.
     pub lines: Vec<Series>,
 }
@@ -82,20 +82,20 @@ impl Layer {
 
     /// The same with its points.
     #[must_use]
-    pub fn with(self, cells: Vec<Cell>) -> Layer {
+    pub fn with(self, cells: Vec<MapPoint>) -> Layer {
         Layer { cells, ..self }
     }
 
     /// How many points have each verdict, in the order of [`Verdict::WORDS`].
     #[must_use]
     pub fn counts(&self) -> [usize; 5] {
-        Verdict::WORDS.map(|word| self.cells.iter().filter(|cell| cell.verdict.word() == word).count())
+        MapVerdict::WORDS.map(|word| self.cells.iter().filter(|cell| cell.verdict.word() == word).count())
     }
 }
 
 /// A number found on the way.
 #[derive(Clone, Debug)]
-pub struct Finding {
+pub struct MapFinding {
     /// What it is, with its unit.
     pub what: String,
     /// The number.
@@ -104,7 +104,7 @@ pub struct Finding {
 
 /// An axis of a map: label, unit, whether logarithmic.
 #[derive(Clone, Debug)]
-pub struct Scale {
+pub struct MapScale {
     /// What is measured.
     pub label: String,
     /// Unit; empty for numbers.
@@ -113,42 +113,42 @@ pub struct Scale {
     pub log: bool,
 }
 
-impl Scale {
+impl MapScale {
     /// An axis.
     #[must_use]
-    pub fn new(label: &str, unit: &str, log: bool) -> Scale {
-        Scale { label: label.to_owned(), unit: unit.to_owned(), log }
+    pub fn new(label: &str, unit: &str, log: bool) -> MapScale {
+        MapScale { label: label.to_owned(), unit: unit.to_owned(), log }
     }
 }
 
 /// A map.
 #[derive(Clone, Debug)]
-pub struct Map {
+pub struct StabilityMap {
     /// Its name in files.
     pub name: &'static str,
     /// Its heading.
     pub title: String,
     /// Both axes.
-    pub axes: [Scale; 2],
+    pub axes: [MapScale; 2],
     /// Methods.
     pub layers: Vec<Layer>,
     /// Numbers found on the way.
-    pub findings: Vec<Finding>,
+    pub findings: Vec<MapFinding>,
     /// What the verdicts mean here.
     pub note: String,
 }
 
-impl Map {
+impl StabilityMap {
     /// A map without layers.
     #[must_use]
-    pub fn new(name: &'static str, title: &str, axes: [Scale; 2], note: &str) -> Map {
+    pub fn new(name: &'static str, title: &str, axes: [MapScale; 2], note: &str) -> StabilityMap {
         let (layers, findings) = (Vec::new(), Vec::new());
-        Map { name, title: title.to_owned(), axes, layers, findings, note: note.to_owned() }
+        StabilityMap { name, title: title.to_owned(), axes, layers, findings, note: note.to_owned() }
     }
 
     /// Notes a number.
     pub fn find(&mut self, what: impl Into<String>, value: f64) {
-        self.findings.push(Finding { what: what.into(), value });
+        self.findings.push(MapFinding { what: what.into(), value });
     }
 
     /// Points at which the program itself is silently wrong.

@@ -16,18 +16,18 @@ mod subject;
 mod ties;
 
 pub use data::{csv, json};
-pub use map::{Cell, Finding, Layer, Map, Scale, Verdict};
+pub use map::{Layer, MapFinding, MapPoint, MapScale, MapVerdict, StabilityMap};
 pub use picture::pictures;
-pub use subject::Subject;
+pub use subject::MapSubject;
 
 use crate::observer::Observer;
 
 /// Maps, and the names of those that are absent with why.
-pub type Maps = (Vec<Map>, Vec<(String, String)>);
+pub type Maps = (Vec<StabilityMap>, Vec<(String, String)>);
 
 /// All maps for `subject`; with `quick` of fewer points.
 #[must_use]
-pub fn maps(subject: &Subject<'_>, quick: bool, observer: &dyn Observer) -> Maps {
+pub fn maps(subject: &MapSubject<'_>, quick: bool, observer: &dyn Observer) -> Maps {
     let points = |full: usize| if quick { full / 3 } else { full };
     let (mut maps, mut absent) = (Vec::new(), Vec::new());
     observer.say("mapping contact");

@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
 use super::elements::bending;
-use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
-use super::subject::Subject;
+use super::subject::MapSubject;
 
 /// Relative error that is none, and one that nobody overlooks.
 const ALLOWED: f64 = 1e-6;
@@ -90,7 +90,7 @@ impl Beam {
 
 /// The map.
 #[must_use]
-pub fn map(subject: &Subject<'_>, points: usize) -> Map {
+pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let girder = subject.girder;
     let twist = match (girder.g.zip(girder.j), girder.i_lateral) {
         (Some((g, j)), Some(i)) if g * j > 0.0 && i > 0.0 => g * j / (girder.e * i),
@@ -99,10 +99,10 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
     let height = (girder.rail_height / subject.length()).abs();
     let beam = Beam { twist, offset: if height > 0.0 { height } else { USUAL } };
     let axes = [
-        Scale::new("stiffness of the post by that of the girder", "", true),
-        Scale::new("relative error of the rail's lateral give", "", true),
+        MapScale::new("stiffness of the post by that of the girder", "", true),
+        MapScale::new("relative error of the rail's lateral give", "", true),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "penalty",
         "A rail off the axis of its girder: stiff members or exact kinematics",
         axes,
@@ -118,13 +118,13 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
         let mut best = (f64::INFINITY, 0.0);
         for &stiff in &stiffs {
             let (value, verdict) = match beam.penalty(count, stiff) {
-                Some(found) => (relative(found), Verdict::of(relative(found), ALLOWED, OBVIOUS)),
-                None => (1.0, Verdict::Refused("the matrix is not positive definite".to_owned())),
+                Some(found) => (relative(found), MapVerdict::of(relative(found), ALLOWED, OBVIOUS)),
+                None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
             };
             if value < best.0 {
                 best = (value, stiff);
             }
-            cells.push(Cell { at: [stiff, value], value, verdict });
+            cells.push(MapPoint { at: [stiff, value], value, verdict });
         }
         map.find(format!("{count} elements: least error"), best.0);
         map.find(format!("{count} elements: at the stiffness"), best.1);
@@ -138,12 +138,12 @@ pub fn map(subject: &Subject<'_>, points: usize) -> Map {
     let mut cells = Vec::new();
     for count in [4, 16, 64] {
         let (value, verdict) = match beam.ours(count) {
-            Ok(found) => (relative(found), Verdict::of(relative(found), ALLOWED, OBVIOUS)),
-            Err(why) => (1.0, Verdict::Refused(why)),
+            Ok(found) => (relative(found), MapVerdict::of(relative(found), ALLOWED, OBVIOUS)),
+            Err(why) => (1.0, MapVerdict::Refused(why)),
         };
         map.find(format!("girderway, {count} elements: error"), value);
         // no stiffness to choose: the same everywhere
-        cells.extend(stiffs.iter().map(|stiff| Cell {
+        cells.extend(stiffs.iter().map(|stiff| MapPoint {
             at: [*stiff, value],
             value,
             verdict: verdict.clone(),

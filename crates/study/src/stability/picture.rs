@@ -1,9 +1,9 @@
 //! Maps drawn: a chart a method, a few below each other.
 
-use super::map::{Map, Scale, Verdict};
+use super::map::{MapScale, MapVerdict, StabilityMap};
 use report::chart::{Axis, Chart, Error, Series, Style, stack};
 
-fn axis(scale: &Scale, range: [f64; 2]) -> Axis {
+fn axis(scale: &MapScale, range: [f64; 2]) -> Axis {
     let axis = Axis::new(scale.label.clone(), scale.unit.clone());
     let [low, high] = range;
     if scale.log {
@@ -22,7 +22,7 @@ const A_PICTURE: usize = 4;
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
-pub fn pictures(map: &Map) -> Result<Vec<String>, Error> {
+pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
     let drawn = |at: &[f64; 2]| {
         let fits = |k: usize| at[k].is_finite() && (!map.axes[k].log || at[k] > 0.0);
         fits(0) && fits(1)
@@ -42,7 +42,7 @@ pub fn pictures(map: &Map) -> Result<Vec<String>, Error> {
         let title = format!("{} ({})", map.title, layer.method);
         let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
         let mut chart = Chart::new(title, x, y);
-        for word in Verdict::WORDS {
+        for word in MapVerdict::WORDS {
             let own = layer.cells.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
             chart.series.push(Series::new(word, Style::Points, own.filter(|at| drawn(at)).collect()));
         }
@@ -51,7 +51,7 @@ pub fn pictures(map: &Map) -> Result<Vec<String>, Error> {
             chart.series.push(Series { points, ..line.clone() });
         }
         let counts = layer.counts();
-        let told: Vec<String> = Verdict::WORDS
+        let told: Vec<String> = MapVerdict::WORDS
             .iter()
             .zip(counts)
             .filter(|(_, count)| *count > 0)

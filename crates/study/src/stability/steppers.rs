@@ -11,13 +11,13 @@ pub struct Oscillator<'a> {
 }
 
 /// State of a stepper: z, z' and up to two numbers that it remembers.
-pub type State = [f64; 4];
+pub type OscillatorState = [f64; 4];
 
 /// One step of length `h` from time `t`.
-pub type Step = fn(&Oscillator<'_>, f64, f64, State) -> State;
+pub type StepMethod = fn(&Oscillator<'_>, f64, f64, OscillatorState) -> OscillatorState;
 
 /// A stepper by its name, with the length of its state.
-pub const STEPPERS: [(&str, usize, Step); 8] = [
+pub const STEPPERS: [(&str, usize, StepMethod); 8] = [
     ("semi-implicit Euler", 2, euler),
     ("Runge-Kutta 4", 2, rk4),
     ("Dormand-Prince 5", 2, dp5),
@@ -41,7 +41,7 @@ impl Oscillator<'_> {
     }
 }
 
-fn euler(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: State) -> State {
+fn euler(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> OscillatorState {
     let v = v + h * of.slope(t, [z, v])[1];
     [z + h * v, v, 0.0, 0.0]
 }
@@ -51,11 +51,11 @@ fn explicit<const S: usize>(
     of: &Oscillator<'_>,
     t: f64,
     h: f64,
-    [z, v, ..]: State,
+    [z, v, ..]: OscillatorState,
     nodes: [f64; S],
     rows: [&[f64]; S],
     weights: [f64; S],
-) -> State {
+) -> OscillatorState {
     let mut slopes = [[0.0; 2]; S];
     for (stage, (node, row)) in nodes.iter().zip(rows).enumerate() {
         let mut at = [z, v];
@@ -68,14 +68,14 @@ fn explicit<const S: usize>(
     [z + h * sum(0), v + h * sum(1), 0.0, 0.0]
 }
 
-fn rk4(of: &Oscillator<'_>, t: f64, h: f64, state: State) -> State {
+fn rk4(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> OscillatorState {
     let weights = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
     explicit(of, t, h, state, [0.0, 0.5, 0.5, 1.0], [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]], weights)
 }
 
 /// # Source
 /// J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, J. Comput. Appl. Math. 6 (1980), 19-26.
-fn dp5(of: &Oscillator<'_>, t: f64, h: f64, state: State) -> State {
+fn dp5(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> OscillatorState {
     let rows: [&[f64]; 6] = [
         &[],
         &[1.0 / 5.0],
@@ -88,13 +88,13 @@ fn dp5(of: &Oscillator<'_>, t: f64, h: f64, state: State) -> State {
     explicit(of, t, h, state, [0.0, 0.2, 0.3, 0.8, 8.0 / 9.0, 1.0], rows, weights)
 }
 
-fn midpoint(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: State) -> State {
+fn midpoint(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> OscillatorState {
     // y1 = 2 m - y0, m = y0 + h/2 A m
     let middle = of.implicit(t + 0.5 * h, 0.5 * h, [z, v]);
     [2.0 * middle[0] - z, 2.0 * middle[1] - v, 0.0, 0.0]
 }
 
-fn trapezoid(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: State) -> State {
+fn trapezoid(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> OscillatorState {
     let slope = of.slope(t, [z, v]);
     let [z, v] = of.implicit(t + h, 0.5 * h, [z + 0.5 * h * slope[0], v + 0.5 * h * slope[1]]);
     [z, v, 0.0, 0.0]
@@ -103,7 +103,7 @@ fn trapezoid(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: State) -> State {
 /// # Source
 /// J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical dissipation,
 /// J. Appl. Mech. 60 (1993), 371-375.
-fn alpha(of: &Oscillator<'_>, t: f64, h: f64, [z, v, a, _]: State, radius: f64) -> State {
+fn alpha(of: &Oscillator<'_>, t: f64, h: f64, [z, v, a, _]: OscillatorState, radius: f64) -> OscillatorState {
     let (am, af) = ((2.0 * radius - 1.0) / (radius + 1.0), radius / (radius + 1.0));
     let gamma = 0.5 + af - am;
     let beta = 0.25 * (1.0 + af - am) * (1.0 + af - am);
@@ -117,15 +117,15 @@ fn alpha(of: &Oscillator<'_>, t: f64, h: f64, [z, v, a, _]: State, radius: f64) 
     [z0 + beta * h * h * new, v0 + gamma * h * new, new, 0.0]
 }
 
-fn alpha8(of: &Oscillator<'_>, t: f64, h: f64, state: State) -> State {
+fn alpha8(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> OscillatorState {
     alpha(of, t, h, state, 0.8)
 }
 
-fn alpha5(of: &Oscillator<'_>, t: f64, h: f64, state: State) -> State {
+fn alpha5(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> OscillatorState {
     alpha(of, t, h, state, 0.5)
 }
 
-fn bdf2(of: &Oscillator<'_>, t: f64, h: f64, [z, v, z0, v0]: State) -> State {
+fn bdf2(of: &Oscillator<'_>, t: f64, h: f64, [z, v, z0, v0]: OscillatorState) -> OscillatorState {
     let [new, speed] = of.implicit(t + h, 2.0 / 3.0 * h, [(4.0 * z - z0) / 3.0, (4.0 * v - v0) / 3.0]);
     [new, speed, z, v]
 }
@@ -141,11 +141,11 @@ pub fn radius(matrix: &DMatrix<f64>) -> f64 {
 
 /// Spectral radius of what `count` steps over the time `period` make of the first `size` numbers of a state.
 #[must_use]
-pub fn monodromy(of: &Oscillator<'_>, step: Step, size: usize, period: f64, count: usize) -> f64 {
+pub fn monodromy(of: &Oscillator<'_>, step: StepMethod, size: usize, period: f64, count: usize) -> f64 {
     let h = period / count as f64;
     let mut out = DMatrix::zeros(size, size);
     for column in 0..size {
-        let mut state: State = [0.0; 4];
+        let mut state: OscillatorState = [0.0; 4];
         state[column] = 1.0;
         for i in 0..count {
             state = step(of, i as f64 * h, h, state);
@@ -162,10 +162,10 @@ mod tests {
     use super::*;
 
     /// Error of z after unit time of z'' + (0.2 + 0.3 t) z' + 4 (1 + t) z = 0 by `steps` steps.
-    fn error(name: &str, step: Step, steps: u32) -> f64 {
+    fn error(name: &str, step: StepMethod, steps: u32) -> f64 {
         let stiffness = |t: f64| 4.0 * (1.0 + t);
         let of = Oscillator { damping: &|t| 0.2 + 0.3 * t, stiffness: &stiffness };
-        let run = |name: &str, step: Step, steps: u32| {
+        let run = |name: &str, step: StepMethod, steps: u32| {
             let h = 1.0 / f64::from(steps);
             // what multistep methods remember: an earlier state, an acceleration
             let fine = |until: f64| {

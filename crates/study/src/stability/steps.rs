@@ -6,9 +6,9 @@ use std::ops::ControlFlow;
 use nalgebra::DMatrix;
 use sim::{Channel, Freedom, Method, Stepping};
 
-use super::map::{Cell, Layer, Map, Scale, Verdict};
-use super::steppers::{Oscillator, STEPPERS, Step, monodromy, radius};
-use super::subject::Subject;
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::steppers::{Oscillator, STEPPERS, StepMethod, monodromy, radius};
+use super::subject::MapSubject;
 use formats::scene::stepper_word;
 use formats::units::Dimension;
 use results::warning::RESIDUAL;
@@ -28,7 +28,7 @@ const OBVIOUS: f64 = 100.0;
 
 /// The crossing of one span by one wheel.
 struct Crossing<'s, 'a> {
-    subject: &'s Subject<'a>,
+    subject: &'s MapSubject<'a>,
     /// Frequency of the wheel on its spring alone.
     omega: f64,
     /// Its damping by 2 m.
@@ -48,7 +48,7 @@ impl Crossing<'_, '_> {
     }
 
     /// Spectral radius by a stepper, `count` steps a span.
-    fn radius(&self, (size, step): (usize, Step), period: f64, count: usize) -> f64 {
+    fn radius(&self, (size, step): (usize, StepMethod), period: f64, count: usize) -> f64 {
         let stiffness = |t: f64| self.omega * self.omega * self.softened(t / period);
         let damping = |t: f64| self.damping * self.softened(t / period);
         let of = Oscillator { damping: &damping, stiffness: &stiffness };
@@ -95,7 +95,7 @@ impl Crossing<'_, '_> {
                 sim::run_by(stepping, &scene, &[subject.foundation()], &mut |_| ControlFlow::Continue(()));
             let run = run.map_err(|error| error.to_string())?;
             if !run.status.is_complete() {
-                return Err(results::summary::status(&run.status).1.unwrap_or_default());
+                return Err(results::run_error::status(&run.status).1.unwrap_or_default());
             }
             residual = residual.max(run.audit.residual());
             for (row, (channel, scale)) in [
@@ -115,17 +115,17 @@ impl Crossing<'_, '_> {
 
 /// The maps: steps of one length, and those by accuracy.
 #[must_use]
-pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
+pub fn maps(subject: &MapSubject<'_>, points: usize) -> Vec<StabilityMap> {
     let omega = (subject.stiffness / subject.mass()).sqrt();
     let count = 8000;
     let place = |i: usize| subject.span[0] + subject.length() * i as f64 / f64::from(count);
     let give = (0..=count as usize).map(|i| subject.stiffness * subject.at(place(i))).collect();
     let crossing = Crossing { subject, omega, damping: subject.damping / subject.mass(), give };
     let axes = [
-        Scale::new("speed", &subject.unit(Dimension::SPEED), true),
-        Scale::new("step x frequency of the wheel on its spring", "", true),
+        MapScale::new("speed", &subject.unit(Dimension::SPEED), true),
+        MapScale::new("step x frequency of the wheel on its spring", "", true),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "steps",
         "Steps that keep a wheel on equal spans stable",
         axes,
@@ -153,7 +153,7 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
     let judge = |found: f64, physical: f64| {
         // a motion that grows is to grow alike; one that does not is not to
         let allowed = if physical > 1.0 { ALIKE * physical } else { 1.0 + GROWTH };
-        Verdict::of(found, allowed, OBVIOUS * allowed)
+        MapVerdict::of(found, allowed, OBVIOUS * allowed)
     };
     let counted = |speed: f64, step: f64| {
         let period = subject.length() / speed;
@@ -172,10 +172,10 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
                 }
                 let value = crossing.radius((size, step), period, count);
                 let verdict = judge(value, *physical);
-                if verdict != Verdict::Right && *physical < DECAYS {
+                if verdict != MapVerdict::Right && *physical < DECAYS {
                     first = first.min(real);
                 }
-                cells.push(Cell { at: [*speed, real], value: finite(value), verdict });
+                cells.push(MapPoint { at: [*speed, real], value: finite(value), verdict });
             }
         }
         if first.is_finite() {
@@ -194,13 +194,13 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
                 let stepping = Stepping { method, step: Some(period / count as f64) };
                 let (value, verdict) = match crossing.ours(stepping, *speed, 1e-4) {
                     Ok((value, residual)) => match judge(value, *physical) {
-                        Verdict::Right => (value, Verdict::Right),
-                        _ if residual > RESIDUAL => (value, Verdict::Warned),
+                        MapVerdict::Right => (value, MapVerdict::Right),
+                        _ if residual > RESIDUAL => (value, MapVerdict::Warned),
                         other => (value, other),
                     },
-                    Err(why) => (0.0, Verdict::Refused(why)),
+                    Err(why) => (0.0, MapVerdict::Refused(why)),
                 };
-                cells.push(Cell { at: [*speed, real], value: finite(value), verdict });
+                cells.push(MapPoint { at: [*speed, real], value: finite(value), verdict });
             }
         }
         let word = stepper_word(method);
@@ -210,12 +210,12 @@ pub fn maps(subject: &Subject<'_>, points: usize) -> Vec<Map> {
 }
 
 /// Steps that the program chooses itself, by the accuracy it is asked for.
-fn by_accuracy(crossing: &Crossing<'_, '_>, speeds: &[f64], physical: &[f64], points: usize) -> Map {
+fn by_accuracy(crossing: &Crossing<'_, '_>, speeds: &[f64], physical: &[f64], points: usize) -> StabilityMap {
     let axes = [
-        Scale::new("speed", &crossing.subject.unit(Dimension::SPEED), true),
-        Scale::new("accuracy asked for", "", true),
+        MapScale::new("speed", &crossing.subject.unit(Dimension::SPEED), true),
+        MapScale::new("accuracy asked for", "", true),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "accuracies",
         "Accuracies that keep a wheel on equal spans stable",
         axes,
@@ -227,11 +227,11 @@ fn by_accuracy(crossing: &Crossing<'_, '_>, speeds: &[f64], physical: &[f64], po
         for accuracy in spread(1e-7, 1e-1, points.min(13)) {
             let (value, verdict) = match crossing.ours(Stepping::default(), *speed, accuracy) {
                 Ok((value, _)) => {
-                    (value, Verdict::of(value / physical.max(1.0) - 1.0, accuracy + KNOWN, OBVIOUS))
+                    (value, MapVerdict::of(value / physical.max(1.0) - 1.0, accuracy + KNOWN, OBVIOUS))
                 }
-                Err(why) => (0.0, Verdict::Refused(why)),
+                Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            cells.push(Cell { at: [*speed, accuracy], value: finite(value), verdict });
+            cells.push(MapPoint { at: [*speed, accuracy], value: finite(value), verdict });
         }
     }
     map.layers.push(Layer::new("girderway", true).with(cells));

@@ -5,11 +5,11 @@ use splines::{Axis, Compliance, Influence, Probe, Surface};
 
 use formats::scene::{Scene, Structure};
 use formats::units::{Dimension, Units};
-use foundations::Solved;
-use foundations::{Known, solved_of};
+use foundations::Solution;
+use foundations::{SolvedStructure, solution_of};
 
 /// A straight girder and the wheels on it.
-pub struct Subject<'a> {
+pub struct MapSubject<'a> {
     /// The scene's name.
     pub name: &'a str,
     /// Units of all numbers.
@@ -19,7 +19,7 @@ pub struct Subject<'a> {
     /// The structure.
     pub structure: &'a Structure,
     /// What is known of it.
-    pub solved: &'a Solved,
+    pub solved: &'a Solution,
     /// Its exact surface.
     pub surface: &'a Surface,
     /// The girder.
@@ -36,15 +36,15 @@ pub struct Subject<'a> {
     pub offsets: Vec<f64>,
 }
 
-impl<'a> Subject<'a> {
+impl<'a> MapSubject<'a> {
     /// The first straight girder of `scene` under a truck.
     ///
     /// # Errors
     /// What the scene lacks, in words.
-    pub fn of(scene: &'a Scene, known: &'a [Known]) -> Result<Subject<'a>, String> {
+    pub fn of(scene: &'a Scene, known: &'a [SolvedStructure]) -> Result<MapSubject<'a>, String> {
         let find = |truck: &'a formats::scene::Truck| {
             let structure = &scene.structures[scene.rails[truck.rail].structure];
-            let solved = solved_of(known, &structure.origin)?;
+            let solved = solution_of(known, &structure.origin)?;
             Some((truck, structure, solved, solved.girder.as_ref()?, solved.surface.as_ref()?))
         };
         let found = scene.trucks.iter().find_map(find);
@@ -69,7 +69,7 @@ impl<'a> Subject<'a> {
             }
             at += length;
         }
-        Ok(Subject {
+        Ok(MapSubject {
             name: &scene.name,
             units: scene.units,
             gravity: scene.gravity,

@@ -5,11 +5,11 @@ use std::ops::ControlFlow;
 use fea::Section;
 use sim::{Channel, Damper, Foundation, NormalLaw};
 
-use super::map::{Cell, Layer, Map, Scale, Verdict};
+use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::subject::crossing;
 use formats::track::{Ties, on_ground};
 use formats::units::{Force, Length, Units};
-use foundations::{full_of, solve};
+use foundations::{full_mesh, solve};
 use report::chart::{Series, Style};
 
 /// Error of the deflection that is none, and one that nobody overlooks.
@@ -47,7 +47,7 @@ impl Track {
         let units = Units { length: Length::Inch, force: Force::Pound };
         let spec = on_ground("track", units, &ties, [0.0, length]).map_err(|error| error.to_string())?;
         let solved = solve(&spec).map_err(|error| error.to_string())?;
-        let moving = full_of(&solved, 1).map_err(|failure| failure.to_string())?;
+        let moving = full_mesh(&solved, 1).map_err(|failure| failure.to_string())?;
         let surface = solved.surface.ok_or("the surface of the track is not known")?;
         Ok(Track {
             length,
@@ -71,7 +71,7 @@ impl Track {
         let run = sim::run(&scene, std::slice::from_ref(foundation), &mut |_| ControlFlow::Continue(()));
         let run = run.map_err(|error| error.to_string())?;
         if !run.status.is_complete() {
-            return Err(results::summary::status(&run.status).1.unwrap_or_default());
+            return Err(results::run_error::status(&run.status).1.unwrap_or_default());
         }
         let (gives, forces) =
             (run.history.column(Channel::Give(0)), run.history.column(Channel::Vertical(0)));
@@ -86,13 +86,13 @@ impl Track {
 ///
 /// # Errors
 /// A track that cannot be solved.
-pub fn map(points: usize) -> Result<Map, String> {
+pub fn map(points: usize) -> Result<StabilityMap, String> {
     let track = Track::new()?;
     let axes = [
-        Scale::new("speed / critical speed", "", false),
-        Scale::new("deflection under the wheel / that at rest", "", true),
+        MapScale::new("speed / critical speed", "", false),
+        MapScale::new("deflection under the wheel / that at rest", "", true),
     ];
-    let mut map = Map::new(
+    let mut map = StabilityMap::new(
         "ties",
         "A constant force on a rail on ties",
         axes,
@@ -110,14 +110,14 @@ pub fn map(points: usize) -> Result<Map, String> {
             let (at, value, verdict) = match track.amplified(share, foundation) {
                 Ok(found) => {
                     let error = (found / wanted - 1.0).abs();
-                    (found, error, Verdict::of(error, ALLOWED, OBVIOUS))
+                    (found, error, MapVerdict::of(error, ALLOWED, OBVIOUS))
                 }
-                Err(why) => (wanted, 0.0, Verdict::Refused(why)),
+                Err(why) => (wanted, 0.0, MapVerdict::Refused(why)),
             };
             if layer.is_ours {
                 map.find(format!("deflection at {share:.3} of it"), at);
             }
-            layer.cells.push(Cell { at: [share, at], value, verdict });
+            layer.cells.push(MapPoint { at: [share, at], value, verdict });
         }
     }
     let line = Series::new("rail on a bed", Style::Line, line);

@@ -2,21 +2,38 @@
 
 use sim::{Error, Status};
 
-use crate::summary;
 use formats::scene::{FREEDOMS, Scene};
+
+/// Word of a run's status, and what it means for the user where it is not "done".
+#[must_use]
+pub fn status(status: &Status) -> (&'static str, Option<String>) {
+    match status {
+        Status::Done => ("done", None),
+        Status::Ended(_) => ("ended by event", None),
+        Status::Stopped => ("stopped", Some("the run was stopped".to_owned())),
+        Status::StepTooSmall(t) => (
+            "step too small",
+            Some(format!(
+                "no step was small enough at t = {t} s, or contacts opened and closed without end: the motion cannot be \
+                 followed"
+            )),
+        ),
+        Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
+    }
+}
 
 /// Why a run did not reach its end, by name; `None` where it did.
 #[must_use]
-pub fn why(status: &Status, scene: &Scene) -> Option<String> {
+pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     match status {
-        Status::Refused(t, error) => Some(format!("at t = {t:.4} s: {}", words(error, scene))),
-        status => summary::status(status).1,
+        Status::Refused(t, error) => Some(format!("at t = {t:.4} s: {}", in_scene_names(error, scene))),
+        status => self::status(status).1,
     }
 }
 
 /// What the simulator says by index, said by name, with what to do where that is known.
 #[must_use]
-pub fn words(error: &Error, scene: &Scene) -> String {
+pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
     let structure = |index: usize| {
         scene.structures.get(index).map_or_else(|| format!("structure {index}"), |one| one.name.clone())
     };

@@ -3,17 +3,18 @@
 //! [`Subject`] is what a file says of its tables, [`Findings`] the numbers of one of them; `text`, `json` and
 //! `picture` show them. The numbers themselves come from [`splines::check`].
 
-pub mod findings;
-pub mod hazard;
+pub mod digits;
+pub mod extrapolation_risk;
+mod findings;
 pub mod json;
-pub mod manner;
 pub mod picture;
+pub mod reading_method;
 pub mod readings;
 pub mod subject;
 pub mod text;
 
-pub use findings::{Findings, Settings, Verdict};
-pub use hazard::Hazard;
-pub use manner::Manner;
+pub use extrapolation_risk::ExtrapolationRisk;
+pub use findings::{Settings, TableQuality, TableVerdict};
+pub use reading_method::TableReadingMethod;
 pub use readings::{Pair, ReadingFindings};
-pub use subject::{Item, Subject};
+pub use subject::{TableItem, TableSource};

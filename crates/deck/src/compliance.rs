@@ -4,9 +4,9 @@ use adams::{Curves, Spline, Statement};
 use sim::{Extent, Foundation};
 use splines::{Axis, Factored, Kind, Rank, Reading, Sheet};
 
-use super::expression::{Sum, value};
-use super::form::Form;
-use super::ids::{Next, product};
+use super::expression::{TermList, value};
+use super::form::DeckForm;
+use super::ids::{NextId, product};
 use super::name::plain;
 use super::remark;
 use crate::Error;
@@ -16,12 +16,12 @@ use formats::scene::Structure;
 pub const SHARE: f64 = 1e-6;
 
 /// A direction of a structure: rail and axis.
-pub type Way = (usize, Axis);
+pub type RailAxis = (usize, Axis);
 
 /// A force on a rail, as expressions.
-pub struct Load {
+pub struct LoadedMarker {
     /// Where it acts, and which way.
-    pub way: Way,
+    pub way: RailAxis,
     /// Rail coordinate.
     pub place: String,
     /// Force.
@@ -31,12 +31,12 @@ pub struct Load {
 }
 
 /// The give of one structure.
-pub struct Give {
+pub struct RailCompliance {
     name: String,
     rails: Vec<formats::spec::RailOutline>,
-    form: Form,
+    form: DeckForm,
     /// Directions in which wheels press.
-    ways: Vec<Way>,
+    ways: Vec<RailAxis>,
     tables: Tables,
 }
 
@@ -49,18 +49,18 @@ enum Tables {
 }
 
 struct Family {
-    deflection: Way,
-    load: Way,
+    deflection: RailAxis,
+    load: RailAxis,
     table: splines::Table,
     id: u32,
 }
 
-impl Give {
+impl RailCompliance {
     /// A structure that does not give.
     #[must_use]
-    pub fn rigid(structure: &Structure, form: Form) -> Give {
+    pub fn rigid(structure: &Structure, form: DeckForm) -> RailCompliance {
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
-        Give { name, rails, form, ways: Vec::new(), tables: Tables::Rigid }
+        RailCompliance { name, rails, form, ways: Vec::new(), tables: Tables::Rigid }
     }
 
     /// The give along `ways` by `sheets`; SPLINE identifiers are taken from `ids`, factors are numbered from
@@ -70,12 +70,12 @@ impl Give {
     /// A direction without a table; stations too few for a SPLINE.
     pub fn new(
         structure: &Structure,
-        mut ways: Vec<Way>,
+        mut ways: Vec<RailAxis>,
         sheets: &[Sheet],
-        form: Form,
-        ids: &mut Next,
+        form: DeckForm,
+        ids: &mut NextId,
         factors: &mut usize,
-    ) -> Result<Give, String> {
+    ) -> Result<RailCompliance, String> {
         ways.sort_unstable();
         ways.dedup();
         let used = |sheet: &&Sheet| ways.contains(&sheet.deflection) && ways.contains(&sheet.load);
@@ -92,7 +92,7 @@ impl Give {
             }
         }
         let tables = match form {
-            Form::Factored => {
+            DeckForm::Factored => {
                 let factored =
                     Factored::new(&sheets, Rank::Tolerance(SHARE)).map_err(|error| error.to_string())?;
                 let mut first = Vec::new();
@@ -110,10 +110,10 @@ impl Give {
                 *factors += factored.factors().len();
                 Tables::Factored(factored, first, number)
             }
-            Form::Akispl | Form::Symmetrised | Form::Paper => families(sheets, ids)?,
+            DeckForm::Akispl | DeckForm::Symmetrised | DeckForm::Paper => families(sheets, ids)?,
         };
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
-        Ok(Give { name, rails, form, ways, tables })
+        Ok(RailCompliance { name, rails, form, ways, tables })
     }
 
     /// Whether the rails give at all.
@@ -147,7 +147,7 @@ impl Give {
                 Ok(Foundation { rails: self.rails.iter().map(extent).collect(), ..Foundation::rigid() })
             }
             Tables::Families(_, sheets) => {
-                let kind = if self.form == Form::Symmetrised { Kind::Symmetrised } else { Kind::Akispl };
+                let kind = if self.form == DeckForm::Symmetrised { Kind::Symmetrised } else { Kind::Akispl };
                 let reading = Reading::new(kind, sheets).map_err(fail)?;
                 Ok(Foundation::influence(Box::new(reading), rails))
             }
@@ -193,12 +193,12 @@ impl Give {
 
     /// VARIABLEs of the products, q_k = sum over the loads of F phi_k: shared by all wheels.
     #[must_use]
-    pub fn products(&self, loads: &[Load]) -> Vec<Statement> {
+    pub fn products(&self, loads: &[LoadedMarker]) -> Vec<Statement> {
         let Tables::Factored(factored, first, number) = &self.tables else { return Vec::new() };
         let mut out = Vec::new();
         for (f, (factor, first)) in factored.factors().iter().zip(first).enumerate() {
             for k in 0..factor.rank() {
-                let mut sum = Sum::default();
+                let mut sum = TermList::default();
                 for load in loads {
                     let Some(curve) = curve(factor, first, load.way, k) else { continue };
                     sum.add(load.negative, &format!("{}*CUBSPL({},0,{curve})", load.force, load.place));
@@ -216,20 +216,27 @@ impl Give {
     /// The displacement of the rail at a place along `way`, positive along the axis; with `slope` its derivative
     /// along the rail, which families do not have.
     #[must_use]
-    pub fn displacement(&self, way: Way, place: &str, loads: &[Load], slope: bool) -> Option<String> {
-        let mut sum = Sum::default();
+    pub fn displacement(
+        &self,
+        way: RailAxis,
+        place: &str,
+        loads: &[LoadedMarker],
+        slope: bool,
+    ) -> Option<String> {
+        let mut sum = TermList::default();
         match &self.tables {
             Tables::Families(families, _) if !slope => {
-                let find = |a: Way, b: Way| families.iter().find(|f| f.deflection == a && f.load == b);
+                let find =
+                    |a: RailAxis, b: RailAxis| families.iter().find(|f| f.deflection == a && f.load == b);
                 for load in loads {
                     let Some(family) = find(way, load.way) else { continue };
                     let (x, z, id) = (&load.place, place, family.id);
                     let read = match self.form {
-                        Form::Symmetrised => {
+                        DeckForm::Symmetrised => {
                             let back = find(load.way, way).map_or(id, |family| family.id);
                             format!("0.5*(AKISPL({x},{z},{id})+AKISPL({z},{x},{back}))")
                         }
-                        Form::Paper => format!("AKISPL({x},{x},{id})"),
+                        DeckForm::Paper => format!("AKISPL({x},{x},{id})"),
                         _ => format!("AKISPL({x},{z},{id})"),
                     };
                     sum.add(load.negative, &format!("{}*{read}", load.force));
@@ -250,20 +257,20 @@ impl Give {
         Some(sum.text())
     }
 
-    fn way(&self, (rail, axis): Way) -> String {
+    fn way(&self, (rail, axis): RailAxis) -> String {
         format!("{}_{}_{}", self.name, self.rails[rail].name, word(axis))
     }
 }
 
 /// SPLINE of product `k` along a direction, where the factor has the direction.
-fn curve(factor: &splines::Factor, first: &[u32], way: Way, k: usize) -> Option<u32> {
+fn curve(factor: &splines::Factor, first: &[u32], way: RailAxis, k: usize) -> Option<u32> {
     let at = factor.curves.iter().position(|curves| curves.way == way)?;
     Some(first[at] + super::ids::number(k) - 1)
 }
 
 /// Families of every ordered pair of directions that has a table: direct ones first.
-fn families(sheets: Vec<Sheet>, ids: &mut Next) -> Result<Tables, String> {
-    let mut all: Vec<(Way, Way, splines::Table)> = Vec::new();
+fn families(sheets: Vec<Sheet>, ids: &mut NextId) -> Result<Tables, String> {
+    let mut all: Vec<(RailAxis, RailAxis, splines::Table)> = Vec::new();
     for direct in [true, false] {
         for sheet in sheets.iter().filter(|sheet| (sheet.deflection == sheet.load) == direct) {
             all.push((sheet.deflection, sheet.load, sheet.table.clone()));

@@ -4,9 +4,10 @@ use std::fmt::Write;
 
 use splines::check::{Extreme, Layout};
 
-use super::findings::{Findings, Truth, Verdict};
+use super::digits::{sharp, short};
+use super::findings::{TableQuality, TableVerdict, Truth};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
-use super::subject::Subject;
+use super::subject::TableSource;
 use formats::units::{Dimension, Units};
 
 /// Width of the names of rows, and of a column.
@@ -31,7 +32,7 @@ impl Words {
 
 /// The whole text.
 #[must_use]
-pub fn text(subject: &Subject, all: &[Findings]) -> String {
+pub fn text(subject: &TableSource, all: &[TableQuality]) -> String {
     let units = Words(subject.units);
     let mut out = String::new();
     for note in &subject.notes {
@@ -47,7 +48,7 @@ pub fn text(subject: &Subject, all: &[Findings]) -> String {
     out
 }
 
-fn one(out: &mut String, found: &Findings, units: Words) {
+fn one(out: &mut String, found: &TableQuality, units: Words) {
     let table = &found.item.table;
     let (x, length) = (table.x(), units.of(Dimension::LENGTH));
     let name = if found.item.name.is_empty() { String::new() } else { format!(" {}", found.item.name) };
@@ -81,7 +82,7 @@ fn one(out: &mut String, found: &Findings, units: Words) {
     }
 }
 
-fn stations(out: &mut String, found: &Findings, units: Words) {
+fn stations(out: &mut String, found: &TableQuality, units: Words) {
     let flexibility = units.of(Dimension::FLEXIBILITY);
     let _ = writeln!(out, "  at the stations: {} digits", found.digits.count);
     if let Some(worst) = found.asymmetry {
@@ -113,7 +114,7 @@ fn stations(out: &mut String, found: &Findings, units: Words) {
 }
 
 /// What errors are against.
-fn truth(found: &Findings, units: Words) -> String {
+fn truth(found: &TableQuality, units: Words) -> String {
     match &found.truth {
         Truth::Surface => "readings, errors against the exact surface of the grid file".to_owned(),
         Truth::Lifted(lift) => {
@@ -131,7 +132,7 @@ fn truth(found: &Findings, units: Words) -> String {
     }
 }
 
-fn readings(out: &mut String, found: &Findings, units: Words) {
+fn readings(out: &mut String, found: &TableQuality, units: Words) {
     let all = &found.readings;
     let length = units.bracket(Dimension::LENGTH);
     let mut row = |name: &str, cell: &dyn Fn(&ReadingFindings) -> Option<String>| {
@@ -204,7 +205,7 @@ fn readings(out: &mut String, found: &Findings, units: Words) {
     });
 }
 
-fn beyond(out: &mut String, found: &Findings, units: Words) {
+fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     let flexibility = units.of(Dimension::FLEXIBILITY);
     let scale = found.item.table.values().amax();
     for row in found.beyond.iter().filter(|row| row.spread() > 1e-9 * scale) {
@@ -222,27 +223,27 @@ fn beyond(out: &mut String, found: &Findings, units: Words) {
     }
 }
 
-fn sentence(verdict: &Verdict, Words(units): Words) -> String {
+fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
     let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
     match verdict {
-        Verdict::Asymmetric(worst) => format!(
+        TableVerdict::Asymmetric(worst) => format!(
             "not symmetric: T(x = {}, z = {}) and its opposite differ by {} {unit}; take their mean, or find out which is wrong",
             short(worst.x),
             short(worst.z),
             short(worst.value)
         ),
-        Verdict::Indefinite(spectrum) => format!(
+        TableVerdict::Indefinite(spectrum) => format!(
             "not positive semi-definite: smallest eigenvalue {} {unit}, largest {}; no structure gives such a table",
             short(spectrum.smallest),
             short(spectrum.largest)
         ),
-        Verdict::Error(manner, error, tolerance) => format!(
+        TableVerdict::Error(manner, error, tolerance) => format!(
             "{} errs by {} %, {} % are allowed: more stations, or another reading",
             manner.word(),
             short(100.0 * error),
             short(100.0 * tolerance)
         ),
-        Verdict::Unknown(manner) => {
+        TableVerdict::Unknown(manner) => {
             format!("the error of {} is not known: nothing says what is exact", manner.word())
         }
     }
@@ -272,27 +273,4 @@ fn noise(jump: f64, direct: &DirectFindings) -> bool {
 /// A share below rounding is none.
 fn rounded(share: f64) -> String {
     if share.abs() < 1e-13 { "0".to_owned() } else { short(share) }
-}
-
-/// Three digits.
-pub(super) fn short(value: f64) -> String {
-    digits(value, 3)
-}
-
-/// Four digits.
-fn sharp(value: f64) -> String {
-    digits(value, 4)
-}
-
-fn digits(value: f64, count: usize) -> String {
-    if value == 0.0 {
-        return "0".to_owned();
-    }
-    let size = value.abs();
-    if !(1e-3..1e5).contains(&size) {
-        return format!("{value:.*e}", count - 1);
-    }
-    let decimals = (count as i32 - 1 - size.log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }

@@ -6,10 +6,10 @@ use splines::check::{
 };
 use splines::{Axis, Compliance, Error, Lift, Sheet};
 
-use super::hazard::Hazard;
-use super::manner::{Manner, raised};
-use super::readings::{Frame, ReadingFindings, strip};
-use super::subject::{Item, Subject};
+use super::extrapolation_risk::ExtrapolationRisk;
+use super::reading_method::{TableReadingMethod, raised};
+use super::readings::{ReadingFindings, ReadingPlanes, strip};
+use super::subject::{TableItem, TableSource};
 
 /// What the user asks.
 #[derive(Clone, Copy, Debug, Default)]
@@ -21,7 +21,7 @@ pub struct Settings {
     /// How far beyond the table its rules are compared; one spacing of the stations where absent.
     pub beyond: Option<f64>,
     /// The reading whose error is judged, and how large it may be, of the largest coefficient.
-    pub judged: Option<(Manner, f64)>,
+    pub judged: Option<(TableReadingMethod, f64)>,
 }
 
 /// What a reading is compared with.
@@ -36,9 +36,9 @@ pub enum Truth {
 }
 
 /// One table.
-pub struct Findings {
+pub struct TableQuality {
     /// The table.
-    pub item: Item,
+    pub item: TableItem,
     /// Digits that its entries were written with.
     pub digits: Digits,
     /// Largest |T_ij - T_ji|; `None` where that has no meaning.
@@ -57,32 +57,32 @@ pub struct Findings {
     /// The row with the largest spread of rules beyond the first and the last station.
     pub beyond: Vec<Beyond>,
     /// What about its stations will hurt.
-    pub hazards: Vec<Hazard>,
+    pub hazards: Vec<ExtrapolationRisk>,
     /// What has failed.
-    pub verdicts: Vec<Verdict>,
+    pub verdicts: Vec<TableVerdict>,
     /// Force of one wheel, where the user gave it.
     pub load: Option<f64>,
 }
 
 /// What a table must be and is not.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Verdict {
+pub enum TableVerdict {
     /// Unsymmetric beyond its digits.
     Asymmetric(Extreme),
     /// An eigenvalue below zero beyond its digits.
     Indefinite(Spectrum),
     /// The judged reading errs more than allowed, relative.
-    Error(Manner, f64, f64),
+    Error(TableReadingMethod, f64, f64),
     /// The judged reading has nothing to be compared with.
-    Unknown(Manner),
+    Unknown(TableReadingMethod),
 }
 
-impl Findings {
+impl TableQuality {
     /// The numbers of table `index` of a file.
     ///
     /// # Errors
     /// A place of the table for which the exact surface has no answer.
-    pub fn of(subject: &Subject, index: usize, settings: &Settings) -> Result<Findings, Error> {
+    pub fn of(subject: &TableSource, index: usize, settings: &Settings) -> Result<TableQuality, Error> {
         let item = &subject.items[index];
         let table = &item.table;
         let direct = item.is_direct();
@@ -93,7 +93,7 @@ impl Findings {
             _ => Truth::None,
         };
         let supports = if direct { supports(table) } else { Vec::new() };
-        let mut found = Findings {
+        let mut found = TableQuality {
             item: item.clone(),
             digits: digits(table),
             asymmetry: station_asymmetry(table).filter(|_| direct),
@@ -101,7 +101,7 @@ impl Findings {
             scale: if direct { None } else { scale(subject, item) },
             readings: Vec::new(),
             beyond: Vec::new(),
-            hazards: Hazard::of(table, direct, item.linear, &breaks(subject, item)),
+            hazards: ExtrapolationRisk::of(table, direct, item.linear, &breaks(subject, item)),
             verdicts: Vec::new(),
             load: settings.load,
             supports,
@@ -118,15 +118,15 @@ impl Findings {
 
     fn read(
         &self,
-        subject: &Subject,
+        subject: &TableSource,
         settings: &Settings,
         lifted: Option<&Lift>,
     ) -> Result<Vec<ReadingFindings>, Error> {
         let mut out = Vec::new();
         let Some(ways) = self.item.ways.filter(|_| !self.is_empty()) else { return Ok(out) };
         let Some(frame) = self.frame(subject, settings, ways) else { return Ok(out) };
-        for manner in Manner::ALL {
-            if manner == Manner::Exact {
+        for manner in TableReadingMethod::ALL {
+            if manner == TableReadingMethod::Exact {
                 // The raised table is worth a column where something else says what is exact.
                 if let (Some(lift), Truth::Surface) = (lifted, &self.truth) {
                     out.push(ReadingFindings::of(manner, &strip(&lift.surface, UP), &frame)?);
@@ -156,7 +156,12 @@ impl Findings {
     }
 
     /// What readings are held against; `None` where table and exact surface have no place in common.
-    fn frame<'a>(&'a self, subject: &'a Subject, settings: &Settings, ways: [Way; 2]) -> Option<Frame<'a>> {
+    fn frame<'a>(
+        &'a self,
+        subject: &'a TableSource,
+        settings: &Settings,
+        ways: [Way; 2],
+    ) -> Option<ReadingPlanes<'a>> {
         let table = &self.item.table;
         let own = |points: &[f64]| [points[0], points[points.len() - 1]];
         let common = |a: [f64; 2], b: [f64; 2]| [a[0].max(b[0]), a[1].min(b[1])];
@@ -176,17 +181,18 @@ impl Findings {
             [first, .., last] => Some(common([*first, *last], range[0])),
             _ => None,
         };
-        let frame = Frame { exact, range, span: span.filter(|[a, b]| a < b), spacing: settings.spacing };
+        let frame =
+            ReadingPlanes { exact, range, span: span.filter(|[a, b]| a < b), spacing: settings.spacing };
         range.iter().all(|[a, b]| a < b).then_some(frame)
     }
 
     fn judge(&mut self, settings: &Settings) {
         let slack = self.digits.slack;
         if let Some(worst) = self.asymmetry.filter(|worst| worst.value > slack) {
-            self.verdicts.push(Verdict::Asymmetric(worst));
+            self.verdicts.push(TableVerdict::Asymmetric(worst));
         }
         if let Some(spectrum) = self.spectrum.filter(|s| s.smallest < -slack - ROUNDING * s.largest) {
-            self.verdicts.push(Verdict::Indefinite(spectrum));
+            self.verdicts.push(TableVerdict::Indefinite(spectrum));
         }
         let Some((manner, tolerance)) = settings.judged else { return };
         if self.item.ways.is_none() || self.is_empty() {
@@ -196,8 +202,8 @@ impl Findings {
             self.readings.iter().find(|reading| reading.manner == manner).and_then(|found| found.error);
         match error.map(|error| self.relative(&error)) {
             Some(error) if error <= tolerance => {}
-            Some(error) => self.verdicts.push(Verdict::Error(manner, error, tolerance)),
-            None => self.verdicts.push(Verdict::Unknown(manner)),
+            Some(error) => self.verdicts.push(TableVerdict::Error(manner, error, tolerance)),
+            None => self.verdicts.push(TableVerdict::Unknown(manner)),
         }
     }
 }
@@ -211,7 +217,7 @@ const ROUNDING: f64 = 1e-13;
 const UNCOUPLED: f64 = 1e-9;
 
 /// Geometric mean of the largest entries of a coupling's two directions.
-fn scale(subject: &Subject, item: &Item) -> Option<f64> {
+fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
     let largest = |way: Way| {
         let own = subject.items.iter().filter(|item| item.ways == Some([way; 2]));
         own.map(|item| item.table.values().amax()).next()
@@ -221,7 +227,11 @@ fn scale(subject: &Subject, item: &Item) -> Option<f64> {
 }
 
 /// A reading of the table: together with all others where they allow it, alone otherwise.
-pub(super) fn reading(subject: &Subject, item: &Item, manner: Manner) -> Option<Box<dyn Compliance>> {
+pub(super) fn reading(
+    subject: &TableSource,
+    item: &TableItem,
+    manner: TableReadingMethod,
+) -> Option<Box<dyn Compliance>> {
     let [deflection, load] = item.ways?;
     let own = Sheet { deflection, load, table: item.table.clone() };
     let all = subject.sheets();
@@ -230,7 +240,7 @@ pub(super) fn reading(subject: &Subject, item: &Item, manner: Manner) -> Option<
 }
 
 /// Ends of the cells of the rail that loads stand on; nothing where they are not known.
-fn breaks(subject: &Subject, item: &Item) -> Vec<f64> {
+fn breaks(subject: &TableSource, item: &TableItem) -> Vec<f64> {
     let surface = subject.surface.as_ref().zip(item.ways);
     surface.map(|(surface, [_, load])| surface.breaks(load.0)).unwrap_or_default()
 }

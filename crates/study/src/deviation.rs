@@ -1,6 +1,6 @@
 //! How far a run is from the reference.
 
-use super::quantity::Quantity;
+use super::quantity::ErrorGroup;
 
 /// Columns of a run with their groups, at its output times.
 #[derive(Clone, Debug, Default)]
@@ -8,7 +8,7 @@ pub struct Trace {
     /// Output times.
     pub time: Vec<f64>,
     /// Group and values of each column.
-    pub columns: Vec<(String, Quantity, Vec<f64>)>,
+    pub columns: Vec<(String, ErrorGroup, Vec<f64>)>,
 }
 
 /// Moments below this share of the largest force times the longest rail are rounding.
@@ -18,10 +18,11 @@ impl Trace {
     /// Leaves out moments that nothing in the scene causes: they are rounding. `length`: that of the longest rail.
     pub(super) fn prune(&mut self, length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let forces = self.columns.iter().filter(|(_, quantity, _)| *quantity == Quantity::WheelForce);
+        let forces = self.columns.iter().filter(|(_, quantity, _)| *quantity == ErrorGroup::WheelForce);
         let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
         let least = NOTHING * force * length;
-        self.columns.retain(|(_, quantity, values)| *quantity != Quantity::Moment || largest(values) > least);
+        self.columns
+            .retain(|(_, quantity, values)| *quantity != ErrorGroup::Moment || largest(values) > least);
     }
 
     /// Leaves out all after `time`, s.
@@ -47,9 +48,9 @@ pub struct Misfit {
 /// e = max |a - b| / max |b| over columns and output times that both have; the extremes of a column are compared
 /// whenever they are.
 #[must_use]
-pub fn misfits(run: &Trace, reference: &Trace) -> [Option<Misfit>; Quantity::COUNT] {
+pub fn misfits(run: &Trace, reference: &Trace) -> [Option<Misfit>; ErrorGroup::COUNT] {
     let common = common(run, reference);
-    Quantity::ALL.map(|quantity| of(run, reference, quantity, common))
+    ErrorGroup::ALL.map(|quantity| of(run, reference, quantity, common))
 }
 
 /// How many output times both have, from the first on.
@@ -61,7 +62,7 @@ fn common(run: &Trace, reference: &Trace) -> usize {
 /// The last output time until which `run` errs by no more than `wanted` in each of `groups`, as [`misfits`] has it for runs that
 /// end there. `None`: at none; or `run` lacks a column.
 #[must_use]
-pub fn horizon(run: &Trace, reference: &Trace, groups: &[Quantity], wanted: f64) -> Option<f64> {
+pub fn horizon(run: &Trace, reference: &Trace, groups: &[ErrorGroup], wanted: f64) -> Option<f64> {
     let mut pairs = Vec::new();
     for (name, group, values) in &reference.columns {
         if let Some(at) = groups.iter().position(|own| own == group) {
@@ -84,7 +85,7 @@ pub fn horizon(run: &Trace, reference: &Trace, groups: &[Quantity], wanted: f64)
     last
 }
 
-fn of(run: &Trace, reference: &Trace, quantity: Quantity, common: usize) -> Option<Misfit> {
+fn of(run: &Trace, reference: &Trace, quantity: ErrorGroup, common: usize) -> Option<Misfit> {
     let mut scale = 0.0_f64;
     let mut worst = Misfit::default();
     for (name, _, wanted) in reference.columns.iter().filter(|(_, group, _)| *group == quantity) {
@@ -111,8 +112,8 @@ mod tests {
         Trace {
             time: (0..deflection.len()).map(|i| 0.1 * i as f64).collect(),
             columns: vec![
-                ("body.deflection".into(), Quantity::Deflection, deflection.to_vec()),
-                ("wheel.vertical".into(), Quantity::WheelForce, force.to_vec()),
+                ("body.deflection".into(), ErrorGroup::Deflection, deflection.to_vec()),
+                ("wheel.vertical".into(), ErrorGroup::WheelForce, force.to_vec()),
             ],
         }
     }
@@ -132,7 +133,7 @@ mod tests {
     fn horizon_is_the_last_time_until_which_runs_are_close() {
         let reference = trace(&[0.0, 2.0, -4.0, 3.0], &[10.0, 10.0, 10.0, 10.0]);
         let run = trace(&[0.0, 2.0, -4.1, 3.0], &[10.0, 10.0, 10.0, 9.0]);
-        let asked = [Quantity::Deflection, Quantity::WheelForce];
+        let asked = [ErrorGroup::Deflection, ErrorGroup::WheelForce];
         let until = |wanted: f64| horizon(&run, &reference, &asked, wanted);
         assert_eq!(until(0.2), Some(reference.time[3]), "0.1 of the forces are within");
         assert_eq!(until(0.05), Some(reference.time[2]), "a fortieth of the deflection is");

@@ -5,7 +5,7 @@ use std::fmt;
 use splines::Table;
 use splines::check::supports;
 
-use super::text::short;
+use super::digits::short;
 
 /// Spacings that differ by more than this share are uneven.
 const EVEN: f64 = 1e-6;
@@ -17,7 +17,7 @@ const LISTED: usize = 6;
 
 /// Something that a user of the table should know.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Hazard {
+pub enum ExtrapolationRisk {
     /// Few x values.
     Few {
         /// How many.
@@ -61,56 +61,56 @@ pub enum Hazard {
     Zero,
 }
 
-impl Hazard {
+impl ExtrapolationRisk {
     /// All of a table; `breaks` are the ends of the cells of the rail that loads stand on, where they are known,
     /// `direct` whether a diagonal must be positive.
     #[must_use]
-    pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<Hazard> {
+    pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<ExtrapolationRisk> {
         let mut out = Vec::new();
         let (x, z) = (table.x(), table.z());
         if table.values().amax() == 0.0 {
-            out.push(Hazard::Zero);
+            out.push(ExtrapolationRisk::Zero);
         }
         if z != x {
-            out.push(Hazard::Rectangle { shape: [z.len(), x.len()] });
+            out.push(ExtrapolationRisk::Rectangle { shape: [z.len(), x.len()] });
         }
         if x.len() < PORTABLE {
-            out.push(Hazard::Few { found: x.len() });
+            out.push(ExtrapolationRisk::Few { found: x.len() });
         }
         let spacing =
             |f: fn(f64, f64) -> f64, start| x.windows(2).fold(start, |a, pair| f(a, pair[1] - pair[0]));
         let spacing = [spacing(f64::min, f64::INFINITY), spacing(f64::max, 0.0)];
         if spacing[1] > spacing[0] * (1.0 + EVEN) {
-            out.push(Hazard::Uneven { spacing });
+            out.push(ExtrapolationRisk::Uneven { spacing });
         }
         if direct {
             let inside = |at: &f64| *at > z[0] && *at < z[z.len() - 1];
             let at: Vec<f64> = supports(table).into_iter().filter(inside).collect();
             if !at.is_empty() && table.values().amax() > 0.0 {
-                out.push(Hazard::Inside { at });
+                out.push(ExtrapolationRisk::Inside { at });
             }
             if z == x {
                 let worst =
                     (0..x.len()).min_by(|&i, &j| table.values()[(i, i)].total_cmp(&table.values()[(j, j)]));
                 let negative =
                     worst.map(|i| (x[i], table.values()[(i, i)])).filter(|(_, value)| *value < 0.0);
-                out.extend(negative.map(|(at, value)| Hazard::Negative { at, value }));
+                out.extend(negative.map(|(at, value)| ExtrapolationRisk::Negative { at, value }));
             }
         }
         if linear == Some(false) {
-            out.push(Hazard::NotLinear);
+            out.push(ExtrapolationRisk::NotLinear);
         }
         let slack = EVEN * (x[x.len() - 1] - x[0]);
         let (first, last) = (x[0], x[x.len() - 1]);
         if let (Some(&from), Some(&to)) = (breaks.first(), breaks.last())
             && (from < first - slack || to > last + slack)
         {
-            out.push(Hazard::Short { rail: [from, to] });
+            out.push(ExtrapolationRisk::Short { rail: [from, to] });
         }
         let missing = |b: &&f64| **b > first && **b < last && x.iter().all(|x| (x - **b).abs() > slack);
         let at: Vec<f64> = breaks.iter().filter(missing).copied().collect();
         if !at.is_empty() {
-            out.push(Hazard::Breaks { at });
+            out.push(ExtrapolationRisk::Breaks { at });
         }
         out
     }
@@ -119,46 +119,46 @@ impl Hazard {
     #[must_use]
     pub const fn word(&self) -> &'static str {
         match self {
-            Hazard::Few { .. } => "few-stations",
-            Hazard::Uneven { .. } => "uneven-stations",
-            Hazard::Inside { .. } => "supports-inside",
-            Hazard::Rectangle { .. } => "rectangle",
-            Hazard::Short { .. } => "rail-goes-on",
-            Hazard::Breaks { .. } => "breaks-without-station",
-            Hazard::NotLinear => "not-linear",
-            Hazard::Negative { .. } => "negative",
-            Hazard::Zero => "zero",
+            ExtrapolationRisk::Few { .. } => "few-stations",
+            ExtrapolationRisk::Uneven { .. } => "uneven-stations",
+            ExtrapolationRisk::Inside { .. } => "supports-inside",
+            ExtrapolationRisk::Rectangle { .. } => "rectangle",
+            ExtrapolationRisk::Short { .. } => "rail-goes-on",
+            ExtrapolationRisk::Breaks { .. } => "breaks-without-station",
+            ExtrapolationRisk::NotLinear => "not-linear",
+            ExtrapolationRisk::Negative { .. } => "negative",
+            ExtrapolationRisk::Zero => "zero",
         }
     }
 }
 
-impl fmt::Display for Hazard {
+impl fmt::Display for ExtrapolationRisk {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Hazard::Few { found } => write!(
+            ExtrapolationRisk::Few { found } => write!(
                 f,
                 "{found} x values: four are the least, but readers of the language ask for up to {PORTABLE}"
             ),
-            Hazard::Uneven { spacing: [low, high] } => write!(
+            ExtrapolationRisk::Uneven { spacing: [low, high] } => write!(
                 f,
                 "stations at unequal distances, {} to {}: ADAMS vouches for derivatives of AKISPL at equal ones only",
                 short(*low),
                 short(*high)
             ),
-            Hazard::Inside { at } => write!(
+            ExtrapolationRisk::Inside { at } => write!(
                 f,
                 "rigid supports inside the table, at {}: one curve runs over spans and overhangs alike",
                 list(at)
             ),
-            Hazard::Rectangle { shape: [rows, columns] } => write!(
+            ExtrapolationRisk::Rectangle { shape: [rows, columns] } => write!(
                 f,
                 "{rows} curves of {columns} values: deflections and loads have different stations, symmetry cannot hold between them"
             ),
-            Hazard::Short { rail: [from, to] } => {
+            ExtrapolationRisk::Short { rail: [from, to] } => {
                 let [from, to] = [from, to].map(|x| short(*x));
                 write!(f, "the rail runs from {from} to {to}: a wheel beyond the table is extrapolated")
             }
-            Hazard::Breaks { at } => {
+            ExtrapolationRisk::Breaks { at } => {
                 let more = if at.len() > LISTED { ", ..." } else { "" };
                 write!(
                     f,
@@ -167,14 +167,14 @@ impl fmt::Display for Hazard {
                     list(&at[..at.len().min(LISTED)])
                 )
             }
-            Hazard::NotLinear => f.write_str(
+            ExtrapolationRisk::NotLinear => f.write_str(
                 "no LINEAR_EXTRAPOLATE: beyond its ends the table goes on as a parabola or a cubic",
             ),
-            Hazard::Negative { at, value } => write!(
+            ExtrapolationRisk::Negative { at, value } => write!(
                 f,
                 "{value:e} on the diagonal, at {at}: the deflection under a load points against it (signs of z and load?)"
             ),
-            Hazard::Zero => f.write_str("nothing but zeros"),
+            ExtrapolationRisk::Zero => f.write_str("nothing but zeros"),
         }
     }
 }

@@ -3,16 +3,16 @@
 use serde_json::{Value, json};
 use splines::check::{Deviation, Extreme, Kink};
 
-use super::findings::{Findings, Truth, Verdict};
+use super::findings::{TableQuality, TableVerdict, Truth};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
-use super::subject::Subject;
+use super::subject::TableSource;
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-check/1";
 
 /// The whole text.
 #[must_use]
-pub fn json(subject: &Subject, all: &[Findings]) -> String {
+pub fn json(subject: &TableSource, all: &[TableQuality]) -> String {
     let tables: Vec<Value> = all.iter().map(table).collect();
     let object = json!({
         "format": FORMAT,
@@ -25,7 +25,7 @@ pub fn json(subject: &Subject, all: &[Findings]) -> String {
     format!("{object:#}\n")
 }
 
-fn table(found: &Findings) -> Value {
+fn table(found: &TableQuality) -> Value {
     let table = &found.item.table;
     let truth = match &found.truth {
         Truth::Surface => json!({ "from": "surface" }),
@@ -64,7 +64,7 @@ fn table(found: &Findings) -> Value {
     })
 }
 
-fn reading(found: &Findings, reading: &ReadingFindings) -> Value {
+fn reading(found: &TableQuality, reading: &ReadingFindings) -> Value {
     let error = |e: &Deviation, relative: f64| {
         json!({
             "relative": relative, "scale": e.scale, "largest": extreme(&e.largest),
@@ -115,15 +115,15 @@ fn kink(found: &Kink) -> Value {
     json!({ "x": found.x, "before": found.before, "beyond": found.beyond })
 }
 
-fn verdict(verdict: &Verdict) -> Value {
+fn verdict(verdict: &TableVerdict) -> Value {
     match verdict {
-        Verdict::Asymmetric(worst) => json!({ "check": "symmetric", "worst": extreme(worst) }),
-        Verdict::Indefinite(s) => {
+        TableVerdict::Asymmetric(worst) => json!({ "check": "symmetric", "worst": extreme(worst) }),
+        TableVerdict::Indefinite(s) => {
             json!({ "check": "positive-semidefinite", "eigenvalues": [s.smallest, s.largest] })
         }
-        Verdict::Error(manner, error, tolerance) => {
+        TableVerdict::Error(manner, error, tolerance) => {
             json!({ "check": "error", "reading": manner.word(), "error": error, "tolerance": tolerance })
         }
-        Verdict::Unknown(manner) => json!({ "check": "error", "reading": manner.word(), "error": null }),
+        TableVerdict::Unknown(manner) => json!({ "check": "error", "reading": manner.word(), "error": null }),
     }
 }

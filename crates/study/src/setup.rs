@@ -7,8 +7,8 @@ use sim::{Foundation, Run};
 use splines::Compliance;
 
 use super::cpu;
-use super::misfit::Trace;
-use super::quantity::Quantity;
+use super::deviation::Trace;
+use super::quantity::ErrorGroup;
 use super::setting::Setting;
 use crate::Error;
 use crate::stations;
@@ -16,18 +16,18 @@ use formats::grid::GridRail;
 use formats::motion::{Cast, cast};
 use formats::quantity::quantities;
 use formats::scene::Scene;
-use foundations::{Known, solved_of};
-use foundations::{Laid, Solved, Spectra};
-use results::cases::recorded;
-use results::record::Record;
+use foundations::{BuiltFoundation, ModeCache, Solution};
+use foundations::{SolvedStructure, solution_of};
+use results::cases::records_structure;
+use results::record::NamedColumns;
 use results::response::{self, Response};
 
 /// What makes settings ready: solved structures and modes that were found already.
 pub struct Workshop<'k> {
-    known: &'k [Known],
-    spectra: Vec<Spectra>,
+    known: &'k [SolvedStructure],
+    spectra: Vec<ModeCache>,
     /// Tables by their stations a rail.
-    tables: Vec<(usize, Vec<Known>)>,
+    tables: Vec<(usize, Vec<SolvedStructure>)>,
 }
 
 /// A setting made ready.
@@ -44,8 +44,8 @@ pub struct Rig {
 impl<'k> Workshop<'k> {
     /// For runs of `scene` and of what settings make of it.
     #[must_use]
-    pub fn new(scene: &Scene, known: &'k [Known]) -> Workshop<'k> {
-        let spectra = scene.structures.iter().map(|_| Spectra::default()).collect();
+    pub fn new(scene: &Scene, known: &'k [SolvedStructure]) -> Workshop<'k> {
+        let spectra = scene.structures.iter().map(|_| ModeCache::default()).collect();
         Workshop { known, spectra, tables: Vec::new() }
     }
 
@@ -63,7 +63,7 @@ impl<'k> Workshop<'k> {
                 laid.foundation.compliance = None;
             }
         }
-        let recorded = recorded(&scene, self.known);
+        let recorded = records_structure(&scene, self.known);
         let mut foundations: Vec<Foundation> = laid.into_iter().map(|laid| laid.foundation).collect();
         for (s, foundation) in foundations.iter_mut().enumerate() {
             foundation.recorded = recorded(s, foundation);
@@ -79,30 +79,30 @@ impl<'k> Workshop<'k> {
         let scene = &rig.scene;
         let laid = self.lay(scene, rig.stations)?;
         let known = self.known;
-        let solved: Vec<Option<&Solved>> =
-            scene.structures.iter().map(|structure| solved_of(known, &structure.origin)).collect();
+        let solved: Vec<Option<&Solution>> =
+            scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
         let lines = response::lines(scene, &laid, &solved)?;
-        let mut record = Record::new(scene, &run.history);
+        let mut record = NamedColumns::new(scene, &run.history);
         let response = Response::new(scene, &rig.cast, &run.history, &laid, &solved, &lines, &mut record)?;
         let own = quantities(scene).len();
         let mut trace = Trace { time: record.values("time").to_vec(), columns: Vec::new() };
         for (index, column) in record.columns.into_iter().enumerate() {
             let is_reaction =
                 index >= own && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
-            if let Some(quantity) = Quantity::of(&column, scene, index < own, is_reaction) {
+            if let Some(quantity) = ErrorGroup::of(&column, scene, index < own, is_reaction) {
                 trace.columns.push((column.name, quantity, column.values));
             }
         }
         Ok(trace)
     }
 
-    fn lay(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<Laid>, Error> {
+    fn lay(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<BuiltFoundation>, Error> {
         let lateral = scene.pushes_sideways();
         let at = stations.map(|count| self.table(count)).transpose()?;
         let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
         let each = scene.structures.iter().zip(&mut self.spectra);
         let laid = each
-            .map(|(own, spectra)| foundations::laid(spectra, own, solved_of(known, &own.origin), lateral))
+            .map(|(own, spectra)| foundations::build(spectra, own, solution_of(known, &own.origin), lateral))
             .collect::<Result<_, _>>()?;
         Ok(laid)
     }
@@ -112,16 +112,17 @@ impl<'k> Workshop<'k> {
         if let Some(at) = self.tables.iter().position(|(own, _)| *own == count) {
             return Ok(at);
         }
-        let of =
-            |known: &Known| Ok(Known { spec: Arc::clone(&known.spec), solved: table(&known.solved, count)? });
-        let all = self.known.iter().map(of).collect::<Result<Vec<Known>, Error>>()?;
+        let of = |known: &SolvedStructure| {
+            Ok(SolvedStructure { spec: Arc::clone(&known.spec), solution: table(&known.solution, count)? })
+        };
+        let all = self.known.iter().map(of).collect::<Result<Vec<SolvedStructure>, Error>>()?;
         self.tables.push((count, all));
         Ok(self.tables.len() - 1)
     }
 }
 
 /// The same structure with grids at `count` even stations a rail.
-fn table(solved: &Solved, count: usize) -> Result<Solved, Error> {
+fn table(solved: &Solution, count: usize) -> Result<Solution, Error> {
     let Some(surface) = &solved.surface else {
         return Err(Error::NoSurface);
     };
@@ -134,7 +135,7 @@ fn table(solved: &Solved, count: usize) -> Result<Solved, Error> {
         named.push(GridRail { name: known.name.clone(), stations: given.stations.clone() });
     }
     let grid = stations::at(&solved.grid, surface, named)?;
-    Ok(Solved {
+    Ok(Solution {
         model: solved.model.clone(),
         rails,
         surface: Some(surface.clone()),

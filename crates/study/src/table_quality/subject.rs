@@ -24,13 +24,13 @@ const LARGEST: f64 = 1e60;
 const NEAREST: f64 = 1e-9;
 
 /// Tables of one file, and the exact surface where it has one.
-pub struct Subject {
+pub struct TableSource {
     /// The file as the user named it.
     pub file: String,
     /// Units of all numbers, where the file says them.
     pub units: Option<Units>,
     /// Its tables.
-    pub items: Vec<Item>,
+    pub items: Vec<TableItem>,
     /// The exact surface behind them.
     pub surface: Option<Surface>,
     /// What a user should know of what is not here.
@@ -39,7 +39,7 @@ pub struct Subject {
 
 /// One table.
 #[derive(Clone, Debug)]
-pub struct Item {
+pub struct TableItem {
     /// Its number.
     pub id: u32,
     /// Its name; empty where it has none.
@@ -52,7 +52,7 @@ pub struct Item {
     pub table: Table,
 }
 
-impl Item {
+impl TableItem {
     /// Whether deflections and loads are of one way: only such a table is symmetric.
     #[must_use]
     pub fn is_direct(&self) -> bool {
@@ -60,22 +60,22 @@ impl Item {
     }
 }
 
-impl Subject {
+impl TableSource {
     /// Reads a grid file or tables.
     ///
     /// # Errors
     /// A file that cannot be read, or has no table.
-    pub fn open(path: &Path) -> Result<Subject, Error> {
+    pub fn open(path: &Path) -> Result<TableSource, Error> {
         let inputs = Inputs::open_bytes(path)?;
         let input = &inputs.all()[0];
         if tables::is_tables(&input.shown, &input.bytes) {
-            Subject::of_tables(&input.shown, &tables::contents(&input.shown, &input.bytes)?)
+            TableSource::of_tables(&input.shown, &tables::contents(&input.shown, &input.bytes)?)
         } else {
-            Subject::of_grid(&input.source()?)
+            TableSource::of_grid(&input.source()?)
         }
     }
 
-    fn of_grid(source: &Source) -> Result<Subject, Error> {
+    fn of_grid(source: &Source) -> Result<TableSource, Error> {
         let (grid, surface) = grid_file::read(source)?;
         let mut notes: Vec<String> = Vec::new();
         for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
@@ -85,22 +85,22 @@ impl Subject {
         let mut items = Vec::new();
         for table in &TableSet::of_grid(&grid).tables {
             let ways = ways(table.id, rails);
-            items.extend(item(&source.name, table)?.map(|item| Item { ways, ..item }));
+            items.extend(item(&source.name, table)?.map(|item| TableItem { ways, ..item }));
         }
         if items.is_empty() {
             let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
             let fault = fault.hint("a SPLINE has four x values or more");
             return Err(Error::Input(source.diagnose(&Faults(vec![fault]))));
         }
-        Ok(Subject { file: source.name.clone(), units: Some(grid.units), items, surface, notes })
+        Ok(TableSource { file: source.name.clone(), units: Some(grid.units), items, surface, notes })
     }
 
-    fn of_tables(file: &str, contents: &Contents) -> Result<Subject, Error> {
+    fn of_tables(file: &str, contents: &Contents) -> Result<TableSource, Error> {
         let mut items = Vec::new();
         let mut notes = Vec::new();
         for (table, linear) in &contents.tables {
             match item(file, table)? {
-                Some(item) => items.push(Item { linear: *linear, ..item }),
+                Some(item) => items.push(TableItem { linear: *linear, ..item }),
                 None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", table.id)),
             }
         }
@@ -117,7 +117,7 @@ impl Subject {
         if contents.units.is_none() {
             notes.push("the file says no units: numbers are in its own".to_owned());
         }
-        Ok(Subject { file: file.to_owned(), units: contents.units, items, surface: None, notes })
+        Ok(TableSource { file: file.to_owned(), units: contents.units, items, surface: None, notes })
     }
 
     /// The tables whose ways are known and have tables of their own, as a reading takes them.
@@ -133,7 +133,7 @@ impl Subject {
 }
 
 /// A family as a table; `None` for one curve alone.
-fn item(file: &str, given: &tables::Table) -> Result<Option<Item>, Error> {
+fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
     let curves = &given.curves;
     if curves.z().is_empty() {
         return Ok(None);
@@ -154,7 +154,7 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<Item>, Error> {
     let table = Table::new(curves.x().to_vec(), curves.z().to_vec(), values)?;
     let unnamed = format!("SPLINE_{}", given.id);
     let name = if given.name == unnamed { String::new() } else { given.name.clone() };
-    Ok(Some(Item { id: given.id, name, ways: None, linear: None, table }))
+    Ok(Some(TableItem { id: given.id, name, ways: None, linear: None, table }))
 }
 
 /// Ways of a grid's table by its number, of a grid of that many rails: six a pair of rails, from 6 on.

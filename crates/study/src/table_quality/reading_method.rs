@@ -7,7 +7,7 @@ const MISFIT: f64 = 0.01;
 
 /// A way to read tables of values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Manner {
+pub enum TableReadingMethod {
     /// AKISPL along the load, linear along the deflection.
     Akispl,
     /// The mean of AKISPL with load and deflection exchanged.
@@ -22,27 +22,27 @@ pub enum Manner {
     Exact,
 }
 
-impl Manner {
+impl TableReadingMethod {
     /// All, as tables of findings list them.
-    pub const ALL: [Manner; 6] = [
-        Manner::Akispl,
-        Manner::Symmetrised,
-        Manner::Cubspl,
-        Manner::Natural,
-        Manner::Factored,
-        Manner::Exact,
+    pub const ALL: [TableReadingMethod; 6] = [
+        TableReadingMethod::Akispl,
+        TableReadingMethod::Symmetrised,
+        TableReadingMethod::Cubspl,
+        TableReadingMethod::Natural,
+        TableReadingMethod::Factored,
+        TableReadingMethod::Exact,
     ];
 
     /// Its word on the command line and in results.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
-            Manner::Akispl => "akispl",
-            Manner::Symmetrised => "symmetrised",
-            Manner::Cubspl => "cubspl",
-            Manner::Natural => "natural",
-            Manner::Factored => "factored",
-            Manner::Exact => "exact",
+            TableReadingMethod::Akispl => "akispl",
+            TableReadingMethod::Symmetrised => "symmetrised",
+            TableReadingMethod::Cubspl => "cubspl",
+            TableReadingMethod::Natural => "natural",
+            TableReadingMethod::Factored => "factored",
+            TableReadingMethod::Exact => "exact",
         }
     }
 
@@ -50,8 +50,8 @@ impl Manner {
     #[must_use]
     pub const fn order(self) -> f64 {
         match self {
-            Manner::Akispl | Manner::Symmetrised | Manner::Cubspl => 2.0,
-            Manner::Natural | Manner::Factored | Manner::Exact => 3.0,
+            TableReadingMethod::Akispl | TableReadingMethod::Symmetrised | TableReadingMethod::Cubspl => 2.0,
+            TableReadingMethod::Natural | TableReadingMethod::Factored | TableReadingMethod::Exact => 3.0,
         }
     }
 
@@ -61,12 +61,12 @@ impl Manner {
     /// As [`Reading::new`], [`Factored::new`] and [`raised()`].
     pub fn read(self, sheets: &[Sheet]) -> Result<Box<dyn Compliance>, Error> {
         let kind = match self {
-            Manner::Akispl => Kind::Akispl,
-            Manner::Cubspl => Kind::Cubspl,
-            Manner::Symmetrised => Kind::Symmetrised,
-            Manner::Natural => Kind::Natural,
-            Manner::Factored => return Ok(Box::new(Factored::new(sheets, Rank::Full)?)),
-            Manner::Exact => {
+            TableReadingMethod::Akispl => Kind::Akispl,
+            TableReadingMethod::Cubspl => Kind::Cubspl,
+            TableReadingMethod::Symmetrised => Kind::Symmetrised,
+            TableReadingMethod::Natural => Kind::Natural,
+            TableReadingMethod::Factored => return Ok(Box::new(Factored::new(sheets, Rank::Full)?)),
+            TableReadingMethod::Exact => {
                 return match sheets {
                     [one] if one.load == one.deflection && one.load.1 == Axis::Vertical => {
                         Ok(Box::new(raised(one.load.0, &one.table)?.surface))

@@ -6,7 +6,7 @@ use splines::check::{
 };
 use splines::{Compliance, Error};
 
-use super::manner::Manner;
+use super::reading_method::TableReadingMethod;
 
 /// Numbers of wheels whose layouts are searched.
 pub const WHEELS: [usize; 3] = [2, 4, 8];
@@ -20,7 +20,7 @@ const SPECTRUM: usize = 120;
 #[derive(Clone, Debug)]
 pub struct ReadingFindings {
     /// Which.
-    pub manner: Manner,
+    pub manner: TableReadingMethod,
     /// Against the exact surface, over the whole table; `None` where none is known.
     pub error: Option<Deviation>,
     /// The same between the first and the last support.
@@ -58,7 +58,7 @@ pub struct Pair {
 }
 
 /// What a reading is held against, and where.
-pub struct Frame<'a> {
+pub struct ReadingPlanes<'a> {
     /// The exact block.
     pub exact: Option<Strip<'a>>,
     /// Places of loads and of deflections that both know.
@@ -74,7 +74,11 @@ impl ReadingFindings {
     ///
     /// # Errors
     /// A place for which the reading or the exact surface has no answer.
-    pub fn of(manner: Manner, strip: &Strip<'_>, frame: &Frame<'_>) -> Result<ReadingFindings, Error> {
+    pub fn of(
+        manner: TableReadingMethod,
+        strip: &Strip<'_>,
+        frame: &ReadingPlanes<'_>,
+    ) -> Result<ReadingFindings, Error> {
         let [x, z] = [strip.load.0, strip.deflection.0].map(|rail| strip.compliance.breaks(rail));
         let exact = frame.exact.as_ref();
         let against = |from: [[f64; 2]; 2]| {
@@ -96,7 +100,7 @@ fn dense(breaks: &[f64], range: [f64; 2]) -> Vec<f64> {
     places(breaks, range, (4 * breaks.len()).clamp(PLACES[0], PLACES[1]))
 }
 
-fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &Frame<'_>) -> Result<DirectFindings, Error> {
+fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &ReadingPlanes<'_>) -> Result<DirectFindings, Error> {
     let range = frame.range[0];
     let at = dense(breaks, range);
     let few = places(breaks, range, SPECTRUM);

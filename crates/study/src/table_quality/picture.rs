@@ -3,11 +3,11 @@
 use splines::Error;
 use splines::check::{Strip, places};
 
-use super::findings::{Findings, Truth, UP, reading};
-use super::manner::Manner;
+use super::digits::short;
+use super::findings::{TableQuality, Truth, UP, reading};
+use super::reading_method::TableReadingMethod;
 use super::readings::{map, strip};
-use super::subject::Subject;
-use super::text::short;
+use super::subject::TableSource;
 use formats::units::Dimension;
 use report::chart::{self, Axis, Chart, Series, Style, SurfacePlot};
 use report::{self, Picture, Report, Section};
@@ -18,14 +18,14 @@ const ACROSS: usize = 240;
 const MAP: usize = 90;
 
 /// A picture with its caption.
-pub struct Plate {
+pub struct TableFigure {
     /// What it shows.
     pub picture: Picture,
     /// In words.
     pub caption: String,
 }
 
-impl Plate {
+impl TableFigure {
     /// As SVG.
     ///
     /// # Errors
@@ -43,7 +43,10 @@ impl Plate {
 ///
 /// # Errors
 /// What a chart cannot draw, or a reading cannot answer.
-pub fn plates(subject: &Subject, found: &Findings) -> Result<Vec<Plate>, Box<dyn std::error::Error>> {
+pub fn plates(
+    subject: &TableSource,
+    found: &TableQuality,
+) -> Result<Vec<TableFigure>, Box<dyn std::error::Error>> {
     let mut out = Vec::new();
     let Some(ways) = found.item.ways else { return Ok(out) };
     let exact = match (&found.truth, &subject.surface) {
@@ -101,23 +104,23 @@ pub fn plates(subject: &Subject, found: &Findings) -> Result<Vec<Plate>, Box<dyn
         manner.word(),
         short(100.0 * error)
     );
-    out.push(Plate { picture: plot.svg()?.into(), caption });
+    out.push(TableFigure { picture: plot.svg()?.into(), caption });
     Ok(out)
 }
 
-fn scale(found: &Findings) -> f64 {
+fn scale(found: &TableQuality) -> f64 {
     let own = found.readings.iter().find_map(|r| r.error.map(|e| e.scale));
     found.scale.or(own).filter(|scale| *scale > 0.0).unwrap_or(1.0)
 }
 
 fn diagonal(
-    subject: &Subject,
-    found: &Findings,
+    subject: &TableSource,
+    found: &TableQuality,
     exact: &Strip<'_>,
     range: [f64; 2],
     title: &str,
     length: &str,
-) -> Result<Option<Plate>, Error> {
+) -> Result<Option<TableFigure>, Error> {
     let Some(ways) = found.item.ways else { return Ok(None) };
     let x = places(found.item.table.x(), range, ACROSS);
     let scale = scale(found);
@@ -126,7 +129,9 @@ fn diagonal(
         Axis::new("place of the wheel", length),
         Axis::new("error, of the largest coefficient", "%"),
     );
-    for (index, one) in found.readings.iter().enumerate().filter(|(_, r)| r.manner != Manner::Exact) {
+    for (index, one) in
+        found.readings.iter().enumerate().filter(|(_, r)| r.manner != TableReadingMethod::Exact)
+    {
         let Some(reading) = reading(subject, &found.item, one.manner) else { continue };
         let own = strip(reading.as_ref(), ways);
         let mut points = Vec::with_capacity(x.len());
@@ -144,14 +149,14 @@ fn diagonal(
     }
     let caption =
         "Error of G(x, x), the give under a wheel that moves along the rail: reading less exact.".to_owned();
-    Ok(Some(Plate { picture: chart.into(), caption }))
+    Ok(Some(TableFigure { picture: chart.into(), caption }))
 }
 
 /// Findings as one page.
 ///
 /// # Errors
 /// As [`plates`], and what a page cannot hold.
-pub fn page(subject: &Subject, all: &[Findings]) -> Result<String, Box<dyn std::error::Error>> {
+pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<dyn std::error::Error>> {
     let mut report = Report {
         title: "What readings of these tables cost".to_owned(),
         subtitle: subject.file.clone(),
@@ -173,7 +178,7 @@ pub fn page(subject: &Subject, all: &[Findings]) -> Result<String, Box<dyn std::
     Ok(report.html(None)?)
 }
 
-fn readings(subject: &Subject, found: &Findings) -> report::Table {
+fn readings(subject: &TableSource, found: &TableQuality) -> report::Table {
     let unit = |dimension| subject.units.map(|units| units.label(dimension)).unwrap_or_default();
     let column = |name: &str, unit: &str| report::Column::new(name, unit);
     let (length, stiffness) = (unit(Dimension::LENGTH), unit(Dimension::STIFFNESS));
