@@ -10,7 +10,7 @@ use foundations::solve;
 use foundations::{SolvedStructure, distinct_specs};
 use serde_json::{Value, json};
 use sim::Method;
-use study::{Against, Depth, ErrorGroup, PointOutcome, SettingFamily, Silent, Study, study};
+use study::{Against, ErrorGroup, PointOutcome, SettingFamily, Silent, Study, StudyBudget, study};
 
 /// The paper's girder; `mass` by length, where it has one.
 fn girder(mass: Option<f64>) -> Value {
@@ -37,8 +37,8 @@ fn scene(x0: f64, speed: f64, end: f64) -> Value {
 }
 
 /// Nothing tried, nothing timed.
-fn nothing() -> Depth {
-    Depth {
+fn nothing() -> StudyBudget {
+    StudyBudget {
         accuracies: Vec::new(),
         steps: Vec::new(),
         modes: Vec::new(),
@@ -46,11 +46,11 @@ fn nothing() -> Depth {
         parts: Vec::new(),
         stations: Vec::new(),
         repetitions: 0,
-        ..Depth::quick()
+        ..StudyBudget::quick()
     }
 }
 
-fn conduct(scene: &Value, spec: &Value, depth: &Depth) -> Study {
+fn conduct(scene: &Value, spec: &Value, depth: &StudyBudget) -> Study {
     let folder = tempfile::tempdir().expect("a temporary folder");
     for (name, value) in [("scene.json", scene), ("spec.json", spec)] {
         // a key without a value is left out
@@ -91,7 +91,7 @@ fn order(curve: &[[f64; 2]]) -> f64 {
 
 #[test]
 fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
-    let depth = Depth { steps: vec![6, 12, 24, 48], references: vec![(1e-10, 2)], ..nothing() };
+    let depth = StudyBudget { steps: vec![6, 12, 24, 48], references: vec![(1e-10, 2)], ..nothing() };
     // between supports, where the rail's give is smooth
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
     let known = study.reference(Against::Own).expect("the scene's own reference");
@@ -111,7 +111,7 @@ fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
 
 #[test]
 fn errors_of_tables_and_parts_fall_with_their_orders() {
-    let depth = Depth { stations: vec![13, 25, 49], parts: vec![6, 12, 24, 48], ..nothing() };
+    let depth = StudyBudget { stations: vec![13, 25, 49], parts: vec![6, 12, 24, 48], ..nothing() };
     let mut scene = scene(0.0, 5.0, 12.0);
     scene["analysis"] = json!("quasi-static");
     let study = conduct(&scene, &girder(None), &depth);
@@ -133,7 +133,7 @@ fn errors_of_tables_and_parts_fall_with_their_orders() {
 
 #[test]
 fn residual_flexibility_spares_modes() {
-    let depth = Depth { modes: vec![1, 2, 4], references: vec![(1e-5, 12)], fine: 1e-5, ..nothing() };
+    let depth = StudyBudget { modes: vec![1, 2, 4], references: vec![(1e-5, 12)], fine: 1e-5, ..nothing() };
     let mut scene = scene(0.0, 100.0, 0.6);
     scene["bodies"]["car"]["weight"] = json!(2e4);
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(1e5);
@@ -170,7 +170,7 @@ fn errors_by_modes_are_those_found_elsewhere() {
     scene["bodies"]["car"]["weight"] = json!(sprung * 32.174);
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(sprung * 0.25 * omega * omega);
     scene["output"]["dt"] = json!(length / speed / 400.0);
-    let depth = Depth {
+    let depth = StudyBudget {
         modes: vec![1, 3, 5, 20],
         accuracies: vec![1e-6],
         references: vec![(1e-7, 40)],
@@ -208,7 +208,7 @@ fn errors_by_modes_are_those_found_elsewhere() {
 
 #[test]
 fn a_run_beyond_its_limit_is_stopped_and_says_so() {
-    let depth = Depth { steps: vec![16, 4_000_000], limit: 0.05, ..nothing() };
+    let depth = StudyBudget { steps: vec![16, 4_000_000], limit: 0.05, ..nothing() };
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
     let of = |value: f64| {
         let found = study.points.iter().find(|own| {
@@ -222,7 +222,7 @@ fn a_run_beyond_its_limit_is_stopped_and_says_so() {
 
 #[test]
 fn methods_that_do_not_suit_are_refused_with_what_they_lack() {
-    let depth = Depth { steps: vec![64], ..nothing() };
+    let depth = StudyBudget { steps: vec![64], ..nothing() };
     let mut scene = scene(20.0, 40.0, 0.5);
     scene["wheels"]["wheel"]["vertical"]["c"] = json!(1e4);
     let study = conduct(&scene, &girder(None), &depth);

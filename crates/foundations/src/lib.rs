@@ -27,7 +27,9 @@ pub use ladder::{
 pub use modal::ModeCache;
 pub use mount::mount;
 pub use parts::{RigidParts, roll_inertia};
-pub use solved::{Solution, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_to};
+pub use solved::{
+    Solution, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_specs, solve_to,
+};
 
 /// A foundation, with the model behind its freedoms.
 pub struct BuiltFoundation {

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use fea::Frame;
 use formats::grid::Grid;
+use formats::inputs::Input;
 use formats::scene::{Document, Origin};
-use formats::spec::Spec;
+use formats::spec::{SolveError, Spec};
 use splines::Surface;
 
 /// A structure's FE model, solved.
@@ -108,4 +109,22 @@ pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<
         }
         Origin::Tables { .. } => None,
     }
+}
+
+/// Solves the given specs of a document (see [`distinct_specs`]).
+///
+/// # Errors
+/// A spec that cannot be solved, at its place in its file where it can be told.
+pub fn solve_specs(
+    document: &Document,
+    specs: &[(String, &str, &Arc<Spec>)],
+) -> Result<Vec<SolvedStructure>, SolveError> {
+    let solved = specs.iter().map(|&(_, file, spec)| {
+        let solution = solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
+            Some(Ok(source)) => spec.refuse(&source, &error),
+            _ => SolveError::Untrusted(error.to_string()),
+        })?;
+        Ok(SolvedStructure { spec: Arc::clone(spec), solution })
+    });
+    solved.collect()
 }

@@ -8,8 +8,33 @@ use crate::outcome::CaseResult;
 use crate::record::NamedColumns;
 use crate::run_error;
 use crate::warning;
-use formats::scene::{Analysis, Event, Scene, Structure, stepper_word};
+use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
 use formats::units::Dimension;
+
+/// The summary of a document's cases as JSON, the scene's own run first; `comparison` is what its comparisons tell
+/// ([`crate::response::RunComparison::json`]).
+#[must_use]
+pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
+    let scene = document.scene();
+    let mut result = run(scene, &outcomes[0]);
+    result["format"] = json!("girderway-summary/1");
+    result["name"] = json!(scene.name);
+    result["units"] = units(scene, &outcomes[0].columns);
+    let compare: Map<String, Value> = document
+        .cases
+        .iter()
+        .zip(outcomes)
+        .skip(1)
+        .map(|(case, outcome)| (outcome.label.clone(), run(&case.scene, outcome)))
+        .collect();
+    if !compare.is_empty() {
+        result["compare"] = Value::Object(compare);
+    }
+    if !comparison.is_empty() {
+        result["comparison"] = Value::Object(comparison);
+    }
+    result
+}
 
 /// One run as JSON.
 #[must_use]

@@ -2,7 +2,7 @@
 
 /// Values that a study tries, and what it may cost.
 #[derive(Clone, Debug)]
-pub struct Depth {
+pub struct StudyBudget {
     /// Accuracies of adaptive steps, coarsest first.
     pub accuracies: Vec<f64>,
     /// Accuracy where something else varies.
@@ -29,11 +29,11 @@ pub struct Depth {
     pub resolution: f64,
 }
 
-impl Depth {
+impl StudyBudget {
     /// For a picture to print.
     #[must_use]
-    pub fn full() -> Depth {
-        Depth {
+    pub fn full() -> StudyBudget {
+        StudyBudget {
             accuracies: vec![1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6],
             fine: 1e-6,
             steps: vec![64, 256, 1024, 4096, 16384],
@@ -51,8 +51,8 @@ impl Depth {
 
     /// For a first look.
     #[must_use]
-    pub fn quick() -> Depth {
-        Depth {
+    pub fn quick() -> StudyBudget {
+        StudyBudget {
             accuracies: vec![1e-2, 1e-3, 1e-4],
             fine: 1e-4,
             steps: vec![256, 1024],

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
-use super::budget::Depth;
+use super::budget::StudyBudget;
 use super::front::{excess, on_front};
 use super::investigate::Study;
 use super::point::{PointOutcome, StudyPoint};
@@ -14,7 +14,7 @@ use results::record::bytes;
 
 /// `study.json`: everything but times.
 #[must_use]
-pub fn json(study: &Study, scene: &Scene, depth: &Depth) -> Value {
+pub fn json(study: &Study, scene: &Scene, depth: &StudyBudget) -> Value {
     let fronts = fronts(study, &stages);
     let points = study.points.iter().enumerate();
     json!({

@@ -4,7 +4,7 @@ use super::quantity::ErrorGroup;
 
 /// Columns of a run with their groups, at its output times.
 #[derive(Clone, Debug, Default)]
-pub struct Trace {
+pub struct ComparedColumns {
     /// Output times.
     pub time: Vec<f64>,
     /// Group and values of each column.
@@ -14,7 +14,7 @@ pub struct Trace {
 /// Moments below this share of the largest force times the longest rail are rounding.
 const NOTHING: f64 = 1e-6;
 
-impl Trace {
+impl ComparedColumns {
     /// Leaves out moments that nothing in the scene causes: they are rounding. `length`: that of the longest rail.
     pub(super) fn prune(&mut self, length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -35,7 +35,7 @@ impl Trace {
 
 /// Errors of the columns of one group, relative to the largest value that the reference has in the group.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Misfit {
+pub struct Deviation {
     /// Largest difference at an output time.
     pub largest: f64,
     /// Largest difference of a column's extremes.
@@ -48,13 +48,16 @@ pub struct Misfit {
 /// e = max |a - b| / max |b| over columns and output times that both have; the extremes of a column are compared
 /// whenever they are.
 #[must_use]
-pub fn misfits(run: &Trace, reference: &Trace) -> [Option<Misfit>; ErrorGroup::COUNT] {
+pub fn deviations(
+    run: &ComparedColumns,
+    reference: &ComparedColumns,
+) -> [Option<Deviation>; ErrorGroup::COUNT] {
     let common = common(run, reference);
     ErrorGroup::ALL.map(|quantity| of(run, reference, quantity, common))
 }
 
 /// How many output times both have, from the first on.
-fn common(run: &Trace, reference: &Trace) -> usize {
+fn common(run: &ComparedColumns, reference: &ComparedColumns) -> usize {
     let pairs = run.time.iter().zip(&reference.time);
     pairs.take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9)).count()
 }
@@ -62,7 +65,12 @@ fn common(run: &Trace, reference: &Trace) -> usize {
 /// The last output time until which `run` errs by no more than `wanted` in each of `groups`, as [`misfits`] has it for runs that
 /// end there. `None`: at none; or `run` lacks a column.
 #[must_use]
-pub fn horizon(run: &Trace, reference: &Trace, groups: &[ErrorGroup], wanted: f64) -> Option<f64> {
+pub fn horizon(
+    run: &ComparedColumns,
+    reference: &ComparedColumns,
+    groups: &[ErrorGroup],
+    wanted: f64,
+) -> Option<f64> {
     let mut pairs = Vec::new();
     for (name, group, values) in &reference.columns {
         if let Some(at) = groups.iter().position(|own| own == group) {
@@ -85,9 +93,14 @@ pub fn horizon(run: &Trace, reference: &Trace, groups: &[ErrorGroup], wanted: f6
     last
 }
 
-fn of(run: &Trace, reference: &Trace, quantity: ErrorGroup, common: usize) -> Option<Misfit> {
+fn of(
+    run: &ComparedColumns,
+    reference: &ComparedColumns,
+    quantity: ErrorGroup,
+    common: usize,
+) -> Option<Deviation> {
     let mut scale = 0.0_f64;
-    let mut worst = Misfit::default();
+    let mut worst = Deviation::default();
     for (name, _, wanted) in reference.columns.iter().filter(|(_, group, _)| *group == quantity) {
         let (_, _, found) = run.columns.iter().find(|(own, ..)| own == name)?;
         scale = wanted.iter().fold(scale, |most, value| most.max(value.abs()));
@@ -101,15 +114,15 @@ fn of(run: &Trace, reference: &Trace, quantity: ErrorGroup, common: usize) -> Op
     }
     let relative = |value: f64| value / scale;
     let is_told = common > 0 && scale > 0.0 && worst.largest.is_finite() && worst.peak.is_finite();
-    is_told.then(|| Misfit { largest: relative(worst.largest), peak: relative(worst.peak) })
+    is_told.then(|| Deviation { largest: relative(worst.largest), peak: relative(worst.peak) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn trace(deflection: &[f64], force: &[f64]) -> Trace {
-        Trace {
+    fn trace(deflection: &[f64], force: &[f64]) -> ComparedColumns {
+        ComparedColumns {
             time: (0..deflection.len()).map(|i| 0.1 * i as f64).collect(),
             columns: vec![
                 ("body.deflection".into(), ErrorGroup::Deflection, deflection.to_vec()),
@@ -122,10 +135,10 @@ mod tests {
     fn errors_are_relative_to_the_largest_value_of_the_group() {
         let reference = trace(&[0.0, 2.0, -4.0], &[10.0, 10.0, 10.0]);
         let run = trace(&[0.1, 2.0, -4.2], &[10.0, 9.0, 10.0]);
-        let [deflection, force, lateral, reaction, _] = misfits(&run, &reference);
+        let [deflection, force, lateral, reaction, _] = deviations(&run, &reference);
         let deflection = deflection.expect("a scale of 4");
         assert!((deflection.largest - 0.05).abs() < 1e-15 && (deflection.peak - 0.05).abs() < 1e-15);
-        assert_eq!(force, Some(Misfit { largest: 0.1, peak: 0.1 }));
+        assert_eq!(force, Some(Deviation { largest: 0.1, peak: 0.1 }));
         assert_eq!([lateral, reaction], [None, None]);
     }
 
@@ -142,17 +155,17 @@ mod tests {
         let mut cut = reference.clone();
         cut.cut(reference.time[2]);
         assert_eq!((cut.time.len(), cut.columns[1].2.len()), (3, 3));
-        assert_eq!(misfits(&run, &cut)[1].map(|own| own.largest), Some(0.0));
+        assert_eq!(deviations(&run, &cut)[1].map(|own| own.largest), Some(0.0));
     }
 
     #[test]
     fn a_run_cut_short_is_compared_as_far_as_it_goes() {
         let reference = trace(&[1.0, 2.0, 1.0], &[0.0, 0.0, 0.0]);
         let mut run = trace(&[1.0, 2.0], &[0.0, 0.0]);
-        let [deflection, force, ..] = misfits(&run, &reference);
+        let [deflection, force, ..] = deviations(&run, &reference);
         assert_eq!(deflection.map(|own| own.largest), Some(0.0));
         assert_eq!(force, None, "zeros have no scale");
         run.columns.remove(0);
-        assert_eq!(misfits(&run, &reference)[0], None, "a column that is missing is no agreement");
+        assert_eq!(deviations(&run, &reference)[0], None, "a column that is missing is no agreement");
     }
 }

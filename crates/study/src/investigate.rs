@@ -4,16 +4,16 @@ use std::ops::ControlFlow;
 
 use sim::Stepping;
 
-use super::budget::Depth;
+use super::budget::StudyBudget;
 use super::cpu::{self, limited};
-use super::deviation::misfits;
+use super::deviation::deviations;
 use super::ladder::{self, SceneKinds, varies};
 use super::memory::{self, Memory};
 use super::point::{MeasuredPoint, PointOutcome, StudyPoint};
 use super::quantity::ErrorGroup;
 use super::reference::{ConvergedReference, Make, MeshDetail, reference};
 use super::setting::{Against, Setting, SettingFamily};
-use super::setup::{Rig, Workshop};
+use super::setup::{CaseSetup, SetupCache};
 use super::spread::Spread;
 use crate::Error;
 use crate::observer::Observer;
@@ -69,11 +69,11 @@ impl Study {
 pub fn study(
     scene: &Scene,
     known: &[SolvedStructure],
-    depth: &Depth,
+    depth: &StudyBudget,
     observer: &dyn Observer,
 ) -> Result<Study, Error> {
     let kinds = SceneKinds::of(scene, known);
-    let mut workshop = Workshop::new(scene, known);
+    let mut workshop = SetupCache::new(scene, known);
     let asks = scene.structures.iter().any(|structure| structure.auto);
     let choose = |scene: &Scene| {
         observer.say("choosing foundations");
@@ -160,8 +160,8 @@ type References = (Vec<ConvergedReference>, Vec<(Against, String)>);
 fn references(
     own: &Scene,
     kinds: SceneKinds,
-    workshop: &mut Workshop<'_>,
-    depth: &Depth,
+    workshop: &mut SetupCache<'_>,
+    depth: &StudyBudget,
     observer: &dyn Observer,
 ) -> Result<References, Error> {
     let whole = |detail: MeshDetail| ladder::whole(own, kinds, detail);
@@ -210,13 +210,13 @@ fn until(references: &[ConvergedReference], end: f64, resolution: f64) -> Option
 
 /// Runs a setting once, and compares it with the reference; ready to run again where it reached its end.
 fn measure(
-    workshop: &mut Workshop<'_>,
+    workshop: &mut SetupCache<'_>,
     setting: &Setting,
     reference: &ConvergedReference,
-    depth: &Depth,
-) -> (Option<(Rig, f64)>, PointOutcome) {
+    depth: &StudyBudget,
+) -> (Option<(CaseSetup, f64)>, PointOutcome) {
     let refused = |why: String| (None, PointOutcome::Refused(why));
-    let rig = match workshop.rig(setting) {
+    let rig = match workshop.set_up(setting) {
         Ok(rig) => rig,
         Err(failure) => return refused(failure.to_string()),
     };
@@ -234,16 +234,16 @@ fn measure(
         }
         _ => {}
     }
-    let trace = match workshop.trace(&rig, &run) {
+    let trace = match workshop.columns_of(&rig, &run) {
         Ok(trace) => trace,
         Err(failure) => return refused(failure.to_string()),
     };
     // a second one: the first left modes and tables with the workshop
-    let foundations = memory::count_allocations(|| workshop.rig(setting)).retained;
+    let foundations = memory::count_allocations(|| workshop.set_up(setting)).retained;
     let measured = MeasuredPoint {
-        errors: misfits(&trace, &reference.columns),
+        errors: deviations(&trace, &reference.columns),
         counts: run.counts,
-        dof_count: rig.freedoms(),
+        dof_count: rig.dof_count(),
         time: None,
         setup: rig.setup,
         memory: foundations.zip(ran.peak).map(|(foundations, run)| Memory { foundations, run }),
@@ -252,7 +252,11 @@ fn measure(
 }
 
 /// Lets "auto" choose every foundation that may vary: what it says, and the scene on its choice.
-fn auto(scene: &Scene, known: &[SolvedStructure], depth: &Depth) -> (Result<Auto, String>, Option<Scene>) {
+fn auto(
+    scene: &Scene,
+    known: &[SolvedStructure],
+    depth: &StudyBudget,
+) -> (Result<Auto, String>, Option<Scene>) {
     let mut chosen = asked(scene);
     let choices = match choose(&mut chosen, known, 10.0 * depth.limit) {
         Ok(choices) => choices,
@@ -300,10 +304,10 @@ fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Ve
 /// Times all that ran to its end: every repetition runs all of them, so that what else the machine does meets all alike.
 fn time(
     study: &mut Study,
-    rigs: &[Option<(Rig, f64)>],
+    rigs: &[Option<(CaseSetup, f64)>],
     scene: &Scene,
     known: &[SolvedStructure],
-    depth: &Depth,
+    depth: &StudyBudget,
     observer: &dyn Observer,
 ) {
     let bar = observer.begin("timing", depth.repetitions as u64);
@@ -347,7 +351,7 @@ fn time(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deviation::Trace;
+    use crate::deviation::ComparedColumns;
 
     /// Two runs of ten seconds whose wheel forces part by a tenth from `time` on.
     fn parted(against: Against, time: usize) -> ConvergedReference {
@@ -357,7 +361,7 @@ mod tests {
                 ("body.deflection".to_owned(), ErrorGroup::Deflection, vec![1.0; 11]),
                 ("wheel.vertical".to_owned(), ErrorGroup::WheelForce, (0..11).map(force).collect()),
             ];
-            Trace { time: (0..11).map(|k| k as f64).collect(), columns }
+            ComparedColumns { time: (0..11).map(|k| k as f64).collect(), columns }
         };
         ConvergedReference::new(against, trace(0.0), trace(0.1), Default::default())
     }

@@ -2,7 +2,7 @@
 
 use sim::Method;
 
-use super::budget::Depth;
+use super::budget::StudyBudget;
 use super::reference::MeshDetail;
 use super::setting::{Setting, SettingFamily};
 use formats::scene::{Analysis, Foundation, Handover, Origin, Reading, Scene, Structure};
@@ -93,7 +93,12 @@ pub fn massless(scene: &Scene) -> Scene {
 
 /// The settings of a study of `scene`, whose foundations are chosen.
 #[must_use]
-pub fn settings(scene: &Scene, known: &[SolvedStructure], kinds: SceneKinds, depth: &Depth) -> Vec<Setting> {
+pub fn settings(
+    scene: &Scene,
+    known: &[SolvedStructure],
+    kinds: SceneKinds,
+    depth: &StudyBudget,
+) -> Vec<Setting> {
     let mut list = List { depth, dynamic: scene.analysis == Analysis::Dynamic, all: Vec::new() };
     if kinds.varies {
         list.foundations(scene, known, kinds);
@@ -106,7 +111,7 @@ pub fn settings(scene: &Scene, known: &[SolvedStructure], kinds: SceneKinds, dep
 }
 
 struct List<'d> {
-    depth: &'d Depth,
+    depth: &'d StudyBudget,
     dynamic: bool,
     all: Vec<Setting>,
 }

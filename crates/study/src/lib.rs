@@ -21,9 +21,9 @@ pub mod stability;
 pub mod stations;
 pub mod table_quality;
 
-pub use budget::Depth;
+pub use budget::StudyBudget;
 pub use data::{csv, excesses, json, stages, timing_csv, timing_json};
-pub use deviation::{Misfit, Trace, misfits};
+pub use deviation::{ComparedColumns, Deviation, deviations};
 pub use error::Error;
 pub use front::{excess, front, on_front};
 pub use investigate::{Auto, Study, study};

@@ -1,6 +1,6 @@
 //! What came of a setting.
 
-use super::deviation::Misfit;
+use super::deviation::Deviation;
 use super::memory::Memory;
 use super::quantity::ErrorGroup;
 use super::setting::Setting;
@@ -30,7 +30,7 @@ pub enum PointOutcome {
 #[derive(Clone, Debug)]
 pub struct MeasuredPoint {
     /// Errors, one a group.
-    pub errors: [Option<Misfit>; ErrorGroup::COUNT],
+    pub errors: [Option<Deviation>; ErrorGroup::COUNT],
     /// Steps, stages, events.
     pub counts: sim::Counts,
     /// Freedoms of the foundations.

@@ -2,12 +2,12 @@
 
 use sim::{Method, Stepping};
 
-use super::budget::Depth;
+use super::budget::StudyBudget;
 use super::cpu::limited;
-use super::deviation::{Trace, horizon, misfits};
+use super::deviation::{ComparedColumns, deviations, horizon};
 use super::quantity::ErrorGroup;
 use super::setting::{Against, Setting, SettingFamily};
-use super::setup::Workshop;
+use super::setup::SetupCache;
 use crate::Error;
 use formats::scene::{Analysis, Scene, stepper_word};
 use results::run_error;
@@ -49,9 +49,9 @@ pub struct ConvergedReference {
     /// What it is the reference for.
     pub against: Against,
     /// The run itself.
-    pub columns: Trace,
+    pub columns: ComparedColumns,
     /// The one beside it.
-    pub second: Trace,
+    pub second: ComparedColumns,
     /// The two settings in words: the run's, and that of the one beside it.
     pub words: [String; 2],
     /// Largest difference of the two in each group.
@@ -63,7 +63,12 @@ pub struct ConvergedReference {
 impl ConvergedReference {
     /// `trace` as the reference, which tells as much as it is close to `beside`; `words`: the settings of both.
     #[must_use]
-    pub fn new(against: Against, columns: Trace, second: Trace, words: [String; 2]) -> ConvergedReference {
+    pub fn new(
+        against: Against,
+        columns: ComparedColumns,
+        second: ComparedColumns,
+        words: [String; 2],
+    ) -> ConvergedReference {
         let difference = differences(&second, &columns);
         ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
     }
@@ -104,8 +109,8 @@ impl ConvergedReference {
 }
 
 /// Largest difference of two runs in each group.
-fn differences(run: &Trace, reference: &Trace) -> [Option<f64>; ErrorGroup::COUNT] {
-    misfits(run, reference).map(|own| own.map(|own| own.largest))
+fn differences(run: &ComparedColumns, reference: &ComparedColumns) -> [Option<f64>; ErrorGroup::COUNT] {
+    deviations(run, reference).map(|own| own.map(|own| own.largest))
 }
 
 /// Runs two settings that differ in everything that can err, ever finer, until they agree: the scene that `make` gives for a
@@ -116,11 +121,11 @@ fn differences(run: &Trace, reference: &Trace) -> [Option<f64>; ErrorGroup::COUN
 /// # Errors
 /// A scene that cannot start; no pair that ran to its end.
 pub fn reference(
-    workshop: &mut Workshop<'_>,
+    workshop: &mut SetupCache<'_>,
     against: Against,
     make: &Make<'_>,
     meshes: bool,
-    depth: &Depth,
+    depth: &StudyBudget,
 ) -> Result<ConvergedReference, Error> {
     let mut search = Search { best: None, approach: Vec::new(), why: String::new() };
     let modes = depth.references.iter().map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
@@ -147,11 +152,11 @@ impl Search {
     /// Goes through `rungs` until a pair agrees or one of its runs exceeds its limit.
     fn climb(
         &mut self,
-        workshop: &mut Workshop<'_>,
+        workshop: &mut SetupCache<'_>,
         against: Against,
         make: &Make<'_>,
         rungs: impl Iterator<Item = (f64, MeshDetail)>,
-        depth: &Depth,
+        depth: &StudyBudget,
     ) -> Result<(), Error> {
         let wanted = (depth.resolution / MARGIN * 1e-2).max(CLOSE);
         for (accuracy, detail) in rungs {
@@ -185,11 +190,11 @@ impl Search {
 }
 
 /// A run's columns, and its setting in words.
-type Told = (Trace, String);
+type Told = (ComparedColumns, String);
 
 /// Two runs that differ in all that can err; the inner error says why one of them did not reach its end.
 fn pair(
-    workshop: &mut Workshop<'_>,
+    workshop: &mut SetupCache<'_>,
     scenes: &[Scene; 2],
     accuracy: f64,
     limit: f64,
@@ -210,11 +215,11 @@ fn pair(
 }
 
 /// A run with its method and its setting in words; `None` where no method integrates it; or why it did not reach its end.
-type Tried = Result<Option<(Trace, Option<Method>, String)>, String>;
+type Tried = Result<Option<(ComparedColumns, Option<Method>, String)>, String>;
 
 /// One run; `None` where the method does not suit the scene.
 fn one(
-    workshop: &mut Workshop<'_>,
+    workshop: &mut SetupCache<'_>,
     scene: &Scene,
     accuracy: f64,
     method: Method,
@@ -224,7 +229,7 @@ fn one(
     let scene = Scene { accuracy, stepping, ..scene.clone() };
     let setting =
         Setting { family: SettingFamily::Written, knob: "accuracy", value: accuracy, scene, stations: None };
-    let rig = workshop.rig(&setting)?;
+    let rig = workshop.set_up(&setting)?;
     let run = match limited(limit, |watch| rig.run(watch)) {
         Ok(run) => run,
         Err(sim::Error::Method { .. }) => return Ok(Ok(None)),
@@ -233,7 +238,7 @@ fn one(
     if !run.status.is_complete() {
         return Ok(Err(run_error::reason_incomplete(&run.status, &setting.scene).unwrap_or_default()));
     }
-    let mut trace = workshop.trace(&rig, &run)?;
+    let mut trace = workshop.columns_of(&rig, &run)?;
     let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
     trace.prune(lengths.fold(0.0, f64::max));
     let mut words: Vec<String> = Vec::new();

@@ -7,7 +7,7 @@ use sim::{Foundation, Run};
 use splines::Compliance;
 
 use super::cpu;
-use super::deviation::Trace;
+use super::deviation::ComparedColumns;
 use super::quantity::ErrorGroup;
 use super::setting::Setting;
 use crate::Error;
@@ -23,7 +23,7 @@ use results::record::NamedColumns;
 use results::response::{self, Response};
 
 /// What makes settings ready: solved structures and modes that were found already.
-pub struct Workshop<'k> {
+pub struct SetupCache<'k> {
     known: &'k [SolvedStructure],
     spectra: Vec<ModeCache>,
     /// Tables by their stations a rail.
@@ -31,7 +31,7 @@ pub struct Workshop<'k> {
 }
 
 /// A setting made ready.
-pub struct Rig {
+pub struct CaseSetup {
     scene: Scene,
     cast: Cast,
     foundations: Vec<Foundation>,
@@ -41,23 +41,23 @@ pub struct Rig {
     pub setup: f64,
 }
 
-impl<'k> Workshop<'k> {
+impl<'k> SetupCache<'k> {
     /// For runs of `scene` and of what settings make of it.
     #[must_use]
-    pub fn new(scene: &Scene, known: &'k [SolvedStructure]) -> Workshop<'k> {
+    pub fn new(scene: &Scene, known: &'k [SolvedStructure]) -> SetupCache<'k> {
         let spectra = scene.structures.iter().map(|_| ModeCache::default()).collect();
-        Workshop { known, spectra, tables: Vec::new() }
+        SetupCache { known, spectra, tables: Vec::new() }
     }
 
     /// Makes a setting ready.
     ///
     /// # Errors
     /// Foundations that cannot be made.
-    pub fn rig(&mut self, setting: &Setting) -> Result<Rig, Error> {
+    pub fn set_up(&mut self, setting: &Setting) -> Result<CaseSetup, Error> {
         let start = cpu::seconds();
         let scene = setting.scene.clone();
         let cast = cast(&scene)?;
-        let mut laid = self.lay(&scene, setting.stations)?;
+        let mut laid = self.build(&scene, setting.stations)?;
         if setting.family.is_pure() {
             for laid in laid.iter_mut().filter(|laid| laid.foundation.structure.is_some()) {
                 laid.foundation.compliance = None;
@@ -68,16 +68,16 @@ impl<'k> Workshop<'k> {
         for (s, foundation) in foundations.iter_mut().enumerate() {
             foundation.recorded = recorded(s, foundation);
         }
-        Ok(Rig { scene, cast, foundations, stations: setting.stations, setup: cpu::seconds() - start })
+        Ok(CaseSetup { scene, cast, foundations, stations: setting.stations, setup: cpu::seconds() - start })
     }
 
     /// The columns of a run that errors are measured in.
     ///
     /// # Errors
     /// A structure that does not stand.
-    pub fn trace(&mut self, rig: &Rig, run: &Run) -> Result<Trace, Error> {
+    pub fn columns_of(&mut self, rig: &CaseSetup, run: &Run) -> Result<ComparedColumns, Error> {
         let scene = &rig.scene;
-        let laid = self.lay(scene, rig.stations)?;
+        let laid = self.build(scene, rig.stations)?;
         let known = self.known;
         let solved: Vec<Option<&Solution>> =
             scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
@@ -85,7 +85,7 @@ impl<'k> Workshop<'k> {
         let mut record = NamedColumns::new(scene, &run.history);
         let response = Response::new(scene, &rig.cast, &run.history, &laid, &solved, &lines, &mut record)?;
         let own = quantities(scene).len();
-        let mut trace = Trace { time: record.values("time").to_vec(), columns: Vec::new() };
+        let mut trace = ComparedColumns { time: record.values("time").to_vec(), columns: Vec::new() };
         for (index, column) in record.columns.into_iter().enumerate() {
             let is_reaction =
                 index >= own && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
@@ -96,7 +96,7 @@ impl<'k> Workshop<'k> {
         Ok(trace)
     }
 
-    fn lay(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<BuiltFoundation>, Error> {
+    fn build(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<BuiltFoundation>, Error> {
         let lateral = scene.pushes_sideways();
         let at = stations.map(|count| self.table(count)).transpose()?;
         let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
@@ -145,7 +145,7 @@ fn table(solved: &Solution, count: usize) -> Result<Solution, Error> {
     })
 }
 
-impl Rig {
+impl CaseSetup {
     /// Runs it once. `watch` sees the time reached, and may stop the run.
     ///
     /// # Errors
@@ -156,7 +156,7 @@ impl Rig {
 
     /// Freedoms of bodies aside, how many the foundations have.
     #[must_use]
-    pub fn freedoms(&self) -> usize {
+    pub fn dof_count(&self) -> usize {
         self.foundations.iter().map(Foundation::freedoms).sum()
     }
 }

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use super::run::solve_all;
 use crate::cli::{DeckArgs as Arguments, Global};
 use crate::exit::{Exit, Failure};
 use crate::output;
@@ -10,7 +9,7 @@ use crate::progress::Progress;
 use deck::{self, DeckForm, check};
 use formats::diagnostic::Diagnostic;
 use formats::scene::Document;
-use foundations::distinct_specs;
+use foundations::{distinct_specs, solve_specs};
 
 /// Writes the data set to the file named, with its command file beside it, or to standard output.
 ///
@@ -27,7 +26,10 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
-    let known = solve_all(&document, &distinct_specs(&only), &progress)?;
+    let known = {
+        let _stage = progress.stage("solving the structures");
+        solve_specs(&document, &distinct_specs(&only))?
+    };
     let form = args
         .form
         .map(DeckForm::from)

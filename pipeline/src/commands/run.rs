@@ -1,9 +1,8 @@
 //! `girderway run` and `girderway sim`: structures, tables, simulation, pictures and report.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use crate::cli::{Global, SceneArgs as Arguments};
 use crate::clock::StageClock;
@@ -11,11 +10,9 @@ use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
 use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
-use formats::inputs::Input;
 use formats::scene::{Document, Scene};
-use formats::spec::Spec;
 use formats::{grid_file, tables};
-use foundations::{Solution, SolvedStructure, distinct_specs, solution_of};
+use foundations::{Solution, SolvedStructure, distinct_specs, solution_of, solve_specs};
 use report::pictures::{self, Labelled, Plate};
 use report::{animation, story};
 use results::cases::simulate;
@@ -77,7 +74,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
         .map(|outcome| (outcome.label.as_str(), &outcome.columns, &outcome.response))
         .collect();
     let comparison = RunComparison::new(&runs, global.threads);
-    let summary = summary_of(&document, &outcomes, comparison.json(&runs));
+    let summary = summary::of_document(&document, &outcomes, comparison.json(&runs));
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
@@ -138,50 +135,8 @@ fn finish(
 
 /// Solves every spec of every case once.
 fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
-    solve_all(document, &distinct_specs(document), progress)
-}
-
-/// Solves the given specs of a document.
-pub(super) fn solve_all(
-    document: &Document,
-    specs: &[(String, &str, &Arc<Spec>)],
-    progress: &Progress,
-) -> Result<Vec<SolvedStructure>, Failure> {
-    let mut known: Vec<SolvedStructure> = Vec::new();
-    let stage = progress.stage("solving the structures");
-    for &(_, file, spec) in specs {
-        let solved = foundations::solve(spec).map_err(|error| {
-            match document.inputs.find(file).map(Input::source) {
-                Some(Ok(source)) => Failure::from(spec.refuse(&source, &error)),
-                _ => Failure::untrusted(error),
-            }
-        })?;
-        known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved });
-    }
-    drop(stage);
-    Ok(known)
-}
-
-fn summary_of(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
-    let scene = document.scene();
-    let mut result = summary::run(scene, &outcomes[0]);
-    result["format"] = json!("girderway-summary/1");
-    result["name"] = json!(scene.name);
-    result["units"] = summary::units(scene, &outcomes[0].columns);
-    let compare: Map<String, Value> = document
-        .cases
-        .iter()
-        .zip(outcomes)
-        .skip(1)
-        .map(|(case, outcome)| (outcome.label.clone(), summary::run(&case.scene, outcome)))
-        .collect();
-    if !compare.is_empty() {
-        result["compare"] = Value::Object(compare);
-    }
-    if !comparison.is_empty() {
-        result["comparison"] = Value::Object(comparison);
-    }
-    result
+    let _stage = progress.stage("solving the structures");
+    Ok(solve_specs(document, &distinct_specs(document))?)
 }
 
 fn plates(

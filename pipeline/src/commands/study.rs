@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use serde_json::json;
 
-use super::run::solve_all;
 use crate::cli::{Global, StudyArgs as Arguments};
 use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
@@ -12,9 +11,9 @@ use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::diagnostic::Diagnostic;
 use formats::scene::{Case, Document};
-use foundations::{SolvedStructure, distinct_specs};
+use foundations::{SolvedStructure, distinct_specs, solve_specs};
 use study::stability::{self, MapSubject, MapVerdict};
-use study::{self, Depth, SettingFamily, Study, StudyPoint};
+use study::{self, SettingFamily, Study, StudyBudget, StudyPoint};
 
 /// Runs a scene on a ladder of settings, measures errors and times, and draws them.
 ///
@@ -29,11 +28,14 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let scene = document.scene().clone();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&name));
     let mut folder = OutputFolder::new(&path)?;
-    let mut depth = if args.quick { Depth::quick() } else { Depth::full() };
+    let mut depth = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
     depth.limit = args.limit.unwrap_or(depth.limit);
     depth.resolution = args.resolution.unwrap_or(depth.resolution);
 
-    let known = solve_all(&document, &distinct_specs(&document), &progress)?;
+    let known = {
+        let _stage = progress.stage("solving the structures");
+        solve_specs(&document, &distinct_specs(&document))?
+    };
     if args.stability {
         return stability(args, &document, &known, folder, global);
     }
@@ -144,7 +146,7 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 }
 
 /// Whether the references tell what they were asked to.
-fn judge(study: &Study, depth: &Depth) -> Result<Exit, Failure> {
+fn judge(study: &Study, depth: &StudyBudget) -> Result<Exit, Failure> {
     if let Some((against, why)) = study.lost.first() {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
         return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
