@@ -7,9 +7,10 @@ use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
 use splines::{Compliance, Line, Probe, Rest, Surface};
 
-use super::mount::{self, Excitation};
-use super::{BuiltFoundation, MotionBasis, Solution};
-use crate::Error;
+use crate::built::{BuiltFoundation, MotionBasis};
+use crate::error::Error;
+use crate::mount::{self, Excitation};
+use crate::solved::Solution;
 use formats::track::Pad;
 
 /// Error of a frequency that the cutting of members may leave.

@@ -4,7 +4,7 @@ use fea::Modes;
 use sim::{Axle, Mount};
 use splines::Axis;
 
-use crate::Error;
+use crate::error::Error;
 use formats::scene::{On, Origin, Structure};
 
 /// Where the rails of a structure are on the body that carries it; `None` on the ground.

@@ -7,9 +7,9 @@ use nalgebra::{DMatrix, DVector};
 use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
 use splines::{Cell, Flexibility, Line, Surface};
 
-use super::mount::Excitation;
-use super::{BuiltFoundation, window};
-use crate::Error;
+use crate::built::{BuiltFoundation, MotionBasis, RigidParts};
+use crate::error::Error;
+use crate::mount::Excitation;
 use formats::scene::{Handover, On};
 
 /// Smallest stiffness kept, relative to the most compliant combination of the parts' freedoms.
@@ -48,7 +48,7 @@ pub fn foundation(
         let motion = PartsDynamics::new(girder, mass, &ends, &nodal, push.lateral);
         foundation.on = push.on.map(|on| motion.mount(&centres, on));
         let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
-        parts = Some(super::MotionBasis::Parts(chain_of));
+        parts = Some(MotionBasis::Parts(chain_of));
         let shapes = PartShapes { line, basis: motion.basis.clone(), chains: vec![chain], separate };
         foundation.structure = Some(motion.structure(shapes, damping));
     } else {
@@ -60,14 +60,6 @@ pub fn foundation(
         });
     }
     Ok(BuiltFoundation { foundation, motion: parts })
-}
-
-/// Rigid parts with mass, and how they move.
-pub struct RigidParts {
-    /// Ends of the parts along the girder, increasing.
-    pub ends: Vec<f64>,
-    /// Motion of the parts' centres, six each (displacements, rotations), by the structure's freedoms.
-    pub basis: DMatrix<f64>,
 }
 
 /// Ends of `count` parts of equal length over the girder with its overhangs.
@@ -218,6 +210,12 @@ impl PartsDynamics {
             },
             shapes: Box::new(shapes),
         }
+    }
+}
+
+fn window(handover: Handover) -> Option<f64> {
+    match handover {
+        Handover::Blend { length } | Handover::PerPart { length } => length,
     }
 }
 

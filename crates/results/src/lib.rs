@@ -5,6 +5,24 @@
 //! ([`warning`]) and the numbers of `summary.json` ([`summary`]). Nothing here knows a command line, a progress bar, a
 //! picture or an exit status.
 //!
+//! ```
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! use formats::scene::Document;
+//! use foundations::{distinct_specs, solve_specs};
+//!
+//! let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
+//! let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
+//! let cases = results::cases::simulate(&document, &solved, None, &|_| ())?;
+//!
+//! let bogie = cases[0].columns.values("bogie.deflection");
+//! let (sample, deepest) = results::record::peak(bogie).expect("a history with rows");
+//! assert!((deepest - 0.5473).abs() < 1e-4, "in ft, at row {sample}");
+//! let summary = results::summary::run(document.scene(), &cases[0]);
+//! assert_eq!(summary["status"], "done");
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! Wings, lowest first: error, threads, record, layout, response, codes, fatigue, outcome, run_error, warning, summary, cases
 
 pub mod cases;

@@ -5,9 +5,12 @@ use std::ops::ControlFlow;
 use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
 use splines::Compliance;
 
-use super::modal::{self, Dampers};
-use super::mount::Excitation;
-use super::{BuiltFoundation, Error, ModeCache, Solution, SolvedStructure, build, solution_of};
+use crate::build::build;
+use crate::built::BuiltFoundation;
+use crate::error::Error;
+use crate::modal::{self, Dampers, ModeCache};
+use crate::mount::Excitation;
+use crate::solved::{Solution, SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
 /// Elements of the mesh at the top where they suffice, and fewest and most a member; half of them must be a mesh too.
