@@ -11,7 +11,7 @@ use formats::scene::{Case, Document};
 use foundations::{ModeCache, build, solve};
 use foundations::{SolvedStructure, distinct_specs, solution_of};
 use sim::{Channel, Freedom, Run};
-use study::cpu::seconds;
+use study::measure::cpu::seconds;
 
 /// What the command line asks for.
 struct Wanted {

@@ -2,6 +2,8 @@
 //!
 //! The work itself is done by the libraries: `formats` reads, `foundations` and `results` compute, `deck`, `report` and
 //! `study` show.
+//!
+//! Wings, lowest first: cli, clock, exit, progress, manifest, output, crosscheck, commands
 
 pub mod cli;
 pub mod clock;

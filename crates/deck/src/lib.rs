@@ -3,30 +3,20 @@
 //! Every wheel is a GFORCE between its centre and a FLOATING marker on ground, in the frame of its rail. The rail's
 //! displacement under it is a VARIABLE that reads the SPLINEs with the forces of all wheels; ADAMS solves the loop of
 //! displacements and forces in its own Newton iteration.
+//!
+//! Wings, lowest first: error, words, model, statements, check
 
 pub mod check;
-pub mod compliance;
-pub mod contact;
 mod error;
-mod expression;
-mod form;
-pub mod ids;
-mod joints;
-pub mod mass;
-mod name;
-mod parts;
-pub mod plan;
-mod remark;
-mod request;
-mod solver;
-pub mod start;
-mod travel;
+pub mod model;
+pub mod statements;
+pub mod words;
 
 use adams::DataSet;
 
 pub use error::Error;
-pub use form::DeckForm;
-pub use plan::{DeckPlan, plan};
+pub use model::plan::{DeckPlan, plan};
+pub use words::form::DeckForm;
 
 use foundations::SolvedStructure;
 
@@ -45,18 +35,18 @@ pub struct Deck {
 /// Tables that are no SPLINE.
 pub fn deck(plan: &DeckPlan<'_>, known: &[SolvedStructure], model: &str) -> Result<Deck, Error> {
     let (mut markers, mut ids) = (plan.markers, plan.splines);
-    let mut statements = solver::head(plan);
-    statements.extend(parts::statements(plan));
-    statements.extend(joints::statements(plan, &mut markers));
+    let mut statements = statements::solver::head(plan);
+    statements.extend(statements::parts::statements(plan));
+    statements.extend(statements::joints::statements(plan, &mut markers));
     for give in &plan.compliances {
         statements.extend(give.splines()?);
     }
-    statements.extend(contact::statements(plan));
-    statements.extend(request::statements(plan, known, &mut ids)?);
-    statements.extend(solver::tail(plan));
-    name::distinct(&mut statements);
+    statements.extend(statements::contact::statements(plan));
+    statements.extend(statements::request::statements(plan, known, &mut ids)?);
+    statements.extend(statements::solver::tail(plan));
+    words::name::distinct(&mut statements);
     let wheels = plan.wheels.len();
     let s = if wheels == 1 { "" } else { "s" };
     let title = format!("{}: {wheels} wheel{s}, form {}", plan.scene.name, plan.form.word());
-    Ok(Deck { set: DataSet { title, statements }, commands: solver::commands(plan, model) })
+    Ok(Deck { set: DataSet { title, statements }, commands: statements::solver::commands(plan, model) })
 }

@@ -2,6 +2,8 @@
 //!
 //! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give a [`structure::Structure`], which [`write()`]
 //! turns into the text of a spec.
+//!
+//! Wings, lowest first: findings, structure, rail, fix, msh, bdf, write
 
 pub mod bdf;
 pub mod findings;

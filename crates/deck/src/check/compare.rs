@@ -8,7 +8,7 @@ use splines::{Axis, Influence, Probe};
 use super::states::CheckCase;
 use super::step;
 use crate::Error;
-use crate::ids::{VariableSlot, number, variable};
+use crate::words::ids::{VariableSlot, number, variable};
 use crate::{DeckForm, DeckPlan};
 
 /// Components of a wheel's force, in the order of GFORCE.

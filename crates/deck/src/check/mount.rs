@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::poses::CarrierPose;
 use super::random::Random;
-use crate::plan::GROUND;
-use crate::start::rotation;
+use crate::model::plan::GROUND;
+use crate::model::start::rotation;
 
 /// Moves every MARKER of the ground to a new PART of unit mass; returns the PART.
 pub fn mount(set: &mut DataSet) -> u32 {

@@ -7,7 +7,7 @@ use sim::{Analysis, Channel, Foundation, Freedom, Status};
 
 use crate::DeckPlan;
 use crate::Error;
-use crate::ids::number;
+use crate::words::ids::number;
 
 /// Places compared along the path, the first left out.
 const PLACES: u32 = 40;

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 use super::states::CheckCase;
 use super::step;
 use crate::DeckPlan;
-use crate::start;
+use crate::model::start;
 
 /// How the simulator's small rotations become the parts' rotations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

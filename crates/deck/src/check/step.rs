@@ -6,7 +6,7 @@
 use adams::{DataSet, Statement, Value};
 
 use crate::DeckPlan;
-use crate::plan::ContactPlan;
+use crate::model::plan::ContactPlan;
 
 /// Identifiers of the VARIABLEs that stand for DIF.
 const FIRST: u32 = 900_000_000;

@@ -2,17 +2,17 @@
 
 use adams::Statement;
 
-use super::mass;
-use super::name::plain;
-use super::plan::{DeckPlan, GROUND};
-use super::remark;
-use super::start::{euler, rotation, turned};
+use crate::model::mass;
+use crate::model::plan::{DeckPlan, GROUND};
+use crate::model::start::{euler, rotation, turned};
+use crate::words::name::plain;
+use crate::words::remark;
 
 /// Share of a body's mass that each of its spinning wheels takes.
 const WHEEL: f64 = 1e-9;
 
 /// All of them.
-pub(super) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
+pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut out = ground(plan);
     for b in 0..plan.bodies.len() {
         body(plan, b, &mut out);
@@ -111,7 +111,7 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement
     out.push(moving(statement, plan.start.speed[wheel.body]));
     out.push(marker(centre, part, [0.0; 3], &format!("centre_{}", wheel.name)));
     out.push(
-        Statement::new("JOINT", super::ids::number(w))
+        Statement::new("JOINT", crate::words::ids::number(w))
             .named(plain(&format!("axle_{}", wheel.name)))
             .flag("REVOLUTE")
             .reference("I", centre)

@@ -2,17 +2,17 @@
 
 use adams::Statement;
 
-use super::plan::DeckPlan;
-use super::remark;
+use crate::model::plan::DeckPlan;
+use crate::words::remark;
 use formats::scene::Analysis;
 
 /// Largest ERROR, where the scene asks for less accuracy.
 const LARGEST: f64 = 1e-3;
 
 /// UNITS and gravity.
-pub(super) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
+pub(crate) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut units = plan.scene.units.to_adams().statement().remark(remark::UNITS);
-    if plan.form == super::DeckForm::Paper {
+    if plan.form == crate::DeckForm::Paper {
         units = units.remark(remark::PAPER);
     }
     let gravity = Statement::lone("ACCGRAV")
@@ -23,7 +23,7 @@ pub(super) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
 }
 
 /// Integrator and output.
-pub(super) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
+pub(crate) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let integrator = Statement::lone("INTEGRATOR")
         .remark(remark::INTEGRATOR)
         .flag("GSTIFF")
@@ -36,7 +36,7 @@ pub(super) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
 }
 
 /// The command file that runs the data set `model`, a file name without its ending.
-pub(super) fn commands(plan: &DeckPlan<'_>, model: &str) -> String {
+pub(crate) fn commands(plan: &DeckPlan<'_>, model: &str) -> String {
     let (end, dt) = (adams::number::write(plan.scene.end), adams::number::write(plan.scene.dt));
     // no static analysis first: the wheels start settled, and a body that is free along its rail has no statics
     let simulate = match plan.scene.analysis {

@@ -5,13 +5,13 @@ const LONGEST: usize = 56;
 
 /// Letters, digits and underscores, not too long.
 #[must_use]
-pub(super) fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     let clean = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
     name.chars().map(clean).take(LONGEST).collect()
 }
 
 /// Makes the names of one kind of statement differ: later ones get a number.
-pub(super) fn distinct(statements: &mut [adams::Statement]) {
+pub(crate) fn distinct(statements: &mut [adams::Statement]) {
     let mut seen: Vec<(String, String)> = Vec::new();
     for statement in statements {
         let Some(name) = &mut statement.name else { continue };

@@ -2,13 +2,13 @@
 
 use serde_json::{Map, Value, json};
 
-use super::budget::StudyBudget;
-use super::front::{excess, on_front};
-use super::investigate::Study;
-use super::point::{PointOutcome, StudyPoint};
-use super::quantity::ErrorGroup;
-use super::reference::{ConvergedReference, MARGIN, foundation};
-use super::setting::SettingFamily;
+use crate::measure::front::{excess, on_front};
+use crate::measure::quantity::ErrorGroup;
+use crate::runs::investigate::Study;
+use crate::runs::point::{PointOutcome, StudyPoint};
+use crate::runs::reference::{ConvergedReference, MARGIN, foundation};
+use crate::settings::budget::StudyBudget;
+use crate::settings::setting::SettingFamily;
 use formats::scene::Scene;
 use results::record::bytes;
 

@@ -2,13 +2,14 @@
 
 use sim::{Method, Stepping};
 
-use super::budget::StudyBudget;
-use super::cpu::limited;
-use super::deviation::{ComparedColumns, deviations, horizon};
-use super::quantity::ErrorGroup;
-use super::setting::{Against, Setting, SettingFamily};
-use super::setup::SetupCache;
 use crate::Error;
+use crate::measure::cpu::limited;
+use crate::measure::deviation::{ComparedColumns, deviations, horizon};
+use crate::measure::quantity::ErrorGroup;
+use crate::runs::setup::SetupCache;
+use crate::settings::budget::StudyBudget;
+use crate::settings::detail::MeshDetail;
+use crate::settings::setting::{Against, Setting, SettingFamily};
 use formats::scene::{Analysis, Scene, stepper_word};
 use results::run_error;
 
@@ -20,25 +21,6 @@ const PATIENCE: f64 = 10.0;
 const UNTOLD: f64 = 0.1;
 /// Difference at which nothing finer is tried.
 const CLOSE: f64 = 1e-9;
-
-/// How finely a structure with mass is resolved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MeshDetail {
-    /// So many of its lowest natural modes, and the static give of all others.
-    Modes(usize),
-    /// All modes of a mesh of so many elements a member.
-    Mesh(usize),
-}
-
-impl MeshDetail {
-    /// The same by half as many.
-    const fn half(self) -> MeshDetail {
-        match self {
-            MeshDetail::Modes(count) => MeshDetail::Modes(count / 2),
-            MeshDetail::Mesh(count) => MeshDetail::Mesh(count / 2),
-        }
-    }
-}
 
 /// What makes a scene of such a detail.
 pub type Make<'m> = dyn Fn(MeshDetail) -> Scene + 'm;

@@ -1,6 +1,6 @@
 //! How far a run is from the reference.
 
-use super::quantity::ErrorGroup;
+use crate::measure::quantity::ErrorGroup;
 
 /// Columns of a run with their groups, at its output times.
 #[derive(Clone, Debug, Default)]
@@ -16,7 +16,7 @@ const NOTHING: f64 = 1e-6;
 
 impl ComparedColumns {
     /// Leaves out moments that nothing in the scene causes: they are rounding. `length`: that of the longest rail.
-    pub(super) fn prune(&mut self, length: f64) {
+    pub(crate) fn prune(&mut self, length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let forces = self.columns.iter().filter(|(_, quantity, _)| *quantity == ErrorGroup::WheelForce);
         let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
@@ -26,7 +26,7 @@ impl ComparedColumns {
     }
 
     /// Leaves out all after `time`, s.
-    pub(super) fn cut(&mut self, time: f64) {
+    pub(crate) fn cut(&mut self, time: f64) {
         let count = self.time.iter().take_while(|own| **own <= time).count();
         self.time.truncate(count);
         self.columns.iter_mut().for_each(|(.., values)| values.truncate(count));

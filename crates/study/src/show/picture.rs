@@ -1,10 +1,10 @@
 //! Charts of a study.
 
-use super::front::front;
-use super::investigate::Study;
-use super::point::{PointOutcome, StudyPoint};
-use super::quantity::ErrorGroup;
-use super::setting::{Against, SettingFamily};
+use crate::measure::front::front;
+use crate::measure::quantity::ErrorGroup;
+use crate::runs::investigate::Study;
+use crate::runs::point::{PointOutcome, StudyPoint};
+use crate::settings::setting::{Against, SettingFamily};
 use report::chart::{Axis, Chart, Error, Series, Style, stack};
 
 /// A picture, and whether equal studies may differ in it: it has times.
@@ -174,7 +174,7 @@ fn chart(
          Reference: {}; beside it {}: {:.1e} apart.",
         reference.words[0],
         reference.words[1],
-        least / super::reference::MARGIN
+        least / crate::runs::reference::MARGIN
     );
     if gone > 0 {
         chart.note += &format!(" {gone} settings refused or stopped: see study.json.");

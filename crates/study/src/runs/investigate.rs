@@ -4,19 +4,20 @@ use std::ops::ControlFlow;
 
 use sim::Stepping;
 
-use super::budget::StudyBudget;
-use super::cpu::{self, limited};
-use super::deviation::deviations;
-use super::ladder::{self, SceneKinds, varies};
-use super::memory::{self, Memory};
-use super::point::{MeasuredPoint, PointOutcome, StudyPoint};
-use super::quantity::ErrorGroup;
-use super::reference::{ConvergedReference, Make, MeshDetail, reference};
-use super::setting::{Against, Setting, SettingFamily};
-use super::setup::{CaseSetup, SetupCache};
-use super::spread::Spread;
 use crate::Error;
+use crate::measure::cpu::{self, limited};
+use crate::measure::deviation::deviations;
+use crate::measure::memory::{self, Memory};
+use crate::measure::quantity::ErrorGroup;
+use crate::measure::spread::Spread;
 use crate::observer::Observer;
+use crate::runs::point::{MeasuredPoint, PointOutcome, StudyPoint};
+use crate::runs::reference::{ConvergedReference, Make, reference};
+use crate::runs::setup::{CaseSetup, SetupCache};
+use crate::settings::budget::StudyBudget;
+use crate::settings::detail::MeshDetail;
+use crate::settings::ladder::{self, SceneKinds, varies};
+use crate::settings::setting::{Against, Setting, SettingFamily};
 use formats::motion::cast;
 use formats::scene::{Analysis, Scene};
 use foundations::SolvedStructure;
@@ -351,7 +352,7 @@ fn time(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::deviation::ComparedColumns;
+    use crate::measure::deviation::ComparedColumns;
 
     /// Two runs of ten seconds whose wheel forces part by a tenth from `time` on.
     fn parted(against: Against, time: usize) -> ConvergedReference {

@@ -3,14 +3,14 @@
 use adams::{Statement, Value};
 use splines::Axis;
 
-use super::compliance::{LoadedMarker, spline};
-use super::contact;
-use super::expression::{TermList, value};
-use super::ids::{NextId, VariableSlot, variable};
-use super::name::plain;
-use super::plan::DeckPlan;
-use super::remark;
 use crate::Error;
+use crate::model::compliance::{LoadedMarker, spline};
+use crate::model::plan::DeckPlan;
+use crate::statements::contact;
+use crate::words::expression::{TermList, value};
+use crate::words::ids::{NextId, VariableSlot, variable};
+use crate::words::name::plain;
+use crate::words::remark;
 use formats::effect::{Ground, Reaction};
 use formats::scene::Along;
 use foundations::{SolvedStructure, solution_of};
@@ -24,7 +24,7 @@ const NONE: f64 = 1e-9;
 ///
 /// # Errors
 /// Influence lines that are no SPLINE.
-pub(super) fn statements(
+pub(crate) fn statements(
     plan: &DeckPlan<'_>,
     known: &[SolvedStructure],
     splines: &mut NextId,
@@ -115,7 +115,7 @@ fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
         }
     }
     if matches!(plan.scene.bodies[b].motion, Along::Prescribed(_)) {
-        parts.push(("drive".to_owned(), format!("MOTION({},0,2,{j})", super::ids::number(b))));
+        parts.push(("drive".to_owned(), format!("MOTION({},0,2,{j})", crate::words::ids::number(b))));
     }
     request(id, &format!("motion_of_{name}"), parts)
 }
@@ -137,7 +137,7 @@ fn reactions(
     for reaction in &effects.reactions {
         let name = label(reaction);
         let mut sum = TermList::default();
-        let mut lines: Vec<(super::compliance::RailAxis, u32)> = Vec::new();
+        let mut lines: Vec<(crate::model::compliance::RailAxis, u32)> = Vec::new();
         for load in &loads {
             let Some(line) = line(plan, s, reaction, load) else { continue };
             let known = lines.iter().find(|(way, _)| *way == load.way).map(|(_, id)| *id);
@@ -150,7 +150,7 @@ fn reactions(
                         "{}_{name}_from_{}_{}",
                         structure.name,
                         rail.name,
-                        super::compliance::word(load.way.1)
+                        crate::model::compliance::word(load.way.1)
                     );
                     out.push(spline(id, &full, rail.stations.clone(), Vec::new(), vec![line])?);
                     lines.push((load.way, id));

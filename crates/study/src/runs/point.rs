@@ -1,10 +1,10 @@
 //! What came of a setting.
 
-use super::deviation::Deviation;
-use super::memory::Memory;
-use super::quantity::ErrorGroup;
-use super::setting::Setting;
-use super::spread::Spread;
+use crate::measure::deviation::Deviation;
+use crate::measure::memory::Memory;
+use crate::measure::quantity::ErrorGroup;
+use crate::measure::spread::Spread;
+use crate::settings::setting::Setting;
 
 /// A setting with what came of it.
 #[derive(Clone, Debug)]

@@ -4,16 +4,16 @@ use adams::Statement;
 use sim::{FrictionLaw, NormalLaw};
 use splines::Axis;
 
-use super::compliance::LoadedMarker;
-use super::expression::{TermList, mean, number, value};
-use super::form::DeckForm;
-use super::ids::{self, VariableSlot, variable};
-use super::name::plain;
-use super::plan::DeckPlan;
-use super::remark;
+use crate::model::compliance::LoadedMarker;
+use crate::model::plan::DeckPlan;
+use crate::words::expression::{TermList, mean, number, value};
+use crate::words::form::DeckForm;
+use crate::words::ids::{self, VariableSlot, variable};
+use crate::words::name::plain;
+use crate::words::remark;
 
 /// All of them.
-pub(super) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
+pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut said = Said::default();
     let mut out = Vec::new();
     for (s, give) in plan.compliances.iter().enumerate() {
@@ -53,7 +53,7 @@ fn once(said: &mut bool, statement: Statement, text: &str) -> Statement {
 }
 
 /// Forces on the rails of structure `s`.
-pub(super) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
+pub(crate) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
     let mut out = Vec::new();
     for (w, wheel) in plan.wheels.iter().enumerate().filter(|(_, wheel)| wheel.structure == s) {
         let at = value(variable(w, VariableSlot::Place));
@@ -339,7 +339,7 @@ fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
     let mut statement = Statement::new("GFORCE", ids::number(w)).named(plain(&wheel.name));
     if w == 0 {
         statement = statement.remark(remark::FORCE);
-        if !sloped && plan.compliances.iter().any(super::compliance::RailCompliance::gives) {
+        if !sloped && plan.compliances.iter().any(crate::model::compliance::RailCompliance::gives) {
             statement = statement.remark(remark::NO_SLOPE);
         }
     }

@@ -4,12 +4,12 @@ use adams::{Curves, Spline, Statement};
 use sim::{Extent, Foundation};
 use splines::{Axis, Factored, Kind, Rank, Reading, Sheet};
 
-use super::expression::{TermList, value};
-use super::form::DeckForm;
-use super::ids::{NextId, product};
-use super::name::plain;
-use super::remark;
 use crate::Error;
+use crate::words::expression::{TermList, value};
+use crate::words::form::DeckForm;
+use crate::words::ids::{NextId, product};
+use crate::words::name::plain;
+use crate::words::remark;
 use formats::scene::Structure;
 
 /// Products below this share of a table's largest entry are left out: no station's value changes by more.
@@ -265,7 +265,7 @@ impl RailCompliance {
 /// SPLINE of product `k` along a direction, where the factor has the direction.
 fn curve(factor: &splines::Factor, first: &[u32], way: RailAxis, k: usize) -> Option<u32> {
     let at = factor.curves.iter().position(|curves| curves.way == way)?;
-    Some(first[at] + super::ids::number(k) - 1)
+    Some(first[at] + crate::words::ids::number(k) - 1)
 }
 
 /// Families of every ordered pair of directions that has a table: direct ones first.
@@ -285,7 +285,7 @@ fn families(sheets: Vec<Sheet>, ids: &mut NextId) -> Result<Tables, String> {
 }
 
 /// A SPLINE statement with its View name.
-pub(super) fn spline(
+pub(crate) fn spline(
     id: u32,
     name: &str,
     x: Vec<f64>,
@@ -299,7 +299,7 @@ pub(super) fn spline(
 }
 
 /// Word of an axis in names.
-pub(super) fn word(axis: Axis) -> &'static str {
+pub(crate) fn word(axis: Axis) -> &'static str {
     match axis {
         Axis::Longitudinal => "longitudinal",
         Axis::Vertical => "vertical",

@@ -2,13 +2,13 @@
 
 use sim::Profile;
 
-use super::expression::number;
+use crate::words::expression::number;
 
 /// Position along the rail: a polynomial for each stretch of the profile, exact, chosen by nested IFs.
 ///
 /// Position is continuous, so it does not matter which side a break belongs to. Nested as a tree: a table of n rows
 /// takes log2 n comparisons.
-pub(super) fn expression(profile: &Profile) -> String {
+pub(crate) fn expression(profile: &Profile) -> String {
     let mut starts = vec![0.0];
     starts.extend_from_slice(profile.breaks());
     let pieces: Vec<(f64, String)> = (0..starts.len())

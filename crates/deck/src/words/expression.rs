@@ -2,20 +2,20 @@
 
 /// A number inside an expression; negative ones in brackets.
 #[must_use]
-pub(super) fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     let text = adams::number::write(value);
     if value.is_sign_negative() { format!("({text})") } else { text }
 }
 
 /// `VARVAL(id)`.
 #[must_use]
-pub(super) fn value(id: u32) -> String {
+pub(crate) fn value(id: u32) -> String {
     format!("VARVAL({id})")
 }
 
 /// Terms with their signs.
 #[derive(Clone, Debug, Default)]
-pub(super) struct TermList(String);
+pub(crate) struct TermList(String);
 
 impl TermList {
     /// Adds a term, or takes it away.
@@ -37,6 +37,6 @@ impl TermList {
 
 /// The mean of `count` terms whose sum is `sum`.
 #[must_use]
-pub(super) fn mean(sum: String, count: usize) -> String {
+pub(crate) fn mean(sum: String, count: usize) -> String {
     if count == 1 { sum } else { format!("({sum})/{count}") }
 }

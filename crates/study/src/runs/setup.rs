@@ -6,11 +6,11 @@ use std::sync::Arc;
 use sim::{Foundation, Run};
 use splines::Compliance;
 
-use super::cpu;
-use super::deviation::ComparedColumns;
-use super::quantity::ErrorGroup;
-use super::setting::Setting;
 use crate::Error;
+use crate::measure::cpu;
+use crate::measure::deviation::ComparedColumns;
+use crate::measure::quantity::ErrorGroup;
+use crate::settings::setting::Setting;
 use crate::stations;
 use formats::grid::GridRail;
 use formats::motion::{Cast, cast};

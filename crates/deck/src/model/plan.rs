@@ -5,11 +5,11 @@ use std::ops::Range;
 use sim::Foundation;
 use splines::Axis;
 
-use super::compliance::{RailAxis, RailCompliance};
-use super::form::DeckForm;
-use super::ids::{NextId, number};
-use super::start::Start;
 use crate::Error;
+use crate::model::compliance::{RailAxis, RailCompliance};
+use crate::model::start::Start;
+use crate::words::form::DeckForm;
+use crate::words::ids::{NextId, number};
 use formats::diagnostic::Diagnostic;
 use formats::motion::{Cast, cast};
 use formats::scene::{self, Along, Scene};

@@ -2,17 +2,17 @@
 
 use adams::{Statement, Value};
 
-use super::ids::{NextId, number};
-use super::name::plain;
-use super::plan::{DeckPlan, GROUND};
-use super::travel;
+use crate::model::plan::{DeckPlan, GROUND};
+use crate::model::travel;
+use crate::words::ids::{NextId, number};
+use crate::words::name::plain;
 use formats::scene::{Along, FREEDOMS};
 
 /// Angles of a marker whose z points along x, y or z of its part.
 const ALONG: [[f64; 3]; 3] = [[90.0, 90.0, 0.0], [0.0, -90.0, 0.0], [0.0, 0.0, 0.0]];
 
 /// All of them; markers that they need are among them.
-pub(super) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<Statement> {
+pub(crate) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<Statement> {
     let mut out = Vec::new();
     // axles have the first numbers
     let mut holds = Holds {

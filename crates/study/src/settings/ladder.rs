@@ -2,9 +2,9 @@
 
 use sim::Method;
 
-use super::budget::StudyBudget;
-use super::reference::MeshDetail;
-use super::setting::{Setting, SettingFamily};
+use crate::settings::budget::StudyBudget;
+use crate::settings::detail::MeshDetail;
+use crate::settings::setting::{Setting, SettingFamily};
 use formats::scene::{Analysis, Foundation, Handover, Origin, Reading, Scene, Structure};
 use foundations::{SolvedStructure, solution_of};
 

@@ -1,0 +1,7 @@
+//! The statements of a deck, one file a kind.
+
+pub mod contact;
+pub(crate) mod joints;
+pub(crate) mod parts;
+pub(crate) mod request;
+pub(crate) mod solver;
