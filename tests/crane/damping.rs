@@ -43,7 +43,7 @@ fn bounce(modes: &Value) -> [f64; 2] {
     let all = modes.as_array().expect("natural modes");
     let own = |mode: &&Value| mode["mode"].as_str().is_some_and(|name| name.starts_with("ladle.Y"));
     let mode = all.iter().find(own).expect("a bouncing ladle");
-    [&mode["hz"], &mode["shares"]["ladle.Y"]].map(|value| value.as_f64().expect("a number"))
+    [&mode["hz"], &mode["fractions"]["ladle.Y"]].map(|value| value.as_f64().expect("a number"))
 }
 
 /// Analytic: a mode of frequency w in which the ladle has the share s of the kinetic energy stretches its rope by m w^2 / k

@@ -22,7 +22,7 @@ fn five_curves_of_the_paper_girder_err_as_published() {
     assert!(found["at_stations"]["largest"].as_f64().is_some_and(|error| error < 1e-14), "{found}");
     let between = found["against_surface"]["largest"].as_f64().expect("the grid has its surface");
     assert!((0.007..0.0105).contains(&between), "{between}");
-    assert_eq!(found["ranks"][0]["kept"], 5);
+    assert_eq!(found["ranks"][0]["retained"], 5);
 }
 
 #[test]

@@ -138,7 +138,7 @@ const fn rung(rung: Rung) -> &'static str {
 
 fn tried(tried: &Tried) -> Value {
     json!({
-        "rung": foundations::fidelity_name(tried.rung),
+        "fidelity": foundations::fidelity_name(tried.rung),
         // infinite where the runs could not be compared
         "estimate": tried.estimate.is_finite().then_some(tried.estimate),
         "against": foundations::fidelity_name(tried.against),
@@ -151,7 +151,7 @@ fn predicted(own: &Predicted) -> Value {
     let errors: Map<String, Value> =
         own.errors.iter().map(|(rung, error)| (foundations::fidelity_name(*rung), json!(error))).collect();
     json!({
-        "give": own.give,
+        "compliance": own.give,
         "speed": own.speed,
         "ripple": own.ripple,
         "step": own.step,

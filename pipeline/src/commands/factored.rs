@@ -46,7 +46,7 @@ pub(super) fn factored(
         }
     }
     let ranks: Vec<Value> =
-        factoring.ranks.iter().map(|[kept, of]| json!({ "kept": kept, "of": of })).collect();
+        factoring.ranks.iter().map(|[kept, of]| json!({ "retained": kept, "of": of })).collect();
     let between = between.map(|found| found.json());
     let object =
         json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });

@@ -29,7 +29,7 @@ impl CodeComparison {
         let values = self.values.iter().map(CodeValue::json);
         json!({
             "what": self.what,
-            "found": { "value": self.found.value + 0.0, "time": self.found.time },
+            "measured": { "value": self.found.value + 0.0, "time": self.found.time },
             "codes": values.collect::<Vec<_>>(),
         })
     }

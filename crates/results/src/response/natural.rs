@@ -87,8 +87,8 @@ impl SceneMode {
     /// As a member of a run's summary.
     #[must_use]
     pub fn json(&self) -> Value {
-        let shares: serde_json::Map<String, Value> =
+        let fractions: serde_json::Map<String, Value> =
             self.shares.iter().map(|(name, share)| (name.clone(), json!(share))).collect();
-        json!({"hz": self.hz, "mode": self.name, "shares": shares})
+        json!({"hz": self.hz, "mode": self.name, "fractions": fractions})
     }
 }

@@ -77,7 +77,7 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
             out["rejected"] = json!(measured.counts.rejected);
             out["stages"] = json!(measured.counts.stages);
             out["events"] = json!(measured.counts.events);
-            out["freedoms"] = json!(measured.dof_count);
+            out["dofs"] = json!(measured.dof_count);
             if let Some(memory) = measured.memory {
                 out["memory"] = json!({ "foundations": memory.foundations, "run": memory.run });
             }
@@ -190,7 +190,7 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     for quantity in ErrorGroup::ALL {
         head.extend(["largest", "peak"].map(|kind| format!("{}.{kind}", quantity.word())));
     }
-    head.extend(["steps", "rejected", "stages", "events", "freedoms"].map(str::to_owned));
+    head.extend(["steps", "rejected", "stages", "events", "dofs"].map(str::to_owned));
     head.extend(["foundations [B]", "run [B]"].map(str::to_owned));
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(&head)?;

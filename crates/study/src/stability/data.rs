@@ -30,7 +30,7 @@ fn map(own: &StabilityMap) -> Value {
         "note": own.note,
         "x": axis(0),
         "y": axis(1),
-        "found": found.collect::<Vec<_>>(),
+        "measured": found.collect::<Vec<_>>(),
         "methods": own.layers.iter().map(layer).collect::<Vec<_>>(),
     })
 }

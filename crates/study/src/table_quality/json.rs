@@ -29,7 +29,7 @@ fn table(found: &TableQuality) -> Value {
     let table = &found.item.table;
     let truth = match &found.truth {
         Truth::Surface => json!({ "from": "surface" }),
-        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "misfit": lift.misfit }),
+        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "error": lift.misfit }),
         Truth::None => Value::Null,
     };
     let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
