@@ -5,7 +5,7 @@ mod beam;
 use beam::printed::{STATIONS, VERTICAL, table};
 use beam::{Beam, Random, read, tabulate};
 use nalgebra::DMatrix;
-use splines::check::{
+use splines::quality::{
     Strip, asymmetry, beyond, deviation, diagonal_kinks, digits, indefinite_share, kinks, pair_kinks, places,
     spectrum, station_asymmetry, station_spectrum, supports, weakest_layouts, work,
 };

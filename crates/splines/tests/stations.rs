@@ -3,13 +3,12 @@
 mod beam;
 
 use beam::{Beam, EI, Random, coupled};
-use splines::check::{Strip, places};
-use splines::stations::error_of;
+use splines::quality::{Strip, error_of, places};
 use splines::{
     Axis, Compliance, Error, Factored, Kind, Rank, Reading, Search, Sheet, Stations, lift, stations,
 };
 
-type Read = Box<splines::stations::Read<'static>>;
+type Read = Box<splines::quality::Read<'static>>;
 
 const VERTICAL: &[Axis] = &[Axis::Vertical];
 
