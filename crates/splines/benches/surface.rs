@@ -1,4 +1,5 @@
-//! Influence of wheels on the paper's girder by every reading: one pair with its derivatives, and whole matrices.
+//! Influence of wheels on the paper's girder by every reading: one pair with its derivatives, and whole
+//! matrices.
 
 #[path = "../tests/beam/mod.rs"]
 mod beam;

@@ -78,7 +78,7 @@ impl Influence {
 ///     }
 /// }
 ///
-/// let at = [Probe { rail: 0, x: 1.0, axis: Axis::Vertical }, Probe { rail: 0, x: 2.0, axis: Axis::Vertical }];
+/// let at = [1.0, 2.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
 /// let mut out = Influence::zeros(2);
 /// Springs { k: 4.0 }.fill(&at, &mut out)?;
 /// assert_eq!(out.value[(0, 0)], 0.25);
@@ -89,8 +89,8 @@ pub trait Compliance: Send + Sync {
     /// Writes the coefficients of the n probes `at` into `out`, whose matrices already are n x n.
     ///
     /// # Errors
-    /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has no
-    /// stiffness; matrices of another size.
+    /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has
+    /// no stiffness; matrices of another size.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error>;
 
     /// Coordinates along `rail` where derivatives of the surface may jump (supports, hinges, stations),
@@ -168,10 +168,10 @@ impl Jet2 {
 pub trait Jets: Compliance {
     /// Value and partial derivatives up to the second order.
     ///
-    /// `value` and `p` are those of [`Compliance::fill`]. Where a derivative does not exist, the convention is
-    /// that of `fill`: where a slope jumps, every derivative is the mean of both sides; at the end of a rail
-    /// element it is that of the element which carries the place. The delta function that `pq` contains where
-    /// the slope jumps under one's own load (in shear, torsion and axially) is left out.
+    /// `value` and `p` are those of [`Compliance::fill`]. Where a derivative does not exist, the convention
+    /// is that of `fill`: where a slope jumps, every derivative is the mean of both sides; at the end of a
+    /// rail element it is that of the element which carries the place. The delta function that `pq` contains
+    /// where the slope jumps under one's own load (in shear, torsion and axially) is left out.
     ///
     /// # Errors
     /// As [`Compliance::fill`].

@@ -1,9 +1,10 @@
 //! Functions along a rail: how far it deflects at one place under a force at another.
 //!
-//! The central object is a [`Compliance`]: influence coefficients G(p, q) between any [`Probe`]s, with their slopes.
-//! A [`Surface`] gives them exactly from rail elements and the compliance of their node states; a [`Reading`] or a
-//! [`Factored`] table interpolates tables of values, as ADAMS does or better; [`quality`] measures what a reading of a
-//! table costs. Displacements and forces are positive along +x, up and +z of the rail; units are those of the caller.
+//! The central object is a [`Compliance`]: influence coefficients G(p, q) between any [`Probe`]s, with their
+//! slopes. A [`Surface`] gives them exactly from rail elements and the compliance of their node states; a
+//! [`Reading`] or a [`Factored`] table interpolates tables of values, as ADAMS does or better; [`quality`]
+//! measures what a reading of a table costs. Displacements and forces are positive along +x, up and +z of the
+//! rail; units are those of the caller.
 //!
 //! ```
 //! use nalgebra::DMatrix;
@@ -30,15 +31,17 @@
 //! # Ok::<(), splines::Error>(())
 //! ```
 //!
-//! This is the bottom of the workspace: it reads no file, knows no unit, and depends on no other crate of ours.
+//! This is the bottom of the workspace: it reads no file, knows no unit, and depends on no other crate of
+//! ours.
 //!
 //! # Wings
 //! In this order; a file imports nothing of a later wing. The order is kept by `tests/wings.rs`.
-//! 1. `vector`, `probe`, `error`, `compliance`: products of small vectors, places, errors, and the question that contact
-//!    asks.
+//! 1. `vector`, `probe`, `error`, `compliance`: products of small vectors, places, errors, and the question
+//!    that contact asks.
 //! 2. `curve`: piecewise cubics in one variable.
 //! 3. `rail`: rail elements, their shape functions and Green's function, rails.
-//! 4. `surface`: exact compliance and what follows from it: influence lines, residual flexibility, uncoupled rails.
+//! 4. `surface`: exact compliance and what follows from it: influence lines, residual flexibility, uncoupled
+//!    rails.
 //! 5. `table`: tables of values, their readings, the beam behind a table.
 //! 6. [`quality`]: errors of readings, their asymmetry and indefiniteness, the fewest stations.
 

@@ -1,6 +1,7 @@
 //! Where on a rail, and in which direction, a force acts or a displacement is measured.
 
-/// Direction in the frame of a rail: x along the rail, y up, z = x cross y (to the right when looking along +x).
+/// Direction in the frame of a rail: x along the rail, y up, z = x cross y (to the right when looking along
+/// +x).
 ///
 /// ```
 /// use splines::Axis;

@@ -1,6 +1,7 @@
 //! Products of small vectors, each written once.
 
-/// Scalar product a . b, summed from the first entry to the last. Entries beyond the shorter one do not count.
+/// Scalar product a . b, summed from the first entry to the last. Entries beyond the shorter one do not
+/// count.
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()

@@ -13,7 +13,8 @@ use splines::{
 
 const UP: (usize, Axis) = (0, Axis::Vertical);
 
-/// Places, overhangs included: each cell of n stations cut into at least eight parts, the whole into at least 300.
+/// Places, overhangs included: each cell of n stations cut into at least eight parts, the whole into at least
+/// 300.
 fn places(n: usize) -> Vec<f64> {
     let parts = (n - 1) * 2 * (300 / (n - 1)).div_ceil(2).max(4);
     (0..=parts).map(|k| -15.0 + 90.0 * k as f64 / parts as f64).collect()

@@ -163,7 +163,8 @@ fn cells_of_one_member_that_differ_are_refused() {
     }
 }
 
-/// What the clamped member carries at a section: with ends held, `ends` is minus the balance on its first end.
+/// What the clamped member carries at a section: with ends held, `ends` is minus the balance on its first
+/// end.
 fn held(line: Line, place: f64, component: Component) -> Effects {
     let balance = component.balance(place * LENGTH);
     let ends = std::array::from_fn(|k| if k < 6 { -balance[k] } else { 0.0 });

@@ -114,7 +114,8 @@ fn shear_kinks_under_its_own_load() {
     }
 }
 
-/// Differences: bending, shear, several spans; a rail off both planes of a leaning girder, all nine pairs of axes.
+/// Differences: bending, shear, several spans; a rail off both planes of a leaning girder, all nine pairs of
+/// axes.
 #[test]
 fn surfaces_have_the_derivatives_of_their_values() {
     let spans = Beam { c: 1.0 / EI, g: 2.5e-9, supports: vec![0.0, 20.0, 65.0, 100.0] };

@@ -43,7 +43,8 @@ fn table_with_all_digits_is_raised_without_loss() {
     }
 }
 
-/// External: the jumps of third derivatives of an independent prototype, EI of each of the five columns that move.
+/// External: the jumps of third derivatives of an independent prototype, EI of each of the five columns that
+/// move.
 #[test]
 fn each_column_of_the_printed_table_says_its_own_bending() {
     let lift = lift(0, &table(&VERTICAL)).expect("a beam on knife edges");

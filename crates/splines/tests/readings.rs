@@ -175,7 +175,8 @@ fn slope_is_the_derivative_of_the_reading() {
             let slope = fill(&reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).slope[(0, 1)];
             let step = 1e-4;
             let exact = (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
-            // Akima's curvature jumps at a station: a central difference there errs by a quarter of jump and step.
+            // Akima's curvature jumps at a station: a central difference there errs by a quarter of jump and
+            // step.
             let allowed = if kind == Kind::Symmetrised { 1e-14 } else { 1e-16 };
             assert!((slope - exact).abs() < allowed, "{kind:?} {z} {x}: {slope:e} {exact:e}");
         }

@@ -10,7 +10,8 @@ use splines::{Axis, Compliance, Error, Influence, Rest, Shapes};
 
 const STATIONS: [f64; 4] = [-15.0, 0.0, 60.0, 75.0];
 
-/// Shapes of the paper's beam by arbitrary motions of its states, on the line of its surface or on a finer one.
+/// Shapes of the paper's beam by arbitrary motions of its states, on the line of its surface or on a finer
+/// one.
 fn shapes(stations: &[f64], count: usize) -> Shapes {
     let line = Arc::clone(Beam::paper().surface(stations).line());
     let mut random = Random::new(3);
@@ -18,7 +19,8 @@ fn shapes(stations: &[f64], count: usize) -> Shapes {
     Shapes::new(line, states).expect("six freedoms a state")
 }
 
-/// Identity: every pair of probes loses the product of the shapes there, its slope that of slope and shape; none takes nothing.
+/// Identity: every pair of probes loses the product of the shapes there, its slope that of slope and shape;
+/// none takes nothing.
 #[test]
 fn shapes_take_their_products_from_the_surface() {
     let surface = Beam::paper().surface(&STATIONS);
@@ -46,7 +48,8 @@ fn shapes_take_their_products_from_the_surface() {
     }
 }
 
-/// Identity: along every cell, from both of its ends and between, a shape is the row of the line times the motions.
+/// Identity: along every cell, from both of its ends and between, a shape is the row of the line times the
+/// motions.
 #[test]
 fn shapes_are_rows_of_their_line_times_their_motions() {
     let line = Arc::clone(Beam::paper().surface(&STATIONS).line());

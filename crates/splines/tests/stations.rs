@@ -44,7 +44,8 @@ fn holds(found: &Stations, fixed: &[f64], range: [f64; 2]) {
     assert!(fixed.iter().all(|x| found.at.contains(x)), "{:?}", found.at);
 }
 
-/// Analytic: the force method, at places that have nothing to do with those of the search, some just beside stations.
+/// Analytic: the force method, at places that have nothing to do with those of the search, some just beside
+/// stations.
 #[test]
 fn error_found_is_never_exceeded_and_supports_are_stations() {
     let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
@@ -195,8 +196,8 @@ fn stations_of_every_reading_are_those_of_the_book() {
     }
 }
 
-/// No random search finds a set with one station fewer that keeps the tolerance: each of the sets that lack one is moved
-/// about, and every step that lowers the error is kept.
+/// No random search finds a set with one station fewer that keeps the tolerance: each of the sets that lack
+/// one is moved about, and every step that lowers the error is kept.
 #[test]
 #[ignore = "slow: tens of thousands of sets, a minute"]
 fn random_search_finds_no_set_with_one_station_fewer() {

@@ -13,8 +13,9 @@ const ARM: f64 = 4.0 / 3.0;
 const LOAD: f64 = 2.4e6;
 const START: f64 = 12.0;
 
-/// 1/2 sum of F_i F_j (dG_ij/dx_i - dG_ij/dx_j), two equal forces F a distance apart: what the forces along the rail,
-/// F_i sum of dG_ij/dx_i F_j, do beyond the change of the energy stored, per length. Zero where G is symmetric.
+/// 1/2 sum of F_i F_j (dG_ij/dx_i - dG_ij/dx_j), two equal forces F a distance apart: what the forces along
+/// the rail, F_i sum of dG_ij/dx_i F_j, do beyond the change of the energy stored, per length. Zero where G
+/// is symmetric.
 fn excess(give: &dyn Jets, x: f64) -> f64 {
     let at = [x - ARM, x + ARM].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
     let mut sum = 0.0;
@@ -40,8 +41,9 @@ fn forth() -> Vec<f64> {
     (0..=36_000).map(|i| START + 0.001 * f64::from(i)).collect()
 }
 
-/// From 12 to 48 ft, where the bogie turns, AKISPL loses up to 75,586 ft lb (10 % of the well) and gives all of it back:
-/// the table is its own mirror image, so that neither a way across nor a cycle loses anything at low speed.
+/// From 12 to 48 ft, where the bogie turns, AKISPL loses up to 75,586 ft lb (10 % of the well) and gives all
+/// of it back: the table is its own mirror image, so that neither a way across nor a cycle loses anything at
+/// low speed.
 ///
 /// Independent: the same integral by Akima's curves of scipy.
 #[test]

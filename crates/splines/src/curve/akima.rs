@@ -5,8 +5,8 @@ use crate::error::Error;
 
 /// Akima's piecewise cubic through at least three points, x increasing.
 ///
-/// The slope at each point follows from the secants around it, m_i = (y_{i+1} - y_i)/(x_{i+1} - x_i), of which
-/// two more are extrapolated at each end (m_{-1} = 2 m_0 - m_1 and so on):
+/// The slope at each point follows from the secants around it, m_i = (y_{i+1} - y_i)/(x_{i+1} - x_i), of
+/// which two more are extrapolated at each end (m_{-1} = 2 m_0 - m_1 and so on):
 ///
 /// t_i = (|m_{i+1} - m_i| m_{i-1} + |m_{i-1} - m_{i-2}| m_i) / (|m_{i+1} - m_i| + |m_{i-1} - m_{i-2}|),
 ///

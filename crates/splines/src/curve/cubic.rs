@@ -62,8 +62,8 @@ impl Curve {
         &self.t
     }
 
-    /// Value, slope and curvature within an interval. The value starts from the nearer point, so that it is exact
-    /// at both.
+    /// Value, slope and curvature within an interval. The value starts from the nearer point, so that it is
+    /// exact at both.
     fn inside(&self, at: &Interval) -> (f64, f64, f64) {
         let Interval { k, s, h } = *at;
         let (rise, secant) = (self.y[k + 1] - self.y[k], (self.y[k + 1] - self.y[k]) / h);

@@ -39,7 +39,8 @@ fn slopes(x: &[f64], y: &[f64], clamped: [bool; 2]) -> Vec<f64> {
     let n = x.len();
     let h = |i: usize| x[i + 1] - x[i];
     let m = |i: usize| (y[i + 1] - y[i]) / h(i);
-    // Gaussian elimination of a tridiagonal, diagonally dominant matrix, without pivoting (Thomas' algorithm).
+    // Gaussian elimination of a tridiagonal, diagonally dominant matrix, without pivoting (Thomas'
+    // algorithm).
     let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
     for i in 0..n {
         if (i == 0 && clamped[0]) || (i == n - 1 && clamped[1]) {
@@ -65,8 +66,8 @@ fn slopes(x: &[f64], y: &[f64], clamped: [bool; 2]) -> Vec<f64> {
     right
 }
 
-/// The matrix B, 2 N x N, that takes N values to the values and slopes of their spline: rows 2 i and 2 i + 1 are
-/// value and slope at point i. The ends have no curvature, or no slope where `clamped`.
+/// The matrix B, 2 N x N, that takes N values to the values and slopes of their spline: rows 2 i and 2 i + 1
+/// are value and slope at point i. The ends have no curvature, or no slope where `clamped`.
 pub(crate) fn values_and_slopes(x: &[f64], clamped: [bool; 2]) -> DMatrix<f64> {
     let n = x.len();
     let mut out = DMatrix::zeros(2 * n, n);

@@ -88,7 +88,8 @@ impl<'a> Strip<'a> {
         finite(out.value.view((0, z.len()), (z.len(), x.len())).into_owned(), z, x)
     }
 
-    /// First and last coordinate of loads, then of deflections; `None` where a rail does not exist or has no end.
+    /// First and last coordinate of loads, then of deflections; `None` where a rail does not exist or has no
+    /// end.
     #[must_use]
     pub fn range(&self) -> Option<[[f64; 2]; 2]> {
         Some([self.compliance.range(self.load.0)?, self.compliance.range(self.deflection.0)?])

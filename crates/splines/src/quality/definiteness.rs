@@ -1,7 +1,8 @@
-//! Whether G is positive semi-definite: eigenvalues over given places, and the layouts of wheels with the smallest.
+//! Whether G is positive semi-definite: eigenvalues over given places, and the layouts of wheels with the
+//! smallest.
 //!
-//! Wheels of stiffness k on the rail have a unique equilibrium while G + I/k is positive definite, that is for every k where
-//! no eigenvalue of G is negative, and else up to k = -1/(smallest eigenvalue).
+//! Wheels of stiffness k on the rail have a unique equilibrium while G + I/k is positive definite, that is
+//! for every k where no eigenvalue of G is negative, and else up to k = -1/(smallest eigenvalue).
 
 use nalgebra::DMatrix;
 
@@ -39,7 +40,8 @@ impl Spectrum {
     }
 }
 
-/// Extreme eigenvalues of a table at its stations; `None` where the stations along z differ from those along x.
+/// Extreme eigenvalues of a table at its stations; `None` where the stations along z differ from those along
+/// x.
 #[must_use]
 pub fn station_spectrum(table: &Table) -> Option<Spectrum> {
     (table.z() == table.x()).then(|| Spectrum::of(table.values()))
@@ -60,20 +62,21 @@ pub struct Layout {
     pub places: Vec<f64>,
     /// Smallest eigenvalue of the symmetric part of G over them, length/force.
     pub smallest: f64,
-    /// Wheel stiffness k above which G + I/k is not positive definite, force/length; `None` where it always is.
+    /// Wheel stiffness k above which G + I/k is not positive definite, force/length; `None` where it always
+    /// is.
     pub stiffness: Option<f64>,
 }
 
 /// For each number of `wheels` (increasing) the layout with the smallest eigenvalue of G that a search finds.
 ///
-/// Algorithm. On the set of `places` (increasing), take the pair with the smallest eigenvalue, add one wheel after another
-/// where it lowers the eigenvalue most, and exchange single wheels until no exchange lowers it. Then refine between the
-/// places by compass search, from this layout, from the three worst of 1000 random layouts, and from the layout found
-/// for the previous number of wheels with further wheels added. The lowest result counts. Eigenvalues above -1e-13 of the
-/// largest coefficient count as zero.
+/// Algorithm. On the set of `places` (increasing), take the pair with the smallest eigenvalue, add one wheel
+/// after another where it lowers the eigenvalue most, and exchange single wheels until no exchange lowers it.
+/// Then refine between the places by compass search, from this layout, from the three worst of 1000 random
+/// layouts, and from the layout found for the previous number of wheels with further wheels added. The lowest
+/// result counts. Eigenvalues above -1e-13 of the largest coefficient count as zero.
 ///
-/// Guarantee: no smallest eigenvalue is above that for fewer wheels, or above that of any of the first 1000 layouts that
-/// [`indefinite_share`] examines.
+/// Guarantee: no smallest eigenvalue is above that for fewer wheels, or above that of any of the first 1000
+/// layouts that [`indefinite_share`] examines.
 ///
 /// # Errors
 /// Those of the compliance.
@@ -87,7 +90,8 @@ pub fn weakest_layouts(strip: &Strip<'_>, wheels: &[usize], places: &[f64]) -> R
         let mut starts = vec![best_exchange(&g, wheels).iter().map(|&k| places[k]).collect()];
         starts.extend(worst_random(negative, wheels, [first, last])?);
         if let Some(fewer) = out.last() {
-            // By Cauchy's interlacing theorem the smallest eigenvalue does not rise, wherever wheels are added.
+            // By Cauchy's interlacing theorem the smallest eigenvalue does not rise, wherever wheels are
+            // added.
             let mut at = fewer.places.clone();
             at.extend((at.len()..wheels).map(|k| first + (last - first) * (k as f64 + 0.5) / wheels as f64));
             at.truncate(wheels);
@@ -108,7 +112,8 @@ pub fn weakest_layouts(strip: &Strip<'_>, wheels: &[usize], places: &[f64]) -> R
     Ok(out)
 }
 
-/// The random layouts with the smallest eigenvalues. `negative` is the smallest eigenvalue with its sign changed.
+/// The random layouts with the smallest eigenvalues. `negative` is the smallest eigenvalue with its sign
+/// changed.
 fn worst_random(
     negative: impl Fn(&[f64]) -> Result<f64, Error>,
     wheels: usize,
@@ -179,8 +184,8 @@ fn exchange(chosen: &mut [usize], k: usize, places: usize, smallest: impl Fn(&[u
     found != before
 }
 
-/// Fraction of `count` random layouts of `wheels` wheels, uniformly distributed over `range`, whose G has a negative
-/// eigenvalue (below -1e-13 of its largest coefficient). The layouts are the same in every call.
+/// Fraction of `count` random layouts of `wheels` wheels, uniformly distributed over `range`, whose G has a
+/// negative eigenvalue (below -1e-13 of its largest coefficient). The layouts are the same in every call.
 ///
 /// # Errors
 /// Those of the compliance.

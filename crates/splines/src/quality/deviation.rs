@@ -30,8 +30,9 @@ impl Deviation {
 
 /// Largest errors of `reading` against `exact`, with loads at `x` and deflections at `z`, both increasing.
 ///
-/// The errors are evaluated at all pairs of places, then refined from the four largest local maxima among them, and along
-/// the diagonal x = z from the largest there. The result is a lower bound of the true maximum.
+/// The errors are evaluated at all pairs of places, then refined from the four largest local maxima among
+/// them, and along the diagonal x = z from the largest there. The result is a lower bound of the true
+/// maximum.
 ///
 /// # Errors
 /// Those of either compliance.

@@ -1,12 +1,13 @@
-//! Quality of a table and of each way to read it: errors, asymmetry, indefiniteness, jumps of slope, and the fewest
-//! stations for a tolerance.
+//! Quality of a table and of each way to read it: errors, asymmetry, indefiniteness, jumps of slope, and the
+//! fewest stations for a tolerance.
 //!
-//! The functions take a [`Strip`], one coupling block of a compliance, whether an exact surface or a table reading
-//! stands behind it. Extremes are searched on a set of places and refined from there by a compass search: they are
-//! lower bounds of the true extremes, and no neighbouring place exceeds them.
+//! The functions take a [`Strip`], one coupling block of a compliance, whether an exact surface or a table
+//! reading stands behind it. Extremes are searched on a set of places and refined from there by a compass
+//! search: they are lower bounds of the true extremes, and no neighbouring place exceeds them.
 //!
-//! Order: `block` (what is examined), `search` (where, and how extremes are refined), then the measures `deviation`,
-//! `reciprocity`, `definiteness`, `slopes` and `table`, and `stations`, which places stations by `deviation`.
+//! Order: `block` (what is examined), `search` (where, and how extremes are refined), then the measures
+//! `deviation`, `reciprocity`, `definiteness`, `slopes` and `table`, and `stations`, which places stations by
+//! `deviation`.
 
 mod block;
 mod definiteness;

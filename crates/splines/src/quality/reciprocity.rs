@@ -5,8 +5,8 @@ use super::search::refine_maximum;
 use crate::error::Error;
 use crate::table::Table;
 
-/// Largest |T_ij - T_ji| of a table, with the first pair of stations that has it; `None` where the stations along z
-/// differ from those along x. A symmetric table gives exactly 0, at its first station.
+/// Largest |T_ij - T_ji| of a table, with the first pair of stations that has it; `None` where the stations
+/// along z differ from those along x. A symmetric table gives exactly 0, at its first station.
 #[must_use]
 pub fn station_asymmetry(table: &Table) -> Option<Extreme> {
     let x = table.x();
@@ -66,8 +66,8 @@ pub struct Work {
     pub stored: f64,
 }
 
-/// The loop with the largest work of two wheels at the distance `spacing`, searched over `places` (increasing) of the
-/// first wheel and of the second, and refined from there.
+/// The loop with the largest work of two wheels at the distance `spacing`, searched over `places`
+/// (increasing) of the first wheel and of the second, and refined from there.
 ///
 /// # Errors
 /// Those of the compliance.

@@ -11,9 +11,9 @@ const HALVINGS: usize = 26;
 /// Largest number of steps taken in all.
 const STEPS: usize = 2000;
 
-/// Places at which a block is examined: the `breaks` within `range`, its two ends, and equally many places in each
-/// interval between them. There are about `most` at most; an interval has at most 16 parts. Where there are more than
-/// `most` breaks, some are left out.
+/// Places at which a block is examined: the `breaks` within `range`, its two ends, and equally many places in
+/// each interval between them. There are about `most` at most; an interval has at most 16 parts. Where there
+/// are more than `most` breaks, some are left out.
 ///
 /// ```
 /// use splines::quality::places;
@@ -36,7 +36,8 @@ pub fn places(breaks: &[f64], range: [f64; 2], most: usize) -> Vec<f64> {
     out
 }
 
-/// The ends of `range` and the breaks strictly within it, increasing. Breaks that differ by rounding alone occur once.
+/// The ends of `range` and the breaks strictly within it, increasing. Breaks that differ by rounding alone
+/// occur once.
 pub(super) fn breaks_within(breaks: &[f64], [first, last]: [f64; 2]) -> Vec<f64> {
     let apart = APART * (last - first);
     let mut sorted: Vec<f64> = breaks.to_vec();
@@ -53,10 +54,10 @@ pub(super) fn breaks_within(breaks: &[f64], [first, last]: [f64; 2]) -> Vec<f64>
 
 /// Moves `at` to a local maximum of `f` near it, and returns the value there.
 ///
-/// Compass search: from the best place so far, try a step in both senses along each coordinate and along the diagonal on
-/// which all coordinates move alike, kept within `bounds`; take each step that increases `f`; halve the step when none
-/// does, 26 times, to 3e-8 of its first length. It needs no derivative and follows ridges along the coordinates and along
-/// that diagonal, where table readings have theirs.
+/// Compass search: from the best place so far, try a step in both senses along each coordinate and along the
+/// diagonal on which all coordinates move alike, kept within `bounds`; take each step that increases `f`;
+/// halve the step when none does, 26 times, to 3e-8 of its first length. It needs no derivative and follows
+/// ridges along the coordinates and along that diagonal, where table readings have theirs.
 ///
 /// # Errors
 /// Those of `f`.

@@ -4,7 +4,8 @@ use super::block::Strip;
 use super::search::breaks_within;
 use crate::error::Error;
 
-/// Number of places of an interval from which the slope at its end is found: exact for polynomials up to degree 6.
+/// Number of places of an interval from which the slope at its end is found: exact for polynomials up to
+/// degree 6.
 const NODES: usize = 7;
 
 /// Slopes on both sides of a break.
@@ -28,9 +29,9 @@ impl Kink {
 
 /// Slopes of `f` on both sides of every break strictly within `range`.
 ///
-/// Each slope is that of the polynomial through seven Chebyshev points (ends included) of the interval on that side. It is
-/// exact but for rounding where `f` is a polynomial of degree 6 or less between breaks, as is the deflection under a moving
-/// wheel for every table reading and every exact surface in bending.
+/// Each slope is that of the polynomial through seven Chebyshev points (ends included) of the interval on
+/// that side. It is exact but for rounding where `f` is a polynomial of degree 6 or less between breaks, as
+/// is the deflection under a moving wheel for every table reading and every exact surface in bending.
 ///
 /// # Errors
 /// Those of `f`.
@@ -52,7 +53,8 @@ pub fn kinks(
     Ok(out)
 }
 
-/// Slope at `end` of the polynomial through the Chebyshev points from there to `other`, by the barycentric formula.
+/// Slope at `end` of the polynomial through the Chebyshev points from there to `other`, by the barycentric
+/// formula.
 fn end_slope(f: impl Fn(f64) -> Result<f64, Error>, end: f64, other: f64) -> Result<f64, Error> {
     let last = (NODES - 1) as f64;
     let place = |k: usize| 0.5 - 0.5 * (std::f64::consts::PI * k as f64 / last).cos();
@@ -68,8 +70,8 @@ fn end_slope(f: impl Fn(f64) -> Result<f64, Error>, end: f64, other: f64) -> Res
     Ok(slope / (other - end))
 }
 
-/// Slopes of the deflection under one wheel with unit load, g(x) = G(x, x), on both sides of every break of a direct
-/// block, 1/force.
+/// Slopes of the deflection under one wheel with unit load, g(x) = G(x, x), on both sides of every break of a
+/// direct block, 1/force.
 ///
 /// # Errors
 /// Those of the compliance.

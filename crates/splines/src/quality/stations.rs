@@ -18,10 +18,11 @@ const IDLE: usize = 3;
 const PARTS: [usize; 2] = [4, 8];
 /// How many numbers of stations must fail in succession before the last that passed counts as the fewest.
 const FAILURES: usize = 3;
-/// Ratio of the predicted number of stations to the largest allowed, and of the error to the tolerance, above which the
-/// search gives up.
+/// Ratio of the predicted number of stations to the largest allowed, and of the error to the tolerance, above
+/// which the search gives up.
 const HOPELESS: f64 = 1.5;
-/// Smallest order of convergence assumed. Jumps of slope along the diagonal reduce every reading to first order.
+/// Smallest order of convergence assumed. Jumps of slope along the diagonal reduce every reading to first
+/// order.
 const SMALLEST_ORDER: f64 = 0.7;
 /// Smallest density of stations, relative to the mean.
 const SMALLEST_DENSITY: f64 = 0.03;
@@ -44,15 +45,17 @@ pub struct Search<'a> {
     pub axes: &'a [Axis],
     /// First and last station.
     pub range: [f64; 2],
-    /// Places that must be stations, such as breaks, supports and hinges. Those outside the range are ignored.
+    /// Places that must be stations, such as breaks, supports and hinges. Those outside the range are
+    /// ignored.
     pub fixed: &'a [f64],
     /// Constructs the reading.
     pub read: &'a Read<'a>,
-    /// Order of convergence of the reading, > 0: the power of the distance between stations with which its error
-    /// decreases. 2 for AKISPL and CUBSPL, 3 for natural splines in both directions and for factored tables.
+    /// Order of convergence of the reading, > 0: the power of the distance between stations with which its
+    /// error decreases. 2 for AKISPL and CUBSPL, 3 for natural splines in both directions and for factored
+    /// tables.
     pub order: f64,
-    /// Largest relative error allowed: relative to the largest coefficient in the range, for a coupling to the geometric
-    /// mean of the largest of its two directions.
+    /// Largest relative error allowed: relative to the largest coefficient in the range, for a coupling to
+    /// the geometric mean of the largest of its two directions.
     pub tolerance: f64,
     /// Largest number of stations to be tried.
     pub most: usize,
@@ -73,21 +76,24 @@ pub struct Stations {
 
 /// The smallest set of stations found with which the reading is within the tolerance.
 ///
-/// Algorithm. The unknowns are the number of stations and their coordinates. For a given number the stations equidistribute
-/// the error: the density of stations is iterated until the errors of all intervals, to the power 1/order, are about equal,
-/// with at least one interval between neighbouring fixed places; of at most ten iterations the one with the smallest error
-/// counts. The number starts at the smallest possible, is raised by the prediction error ~ number^-order (with the
-/// order observed, where that is smaller) until the tolerance holds, then lowered by one until three numbers in
-/// succession fail. Finally every station is removed without which the tolerance still holds.
+/// Algorithm. The unknowns are the number of stations and their coordinates. For a given number the stations
+/// equidistribute the error: the density of stations is iterated until the errors of all intervals, to the
+/// power 1/order, are about equal, with at least one interval between neighbouring fixed places; of at most
+/// ten iterations the one with the smallest error counts. The number starts at the smallest possible, is
+/// raised by the prediction error ~ number^-order (with the order observed, where that is smaller) until the
+/// tolerance holds, then lowered by one until three numbers in succession fail. Finally every station is
+/// removed without which the tolerance still holds.
 ///
-/// Guarantee: `error` is that of [`error_of`] for these stations, and within the tolerance. It is not proved that no smaller
-/// set exists.
+/// Guarantee: `error` is that of [`error_of`] for these stations, and within the tolerance. It is not proved
+/// that no smaller set exists.
 ///
 /// # Errors
-/// [`Error::Stations`] where the largest number of stations allowed is not enough; those of the compliance and of `read`.
+/// [`Error::Stations`] where the largest number of stations allowed is not enough; those of the compliance
+/// and of `read`.
 ///
 /// # Source
-/// de Boor, Good approximation by splines with variable knots II, Lecture Notes in Mathematics 363, 12-20 (1974).
+/// de Boor, Good approximation by splines with variable knots II, Lecture Notes in Mathematics 363, 12-20
+/// (1974).
 pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
     let fixed = breaks_within(search.fixed, search.range);
     let least = fixed.len().max(Table::LEAST);
@@ -140,8 +146,8 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
 
 /// Error of the reading whose tables have the stations `at`.
 ///
-/// It is the largest over all pairs of a set of places, eight to an interval and two just beside every station, refined from
-/// there as in [`deviation`].
+/// It is the largest over all pairs of a set of places, eight to an interval and two just beside every
+/// station, refined from there as in [`deviation`].
 ///
 /// # Errors
 /// Those of the compliance and of `read`.
@@ -228,8 +234,9 @@ impl Density {
         self.ends[self.ends.len() - 1]
     }
 
-    /// `count` stations: the fixed ones, and between them so many that the largest integral of the density over an
-    /// interval is as small as possible; within each stretch between fixed stations the integrals are equal.
+    /// `count` stations: the fixed ones, and between them so many that the largest integral of the density
+    /// over an interval is as small as possible; within each stretch between fixed stations the integrals are
+    /// equal.
     fn stations(&self, fixed: &[f64], count: usize) -> Vec<f64> {
         let integrals: Vec<f64> =
             fixed.windows(2).map(|pair| self.total(pair[1]) - self.total(pair[0])).collect();
@@ -252,8 +259,8 @@ impl Density {
     }
 }
 
-/// The best placement of `count` stations that the iteration finds. `density` is where it starts, and is replaced by that of
-/// the best placement for the next call.
+/// The best placement of `count` stations that the iteration finds. `density` is where it starts, and is
+/// replaced by that of the best placement for the next call.
 fn equidistribute(
     search: &Search<'_>,
     fixed: &[f64],
@@ -291,8 +298,8 @@ fn equidistribute(
     error_of(search, &at)
 }
 
-/// The largest relative error over a coarse set of places, and the error of each interval: the largest with the load or the
-/// deflection in it and the other at a station, and with both in it.
+/// The largest relative error over a coarse set of places, and the error of each interval: the largest with
+/// the load or the deflection in it and the other at a station, and with both in it.
 fn interval_errors(search: &Search<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), Error> {
     let (sheets, scales) = tabulate(search, at)?;
     let reading = (search.read)(&sheets)?;

@@ -1,4 +1,5 @@
-//! What a table shows by itself: its digits, its supports, and how far the rules of extrapolation differ beyond it.
+//! What a table shows by itself: its digits, its supports, and how far the rules of extrapolation differ
+//! beyond it.
 
 use crate::curve::akima;
 use crate::error::Error;
@@ -9,8 +10,8 @@ const ZERO: f64 = 1e-12;
 
 /// One row of a table extrapolated beyond its end by four rules, length/force.
 ///
-/// ADAMS documents all of them: with LINEAR_EXTRAPOLATE the tangent or the line through the last two points, without it
-/// the parabola through the last three points or a cubic.
+/// ADAMS documents all of them: with LINEAR_EXTRAPOLATE the tangent or the line through the last two points,
+/// without it the parabola through the last three points or a cubic.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beyond {
     /// The row: coordinate at which the deflection is taken.
@@ -78,8 +79,8 @@ pub fn beyond(table: &Table, x: f64) -> Result<Vec<Beyond>, Error> {
 pub struct Digits {
     /// Fewest significant digits, 1 to 17, that reproduce every entry to the last bit.
     pub count: usize,
-    /// Frobenius norm of a change of every entry by one unit of its last digit, length/force. By rounding to these
-    /// digits no entry and no eigenvalue changes by more.
+    /// Frobenius norm of a change of every entry by one unit of its last digit, length/force. By rounding to
+    /// these digits no entry and no eigenvalue changes by more.
     pub slack: f64,
 }
 

@@ -11,8 +11,8 @@ pub(crate) const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0
 
 /// Flexibilities of a member's section: reciprocal stiffnesses, so that zero means rigid.
 ///
-/// Local x runs along the member. `bending_z` and `shear_y` act in the local x-y plane, `bending_y` and `shear_z`
-/// in the local x-z plane. `f64::INFINITY` means that the section has no stiffness of that kind.
+/// Local x runs along the member. `bending_z` and `shear_y` act in the local x-y plane, `bending_y` and
+/// `shear_z` in the local x-z plane. `f64::INFINITY` means that the section has no stiffness of that kind.
 ///
 /// ```
 /// use splines::Flexibility;
@@ -45,8 +45,8 @@ pub struct Flexibility {
 pub struct Carrier {
     /// Identity of the member; only equality counts.
     pub member: usize,
-    /// Whether the member's own local x runs against that of the element. The element's local axes are then those
-    /// of the member, turned by half a turn about local y.
+    /// Whether the member's own local x runs against that of the element. The element's local axes are then
+    /// those of the member, turned by half a turn about local y.
     pub reversed: bool,
 }
 
@@ -56,8 +56,9 @@ pub struct Carrier {
 /// flexible end, in the frame of the element's rail. The element joins state `ends[0]` at `x[0]` and state
 /// `ends[1]` at `x[1]`. The rail at x has the displacement u(x) + theta(x) cross `offset`.
 ///
-/// Where `ends[0] == ends[1]` the element is a rigid arm of that one state: the rail at x has the displacement
-/// u + theta cross (`offset` + (x - `x[0]`) e_x), and `length`, `frame` and `flexibility` are ignored.
+/// Where `ends[0] == ends[1]` the element is a rigid arm of that one state: the rail at x has the
+/// displacement u + theta cross (`offset` + (x - `x[0]`) e_x), and `length`, `frame` and `flexibility` are
+/// ignored.
 ///
 /// ```
 /// use splines::{Cell, Flexibility};
@@ -83,7 +84,8 @@ pub struct Cell {
     pub x: [f64; 2],
     /// Indices of the node states at the two ends.
     pub ends: [usize; 2],
-    /// Length of the member's stretch, > 0. It exceeds `x[1] - x[0]` where the member is inclined to the rail.
+    /// Length of the member's stretch, > 0. It exceeds `x[1] - x[0]` where the member is inclined to the
+    /// rail.
     pub length: f64,
     /// 3 x 3, one row an axis: the local axes in the rail frame; local x runs from `ends[0]` to `ends[1]`.
     pub frame: [[f64; 3]; 3],
@@ -102,8 +104,8 @@ impl Cell {
         self.carrier.is_some_and(|carrier| carrier.reversed)
     }
 
-    /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail coordinate x.
-    /// Coordinates beyond the element count as its ends.
+    /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail coordinate
+    /// x. Coordinates beyond the element count as its ends.
     #[must_use]
     pub fn place(&self, x: f64) -> f64 {
         let [first, last] = self.x;
@@ -111,8 +113,8 @@ impl Cell {
         if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
     }
 
-    /// 3 x 3, one row an axis: the member's own local axes in the rail frame. They are those of `frame`, turned by
-    /// half a turn about local y where the member runs against the element.
+    /// 3 x 3, one row an axis: the member's own local axes in the rail frame. They are those of `frame`,
+    /// turned by half a turn about local y where the member runs against the element.
     #[must_use]
     pub fn axes(&self) -> [[f64; 3]; 3] {
         let [x, y, z] = self.frame;
@@ -124,7 +126,8 @@ impl Cell {
         self.ends[0] == self.ends[1]
     }
 
-    /// In which ways the section has no stiffness: axially, in torsion, in the x-y plane and in the x-z plane.
+    /// In which ways the section has no stiffness: axially, in torsion, in the x-y plane and in the x-z
+    /// plane.
     pub(crate) fn without_stiffness(&self) -> [bool; 4] {
         let flexibility = &self.flexibility;
         let infinite = |x: f64| x == f64::INFINITY;
@@ -169,7 +172,8 @@ impl Cell {
 
 /// A place in an element, measured from the nearer end.
 ///
-/// Polynomials in the distance from the nearer end keep their relative accuracy where they vanish at that end.
+/// Polynomials in the distance from the nearer end keep their relative accuracy where they vanish at that
+/// end.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LocalPlace {
     /// Which end is nearer, 0 or 1.

@@ -1,9 +1,9 @@
 //! Green's function of an element clamped at both ends.
 //!
-//! This is what a rail element adds between its two node states: the displacement at one place under a unit load
-//! at another, with both ends held. It exists in three forms. `Plane::ordered` is the statement of the function
-//! itself; `Plane::magnitude` sums the absolute values of its terms, for bounds of rounding errors; and
-//! `separated` expands it in powers of the place, for the fast evaluation of many pairs.
+//! This is what a rail element adds between its two node states: the displacement at one place under a unit
+//! load at another, with both ends held. It exists in three forms. `Plane::ordered` is the statement of the
+//! function itself; `Plane::magnitude` sums the absolute values of its terms, for bounds of rounding errors;
+//! and `separated` expands it in powers of the place, for the fast evaluation of many pairs.
 
 use super::element::Cell;
 use super::load::AxisLoad;
@@ -86,9 +86,10 @@ impl Plane {
 
     /// Green's function of a clamped Timoshenko beam, and its derivatives.
     ///
-    /// The beam obeys theta' = c m, m' = -V and v' = theta + g V between its ends 0 and l, where v = theta = 0.
-    /// A force F and a moment M act at b; the value is f v(a) + m theta(a), for a <= b. Between the near clamp
-    /// and the load no load acts, so that V is constant and v and theta follow from the reaction (V, m0) alone.
+    /// The beam obeys theta' = c m, m' = -V and v' = theta + g V between its ends 0 and l, where v = theta =
+    /// 0. A force F and a moment M act at b; the value is f v(a) + m theta(a), for a <= b. Between the near
+    /// clamp and the load no load acts, so that V is constant and v and theta follow from the reaction (V,
+    /// m0) alone.
     ///
     /// # Source
     /// Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966).
@@ -106,9 +107,9 @@ impl Plane {
         }
     }
 
-    /// Green's function between the loads `p` at s and `q` at t, each a force and a moment, in either order of the
-    /// places. It is symmetric: b(s, p; t, q) = b(t, q; s, p) to the last bit. At s = t every derivative is the
-    /// mean of both sides.
+    /// Green's function between the loads `p` at s and `q` at t, each a force and a moment, in either order
+    /// of the places. It is symmetric: b(s, p; t, q) = b(t, q; s, p) to the last bit. At s = t every
+    /// derivative is the mean of both sides.
     #[inline(always)]
     fn ordered(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Jet2 {
         if s < t {
@@ -135,7 +136,8 @@ impl Plane {
         }
     }
 
-    /// Sum of the absolute values of the terms from which [`Plane::green`] of a place with itself is computed.
+    /// Sum of the absolute values of the terms from which [`Plane::green`] of a place with itself is
+    /// computed.
     fn magnitude(&self, s: f64, [f, m]: [f64; 2]) -> f64 {
         let Plane { c, g, l, per_l, inverse } = *self;
         let (q, f, m) = (l - s, f.abs(), m.abs());
@@ -164,8 +166,8 @@ fn bar(flexibility: f64, l: f64, s: f64, t: f64) -> Jet2 {
     }
 }
 
-/// Green's function of an element clamped at both ends, between unit forces at the rail. Places are measured along
-/// the member, 0..=length.
+/// Green's function of an element clamped at both ends, between unit forces at the rail. Places are measured
+/// along the member, 0..=length.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ClampedElement {
     length: f64,
@@ -232,8 +234,8 @@ impl ClampedElement {
         sum
     }
 
-    /// Sum of the absolute values of the terms from which the displacement along direction `a` at s under a unit
-    /// force there is computed.
+    /// Sum of the absolute values of the terms from which the displacement along direction `a` at s under a
+    /// unit force there is computed.
     pub fn magnitude(&self, a: usize, s: f64) -> f64 {
         let p = &self.loads[a];
         let bar = s * (self.length - s) / self.length;
@@ -249,17 +251,17 @@ impl ClampedElement {
     }
 }
 
-/// Green's function along one rail direction as b(s, t) = far(s) . near(t) for s >= t, far and near having two
-/// entries each, which are cubics in the place.
+/// Green's function along one rail direction as b(s, t) = far(s) . near(t) for s >= t, far and near having
+/// two entries each, which are cubics in the place.
 ///
-/// `[end][k][p]`: coefficients of r^p, r being the distance from the first (`end` = 0) or last end of the member in
-/// lengths of the member; k = 0, 1 are the entries of far, k = 2, 3 those of near. For a plane they are the reaction
-/// (V, m0) to a unit force at s and what it causes at t:
+/// `[end][k][p]`: coefficients of r^p, r being the distance from the first (`end` = 0) or last end of the
+/// member in lengths of the member; k = 0, 1 are the entries of far, k = 2, 3 those of near. For a plane they
+/// are the reaction (V, m0) to a unit force at s and what it causes at t:
 ///
 /// b = V (g t - c t^3/6) + m0 c t^2/2,
 ///
-/// as in `Plane::green`, expanded in powers. `None` where the direction involves more than one plane or the axial
-/// bar, or a moment.
+/// as in `Plane::green`, expanded in powers. `None` where the direction involves more than one plane or the
+/// axial bar, or a moment.
 pub(crate) fn separated(element: &Cell, axis: usize) -> Option<[[[f64; 4]; 4]; 2]> {
     if element.is_rigid_arm() {
         return Some([[[0.0; 4]; 4]; 2]);

@@ -5,8 +5,8 @@ use crate::vector::{cross, dot, unit};
 
 /// Force and moment that a unit force on the rail exerts on the axis of a member, in local axes.
 ///
-/// A force f at the offset o from the axis acts there as the force f and the moment o cross f. By the same numbers
-/// the displacement of the rail along f follows from the displacement and rotation of the axis.
+/// A force f at the offset o from the axis acts there as the force f and the moment o cross f. By the same
+/// numbers the displacement of the rail along f follows from the displacement and rotation of the axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct AxisLoad {
     /// Force along local x.

@@ -1,5 +1,5 @@
-//! Rails as chains of uniform elements: how the rail moves with the ends of its elements, and what each element
-//! adds between them.
+//! Rails as chains of uniform elements: how the rail moves with the ends of its elements, and what each
+//! element adds between them.
 //!
 //! Order: `element` (data), `load` (a rail force in the axes of the member), `green` and `shape` (the two
 //! functions of one element), `row` and `planar` (their values at a place), `track` (which element carries a

@@ -1,20 +1,21 @@
 //! Cubics of a rail element along a direction that involves one bending plane or the axial bar alone.
 //!
 //! That is the common case of a vertical load on a straight girder. Four shape functions are then enough, and
-//! Green's function of the clamped element is a product of two terms (`separated` in `green`), so that eight cubics
-//! say everything about a place.
+//! Green's function of the clamped element is a product of two terms (`separated` in `green`), so that eight
+//! cubics say everything about a place.
 
 use super::element::{Cell, LocalPlace};
 use super::green::separated;
 use super::shape::ShapeCubics;
 
-/// Eight cubics of an element along one direction: four shape functions, then far and near of Green's function, two
-/// entries each.
+/// Eight cubics of an element along one direction: four shape functions, then far and near of Green's
+/// function, two entries each.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PlanarCubics {
     /// Degrees of freedom of the shape functions.
     pub index: [usize; 4],
-    /// `[end][p]` are the coefficients of r^p, r being the distance from either end as a fraction of the element.
+    /// `[end][p]` are the coefficients of r^p, r being the distance from either end as a fraction of the
+    /// element.
     value: [[[f64; 8]; 4]; 2],
     /// The same for the derivatives by x.
     slope: [[[f64; 8]; 3]; 2],

@@ -15,8 +15,8 @@ use crate::probe::Probe;
 
 /// Elements of any number of rails, checked and indexed.
 ///
-/// It evaluates the two functions of an element at any coordinate: the shape row N(x) ([`Line::row`]) and Green's
-/// function b(x, z) of the element clamped at both ends ([`Line::kernel`]).
+/// It evaluates the two functions of an element at any coordinate: the shape row N(x) ([`Line::row`]) and
+/// Green's function b(x, z) of the element clamped at both ends ([`Line::kernel`]).
 ///
 /// ```
 /// use splines::{Axis, Cell, Flexibility, Line, Probe};
@@ -70,13 +70,14 @@ struct AxisCubics {
 }
 
 impl Line {
-    /// Checks and sorts elements. A rail may have gaps; where two of its elements meet, the one listed first carries
-    /// the common place. A gap or overlap below 1e-12 of the rail's largest coordinate counts as rounding.
+    /// Checks and sorts elements. A rail may have gaps; where two of its elements meet, the one listed first
+    /// carries the common place. A gap or overlap below 1e-12 of the rail's largest coordinate counts as
+    /// rounding.
     ///
     /// # Errors
-    /// No element; a number that is not finite; `x` not increasing; a flexible element with a length that is not
-    /// positive, a frame that is not a rotation or a negative flexibility; elements of one rail that overlap;
-    /// elements of one member that differ in length or flexibility.
+    /// No element; a number that is not finite; `x` not increasing; a flexible element with a length that is
+    /// not positive, a frame that is not a rotation or a negative flexibility; elements of one rail that
+    /// overlap; elements of one member that differ in length or flexibility.
     pub fn new(cells: Vec<Cell>) -> Result<Line, Error> {
         if cells.is_empty() {
             return Err(Error::NoCells);
@@ -195,9 +196,9 @@ impl Line {
         })
     }
 
-    /// What bounds of rounding errors at a probe need: [`Line::row`]; for each of its values the sum of the absolute
-    /// values of its terms; and the same sum for Green's function of the clamped element at the probe. A computed
-    /// value errs by a few units of rounding of its sum.
+    /// What bounds of rounding errors at a probe need: [`Line::row`]; for each of its values the sum of the
+    /// absolute values of its terms; and the same sum for Green's function of the clamped element at the
+    /// probe. A computed value errs by a few units of rounding of its sum.
     ///
     /// # Errors
     /// As [`Line::row`].
@@ -210,11 +211,11 @@ impl Line {
         Ok((row, magnitudes, own))
     }
 
-    /// Green's function of element `cell` clamped at both ends, 3 x 3: `[i][j]` is the displacement along axis i at
-    /// rail coordinate x per unit force along axis j at z, both at the rail's offset, length/force.
+    /// Green's function of element `cell` clamped at both ends, 3 x 3: `[i][j]` is the displacement along
+    /// axis i at rail coordinate x per unit force along axis j at z, both at the rail's offset, length/force.
     ///
-    /// Coordinates beyond the element count as its ends. The result is zero for a rigid arm or an element that does
-    /// not exist, and infinite in a direction in which the section has no stiffness.
+    /// Coordinates beyond the element count as its ends. The result is zero for a rigid arm or an element
+    /// that does not exist, and infinite in a direction in which the section has no stiffness.
     ///
     /// Guarantee: `kernel(c, x, z)[i][j] == kernel(c, z, x)[j][i]` to the last bit; positive semi-definite.
     ///

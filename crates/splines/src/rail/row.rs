@@ -5,9 +5,9 @@ use super::shape::ShapeCubics;
 
 /// One row of the shape matrix N.
 ///
-/// The displacement of the rail at a probe, along its axis, is the sum of [`Row::values`] times the degrees of freedom
-/// [`Row::indices`], plus what the loads inside the element cause with its ends held. Degree of freedom
-/// `6 * state + k` is a displacement for k = 0..3 and a rotation for k = 3..6, in the rail frame.
+/// The displacement of the rail at a probe, along its axis, is the sum of [`Row::values`] times the degrees
+/// of freedom [`Row::indices`], plus what the loads inside the element cause with its ends held. Degree of
+/// freedom `6 * state + k` is a displacement for k = 0..3 and a rotation for k = 3..6, in the rail frame.
 ///
 /// Made by [`crate::Line::row`]:
 ///

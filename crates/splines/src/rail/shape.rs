@@ -1,8 +1,8 @@
 //! Shape functions of a rail element: displacement of the rail by the node states at the element's ends.
 //!
-//! Without load between its ends a uniform Timoshenko member deforms in cubics of the place, so the shape functions
-//! are exact. With c = 1/EI, g = 1/kGA, h the length of the member, s = 0..1 along it,
-//! alpha = c h^2/(c h^2 + 12 g) and beta = 1 - alpha (a rigid plane has alpha = 1), the deflection of a plane is
+//! Without load between its ends a uniform Timoshenko member deforms in cubics of the place, so the shape
+//! functions are exact. With c = 1/EI, g = 1/kGA, h the length of the member, s = 0..1 along it, alpha = c
+//! h^2/(c h^2 + 12 g) and beta = 1 - alpha (a rigid plane has alpha = 1), the deflection of a plane is
 //!
 //! v = v1 (1 - beta s - alpha (3 s^2 - 2 s^3)) + h theta1 (alpha (s - 2 s^2 + s^3) + beta (s - s^2)/2)
 //!   + v2 (beta s + alpha (3 s^2 - 2 s^3))     + h theta2 (alpha (s^3 - s^2) - beta (s - s^2)/2),
@@ -30,8 +30,8 @@ pub(crate) struct ShapeCubics {
 pub(crate) struct CubicGroup {
     /// Degree of freedom of each: `6 * state + k`. Fillers repeat a valid one.
     pub index: [usize; 4],
-    /// `[end][p][k]`: coefficient of r^p of function k, r being the distance from that end as a fraction of the
-    /// element.
+    /// `[end][p][k]`: coefficient of r^p of function k, r being the distance from that end as a fraction of
+    /// the element.
     pub cubic: [[[f64; 4]; 4]; 2],
 }
 
@@ -69,7 +69,8 @@ impl ShapeCubics {
         (0..self.len).map(move |k| one(&self.groups[k / 4], k % 4))
     }
 
-    /// Second derivatives of all functions by x at a place, zeros in unused entries. `scale` = 1/(extent in x).
+    /// Second derivatives of all functions by x at a place, zeros in unused entries. `scale` = 1/(extent in
+    /// x).
     pub fn second_derivatives(&self, LocalPlace { end, r }: LocalPlace, scale: f64) -> [[f64; 4]; 3] {
         let mut out = [[0.0; 4]; 3];
         for (second, group) in out.iter_mut().zip(&self.groups) {

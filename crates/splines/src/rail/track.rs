@@ -45,8 +45,8 @@ impl Span {
     }
 }
 
-/// Divides a rail into as many equal bins as it has elements, and counts the elements that begin in each: a search
-/// then looks at few of them.
+/// Divides a rail into as many equal bins as it has elements, and counts the elements that begin in each: a
+/// search then looks at few of them.
 #[derive(Clone, Debug)]
 struct BinIndex {
     start: f64,

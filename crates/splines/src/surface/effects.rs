@@ -14,9 +14,10 @@ const ROUNDING: f64 = 1e-12;
 
 /// A component of the internal force of a member, in its local axes.
 ///
-/// Cut the member and take the face whose outward normal is +x. The part beyond the cut acts on it with the force
-/// (N, Vy, Vz) and the moment (Mx, My, Mz), positive along +x, +y, +z and right-handed about them. So N is tension, a
-/// positive Mz stretches the fibres at -y, a positive My those at +z, and between loads dMz/dx = -Vy and dMy/dx = Vz.
+/// Cut the member and take the face whose outward normal is +x. The part beyond the cut acts on it with the
+/// force (N, Vy, Vz) and the moment (Mx, My, Mz), positive along +x, +y, +z and right-handed about them. So N
+/// is tension, a positive Mz stretches the fibres at -y, a positive My those at +z, and between loads dMz/dx
+/// = -Vy and dMy/dx = Vz.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Component {
     /// N, force per unit force.
@@ -44,9 +45,9 @@ impl Component {
         Component::BendingZ,
     ];
 
-    /// The component on a face at x that balances a force f and a moment m at z on the part before it: the factors of
-    /// fx fy fz mx my mz, with `lever` = x - z. Equilibrium of that part gives R = -f and
-    /// M = -m + lever e_x cross f.
+    /// The component on a face at x that balances a force f and a moment m at z on the part before it: the
+    /// factors of fx fy fz mx my mz, with `lever` = x - z. Equilibrium of that part gives R = -f and M = -m +
+    /// lever e_x cross f.
     #[must_use]
     pub fn balance(self, lever: f64) -> [f64; 6] {
         let mut out = [0.0; 6];
@@ -65,12 +66,13 @@ impl Component {
 pub struct Section {
     /// Identity of the member, as in [`crate::Carrier`].
     pub member: usize,
-    /// Place along the member in the direction of its own local x, 0..=1. At 0 and 1 the section is just inside.
+    /// Place along the member in the direction of its own local x, 0..=1. At 0 and 1 the section is just
+    /// inside.
     pub place: f64,
     /// Component of the internal force.
     pub component: Component,
-    /// The component per unit load on the ends of the flexible part (fx fy fz mx my mz in local axes, first end, then
-    /// last) while the rest of the structure holds the member's ends.
+    /// The component per unit load on the ends of the flexible part (fx fy fz mx my mz in local axes, first
+    /// end, then last) while the rest of the structure holds the member's ends.
     pub ends: [f64; 12],
 }
 
@@ -78,8 +80,8 @@ pub struct Section {
 ///
 /// E(p) = A N(p)^T + \[p on the section's member\] e(p),
 ///
-/// with the shape rows N of the rails, the effects A of unit loads on the node states, and the effect e of the load
-/// while the ends of the member are held.
+/// with the shape rows N of the rails, the effects A of unit loads on the node states, and the effect e of
+/// the load while the ends of the member are held.
 ///
 /// Guarantee: exact wherever the load stands, on either side of a section and at it.
 ///
@@ -103,8 +105,8 @@ pub struct Section {
 ///     flexibility: Flexibility { bending_z: 1.0, ..Flexibility::default() },
 ///     carrier: None,
 /// };
-/// // Reaction of the left support of a simply supported beam. A unit force on the left end is carried there at once;
-/// // unit moments on either end change it by 1/8.
+/// // Reaction of the left support of a simply supported beam: -1 per unit force on the left end, 1/8 per unit
+/// // moment on either end.
 /// let mut rows = DMatrix::zeros(1, 12);
 /// (rows[(0, 1)], rows[(0, 5)], rows[(0, 11)]) = (-1.0, 0.125, 0.125);
 /// let effects = Effects::new(Arc::new(Line::new(vec![element])?), rows, vec![None])?;
@@ -123,9 +125,9 @@ pub struct Effects {
 impl Effects {
     /// Effects of loads on the rails `line`.
     ///
-    /// `rows` is effects x 6 S with S = `line.states()`: the effect per unit load on each degree of freedom of the node
-    /// states, in the frames of the rails; infinite where the structure has no stiffness against that load.
-    /// `sections` has one entry an effect, `None` where the effect is no internal force.
+    /// `rows` is effects x 6 S with S = `line.states()`: the effect per unit load on each degree of freedom
+    /// of the node states, in the frames of the rails; infinite where the structure has no stiffness against
+    /// that load. `sections` has one entry an effect, `None` where the effect is no internal force.
     ///
     /// # Errors
     /// Shapes that differ; an entry that is not a number; a place outside 0..=1.
@@ -170,12 +172,12 @@ impl Effects {
 
     /// Writes every effect per unit force at a probe, along its axis, into `out`.
     ///
-    /// Where the load stands at the section itself, the result is the mean of both sides; at an end of the member
-    /// the section is inside and the load outside.
+    /// Where the load stands at the section itself, the result is the mean of both sides; at an end of the
+    /// member the section is inside and the load outside.
     ///
     /// # Errors
-    /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has no
-    /// stiffness; `out` of another length than [`Effects::len`].
+    /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has
+    /// no stiffness; `out` of another length than [`Effects::len`].
     pub fn fill(&self, at: Probe, out: &mut [f64]) -> Result<(), Error> {
         let n = self.len();
         if out.len() != n {
@@ -241,8 +243,8 @@ impl MemberLoad {
         }
     }
 
-    /// The component at a section while the ends of the member are held: that of the forces on the ends, and that of
-    /// the load itself where it stands before the section.
+    /// The component at a section while the ends of the member are held: that of the forces on the ends, and
+    /// that of the load itself where it stands before the section.
     fn with_ends_held(&self, section: &Section) -> f64 {
         let lever = section.place * self.length - self.place;
         let before = if lever.abs() > ROUNDING * self.length {

@@ -17,13 +17,14 @@ use crate::vector::dot4;
 ///
 /// G(p, q) = N(p) C N(q)^T + \[p and q on one member\] b(p, q),
 ///
-/// with the shape rows N of the elements (1 x 12 each), the compliance C of the node states, and Green's function b
-/// of the element clamped at both ends. Elements of two rails on one member share its Green's function.
+/// with the shape rows N of the elements (1 x 12 each), the compliance C of the node states, and Green's
+/// function b of the element clamped at both ends. Elements of two rails on one member share its Green's
+/// function.
 ///
-/// Guarantee: exact for piecewise uniform Euler-Bernoulli and Timoshenko members loaded at the rail, whatever the
-/// number of elements (4e-15 of the largest entry on the paper's girder); positive semi-definite where C is, being a
-/// Gram matrix plus Green's function of a clamped beam; once continuously differentiable along a rail in bending, and
-/// twice except at the ends of elements.
+/// Guarantee: exact for piecewise uniform Euler-Bernoulli and Timoshenko members loaded at the rail, whatever
+/// the number of elements (4e-15 of the largest entry on the paper's girder); positive semi-definite where C
+/// is, being a Gram matrix plus Green's function of a clamped beam; once continuously differentiable along a
+/// rail in bending, and twice except at the ends of elements.
 ///
 /// # Source
 /// Przemieniecki, Theory of Matrix Structural Analysis (1968), section 10.
@@ -70,9 +71,9 @@ pub struct Surface {
 impl Surface {
     /// The surface of the rails `line` whose node states have the compliance `nodal`.
     ///
-    /// `nodal` is 6 S x 6 S with S = `line.states()`: entry (i, j) is the displacement of degree of freedom i per unit
-    /// load on degree of freedom j, in the frames of the rails. Its symmetric part is used. An infinite diagonal entry
-    /// marks a degree of freedom without stiffness; probes that need it are refused.
+    /// `nodal` is 6 S x 6 S with S = `line.states()`: entry (i, j) is the displacement of degree of freedom i
+    /// per unit load on degree of freedom j, in the frames of the rails. Its symmetric part is used. An
+    /// infinite diagonal entry marks a degree of freedom without stiffness; probes that need it are refused.
     ///
     /// # Errors
     /// A wrong shape; an entry that is not a number, or infinite off the diagonal.
@@ -108,8 +109,8 @@ impl Surface {
         &self.nodal
     }
 
-    /// The general path: N C N^T for all pairs, then Green's function of the pairs in one element, then that of
-    /// pairs in two elements of one member. Values are computed for i >= j and mirrored.
+    /// The general path: N C N^T for all pairs, then Green's function of the pairs in one element, then that
+    /// of pairs in two elements of one member. Values are computed for i >= j and mirrored.
     fn assemble(
         &self,
         at: &[Probe],
@@ -126,7 +127,8 @@ impl Surface {
             self.rails.row_into(*p, &mut rows[i])?;
             order[i] = i;
         }
-        // Probes of one element and direction have the same degrees of freedom: one product C N(q) serves them all.
+        // Probes of one element and direction have the same degrees of freedom: one product C N(q) serves
+        // them all.
         let block = |row: &Row| (row.cell, row.axis);
         if !rows.is_sorted_by_key(block) {
             order.sort_unstable_by_key(|&i| block(&rows[i]));
@@ -217,8 +219,8 @@ fn dot_chunks(a: &[[f64; 4]], b: &[[f64; 4]; 3]) -> f64 {
 }
 
 impl Compliance for Surface {
-    /// `value` is symmetric to the last bit. Where a slope jumps (under one's own force in shear, in torsion and
-    /// axially), `slope` is the mean of both sides. Up to 16 probes need no allocation.
+    /// `value` is symmetric to the last bit. Where a slope jumps (under one's own force in shear, in torsion
+    /// and axially), `slope` is the mean of both sides. Up to 16 probes need no allocation.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         out.expect(n)?;
@@ -258,8 +260,8 @@ impl Compliance for Surface {
 }
 
 impl Jets for Surface {
-    /// `pp` jumps where elements of different bending stiffness meet (the value of the element that carries the probe
-    /// is given), and under one's own load where an offset makes it a moment (the mean is given).
+    /// `pp` jumps where elements of different bending stiffness meet (the value of the element that carries
+    /// the probe is given), and under one's own load where an offset makes it a moment (the mean is given).
     fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error> {
         let (nodal, size) = (self.nodal.as_slice(), self.nodal.nrows());
         if !self.rails.shares_members()

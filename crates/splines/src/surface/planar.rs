@@ -1,11 +1,11 @@
 //! Fast path of the exact surface, for probes whose directions involve one bending plane or one bar each.
 //!
-//! Algorithm. (1) Evaluate at each probe the four shape functions N and the two entries each of far and near, all
-//! cubics (`PlanarCubics`). (2) Sort the probes by element and direction, then by coordinate, so that within an
-//! element b(p, q) = far(p) . near(q) for every p that is not before q. (3) For each element of a probe and each
-//! element of another take the 4 x 4 block of the nodal compliance C once, and multiply it by N(q) and N'(q) once for
-//! each q. (4) A pair then costs three scalar products: of four terms where the elements differ, of six (C and b
-//! together) where they are the same.
+//! Algorithm. (1) Evaluate at each probe the four shape functions N and the two entries each of far and near,
+//! all cubics (`PlanarCubics`). (2) Sort the probes by element and direction, then by coordinate, so that
+//! within an element b(p, q) = far(p) . near(q) for every p that is not before q. (3) For each element of a
+//! probe and each element of another take the 4 x 4 block of the nodal compliance C once, and multiply it by
+//! N(q) and N'(q) once for each q. (4) A pair then costs three scalar products: of four terms where the
+//! elements differ, of six (C and b together) where they are the same.
 
 use crate::compliance::{Influence, Jet2};
 use crate::error::Error;
@@ -43,8 +43,8 @@ impl PlanarProbe {
     }
 }
 
-/// Fills `out` if every probe has the planar form and returns whether it did; else `out` is untouched. `nodal` is
-/// the nodal compliance, `size` x `size` by columns.
+/// Fills `out` if every probe has the planar form and returns whether it did; else `out` is untouched.
+/// `nodal` is the nodal compliance, `size` x `size` by columns.
 ///
 /// # Errors
 /// As [`crate::Compliance::fill`].
@@ -174,8 +174,8 @@ impl Output<'_> {
     }
 }
 
-/// Value and slopes of a pair in one element, p not before q, by C N(q) and C N'(q). At one place the slopes are the
-/// mean of both sides.
+/// Value and slopes of a pair in one element, p not before q, by C N(q) and C N'(q). At one place the slopes
+/// are the mean of both sides.
 #[inline]
 fn pair_in_element(p: &PlanarProbe, q: &PlanarProbe, moved: &[[f64; 4]; 2]) -> [f64; 3] {
     // N(p) C N(q) + far(p) . near(q) as six terms in two sums.
@@ -190,7 +190,8 @@ fn pair_in_element(p: &PlanarProbe, q: &PlanarProbe, moved: &[[f64; 4]; 2]) -> [
     if p.x == q.x { [value, mean, mean] } else { [value, by_p, by_q] }
 }
 
-/// The nodal compliance between the degrees of freedom of two elements: row k belongs to that number k of the first.
+/// The nodal compliance between the degrees of freedom of two elements: row k belongs to that number k of the
+/// first.
 #[inline]
 fn gather(nodal: &[f64], size: usize, first: &PlanarProbe, second: &PlanarProbe) -> [[f64; 4]; 4] {
     let columns = [0, 1, 2, 3].map(|k| &nodal[first.index[k] * size..(first.index[k] + 1) * size]);

@@ -12,12 +12,12 @@ use super::shapes::Shapes;
 ///
 /// G'(p, q) = G(p, q) - sum_r phi_r(p) phi_r(q).
 ///
-/// The shapes may be those of a finer division of the same rails. The static compliance of a beam does not depend on where
-/// it is divided, so that G needs the few node states of the coarse division, where the fine one would need a matrix a
-/// thousand times as large.
+/// The shapes may be those of a finer division of the same rails. The static compliance of a beam does not
+/// depend on where it is divided, so that G needs the few node states of the coarse division, where the fine
+/// one would need a matrix a thousand times as large.
 ///
-/// Guarantee: where the shapes are mass-normalised natural modes of the same structure, divided by their circular
-/// frequencies, G' is positive semi-definite up to the rounding of G.
+/// Guarantee: where the shapes are mass-normalised natural modes of the same structure, divided by their
+/// circular frequencies, G' is positive semi-definite up to the rounding of G.
 ///
 /// ```
 /// use std::sync::Arc;

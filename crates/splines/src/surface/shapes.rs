@@ -10,8 +10,8 @@ use crate::rail::{Line, LocalPlace};
 
 /// Motions of rails by the motions of their node states: phi_r(p) = N(p) s_r.
 ///
-/// Along an element each is a cubic, stored by its values and slopes at the element's ends when a probe first stands on
-/// the element. Four numbers a shape then replace the up to twelve entries of N.
+/// Along an element each is a cubic, stored by its values and slopes at the element's ends when a probe first
+/// stands on the element. Four numbers a shape then replace the up to twelve entries of N.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -43,14 +43,14 @@ pub struct Shapes {
     rails: Arc<Line>,
     /// Shapes x degrees of freedom: what a place needs of all shapes is contiguous.
     motions: DMatrix<f64>,
-    /// By element and direction: the values of all shapes at the first end, then their slopes there by the fraction of
-    /// the element, then both at the last end.
+    /// By element and direction: the values of all shapes at the first end, then their slopes there by the
+    /// fraction of the element, then both at the last end.
     ends: Vec<[OnceLock<Vec<f64>>; 3]>,
 }
 
 impl Shapes {
-    /// Shapes of the rails `line`. `states` is 6 S x shapes with S = `line.states()`: column r holds the motions s_r of
-    /// the node states.
+    /// Shapes of the rails `line`. `states` is 6 S x shapes with S = `line.states()`: column r holds the
+    /// motions s_r of the node states.
     ///
     /// # Errors
     /// A number of rows other than 6 S.
@@ -70,8 +70,8 @@ impl Shapes {
         self.motions.nrows()
     }
 
-    /// Writes the displacement of each shape at `at`, along its axis, into `value`, and its derivative along the rail
-    /// into `slope`; both have one entry a shape.
+    /// Writes the displacement of each shape at `at`, along its axis, into `value`, and its derivative along
+    /// the rail into `slope`; both have one entry a shape.
     ///
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists.
@@ -107,9 +107,9 @@ impl Shapes {
     }
 }
 
-/// Weights of the values and slopes at both ends of an element in the value at a place, and the derivatives of these
-/// weights by x. `scale` = 1/(extent in x). They are computed from the distance to the nearer end, so that those which
-/// vanish there do so exactly.
+/// Weights of the values and slopes at both ends of an element in the value at a place, and the derivatives
+/// of these weights by x. `scale` = 1/(extent in x). They are computed from the distance to the nearer end,
+/// so that those which vanish there do so exactly.
 fn hermite(LocalPlace { end, r }: LocalPlace, scale: f64) -> ([f64; 4], [f64; 4]) {
     let far = r * r * (3.0 - 2.0 * r);
     let [value, slope, value_far, slope_far] =

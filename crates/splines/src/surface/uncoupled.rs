@@ -31,8 +31,8 @@ impl Couplings {
 ///
 /// G'(p, q) = G(p, q) where `couplings` keeps the pair, else 0.
 ///
-/// Guarantee: G' is symmetric and positive semi-definite where G is, since in some order of the probes it consists of
-/// diagonal blocks of G.
+/// Guarantee: G' is symmetric and positive semi-definite where G is, since in some order of the probes it
+/// consists of diagonal blocks of G.
 ///
 /// ```
 /// use nalgebra::DMatrix;

@@ -1,4 +1,5 @@
-//! Tables read as ADAMS reads a SPLINE: a curve along x in every row, straight lines along z between the rows.
+//! Tables read as ADAMS reads a SPLINE: a curve along x in every row, straight lines along z between the
+//! rows.
 
 use super::block::{Pairs, Sheet};
 use super::values::Table;
@@ -8,7 +9,8 @@ use crate::error::Error;
 use crate::probe::Probe;
 use crate::vector::dot4;
 
-/// The rule by which a curve passes through the values of one row: [`crate::akima()`] or [`crate::natural()`].
+/// The rule by which a curve passes through the values of one row: [`crate::akima()`] or
+/// [`crate::natural()`].
 pub(super) type Interpolant = fn(&[f64], &[f64]) -> Result<Curve, Error>;
 
 /// Tables ready for AKISPL or CUBSPL. Probes carry the number of their direction in place of the rail.
@@ -30,7 +32,8 @@ struct Family {
     x: Option<Vec<f64>>,
     /// Stations along z; `None` where they are those of the deflection's own table.
     z: Option<Vec<f64>>,
-    /// Values and slopes of each curve at its points, interleaved; one curve after the other, `stride` entries apart.
+    /// Values and slopes of each curve at its points, interleaved; one curve after the other, `stride`
+    /// entries apart.
     nodes: Vec<f64>,
     stride: usize,
 }
@@ -52,7 +55,8 @@ impl Weighted {
 }
 
 impl Families {
-    /// Puts a curve through every row of every table. Of a coupling the transposed table serves the opposite pair.
+    /// Puts a curve through every row of every table. Of a coupling the transposed table serves the opposite
+    /// pair.
     pub fn new(
         mut pairs: Pairs,
         sheets: &[Sheet],
@@ -194,8 +198,8 @@ impl Family {
         (1.0 - across.s) * low + across.s * high
     }
 
-    /// The same, and its derivative along z, which at a station is the mean of both sides. `own`: stations of the
-    /// deflection's own table.
+    /// The same, and its derivative along z, which at a station is the mean of both sides. `own`: stations of
+    /// the deflection's own table.
     #[inline]
     fn value_and_slope(&self, own: &[f64], along: &Interval, w: &[f64; 4], across: &Interval) -> (f64, f64) {
         let Interval { k, s, h } = *across;

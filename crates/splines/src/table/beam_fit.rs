@@ -27,46 +27,49 @@ pub struct Lift {
     pub surface: Surface,
     /// 1/EI that fits all entries best by least squares, 1/(force length^2).
     pub bending: f64,
-    /// 1/EI as each column alone gives it: station and value, for the stations at which the rail moves. Their scatter
-    /// about `bending` shows the accuracy of the table's digits there, or that the beam is not uniform.
+    /// 1/EI as each column alone gives it: station and value, for the stations at which the rail moves. Their
+    /// scatter about `bending` shows the accuracy of the table's digits there, or that the beam is not
+    /// uniform.
     pub local: Vec<(f64, f64)>,
     /// Whether the first and the last station are clamped: held in deflection and in slope.
     pub clamped: [bool; 2],
-    /// Largest difference between the table and that of the fitted beam, relative to the table's largest entry.
+    /// Largest difference between the table and that of the fitted beam, relative to the table's largest
+    /// entry.
     pub misfit: f64,
 }
 
-/// Fits a uniform Euler-Bernoulli beam to a table of vertical influence coefficients, and gives its exact surface on
-/// `rail`.
+/// Fits a uniform Euler-Bernoulli beam to a table of vertical influence coefficients, and gives its exact
+/// surface on `rail`.
 ///
-/// The beam has rigid supports at the stations whose rows are zero (below 1e-9 of the largest entry). Its ends are
-/// free, supported or clamped, and it may have any number of spans. If loads, supports and ends are at stations, every
-/// column of the table is a cubic spline between them, without curvature at free or supported ends and without slope
-/// at clamped ones. Slopes therefore follow from values by theta = D w, and with B = \[I; D\] (values and slopes
-/// interleaved) the compliance of the node states at the stations is
+/// The beam has rigid supports at the stations whose rows are zero (below 1e-9 of the largest entry). Its
+/// ends are free, supported or clamped, and it may have any number of spans. If loads, supports and ends are
+/// at stations, every column of the table is a cubic spline between them, without curvature at free or
+/// supported ends and without slope at clamped ones. Slopes therefore follow from values by theta = D w, and
+/// with B = \[I; D\] (values and slopes interleaved) the compliance of the node states at the stations is
 ///
 /// C = B T B^T + C_pin,
 ///
-/// where C_pin is the compliance of the rotations of the beam pinned at every station. 1/EI is that for which the
-/// table of the beam fits T best, by least squares over all entries. The column of station j alone determines it by
-/// the jump of the third derivative, w'''(x_j+) - w'''(x_j-) = 1/EI.
+/// where C_pin is the compliance of the rotations of the beam pinned at every station. 1/EI is that for which
+/// the table of the beam fits T best, by least squares over all entries. The column of station j alone
+/// determines it by the jump of the third derivative, w'''(x_j+) - w'''(x_j-) = 1/EI.
 ///
-/// An end whose row is zero counts as clamped if the beam clamped there fits ten times better than the beam supported
-/// there. Where a single station moves, both fit equally well and the end counts as supported.
+/// An end whose row is zero counts as clamped if the beam clamped there fits ten times better than the beam
+/// supported there. Where a single station moves, both fit equally well and the end counts as supported.
 ///
-/// Guarantee: a table with all its digits is reproduced without loss (5e-15 of the largest entry on the paper's
-/// girder). A table of three digits keeps the error of its rounding (4.7e-3 there), which [`Lift::misfit`] shows.
+/// Guarantee: a table with all its digits is reproduced without loss (5e-15 of the largest entry on the
+/// paper's girder). A table of three digits keeps the error of its rounding (4.7e-3 there), which
+/// [`Lift::misfit`] shows.
 ///
 /// # Errors
-/// Stations along z that differ from those along x; no zero row, or a single one that is not at a clamped end; a table
-/// that no such beam can have.
+/// Stations along z that differ from those along x; no zero row, or a single one that is not at a clamped
+/// end; a table that no such beam can have.
 ///
 /// ```
 /// use nalgebra::DMatrix;
 /// use splines::{Table, lift};
 ///
-/// // A simply supported beam of length 4 with 1/EI = 1: G = a b (16 - a^2 - b^2)/24, a and b being the distances of
-/// // the two places from the nearer support on their own side.
+/// // A simply supported beam of length 4 with 1/EI = 1: G = a b (16 - a^2 - b^2)/24, a and b being the
+/// // distances of the two places from the support on their own side.
 /// let x: Vec<f64> = (0..5).map(f64::from).collect();
 /// let exact = |z: f64, x: f64| {
 ///     let (a, b) = (z.min(x), 4.0 - z.max(x));
@@ -144,8 +147,8 @@ impl Fit {
     }
 }
 
-/// Jump of the third derivative of a spline at station j, by its interleaved values and slopes. Beyond the ends of the
-/// beam the derivative is zero.
+/// Jump of the third derivative of a spline at station j, by its interleaved values and slopes. Beyond the
+/// ends of the beam the derivative is zero.
 fn jump(x: &[f64], column: &[f64], j: usize) -> f64 {
     let third = |k: usize| {
         let h = x[k + 1] - x[k];

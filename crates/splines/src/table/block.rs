@@ -4,8 +4,8 @@ use super::values::Table;
 use crate::error::Error;
 use crate::probe::{Axis, Probe};
 
-/// One table of influence coefficients with the direction of its deflections and that of its loads. A direction is a
-/// rail and an axis.
+/// One table of influence coefficients with the direction of its deflections and that of its loads. A
+/// direction is a rail and an axis.
 ///
 /// ```
 /// use nalgebra::DMatrix;
@@ -46,8 +46,8 @@ impl Directions {
     /// Numbers the directions of tables and finds the table of every pair.
     ///
     /// # Errors
-    /// No table; two tables for one pair; a coupling between directions of which one has no table of its own; a table
-    /// with fewer than two curves.
+    /// No table; two tables for one pair; a coupling between directions of which one has no table of its own;
+    /// a table with fewer than two curves.
     pub fn new(sheets: &[Sheet]) -> Result<(Directions, Pairs), Error> {
         if sheets.is_empty() {
             return Err(Error::NoSheets);
@@ -119,8 +119,8 @@ impl Directions {
     }
 }
 
-/// The stations of each direction's own table, after checking that every coupling is tabulated at those of its two
-/// directions.
+/// The stations of each direction's own table, after checking that every coupling is tabulated at those of
+/// its two directions.
 ///
 /// # Errors
 /// Stations along z that differ from those along x, or from those of the direction's own table.

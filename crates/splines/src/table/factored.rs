@@ -20,8 +20,8 @@ pub enum Rank {
     Full,
     /// At most this many, those of the largest eigenvalues.
     Count(usize),
-    /// Those whose eigenvalue exceeds this fraction of the table's largest entry. No value at a station changes by
-    /// more.
+    /// Those whose eigenvalue exceeds this fraction of the table's largest entry. No value at a station
+    /// changes by more.
     Tolerance(f64),
 }
 
@@ -49,16 +49,16 @@ impl Curves {
     }
 }
 
-/// A set of directions that couple, and their curves: G(p, q) = sum_k phi_k(p) phi_k(q), p and q each along any of
-/// these directions.
+/// A set of directions that couple, and their curves: G(p, q) = sum_k phi_k(p) phi_k(q), p and q each along
+/// any of these directions.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Factor {
     /// The curves of every direction, all of the same rank.
     pub curves: Vec<Curves>,
     /// Eigenvalues of the products kept, decreasing, length/force.
     pub kept: Vec<f64>,
-    /// The other eigenvalues, decreasing. One that is negative by more than rounding shows a table that no structure
-    /// can have.
+    /// The other eigenvalues, decreasing. One that is negative by more than rounding shows a table that no
+    /// structure can have.
     pub dropped: Vec<f64>,
 }
 
@@ -69,8 +69,8 @@ impl Factor {
         self.kept.len()
     }
 
-    /// Bound of |T - Phi Phi^T| at any pair of stations, length/force: the largest absolute value of the eigenvalues
-    /// dropped.
+    /// Bound of |T - Phi Phi^T| at any pair of stations, length/force: the largest absolute value of the
+    /// eigenvalues dropped.
     #[must_use]
     pub fn error_bound(&self) -> f64 {
         self.dropped.iter().fold(0.0, |largest, value| value.abs().max(largest))
@@ -80,17 +80,18 @@ impl Factor {
 /// Compliance from tables of values as a sum of products of natural splines.
 ///
 /// The table of all stations of all directions that couple has the eigenvalues lambda_k and eigenvectors v_k,
-/// T = sum_k lambda_k v_k v_k^T. With phi_k = sqrt(lambda_k) v_k at the stations and natural cubic splines between
-/// them,
+/// T = sum_k lambda_k v_k v_k^T. With phi_k = sqrt(lambda_k) v_k at the stations and natural cubic splines
+/// between them,
 ///
 /// G(p, q) = sum_k phi_k(p) phi_k(q),
 ///
-/// which ADAMS can evaluate by CUBSPL of one curve for each place: n r evaluations for n wheels and r products.
+/// which ADAMS can evaluate by CUBSPL of one curve for each place: n r evaluations for n wheels and r
+/// products.
 ///
 /// Guarantee: symmetric to the last bit; positive semi-definite, being a Gram matrix; twice continuously
-/// differentiable. With every eigenvalue of a positive semi-definite table it equals [`crate::Kind::Natural`]: an
-/// error of 8.8e-3 of the largest entry on the paper's girder at seven stations, which decreases with the third power
-/// of their distance.
+/// differentiable. With every eigenvalue of a positive semi-definite table it equals
+/// [`crate::Kind::Natural`]: an error of 8.8e-3 of the largest entry on the paper's girder at seven stations,
+/// which decreases with the third power of their distance.
 ///
 /// ```
 /// use nalgebra::DMatrix;
@@ -182,8 +183,8 @@ impl Factored {
         &self.factors
     }
 
-    /// Evaluates all curves at the probes, then takes the scalar products. `rows` holds the values of the curves at
-    /// each probe, then their slopes, `width` entries a probe.
+    /// Evaluates all curves at the probes, then takes the scalar products. `rows` holds the values of the
+    /// curves at each probe, then their slopes, `width` entries a probe.
     fn assemble(
         &self,
         at: &[Probe],
@@ -327,7 +328,8 @@ fn decompose(
     };
     let curve = |k: usize| {
         let column = eigen.eigenvectors.column(order[k]);
-        // The sign of an eigenvector is arbitrary: the first entry of about the largest size is made positive.
+        // The sign of an eigenvector is arbitrary: the first entry of about the largest size is made
+        // positive.
         let peak = column.iter().find(|entry| entry.abs() > 0.999 * column.amax());
         let sign = if peak.is_some_and(|entry| *entry < 0.0) { -1.0 } else { 1.0 };
         column * (sign * values[k].sqrt())

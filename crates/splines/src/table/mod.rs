@@ -1,8 +1,8 @@
 //! Compliance from tables of values at stations, read as ADAMS reads a SPLINE or better.
 //!
-//! Order: `values` (one table), `block` (a table and the directions that it relates), then the readings: `adams`
-//! (AKISPL and CUBSPL), `tensor` (natural splines in both directions), `reading` (either of them), `factored` (sums
-//! of products of curves), and `beam_fit` (the exact surface of the beam behind a table).
+//! Order: `values` (one table), `block` (a table and the directions that it relates), then the readings:
+//! `adams` (AKISPL and CUBSPL), `tensor` (natural splines in both directions), `reading` (either of them),
+//! `factored` (sums of products of curves), and `beam_fit` (the exact surface of the beam behind a table).
 
 mod adams;
 mod beam_fit;

@@ -11,29 +11,32 @@ use crate::surface::Surface;
 
 /// Method by which values between the stations of a table are read.
 ///
-/// The errors given are the largest on the paper's girder with its overhangs at seven stations, relative to the largest
-/// entry. The order is the power of the distance between stations with which the error decreases.
+/// The errors given are the largest on the paper's girder with its overhangs at seven stations, relative to
+/// the largest entry. The order is the power of the distance between stations with which the error decreases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Kind {
-    /// Tensor spline W T W^T with cardinal natural cubic splines W along both directions: symmetric to the last bit,
-    /// positive semi-definite where the table is, twice continuously differentiable. Error 8.8e-3, order 3.
+    /// Tensor spline W T W^T with cardinal natural cubic splines W along both directions: symmetric to the
+    /// last bit, positive semi-definite where the table is, twice continuously differentiable. Error 8.8e-3,
+    /// order 3.
     Natural,
-    /// As ADAMS reads a SPLINE by AKISPL: Akima's curve along x (load), linear along z (deflection). Neither symmetric
-    /// nor positive semi-definite between stations; slopes jump at stations. Error 6.6e-2, asymmetry as large, order 2.
+    /// As ADAMS reads a SPLINE by AKISPL: Akima's curve along x (load), linear along z (deflection). Neither
+    /// symmetric nor positive semi-definite between stations; slopes jump at stations. Error 6.6e-2,
+    /// asymmetry as large, order 2.
     Akispl,
-    /// The mean of AKISPL and AKISPL with deflection and load exchanged, (A(x, z) + A(z, x))/2, which can be written
-    /// as an ADAMS expression. Symmetric to the last bit, but not positive semi-definite between stations; slopes jump
-    /// at stations. Error 5.3e-2, order 2.
+    /// The mean of AKISPL and AKISPL with deflection and load exchanged, (A(x, z) + A(z, x))/2, which can be
+    /// written as an ADAMS expression. Symmetric to the last bit, but not positive semi-definite between
+    /// stations; slopes jump at stations. Error 5.3e-2, order 2.
     Symmetrised,
-    /// As ADAMS reads a SPLINE by CUBSPL: natural cubic spline along x, linear along z. Neither symmetric nor positive
-    /// semi-definite between stations; slopes along z jump at stations. Error 6.6e-2, asymmetry as large, order 2.
+    /// As ADAMS reads a SPLINE by CUBSPL: natural cubic spline along x, linear along z. Neither symmetric nor
+    /// positive semi-definite between stations; slopes along z jump at stations. Error 6.6e-2, asymmetry as
+    /// large, order 2.
     Cubspl,
 }
 
 /// The compliance that tables of values describe, read by one [`Kind`] of method.
 ///
-/// A probe along a direction without a table of its own is refused. Two directions without a common table do not couple.
-/// A coupling is given once; the opposite one is its transpose.
+/// A probe along a direction without a table of its own is refused. Two directions without a common table do
+/// not couple. A coupling is given once; the opposite one is its transpose.
 ///
 /// ```
 /// use nalgebra::DMatrix;
@@ -71,8 +74,9 @@ impl Reading {
     /// `sheets` holds one table for every direction, and those of couplings between directions.
     ///
     /// # Errors
-    /// No table; two tables for one pair; a coupling between directions of which one has no table of its own; a table
-    /// with fewer than two curves; for [`Kind::Natural`] also stations along z that differ from those along x.
+    /// No table; two tables for one pair; a coupling between directions of which one has no table of its own;
+    /// a table with fewer than two curves; for [`Kind::Natural`] also stations along z that differ from those
+    /// along x.
     pub fn new(kind: Kind, sheets: &[Sheet]) -> Result<Reading, Error> {
         let (directions, pairs) = Directions::new(sheets)?;
         let tables = match kind {
@@ -139,8 +143,8 @@ impl Compliance for Reading {
 }
 
 impl Jets for Reading {
-    /// Where the method is linear along z, `pp` is zero and `p` at a station is the mean of both sides. Akima's curvature
-    /// along x jumps at a station, where `qq` is the mean of both sides.
+    /// Where the method is linear along z, `pp` is zero and `p` at a station is the mean of both sides.
+    /// Akima's curvature along x jumps at a station, where `qq` is the mean of both sides.
     fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error> {
         let [p, q] = [self.numbered(p)?, self.numbered(q)?];
         match &self.tables {

@@ -12,9 +12,10 @@ use crate::surface::Surface;
 
 /// The tensor spline W T W^T of tables T with the cardinal natural splines W.
 ///
-/// Rail elements without flexibility between the stations have cubic Hermite shapes, and Green's function of the clamped
-/// element vanishes. With B the matrix that takes values to the values and slopes of their natural spline, the nodal
-/// compliance B T B^T therefore makes their exact surface the tensor spline. Every direction is a rail of its own.
+/// Rail elements without flexibility between the stations have cubic Hermite shapes, and Green's function of
+/// the clamped element vanishes. With B the matrix that takes values to the values and slopes of their
+/// natural spline, the nodal compliance B T B^T therefore makes their exact surface the tensor spline. Every
+/// direction is a rail of its own.
 pub(super) fn tensor(pairs: &Pairs, sheets: &[Sheet]) -> Result<Surface, Error> {
     let own = common_stations(pairs, sheets)?;
     let mut cells = Vec::new();
@@ -56,8 +57,8 @@ pub(super) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibili
     x.windows(2).enumerate().map(cell).collect()
 }
 
-/// Copies a block whose rows and columns are (v, theta_z) of successive node states, the first of which are `first`, to
-/// the degrees of freedom of these states.
+/// Copies a block whose rows and columns are (v, theta_z) of successive node states, the first of which are
+/// `first`, to the degrees of freedom of these states.
 pub(super) fn scatter(nodal: &mut DMatrix<f64>, first: [usize; 2], block: &DMatrix<f64>) {
     let dof = |first: usize, k: usize| 6 * (first + k / 2) + if k.is_multiple_of(2) { 1 } else { 5 };
     for i in 0..block.nrows() {

@@ -47,7 +47,8 @@ impl Beam {
     /// Deflection or rotation at x under a unit force or moment at z.
     pub fn give(&self, at: Effect, x: f64, load: Effect, z: f64) -> f64 {
         let n = self.supports.len();
-        // Unknowns: upward reactions, then a, b. Equations: no deflection at supports, no net force or moment.
+        // Unknowns: upward reactions, then a, b. Equations: no deflection at supports, no net force or
+        // moment.
         let mut matrix = DMatrix::zeros(n + 2, n + 2);
         let mut right = DVector::zeros(n + 2);
         for (i, &s) in self.supports.iter().enumerate() {
