@@ -1,4 +1,4 @@
-//! The question that contact asks of a structure: influence coefficients between any set of probes.
+//! The interface of every compliance: influence coefficients between any set of probes.
 
 use nalgebra::DMatrix;
 

@@ -1,4 +1,4 @@
-//! Which readings of the printed table give matrices that no structure has.
+//! Readings of the printed table whose influence matrices are indefinite, which those of a structure are not.
 
 mod beam;
 
@@ -6,7 +6,7 @@ use beam::printed::{VERTICAL, table};
 use beam::{Random, probe, read};
 use splines::{Axis, Compliance, Influence, Kind, Probe};
 
-/// Share of random sets of n wheels, overhangs included, whose symmetric part is indefinite; least
+/// Fraction of random sets of n wheels, overhangs included, whose symmetric part is indefinite; smallest
 /// eigenvalue.
 fn indefinite(kind: Kind, n: usize, sets: usize) -> (f64, f64) {
     let reading = read(kind, table(&VERTICAL));
@@ -36,7 +36,7 @@ fn akispl_of_the_printed_table_is_mostly_indefinite() {
     }
 }
 
-/// Identity: the natural reading of the same table never is, though the table is rounded.
+/// Identity: the natural reading of the same table is never indefinite, although the table is rounded.
 #[test]
 fn natural_reading_of_the_printed_table_is_never_indefinite() {
     for n in [2, 4, 8, 16] {

@@ -105,8 +105,8 @@ pub struct Section {
 ///     flexibility: Flexibility { bending_z: 1.0, ..Flexibility::default() },
 ///     carrier: None,
 /// };
-/// // Reaction of the left support of a simply supported beam: -1 per unit force on the left end, 1/8 per unit
-/// // moment on either end.
+/// // Reaction of the left support of a simply supported beam: -1 per unit force on the left end, 1/8 per
+/// // unit moment on either end.
 /// let mut rows = DMatrix::zeros(1, 12);
 /// (rows[(0, 1)], rows[(0, 5)], rows[(0, 11)]) = (-1.0, 0.125, 0.125);
 /// let effects = Effects::new(Arc::new(Line::new(vec![element])?), rows, vec![None])?;
@@ -186,7 +186,7 @@ impl Effects {
         let row = self.rails.row(at)?;
         out.fill(0.0);
         let entries = row.indices().iter().zip(row.values());
-        // A factor of zero must not meet an infinite effect, which would give a number that is not one.
+        // Zero times an infinite effect would not be a number.
         for (&index, &shape) in entries.filter(|(_, shape)| **shape != 0.0) {
             for (sum, entry) in out.iter_mut().zip(self.rows.column(index)) {
                 *sum += shape * entry;
