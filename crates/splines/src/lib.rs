@@ -36,8 +36,8 @@
 //!
 //! # Wings
 //! In this order; a file imports nothing of a later wing. The order is kept by `tests/wings.rs`.
-//! 1. `vector`, `probe`, `error`, `compliance`: products of small vectors, places, errors, and the question
-//!    that contact asks.
+//! 1. `vector`, `probe`, `error`, `compliance`: products of small vectors, places, errors, and the interface
+//!    of every compliance.
 //! 2. `curve`: piecewise cubics in one variable.
 //! 3. `rail`: rail elements, their shape functions and Green's function, rails.
 //! 4. `surface`: exact compliance and what follows from it: influence lines, residual flexibility, uncoupled

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-/// Wings from the bottom up. The files of the first entry depend on each other in this order as well.
+/// Wings from the bottom up; the first four are single files.
 const WINGS: [&str; 9] =
     ["vector", "probe", "error", "compliance", "curve", "rail", "surface", "table", "quality"];
 

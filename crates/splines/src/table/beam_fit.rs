@@ -27,7 +27,7 @@ pub struct Lift {
     pub surface: Surface,
     /// 1/EI that fits all entries best by least squares, 1/(force length^2).
     pub bending: f64,
-    /// 1/EI as each column alone gives it: station and value, for the stations at which the rail moves. Their
+    /// 1/EI from each column alone: station and value, for the stations at which the rail moves. Their
     /// scatter about `bending` shows the accuracy of the table's digits there, or that the beam is not
     /// uniform.
     pub local: Vec<(f64, f64)>,
