@@ -70,10 +70,11 @@ pub struct Layout {
 /// For each number of `wheels` (increasing) the layout with the smallest eigenvalue of G that a search finds.
 ///
 /// Algorithm. On the set of `places` (increasing), take the pair with the smallest eigenvalue, add one wheel
-/// after another where it lowers the eigenvalue most, and exchange single wheels until no exchange lowers it.
-/// Then refine between the places by compass search, from this layout, from the three worst of 1000 random
-/// layouts, and from the layout found for the previous number of wheels with further wheels added. The lowest
-/// result counts. Eigenvalues above -1e-13 of the largest coefficient count as zero.
+/// after another where it lowers the eigenvalue most, and exchange single wheels until no exchange lowers it,
+/// for at most four rounds. Then refine between the places by compass search, from this layout, from the
+/// three worst of 1000 random layouts, and from the layout found for the previous number of wheels with
+/// further wheels added. The lowest result counts. Eigenvalues above -1e-13 of the largest coefficient count
+/// as zero.
 ///
 /// Guarantee: no smallest eigenvalue is above that for fewer wheels, or above that of any of the first 1000
 /// layouts that [`indefinite_share`] examines.

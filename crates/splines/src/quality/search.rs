@@ -12,8 +12,8 @@ const HALVINGS: usize = 26;
 const STEPS: usize = 2000;
 
 /// Places at which a block is examined: the `breaks` within `range`, its two ends, and equally many places in
-/// each interval between them. There are about `most` at most; an interval has at most 16 parts. Where there
-/// are more than `most` breaks, some are left out.
+/// each interval between them. Their number is at most about `most`; an interval has at most 16 parts. Where
+/// there are more than `most` breaks, some are left out.
 ///
 /// ```
 /// use splines::quality::places;
