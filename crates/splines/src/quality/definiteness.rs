@@ -51,8 +51,8 @@ pub fn station_spectrum(table: &Table) -> Option<Spectrum> {
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn spectrum(strip: &Strip<'_>, places: &[f64]) -> Result<Spectrum, Error> {
-    Ok(Spectrum::of(&strip.block(places, places)?))
+pub fn spectrum(block: &Strip<'_>, places: &[f64]) -> Result<Spectrum, Error> {
+    Ok(Spectrum::of(&block.block(places, places)?))
 }
 
 /// A layout of wheels, and its smallest eigenvalue.
@@ -81,11 +81,11 @@ pub struct Layout {
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn weakest_layouts(strip: &Strip<'_>, wheels: &[usize], places: &[f64]) -> Result<Vec<Layout>, Error> {
+pub fn weakest_layouts(block: &Strip<'_>, wheels: &[usize], places: &[f64]) -> Result<Vec<Layout>, Error> {
     let mut out: Vec<Layout> = Vec::with_capacity(wheels.len());
     let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(out) };
-    let g = strip.block(places, places)?;
-    let negative = |at: &[f64]| Ok(-Spectrum::of(&strip.block(at, at)?).smallest);
+    let g = block.block(places, places)?;
+    let negative = |at: &[f64]| Ok(-Spectrum::of(&block.block(at, at)?).smallest);
     let step = (last - first) / places.len() as f64;
     for &wheels in wheels {
         let mut starts = vec![best_exchange(&g, wheels).iter().map(|&k| places[k]).collect()];
@@ -191,7 +191,7 @@ fn exchange(chosen: &mut [usize], k: usize, places: usize, smallest: impl Fn(&[u
 /// # Errors
 /// Those of the compliance.
 pub fn indefinite_share(
-    strip: &Strip<'_>,
+    block: &Strip<'_>,
     wheels: usize,
     count: usize,
     range: [f64; 2],
@@ -200,7 +200,7 @@ pub fn indefinite_share(
     let mut indefinite = 0;
     for _ in 0..count {
         let at = layouts.layout(wheels, range);
-        let g = strip.block(&at, &at)?;
+        let g = block.block(&at, &at)?;
         indefinite += usize::from(Spectrum::of(&g).smallest < -ROUNDING * g.amax());
     }
     Ok(if count == 0 { 0.0 } else { indefinite as f64 / count as f64 })

@@ -29,11 +29,11 @@ pub fn station_asymmetry(table: &Table) -> Option<Extreme> {
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn asymmetry(strip: &Strip<'_>, places: &[f64]) -> Result<Extreme, Error> {
+pub fn asymmetry(block: &Strip<'_>, places: &[f64]) -> Result<Extreme, Error> {
     let (Some(&first), Some(&last)) = (places.first(), places.last()) else {
         return Ok(Extreme::default());
     };
-    let g = strip.block(places, places)?;
+    let g = block.block(places, places)?;
     let mut worst = Extreme { value: 0.0, x: first, z: first };
     for i in 0..places.len() {
         for j in 0..i {
@@ -47,7 +47,7 @@ pub fn asymmetry(strip: &Strip<'_>, places: &[f64]) -> Result<Extreme, Error> {
         return Ok(worst);
     }
     let mut at = [worst.x, worst.z];
-    let skew = |p: &[f64]| Ok((strip.at(p[0], p[1])? - strip.at(p[1], p[0])?).abs());
+    let skew = |p: &[f64]| Ok((block.at(p[0], p[1])? - block.at(p[1], p[0])?).abs());
     let step = (last - first) / places.len() as f64;
     let value = refine_maximum(skew, &mut at, step, [first, last])?;
     Ok(Extreme { value, x: at[0], z: at[1] })
@@ -71,13 +71,13 @@ pub struct Work {
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn work(strip: &Strip<'_>, spacing: f64, places: &[f64]) -> Result<Work, Error> {
+pub fn work(block: &Strip<'_>, spacing: f64, places: &[f64]) -> Result<Work, Error> {
     let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(Work::default()) };
     let top = last - spacing;
     if spacing <= 0.0 || top < first {
         return Ok(Work::default());
     }
-    let pair = |x: f64| strip.block(&[x, (x + spacing).min(last)], &[x, (x + spacing).min(last)]);
+    let pair = |x: f64| block.block(&[x, (x + spacing).min(last)], &[x, (x + spacing).min(last)]);
     let skew = |x: f64| {
         let g = pair(x)?;
         Ok((g[(0, 1)] - g[(1, 0)]).abs())

@@ -75,8 +75,8 @@ fn end_slope(f: impl Fn(f64) -> Result<f64, Error>, end: f64, other: f64) -> Res
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn diagonal_kinks(strip: &Strip<'_>, range: [f64; 2]) -> Result<Vec<Kink>, Error> {
-    kinks(|x| strip.at(x, x), &strip.compliance.breaks(strip.load.0), range)
+pub fn diagonal_kinks(block: &Strip<'_>, range: [f64; 2]) -> Result<Vec<Kink>, Error> {
+    kinks(|x| block.at(x, x), &block.compliance.breaks(block.load.0), range)
 }
 
 /// The same for the mean deflection under two wheels at the distance `spacing` with half the unit load each:
@@ -84,13 +84,13 @@ pub fn diagonal_kinks(strip: &Strip<'_>, range: [f64; 2]) -> Result<Vec<Kink>, E
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn pair_kinks(strip: &Strip<'_>, spacing: f64, range: [f64; 2]) -> Result<Vec<Kink>, Error> {
+pub fn pair_kinks(block: &Strip<'_>, spacing: f64, range: [f64; 2]) -> Result<Vec<Kink>, Error> {
     if spacing >= range[1] - range[0] {
         return Ok(Vec::new());
     }
-    let mut breaks = strip.compliance.breaks(strip.load.0);
+    let mut breaks = block.compliance.breaks(block.load.0);
     breaks.extend(breaks.clone().iter().map(|x| x - spacing));
-    let deflection = |x: f64| Ok(0.25 * strip.block(&[x, x + spacing], &[x, x + spacing])?.sum());
+    let deflection = |x: f64| Ok(0.25 * block.block(&[x, x + spacing], &[x, x + spacing])?.sum());
     // Rounding must not put the second wheel beyond the range.
     let end = if range[1] - spacing + spacing > range[1] {
         (range[1] - spacing).next_down()

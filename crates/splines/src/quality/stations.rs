@@ -152,8 +152,8 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
 /// # Errors
 /// Those of the compliance and of `read`.
 pub fn error_of(search: &Search<'_>, at: &[f64]) -> Result<Stations, Error> {
-    let (sheets, scales) = tabulate(search, at)?;
-    let reading = (search.read)(&sheets)?;
+    let (blocks, scales) = tabulate(search, at)?;
+    let reading = (search.read)(&blocks)?;
     let mut found = Stations {
         at: at.to_vec(),
         error: 0.0,
@@ -168,10 +168,10 @@ pub fn error_of(search: &Search<'_>, at: &[f64]) -> Result<Stations, Error> {
     let x = breaks_within(&[breaks, inner].concat(), search.range);
     for (a, deflection) in directions(search).enumerate() {
         for (b, load) in directions(search).enumerate() {
-            let blocks =
+            let both =
                 [reading.as_ref(), search.exact].map(|compliance| Strip { compliance, deflection, load });
             let scale = (scales[a] * scales[b]).sqrt();
-            let worst = deviation(&blocks[0], &blocks[1], &x, &x)?;
+            let worst = deviation(&both[0], &both[1], &x, &x)?;
             let error = if scale > 0.0 { worst.largest.value.abs() / scale } else { 0.0 };
             if error > found.error {
                 found = Stations { error, ways: [deflection, load], worst: worst.largest, ..found };
@@ -188,7 +188,7 @@ fn directions<'a>(search: &'a Search<'_>) -> impl Iterator<Item = Way> + 'a {
 
 /// Tables of the exact compliance at the stations `at`, and the largest coefficient of each direction.
 fn tabulate(search: &Search<'_>, at: &[f64]) -> Result<(Vec<Sheet>, Vec<f64>), Error> {
-    let mut sheets = Vec::new();
+    let mut blocks = Vec::new();
     let mut scales = Vec::new();
     let dense = places(&[at, search.fixed].concat(), search.range, 4 * at.len().max(16));
     for direction in directions(search) {
@@ -200,11 +200,11 @@ fn tabulate(search: &Search<'_>, at: &[f64]) -> Result<(Vec<Sheet>, Vec<f64>), E
             let values = Strip { compliance: search.exact, deflection, load }.block(at, at)?;
             if a == b || values.amax() > UNCOUPLED * (scales[a] * scales[b]).sqrt() {
                 let table = Table::new(at.to_vec(), at.to_vec(), values)?;
-                sheets.push(Sheet { deflection, load, table });
+                blocks.push(Sheet { deflection, load, table });
             }
         }
     }
-    Ok((sheets, scales))
+    Ok((blocks, scales))
 }
 
 /// Density of stations along the rail, constant on each interval.
@@ -301,8 +301,8 @@ fn equidistribute(
 /// The largest relative error over a coarse set of places, and the error of each interval: the largest with
 /// the load or the deflection in it and the other at a station, and with both in it.
 fn interval_errors(search: &Search<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), Error> {
-    let (sheets, scales) = tabulate(search, at)?;
-    let reading = (search.read)(&sheets)?;
+    let (blocks, scales) = tabulate(search, at)?;
+    let reading = (search.read)(&blocks)?;
     let parts = PARTS[0];
     let mut x = Vec::with_capacity(parts * at.len());
     for pair in at.windows(2) {
@@ -313,9 +313,9 @@ fn interval_errors(search: &Search<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), E
     let mut largest = 0.0_f64;
     for (a, deflection) in directions(search).enumerate() {
         for (b, load) in directions(search).enumerate() {
-            let blocks =
+            let both =
                 [reading.as_ref(), search.exact].map(|compliance| Strip { compliance, deflection, load });
-            let error: DMatrix<f64> = blocks[0].block(&x, &x)? - blocks[1].block(&x, &x)?;
+            let error: DMatrix<f64> = both[0].block(&x, &x)? - both[1].block(&x, &x)?;
             let scale = (scales[a] * scales[b]).sqrt().max(f64::MIN_POSITIVE);
             largest = largest.max(error.amax() / scale);
             for (k, own) in own.iter_mut().enumerate() {

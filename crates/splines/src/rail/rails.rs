@@ -41,7 +41,7 @@ use crate::probe::Probe;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Line {
-    cells: Vec<Cell>,
+    elements: Vec<Cell>,
     prepared: Vec<Prepared>,
     tracks: Vec<Track>,
     states: usize,
@@ -78,45 +78,45 @@ impl Line {
     /// No element; a number that is not finite; `x` not increasing; a flexible element with a length that is
     /// not positive, a frame that is not a rotation or a negative flexibility; elements of one rail that
     /// overlap; elements of one member that differ in length or flexibility.
-    pub fn new(cells: Vec<Cell>) -> Result<Line, Error> {
-        if cells.is_empty() {
+    pub fn new(elements: Vec<Cell>) -> Result<Line, Error> {
+        if elements.is_empty() {
             return Err(Error::NoCells);
         }
-        let mut prepared = Vec::with_capacity(cells.len());
+        let mut prepared = Vec::with_capacity(elements.len());
         let mut states = 0;
         let mut shares_members = false;
         let mut first: BTreeMap<usize, usize> = BTreeMap::new();
-        for (index, cell) in cells.iter().enumerate() {
-            cell.check(index)?;
-            states = states.max(cell.ends[0].max(cell.ends[1]) + 1);
-            let rigid = cell.is_rigid_arm();
-            let carrier = cell.carrier.filter(|_| !rigid);
+        for (index, element) in elements.iter().enumerate() {
+            element.check(index)?;
+            states = states.max(element.ends[0].max(element.ends[1]) + 1);
+            let rigid = element.is_rigid_arm();
+            let carrier = element.carrier.filter(|_| !rigid);
             let group = carrier.map_or(index, |carrier| *first.entry(carrier.member).or_insert(index));
             shares_members |= group != index;
-            let same = |a: &Cell| a.length == cell.length && a.flexibility == cell.flexibility;
-            if group != index && !same(&cells[group]) {
+            let same = |a: &Cell| a.length == element.length && a.flexibility == element.flexibility;
+            if group != index && !same(&elements[group]) {
                 return Err(Error::CellCarrier { first: group, second: index });
             }
-            let without = cell.without_stiffness();
+            let without = element.without_stiffness();
             let along = |axis: usize| {
-                let uses = AxisLoad::new(cell, &cell.frame, axis).uses();
+                let uses = AxisLoad::new(element, &element.frame, axis).uses();
                 !rigid && uses.iter().zip(without).any(|(&used, missing)| used && missing)
             };
             prepared.push(Prepared {
                 cubics: Default::default(),
                 without_stiffness: [0, 1, 2].map(along),
-                clamped: (!rigid).then(|| ClampedElement::new(cell)),
+                clamped: (!rigid).then(|| ClampedElement::new(element)),
                 group,
             });
         }
-        let tracks = Track::all(&cells)?;
-        Ok(Line { cells, prepared, tracks, states, shares_members })
+        let tracks = Track::all(&elements)?;
+        Ok(Line { elements, prepared, tracks, states, shares_members })
     }
 
     /// The elements, in the order given.
     #[must_use]
     pub fn cells(&self) -> &[Cell] {
-        &self.cells
+        &self.elements
     }
 
     /// Number of node states: one more than the largest state index.
@@ -146,11 +146,11 @@ impl Line {
         let span = self.stiff_span(p)?;
         let axis = p.axis.component();
         let place = span.local(p.x);
-        row.cell = span.cell;
+        row.cell = span.element;
         row.axis = axis;
         row.s = span.start + place.fraction() * span.length;
         row.rate = span.length * span.scale;
-        row.evaluate(&self.cubics(span.cell, axis).shapes, place, span.scale);
+        row.evaluate(&self.cubics(span.element, axis).shapes, place, span.scale);
         Ok(())
     }
 
@@ -168,30 +168,30 @@ impl Line {
         let span = self.stiff_span(p)?;
         let axis = p.axis.component();
         let found = |cubics| {
-            let (block, at) = (3 * span.cell + axis, span.local(p.x));
+            let (block, at) = (3 * span.element + axis, span.local(p.x));
             PlanarPlace { cubics, block, at, scale: span.scale }
         };
-        Ok(self.cubics(span.cell, axis).planar.as_ref().map(found))
+        Ok(self.cubics(span.element, axis).planar.as_ref().map(found))
     }
 
     /// The element that carries a probe, the place in it, and 1/(its extent in x).
     pub(crate) fn place(&self, p: Probe) -> Result<(usize, LocalPlace, f64), Error> {
-        self.stiff_span(p).map(|span| (span.cell, span.local(p.x), span.scale))
+        self.stiff_span(p).map(|span| (span.element, span.local(p.x), span.scale))
     }
 
     /// The rows at both ends of an element along a rail direction; slopes by the fraction of the element.
-    pub(crate) fn end_rows(&self, cell: usize, axis: usize) -> [Row; 2] {
+    pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [Row; 2] {
         [0, 1].map(|end| {
             let mut row = Row::EMPTY;
-            row.evaluate(&self.cubics(cell, axis).shapes, LocalPlace { end, r: 0.0 }, 1.0);
+            row.evaluate(&self.cubics(element, axis).shapes, LocalPlace { end, r: 0.0 }, 1.0);
             row
         })
     }
 
-    fn cubics(&self, cell: usize, axis: usize) -> &AxisCubics {
-        self.prepared[cell].cubics[axis].get_or_init(|| {
-            let shapes = ShapeCubics::new(&self.cells[cell], axis);
-            let planar = PlanarCubics::new(&self.cells[cell], axis, &shapes);
+    fn cubics(&self, element: usize, axis: usize) -> &AxisCubics {
+        self.prepared[element].cubics[axis].get_or_init(|| {
+            let shapes = ShapeCubics::new(&self.elements[element], axis);
+            let planar = PlanarCubics::new(&self.elements[element], axis, &shapes);
             AxisCubics { shapes, planar }
         })
     }
@@ -211,7 +211,7 @@ impl Line {
         Ok((row, magnitudes, own))
     }
 
-    /// Green's function of element `cell` clamped at both ends, 3 x 3: `[i][j]` is the displacement along
+    /// Green's function of element `element` clamped at both ends, 3 x 3: `[i][j]` is the displacement along
     /// axis i at rail coordinate x per unit force along axis j at z, both at the rail's offset, length/force.
     ///
     /// Coordinates beyond the element count as its ends. The result is zero for a rigid arm or an element
@@ -222,10 +222,12 @@ impl Line {
     /// # Source
     /// theta' = m/EI, m' = -V, v' = theta + V/kGA, clamped at both ends: Cowper, J. Appl. Mech. 33 (1966).
     #[must_use]
-    pub fn kernel(&self, cell: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
+    pub fn kernel(&self, element: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
         let mut out = [[0.0; 3]; 3];
-        let (Some(element), Some(clamped)) = (self.cells.get(cell), self.clamped(cell)) else { return out };
-        let (s, t) = (element.place(x), element.place(z));
+        let (Some(given), Some(clamped)) = (self.elements.get(element), self.clamped(element)) else {
+            return out;
+        };
+        let (s, t) = (given.place(x), given.place(z));
         for (a, row) in out.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 *entry = if clamped.is_without_stiffness(a, b) {
@@ -239,8 +241,8 @@ impl Line {
     }
 
     /// Green's function of a clamped element; `None` for a rigid arm or an element that does not exist.
-    pub(crate) fn clamped(&self, cell: usize) -> Option<&ClampedElement> {
-        self.prepared.get(cell).and_then(|prepared| prepared.clamped.as_ref())
+    pub(crate) fn clamped(&self, element: usize) -> Option<&ClampedElement> {
+        self.prepared.get(element).and_then(|prepared| prepared.clamped.as_ref())
     }
 
     /// Whether some member has more than one element.
@@ -282,7 +284,7 @@ impl Line {
     #[inline]
     fn stiff_span(&self, p: Probe) -> Result<&Span, Error> {
         let span = self.span(p.rail, p.x)?;
-        if self.prepared[span.cell].without_stiffness[p.axis.component()] {
+        if self.prepared[span.element].without_stiffness[p.axis.component()] {
             return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
         }
         Ok(span)

@@ -27,7 +27,7 @@ pub(crate) struct Span {
     pub start: f64,
     pub length: f64,
     /// Index of the element.
-    pub cell: usize,
+    pub element: usize,
     /// Whether the preceding element, listed earlier, carries the place `x[0]`.
     yields: bool,
 }
@@ -101,33 +101,37 @@ impl Track {
     ///
     /// # Errors
     /// Elements of one rail that overlap by more than rounding.
-    pub fn all(cells: &[Cell]) -> Result<Vec<Track>, Error> {
-        let mut order: Vec<usize> = (0..cells.len()).collect();
+    pub fn all(elements: &[Cell]) -> Result<Vec<Track>, Error> {
+        let mut order: Vec<usize> = (0..elements.len()).collect();
         order.sort_by(|&a, &b| {
-            let (p, q) = (&cells[a], &cells[b]);
+            let (p, q) = (&elements[a], &elements[b]);
             p.rail.cmp(&q.rail).then(p.x[0].total_cmp(&q.x[0])).then(a.cmp(&b))
         });
-        order.chunk_by(|&a, &b| cells[a].rail == cells[b].rail).map(|same| Track::new(cells, same)).collect()
+        order
+            .chunk_by(|&a, &b| elements[a].rail == elements[b].rail)
+            .map(|same| Track::new(elements, same))
+            .collect()
     }
 
     /// One rail, whose elements `same` are sorted by coordinate.
-    fn new(cells: &[Cell], same: &[usize]) -> Result<Track, Error> {
-        let rail = cells[same[0]].rail;
-        let largest = same.iter().flat_map(|&k| cells[k].x).fold(0.0_f64, |a, x| a.max(x.abs()));
+    fn new(elements: &[Cell], same: &[usize]) -> Result<Track, Error> {
+        let rail = elements[same[0]].rail;
+        let largest = same.iter().flat_map(|&k| elements[k].x).fold(0.0_f64, |a, x| a.max(x.abs()));
         let slack = ROUNDING * largest;
-        let span = |cell: usize, yields| {
-            let Cell { x, length, .. } = cells[cell];
-            let (start, length) = if cells[cell].is_reversed() { (length, -length) } else { (0.0, length) };
-            Span { x, scale: 1.0 / (x[1] - x[0]), start, length, cell, yields }
+        let span = |element: usize, yields| {
+            let Cell { x, length, .. } = elements[element];
+            let (start, length) =
+                if elements[element].is_reversed() { (length, -length) } else { (0.0, length) };
+            Span { x, scale: 1.0 / (x[1] - x[0]), start, length, element, yields }
         };
         let mut spans = vec![span(same[0], false)];
         for pair in same.windows(2) {
-            let (before, cell) = (pair[0], pair[1]);
-            let (end, start) = (cells[before].x[1], cells[cell].x[0]);
+            let (before, element) = (pair[0], pair[1]);
+            let (end, start) = (elements[before].x[1], elements[element].x[0]);
             if end > start + slack {
-                return Err(Error::Overlap { rail, first: before, second: cell, x: start });
+                return Err(Error::Overlap { rail, first: before, second: element, x: start });
             }
-            spans.push(span(cell, end >= start && before < cell));
+            spans.push(span(element, end >= start && before < element));
         }
         Ok(Track { rail, slack, index: BinIndex::new(&spans), spans })
     }

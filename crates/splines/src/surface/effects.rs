@@ -192,12 +192,12 @@ impl Effects {
                 *sum += shape * entry;
             }
         }
-        let cell = &self.rails.cells()[row.cell];
-        if let Some(carrier) = cell.carrier.filter(|_| !cell.is_rigid_arm()) {
+        let element = &self.rails.cells()[row.cell];
+        if let Some(carrier) = element.carrier.filter(|_| !element.is_rigid_arm()) {
             let mut load = None;
             for (sum, section) in out.iter_mut().zip(&self.sections) {
                 if let Some(section) = section.as_ref().filter(|section| section.member == carrier.member) {
-                    let load = load.get_or_insert_with(|| MemberLoad::new(cell, at, &row));
+                    let load = load.get_or_insert_with(|| MemberLoad::new(element, at, &row));
                     *sum += load.with_ends_held(section);
                 }
             }
@@ -223,21 +223,21 @@ struct MemberLoad {
 }
 
 impl MemberLoad {
-    fn new(cell: &Cell, at: Probe, row: &Row) -> MemberLoad {
-        let axes = cell.axes();
+    fn new(element: &Cell, at: Probe, row: &Row) -> MemberLoad {
+        let axes = element.axes();
         let in_member_axes = |v: [f64; 3]| axes.map(|axis| dot(&axis, &v));
         let force = unit(at.axis.component());
-        let [f, m] = [in_member_axes(force), in_member_axes(cross(cell.offset, force))];
+        let [f, m] = [in_member_axes(force), in_member_axes(cross(element.offset, force))];
         // Force and moment on the first end of the member, then on its last.
         let mut ends = [[0.0; 3]; 4];
         for (&index, &value) in row.indices().iter().zip(row.values()) {
-            let end = usize::from(index / 6 != cell.ends[0]) ^ usize::from(cell.is_reversed());
+            let end = usize::from(index / 6 != element.ends[0]) ^ usize::from(element.is_reversed());
             ends[2 * end + index % 6 / 3][index % 3] = value;
         }
         let ends = ends.map(in_member_axes);
         MemberLoad {
-            place: cell.place(at.x),
-            length: cell.length,
+            place: element.place(at.x),
+            length: element.length,
             own: [f[0], f[1], f[2], m[0], m[1], m[2]],
             ends: std::array::from_fn(|k| ends[k / 3][k % 3]),
         }

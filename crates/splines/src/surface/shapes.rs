@@ -76,13 +76,13 @@ impl Shapes {
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists.
     pub fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
-        let (cell, place, scale) = self.rails.place(at)?;
+        let (element, place, scale) = self.rails.place(at)?;
         let count = self.count();
         if count == 0 {
             return Ok(());
         }
         let axis = at.axis.component();
-        let ends = self.ends[cell][axis].get_or_init(|| self.ends(cell, axis));
+        let ends = self.ends[element][axis].get_or_init(|| self.ends(element, axis));
         let ([p, q, r, s], [dp, dq, dr, ds]) = hermite(place, scale);
         let (first, last) = ends.split_at(2 * count);
         let ((a, b), (c, d)) = (first.split_at(count), last.split_at(count));
@@ -95,8 +95,8 @@ impl Shapes {
     }
 
     /// Values and slopes of all shapes at both ends of an element.
-    fn ends(&self, cell: usize, axis: usize) -> Vec<f64> {
-        let rows = self.rails.end_rows(cell, axis);
+    fn ends(&self, element: usize, axis: usize) -> Vec<f64> {
+        let rows = self.rails.end_rows(element, axis);
         let parts = rows.iter().flat_map(|row| [(row, row.values()), (row, row.slopes())]);
         let sum = |indices: &[usize], weights: &[f64], shape: usize| -> f64 {
             indices.iter().zip(weights).map(|(&k, weight)| weight * self.motions[(shape, k)]).sum()

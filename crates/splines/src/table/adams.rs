@@ -59,18 +59,18 @@ impl Families {
     /// pair.
     pub fn new(
         mut pairs: Pairs,
-        sheets: &[Sheet],
+        blocks: &[Sheet],
         interpolant: Interpolant,
         symmetrised: bool,
     ) -> Result<Families, Error> {
-        let own = |i: usize| pairs[i][i].map_or(Vec::new(), |k| sheets[k].table.x().to_vec());
+        let own = |i: usize| pairs[i][i].map_or(Vec::new(), |k| blocks[k].table.x().to_vec());
         let stations: Vec<Vec<f64>> = (0..pairs.len()).map(own).collect();
         let mut families = Vec::new();
         for i in 0..stations.len() {
             for j in 0..stations.len() {
                 // The opposite of a coupling that was met before already has its family.
                 let Some(index) = pairs[i][j].filter(|_| i == j || pairs[j][i].is_none()) else { continue };
-                let table = &sheets[index].table;
+                let table = &blocks[index].table;
                 pairs[i][j] = Some(families.len());
                 families.push(Family::new(table, [&stations[i], &stations[j]], interpolant)?);
                 if i != j {

@@ -48,16 +48,16 @@ impl Directions {
     /// # Errors
     /// No table; two tables for one pair; a coupling between directions of which one has no table of its own;
     /// a table with fewer than two curves.
-    pub fn new(sheets: &[Sheet]) -> Result<(Directions, Pairs), Error> {
-        if sheets.is_empty() {
+    pub fn new(blocks: &[Sheet]) -> Result<(Directions, Pairs), Error> {
+        if blocks.is_empty() {
             return Err(Error::NoSheets);
         }
         let mut names: Vec<(usize, Axis)> =
-            sheets.iter().filter(|s| s.deflection == s.load).map(|s| s.load).collect();
+            blocks.iter().filter(|s| s.deflection == s.load).map(|s| s.load).collect();
         names.sort_unstable();
         names.dedup();
         let mut pairs = vec![vec![None; names.len()]; names.len()];
-        for (index, sheet) in sheets.iter().enumerate() {
+        for (index, sheet) in blocks.iter().enumerate() {
             let number = |name| names.binary_search(&name).map_err(|_| Error::SheetAlone { sheet: index });
             let (i, j) = (number(sheet.deflection)?, number(sheet.load)?);
             if pairs[i][j].is_some() || pairs[j][i].is_some() {
@@ -73,7 +73,7 @@ impl Directions {
         for (i, row) in pairs.iter().enumerate() {
             for (j, index) in row.iter().enumerate() {
                 let Some(index) = *index else { continue };
-                let table = &sheets[index].table;
+                let table = &blocks[index].table;
                 for (direction, points) in [(i, table.z()), (j, table.x())] {
                     ranges[direction][0] = ranges[direction][0].max(points[0]);
                     ranges[direction][1] = ranges[direction][1].min(points[points.len() - 1]);
@@ -124,12 +124,12 @@ impl Directions {
 ///
 /// # Errors
 /// Stations along z that differ from those along x, or from those of the direction's own table.
-pub(super) fn common_stations<'a>(pairs: &Pairs, sheets: &'a [Sheet]) -> Result<Vec<&'a [f64]>, Error> {
-    let own = |i: usize| pairs[i][i].map_or(&[][..], |k| sheets[k].table.x());
+pub(super) fn common_stations<'a>(pairs: &Pairs, blocks: &'a [Sheet]) -> Result<Vec<&'a [f64]>, Error> {
+    let own = |i: usize| pairs[i][i].map_or(&[][..], |k| blocks[k].table.x());
     for (i, row) in pairs.iter().enumerate() {
         for (j, index) in row.iter().enumerate() {
             let Some(index) = *index else { continue };
-            if sheets[index].table.z() != own(i) || sheets[index].table.x() != own(j) {
+            if blocks[index].table.z() != own(i) || blocks[index].table.x() != own(j) {
                 return Err(Error::SheetStations { sheet: index });
             }
         }

@@ -132,17 +132,17 @@ impl Factored {
     ///
     /// # Errors
     /// As [`crate::Reading::new`] for [`crate::Kind::Natural`]; a tolerance that is negative or not a number.
-    pub fn new(sheets: &[Sheet], rank: Rank) -> Result<Factored, Error> {
+    pub fn new(blocks: &[Sheet], rank: Rank) -> Result<Factored, Error> {
         if let Rank::Tolerance(tolerance) = rank
             && !(tolerance >= 0.0 && tolerance.is_finite())
         {
             return Err(Error::Tolerance { tolerance });
         }
-        let (directions, pairs) = Directions::new(sheets)?;
-        let stations = common_stations(&pairs, sheets)?;
+        let (directions, pairs) = Directions::new(blocks)?;
+        let stations = common_stations(&pairs, blocks)?;
         let factors = coupled_sets(&pairs)
             .into_iter()
-            .map(|set| decompose(&set, &directions, &stations, &pairs, sheets, rank));
+            .map(|set| decompose(&set, &directions, &stations, &pairs, blocks, rank));
         Factored::of(factors.collect())
     }
 
@@ -288,7 +288,7 @@ fn decompose(
     directions: &Directions,
     stations: &[&[f64]],
     pairs: &Pairs,
-    sheets: &[Sheet],
+    blocks: &[Sheet],
     rank: Rank,
 ) -> Factor {
     let mut first = Vec::new();
@@ -300,7 +300,7 @@ fn decompose(
     let mut table = DMatrix::zeros(size, size);
     for (a, &i) in set.iter().enumerate() {
         for (b, &j) in set.iter().enumerate() {
-            let Some(values) = pairs[i][j].map(|index| sheets[index].table.values()) else { continue };
+            let Some(values) = pairs[i][j].map(|index| blocks[index].table.values()) else { continue };
             let mut put = |first: [usize; 2], block: &DMatrix<f64>| {
                 table.view_mut((first[0], first[1]), block.shape()).copy_from(block);
             };

@@ -71,19 +71,19 @@ enum Prepared {
 }
 
 impl Reading {
-    /// `sheets` holds one table for every direction, and those of couplings between directions.
+    /// `blocks` holds one table for every direction, and those of couplings between directions.
     ///
     /// # Errors
     /// No table; two tables for one pair; a coupling between directions of which one has no table of its own;
     /// a table with fewer than two curves; for [`Kind::Natural`] also stations along z that differ from those
     /// along x.
-    pub fn new(kind: Kind, sheets: &[Sheet]) -> Result<Reading, Error> {
-        let (directions, pairs) = Directions::new(sheets)?;
+    pub fn new(kind: Kind, blocks: &[Sheet]) -> Result<Reading, Error> {
+        let (directions, pairs) = Directions::new(blocks)?;
         let tables = match kind {
-            Kind::Natural => Prepared::Tensor(tensor(&pairs, sheets)?),
-            Kind::Akispl => Prepared::Families(Families::new(pairs, sheets, akima, false)?),
-            Kind::Symmetrised => Prepared::Families(Families::new(pairs, sheets, akima, true)?),
-            Kind::Cubspl => Prepared::Families(Families::new(pairs, sheets, natural, false)?),
+            Kind::Natural => Prepared::Tensor(tensor(&pairs, blocks)?),
+            Kind::Akispl => Prepared::Families(Families::new(pairs, blocks, akima, false)?),
+            Kind::Symmetrised => Prepared::Families(Families::new(pairs, blocks, akima, true)?),
+            Kind::Cubspl => Prepared::Families(Families::new(pairs, blocks, natural, false)?),
         };
         Ok(Reading { kind, directions, tables })
     }

@@ -16,8 +16,8 @@ use crate::surface::Surface;
 /// the clamped element vanishes. With B the matrix that takes values to the values and slopes of their
 /// natural spline, the nodal compliance B T B^T therefore makes their exact surface the tensor spline. Every
 /// direction is a rail of its own.
-pub(super) fn tensor(pairs: &Pairs, sheets: &[Sheet]) -> Result<Surface, Error> {
-    let own = common_stations(pairs, sheets)?;
+pub(super) fn tensor(pairs: &Pairs, blocks: &[Sheet]) -> Result<Surface, Error> {
+    let own = common_stations(pairs, blocks)?;
     let mut cells = Vec::new();
     let mut first = Vec::new();
     let mut states = 0;
@@ -31,7 +31,7 @@ pub(super) fn tensor(pairs: &Pairs, sheets: &[Sheet]) -> Result<Surface, Error> 
         for (j, index) in row.iter().enumerate() {
             let Some(index) = *index else { continue };
             let [left, right] = [i, j].map(|k| values_and_slopes(own[k], [false; 2]));
-            let block = left * sheets[index].table.values() * right.transpose();
+            let block = left * blocks[index].table.values() * right.transpose();
             let block = if i == j { 0.5 * (&block + block.transpose()) } else { block };
             scatter(&mut nodal, [first[i], first[j]], &block);
             if i != j {
