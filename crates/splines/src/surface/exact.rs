@@ -13,7 +13,7 @@ use crate::vector::dot4;
 
 /// Exact influence coefficients at any place of any rail.
 ///
-/// The loaded element with its ends held is superposed with the structure under the forces that hold them:
+/// The loaded element with its ends held is superposed with the structure under the holding forces reversed:
 ///
 /// G(p, q) = N(p) C N(q)^T + \[p and q on one member\] b(p, q),
 ///
