@@ -150,6 +150,18 @@ impl Surface {
                 }
             }
         }
+        self.add_elements(at, rows, out)?;
+        if self.rails.shares_members() {
+            self.add_shared_members(rows, out);
+        }
+        Ok(())
+    }
+
+    /// Adds Green's function between probes in one element and mirrors the values.
+    fn add_elements(&self, at: &[Probe], rows: &[Row], out: &mut Influence) -> Result<(), Error> {
+        let n = at.len();
+        let value = out.value.as_mut_slice();
+        let slope = out.slope.as_mut_slice();
         for j in 0..n {
             let clamped = self.rails.clamped(rows[j].cell);
             for i in j..n {
@@ -167,9 +179,6 @@ impl Surface {
             if !value[j + n * j].is_finite() {
                 return Err(Error::Unstiffened { rail: at[j].rail, x: at[j].x, axis: at[j].axis });
             }
-        }
-        if self.rails.shares_members() {
-            self.add_shared_members(rows, out);
         }
         Ok(())
     }

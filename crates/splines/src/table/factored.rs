@@ -282,15 +282,14 @@ fn coupled_sets(pairs: &Pairs) -> Vec<Vec<usize>> {
     (0..label.len()).map(of).filter(|set| !set.is_empty()).collect()
 }
 
-/// Eigenvalues and curves of the table of one set of coupled directions.
-fn decompose(
+/// The table of all stations of a set of coupled directions, and the index of each direction's first station
+/// in it.
+fn coupled_table(
     set: &[usize],
-    directions: &Directions,
     stations: &[&[f64]],
     pairs: &Pairs,
     blocks: &[Sheet],
-    rank: Rank,
-) -> Factor {
+) -> (DMatrix<f64>, Vec<usize>) {
     let mut first = Vec::new();
     let mut size = 0;
     for &direction in set {
@@ -312,6 +311,20 @@ fn decompose(
             }
         }
     }
+    (table, first)
+}
+
+/// Eigenvalues and curves of the table of one set of coupled directions.
+fn decompose(
+    set: &[usize],
+    directions: &Directions,
+    stations: &[&[f64]],
+    pairs: &Pairs,
+    blocks: &[Sheet],
+    rank: Rank,
+) -> Factor {
+    let (table, first) = coupled_table(set, stations, pairs, blocks);
+    let size = table.nrows();
     let largest = table.amax();
     let eigen = SymmetricEigen::new(table);
     let mut order: Vec<usize> = (0..size).collect();
