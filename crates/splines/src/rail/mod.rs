@@ -16,6 +16,6 @@ mod track;
 
 pub use element::{Carrier, Cell, Flexibility};
 pub(crate) use element::{IDENTITY, LocalPlace};
-pub(crate) use planar::PlanarPlace;
+pub(crate) use planar::{PlanarCubics, PlanarPlace};
 pub use rails::Line;
 pub use row::Row;

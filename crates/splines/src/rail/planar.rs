@@ -41,13 +41,18 @@ impl PlanarCubics {
         Some(PlanarCubics { index: group.index, value, slope })
     }
 
-    /// Values and derivatives by x of all eight at a place.
+    /// Values of all eight at a place.
     #[inline]
-    pub fn at(&self, LocalPlace { end, r }: LocalPlace) -> [[f64; 8]; 2] {
+    pub fn values(&self, LocalPlace { end, r }: LocalPlace) -> [f64; 8] {
         let [a, b, c, d] = &self.value[end];
-        let value = std::array::from_fn(|k| a[k] + r * (b[k] + r * (c[k] + r * d[k])));
+        std::array::from_fn(|k| a[k] + r * (b[k] + r * (c[k] + r * d[k])))
+    }
+
+    /// Derivatives by x of all eight at a place.
+    #[inline]
+    pub fn slopes(&self, LocalPlace { end, r }: LocalPlace) -> [f64; 8] {
         let [a, b, c] = &self.slope[end];
-        [value, std::array::from_fn(|k| a[k] + r * (b[k] + r * c[k]))]
+        std::array::from_fn(|k| a[k] + r * (b[k] + r * c[k]))
     }
 
     /// Second derivatives by x of all eight at a place. `scale` = 1/(extent in x).

@@ -69,6 +69,17 @@ struct AxisCubics {
     planar: Option<PlanarCubics>,
 }
 
+impl AxisCubics {
+    // Kept out of line: it runs once, beside a look-up that runs for every probe.
+    #[cold]
+    #[inline(never)]
+    fn new(element: &Cell, axis: usize) -> AxisCubics {
+        let shapes = ShapeCubics::new(element, axis);
+        let planar = PlanarCubics::new(element, axis, &shapes);
+        AxisCubics { shapes, planar }
+    }
+}
+
 impl Line {
     /// Checks and sorts elements. A rail may have gaps; where two of its elements meet, the one listed first
     /// carries the common place. A gap or overlap below 1e-12 of the rail's largest coordinate counts as
@@ -189,11 +200,7 @@ impl Line {
     }
 
     fn cubics(&self, element: usize, axis: usize) -> &AxisCubics {
-        self.prepared[element].cubics[axis].get_or_init(|| {
-            let shapes = ShapeCubics::new(&self.elements[element], axis);
-            let planar = PlanarCubics::new(&self.elements[element], axis, &shapes);
-            AxisCubics { shapes, planar }
-        })
+        self.prepared[element].cubics[axis].get_or_init(|| AxisCubics::new(&self.elements[element], axis))
     }
 
     /// What bounds of rounding errors at a probe need: [`Line::row`]; for each of its values the sum of the

@@ -140,7 +140,7 @@ impl Track {
     ///
     /// # Errors
     /// No element there.
-    #[inline]
+    #[inline(always)]
     pub fn find(&self, x: f64) -> Result<&Span, Error> {
         let Track { slack, spans, index, .. } = self;
         let after = index.begun(spans, x);

@@ -10,7 +10,7 @@
 use crate::compliance::{Influence, Jet2};
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{Line, PlanarPlace};
+use crate::rail::{Line, LocalPlace, PlanarCubics, PlanarPlace};
 use crate::vector::dot4;
 
 /// A probe with the values and slopes of the cubics of `PlanarCubics` at its place.
@@ -31,9 +31,10 @@ impl PlanarProbe {
         PlanarProbe { who: 0, block: 0, x: 0.0, index: [0; 4], value: [0.0; 8], slope: [0.0; 8] };
 
     #[inline]
-    fn set(&mut self, place: &PlanarPlace<'_>, x: f64) {
-        (self.block, self.x, self.index) = (place.block, x, place.cubics.index);
-        [self.value, self.slope] = place.cubics.at(place.at);
+    fn set(&mut self, cubics: &PlanarCubics, block: usize, x: f64, at: LocalPlace) {
+        (self.block, self.x, self.index) = (block, x, cubics.index);
+        self.value = cubics.values(at);
+        self.slope = cubics.slopes(at);
     }
 
     /// The shape functions alone.
@@ -57,8 +58,8 @@ pub(super) fn fill(
     out: &mut Influence,
 ) -> Result<bool, Error> {
     for (k, (probe, p)) in probes.iter_mut().zip(at).enumerate() {
-        let Some(place) = rails.planar(*p)? else { return Ok(false) };
-        probe.set(&place, p.x);
+        let Some(PlanarPlace { cubics, block, at, .. }) = rails.planar(*p)? else { return Ok(false) };
+        probe.set(cubics, block, p.x, at);
         probe.who = k;
     }
     if !probes.is_sorted_by(|a, b| (a.block, a.x) <= (b.block, b.x)) {
@@ -113,9 +114,11 @@ pub(super) fn derivatives(
     // Each probe with its second derivatives.
     let mut both = [(PlanarProbe::EMPTY, [0.0; 8]); 2];
     for ((probe, second), at) in both.iter_mut().zip([p, q]) {
-        let Some(place) = rails.planar(at)? else { return Ok(None) };
-        probe.set(&place, at.x);
-        *second = place.cubics.second_derivatives(place.at, place.scale);
+        let Some(PlanarPlace { cubics, block, at: local, scale }) = rails.planar(at)? else {
+            return Ok(None);
+        };
+        probe.set(cubics, block, at.x, local);
+        *second = cubics.second_derivatives(local, scale);
         if probe.index.iter().any(|&k| nodal[k * (size + 1)] == f64::INFINITY) {
             return Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis });
         }
