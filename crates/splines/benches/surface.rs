@@ -1,4 +1,5 @@
-//! Influence of wheels on the paper's girder by every reading: one pair with its derivatives, and whole matrices.
+//! Influence coefficients of wheels on the paper's girder by every reading: one pair with its derivatives,
+//! and whole matrices.
 
 #[path = "../tests/beam/mod.rs"]
 mod beam;
@@ -12,14 +13,14 @@ fn main() {
     divan::main();
 }
 
-/// What is measured.
+/// A compliance that is measured.
 #[derive(Clone, Copy, Debug)]
 enum Of {
     Exact,
-    /// A rail above the axis and beside it: every row has twelve entries.
+    /// A rail above the axis and beside it, where every shape row has twelve entries.
     Coupled,
     Natural,
-    /// All five products.
+    /// The factored table with all five products.
     Factored,
     Akispl,
     Symmetrised,
@@ -48,7 +49,7 @@ impl Of {
     }
 }
 
-/// Value, both slopes and three curvatures of one pair.
+/// Value, both slopes and the three second derivatives of one pair.
 #[divan::bench(args = ALL, sample_size = 1000)]
 fn jet(bencher: Bencher<'_, '_>, of: Of) {
     let ready = of.ready();
@@ -56,7 +57,7 @@ fn jet(bencher: Bencher<'_, '_>, of: Of) {
     bencher.bench_local(|| ready.jet(black_box(p), black_box(q)));
 }
 
-/// Values and slopes of n vertical probes, 32 in apart or as close as the span asks.
+/// Values and slopes of n vertical probes, 32 in apart, or closer where the span requires it.
 #[divan::bench(args = ALL, consts = [1, 2, 8, 32, 100], sample_size = 100)]
 fn fill<const N: usize>(bencher: Bencher<'_, '_>, of: Of) {
     let ready = of.ready();

@@ -1,26 +1,37 @@
-//! The one question that contact asks of a structure.
+//! The interface of every compliance: influence coefficients between any set of probes.
 
 use nalgebra::DMatrix;
 
-use crate::{Error, Probe};
+use crate::error::Error;
+use crate::probe::Probe;
 
-/// Influence coefficients of a set of probes, and their slopes along the rail.
+/// Influence coefficients of a set of n probes, and their slopes along the rail.
+///
+/// ```
+/// use splines::Influence;
+///
+/// let out = Influence::zeros(3);
+/// assert_eq!(out.value.shape(), (3, 3));
+/// assert_eq!(out.slope.shape(), (3, 3));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Influence {
-    /// `value[(i, j)]`: displacement at probe i along its axis per unit force at probe j along its axis.
+    /// n x n: `value[(i, j)]` is the displacement at probe i along its axis per unit force at probe j along
+    /// its axis, length/force.
     pub value: DMatrix<f64>,
-    /// `slope[(i, j)]`: derivative of `value[(i, j)]` with respect to the coordinate of probe i.
+    /// n x n: `slope[(i, j)]` is the derivative of `value[(i, j)]` with respect to the coordinate of probe i,
+    /// 1/force.
     pub slope: DMatrix<f64>,
 }
 
 impl Influence {
-    /// Zeros for n probes.
+    /// Matrices of zeros for n probes.
     #[must_use]
     pub fn zeros(n: usize) -> Self {
         Influence { value: DMatrix::zeros(n, n), slope: DMatrix::zeros(n, n) }
     }
 
-    /// Refuses matrices of another size than `n` probes.
+    /// Checks that both matrices are n x n.
     pub(crate) fn expect(&self, n: usize) -> Result<(), Error> {
         for matrix in [&self.value, &self.slope] {
             let (rows, columns) = matrix.shape();
@@ -32,47 +43,93 @@ impl Influence {
     }
 }
 
-/// A structure's give at its rails: displacements per unit force between any set of probes.
+/// Compliance of a structure at its rails: displacements per unit force between any set of probes.
+///
+/// Implementations are [`crate::Surface`] (exact), [`crate::Reading`] and [`crate::Factored`] (tables of
+/// values), [`crate::Parted`] and [`crate::Rest`] (another compliance with something left out). A caller may
+/// write its own:
+///
+/// ```
+/// use splines::{Axis, Compliance, Error, Influence, Probe};
+///
+/// /// Elastic foundation without any beam: only the loaded place moves, by 1/k.
+/// struct Springs {
+///     k: f64,
+/// }
+///
+/// impl Compliance for Springs {
+///     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
+///         out.slope.fill(0.0);
+///         for (i, p) in at.iter().enumerate() {
+///             for (j, q) in at.iter().enumerate() {
+///                 out.value[(i, j)] = if p == q { 1.0 / self.k } else { 0.0 };
+///             }
+///         }
+///         Ok(())
+///     }
+///     fn breaks(&self, _rail: usize) -> Vec<f64> {
+///         Vec::new()
+///     }
+///     fn range(&self, _rail: usize) -> Option<[f64; 2]> {
+///         None
+///     }
+///     fn is_symmetric(&self) -> bool {
+///         true
+///     }
+/// }
+///
+/// let at = [1.0, 2.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
+/// let mut out = Influence::zeros(2);
+/// Springs { k: 4.0 }.fill(&at, &mut out)?;
+/// assert_eq!(out.value[(0, 0)], 0.25);
+/// assert_eq!(out.value[(0, 1)], 0.0);
+/// # Ok::<(), Error>(())
+/// ```
 pub trait Compliance: Send + Sync {
-    /// Fills the n x n `out` (already of that size) for the n probes `at`.
+    /// Writes the coefficients of the n probes `at` into `out`, whose matrices already are n x n.
     ///
     /// # Errors
-    /// A probe beyond its rail, on a rail that does not exist, or in a direction that nothing resists.
+    /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has
+    /// no stiffness; matrices of another size.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error>;
 
-    /// Coordinates along `rail` where slopes of the surface may jump: supports, hinges, stations.
+    /// Coordinates along `rail` where derivatives of the surface may jump (supports, hinges, stations),
+    /// increasing.
     fn breaks(&self, rail: usize) -> Vec<f64>;
 
-    /// First and last coordinate of `rail`; `None` where the rail has no end.
+    /// First and last coordinate of `rail`; `None` where the rail does not exist or has no end.
     fn range(&self, rail: usize) -> Option<[f64; 2]>;
 
-    /// Whether `value[(i, j)]` = `value[(j, i)]` everywhere, Maxwell's law: a solver may then use half of it.
+    /// Whether `value[(i, j)]` = `value[(j, i)]` for all probes (Maxwell's reciprocal theorem). A solver may
+    /// then compute half of the matrix.
     fn is_symmetric(&self) -> bool;
 }
 
-/// Value, slopes and curvatures of G(p, q) at one pair of probes.
+/// Value and partial derivatives of G(p, q), up to the second order, for one pair of probes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Jet2 {
-    /// G(p, q): displacement at p along its axis per unit force at q along its axis.
+    /// G(p, q): displacement at p along its axis per unit force at q along its axis, length/force.
     pub value: f64,
-    /// dG/dp, by the coordinate of p.
+    /// dG/dp, by the coordinate of p, 1/force.
     pub p: f64,
-    /// dG/dq, by the coordinate of q.
+    /// dG/dq, by the coordinate of q, 1/force.
     pub q: f64,
-    /// d2G/dp2.
+    /// d2G/dp2, 1/(force length).
     pub pp: f64,
-    /// d2G/dp dq.
+    /// d2G/dp dq, 1/(force length).
     pub pq: f64,
-    /// d2G/dq2.
+    /// d2G/dq2, 1/(force length).
     pub qq: f64,
 }
 
 impl Jet2 {
-    /// The two places exchanged.
+    /// The derivatives of G(q, p) from those of G(p, q).
+    #[inline]
     pub(crate) fn swapped(self) -> Jet2 {
         Jet2 { value: self.value, p: self.q, q: self.p, pp: self.qq, pq: self.pq, qq: self.pp }
     }
 
+    #[inline]
     pub(crate) fn mean(self, other: Jet2) -> Jet2 {
         Jet2 {
             value: 0.5 * (self.value + other.value),
@@ -83,15 +140,38 @@ impl Jet2 {
             qq: 0.5 * (self.qq + other.qq),
         }
     }
+
+    #[inline]
+    pub(crate) fn scaled(self, factor: f64) -> Jet2 {
+        Jet2 {
+            value: factor * self.value,
+            p: factor * self.p,
+            q: factor * self.q,
+            pp: factor * self.pp,
+            pq: factor * self.pq,
+            qq: factor * self.qq,
+        }
+    }
+
+    #[inline]
+    pub(crate) fn add(&mut self, other: Jet2) {
+        self.value += other.value;
+        self.p += other.p;
+        self.q += other.q;
+        self.pp += other.pp;
+        self.pq += other.pq;
+        self.qq += other.qq;
+    }
 }
 
-/// A give that can be differentiated twice, one pair of probes at a time.
+/// A compliance that can be differentiated twice, one pair of probes at a time.
 pub trait Jets: Compliance {
-    /// Value and derivatives up to the second order.
+    /// Value and partial derivatives up to the second order.
     ///
-    /// `value` and `p` are those of [`Compliance::fill`]. Where a derivative does not exist, the rule is that of
-    /// `fill`: at a kink the mean of both sides, of every derivative; at the end of a cell that of the cell
-    /// which carries the place. What a kink is worth as a pulse (in shear, `pq` under one's own load) is left out.
+    /// `value` and `p` are those of [`Compliance::fill`]. Where a derivative does not exist, the convention
+    /// is that of `fill`: where a slope jumps, every derivative is the mean of both sides; at the end of a
+    /// rail element it is that of the element which carries the place. The delta function that `pq` contains
+    /// where the slope jumps under one's own load (in shear, torsion and axially) is left out.
     ///
     /// # Errors
     /// As [`Compliance::fill`].

@@ -1,26 +1,34 @@
-//! What can go wrong along a rail.
+//! Everything that this crate refuses, with the index or number that is at fault.
 
-use crate::Axis;
+use crate::probe::Axis;
 
-/// Errors of this crate: ids and numbers; the caller knows the names and files.
+/// Errors of this crate. They carry indices and numbers; the caller knows the names and the files.
+///
+/// ```
+/// use splines::{Error, akima};
+///
+/// let refused = akima(&[0.0, 2.0, 1.0], &[0.0; 3]).expect_err("x decreases");
+/// assert_eq!(refused, Error::PointOrder { index: 2 });
+/// assert_eq!(refused.to_string(), "point 2 does not lie beyond the one before it");
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A rail index that no cell has.
+    /// No rail element has this rail index.
     #[error("rail {rail} does not exist")]
     NoRail {
         /// The index asked for.
         rail: usize,
     },
-    /// A coordinate that no cell of the rail covers.
-    #[error("rail {rail} has no cell at x = {x}")]
+    /// A coordinate that no element of the rail covers.
+    #[error("rail {rail} has no element at x = {x}")]
     OffRail {
         /// Which rail.
         rail: usize,
         /// The coordinate asked for.
         x: f64,
     },
-    /// A direction in which the structure has no stiffness there.
-    #[error("nothing resists a {axis:?} force on rail {rail} at x = {x}")]
+    /// A direction in which the structure has no stiffness at the probe.
+    #[error("the structure has no {axis:?} stiffness on rail {rail} at x = {x}")]
     Unstiffened {
         /// Which rail.
         rail: usize,
@@ -29,71 +37,71 @@ pub enum Error {
         /// The direction asked for.
         axis: Axis,
     },
-    /// A line without cells.
-    #[error("a line needs at least one cell")]
+    /// Rails without any element.
+    #[error("rails need at least one element")]
     NoCells,
-    /// A coordinate or offset that is not finite, or a state index beyond all reason.
-    #[error("cell {cell} has a number that cannot be used")]
+    /// A coordinate or offset that is not finite, or a node state index above `u32::MAX`.
+    #[error("rail element {cell} has a coordinate, an offset or a state index that cannot be used")]
     CellNumber {
-        /// Index of the cell.
+        /// Index of the element.
         cell: usize,
     },
-    /// Coordinates that do not increase.
-    #[error("cell {cell} runs from x = {} to {}", x[0], x[1])]
+    /// Coordinates of an element that do not increase.
+    #[error("rail element {cell} runs from x = {} to {}", x[0], x[1])]
     CellExtent {
-        /// Index of the cell.
+        /// Index of the element.
         cell: usize,
-        /// Its coordinates.
+        /// Its first and last coordinate.
         x: [f64; 2],
     },
     /// A length that is not positive.
-    #[error("cell {cell} has length {length}")]
+    #[error("rail element {cell} has length {length}")]
     CellLength {
-        /// Index of the cell.
+        /// Index of the element.
         cell: usize,
         /// Its length.
         length: f64,
     },
     /// A frame that is not a rotation.
-    #[error("the frame of cell {cell} is not a rotation")]
+    #[error("the frame of rail element {cell} is not a rotation")]
     CellFrame {
-        /// Index of the cell.
+        /// Index of the element.
         cell: usize,
     },
-    /// A negative flexibility, or one that is not a number.
-    #[error("cell {cell} has a negative flexibility")]
+    /// A flexibility that is negative or not a number.
+    #[error("rail element {cell} has a flexibility that is negative or not a number")]
     CellFlexibility {
-        /// Index of the cell.
+        /// Index of the element.
         cell: usize,
     },
-    /// Cells of one member that differ in length or flexibility.
-    #[error("cells {first} and {second} of one member differ in length or flexibility")]
+    /// Elements of one member that differ in length or flexibility.
+    #[error("rail elements {first} and {second} of one member differ in length or flexibility")]
     CellCarrier {
-        /// Index of the first cell of the member.
+        /// Index of the first element of the member.
         first: usize,
-        /// Index of the cell that differs.
+        /// Index of the element that differs.
         second: usize,
     },
-    /// Two cells that claim the same place.
-    #[error("cells {first} and {second} of rail {rail} overlap at x = {x}")]
+    /// Two elements of one rail that cover the same place.
+    #[error("rail elements {first} and {second} of rail {rail} overlap at x = {x}")]
     Overlap {
         /// Which rail.
         rail: usize,
-        /// Index of the cell that begins earlier.
+        /// Index of the element that begins earlier.
         first: usize,
-        /// Index of the cell that begins later.
+        /// Index of the element that begins later.
         second: usize,
-        /// Where the later one begins.
+        /// Coordinate at which the later one begins.
         x: f64,
     },
-    /// A nodal compliance that does not fit the states.
+    /// A nodal compliance whose size does not fit the number of node states.
     #[error("nodal compliance is {rows} x {columns}, expected {expected} x {expected}")]
     NodalShape {
         /// Rows given.
         rows: usize,
         /// Columns given.
         columns: usize,
-        /// Six freedoms a state.
+        /// Six degrees of freedom for each node state.
         expected: usize,
     },
     /// An entry of a nodal compliance that is not a number, or infinite off the diagonal.
@@ -104,23 +112,23 @@ pub enum Error {
         /// Column of the entry.
         column: usize,
     },
-    /// Effects of another shape than what they belong to.
+    /// A matrix of effects whose size fits neither the sections nor the node states.
     #[error("effects are {rows} x {columns}, expected {} x {}", expected[0], expected[1])]
     EffectShape {
         /// Rows given.
         rows: usize,
         /// Columns given.
         columns: usize,
-        /// Effects, and six freedoms a state.
+        /// Number of effects, and six degrees of freedom for each node state.
         expected: [usize; 2],
     },
-    /// An effect with a number that cannot be used.
-    #[error("effect {effect} has a number that cannot be used")]
+    /// An effect with an entry that is not a number, or with a section outside its member.
+    #[error("effect {effect} has an entry that is not a number or a section outside 0 to 1")]
     EffectNumber {
         /// Index of the effect.
         effect: usize,
     },
-    /// An influence matrix of another size than the probes.
+    /// An influence matrix whose size is not the number of probes.
     #[error("influence matrices are {rows} x {columns}, expected {expected} x {expected}")]
     OutputShape {
         /// Rows given.
@@ -130,7 +138,7 @@ pub enum Error {
         /// Number of probes.
         expected: usize,
     },
-    /// Not as many y as x.
+    /// Numbers of x and y values that differ.
     #[error("{x} x values, {y} y values")]
     PointCount {
         /// x values given.
@@ -143,29 +151,29 @@ pub enum Error {
     Points {
         /// Points given.
         found: usize,
-        /// Fewest that will do.
+        /// Fewest allowed.
         least: usize,
     },
-    /// A point that is not finite.
+    /// A point with a coordinate or value that is not finite.
     #[error("point {index} is not finite")]
     PointNumber {
         /// Which point, from 0.
         index: usize,
     },
-    /// Coordinates that do not increase.
+    /// Point coordinates that do not increase.
     #[error("point {index} does not lie beyond the one before it")]
     PointOrder {
         /// Which point, from 0.
         index: usize,
     },
-    /// A table whose values do not fit its stations.
+    /// A table whose matrix of values does not fit its stations.
     #[error("table is {rows} x {columns}, expected {} x {}", expected[0], expected[1])]
     TableShape {
         /// Rows given.
         rows: usize,
         /// Columns given.
         columns: usize,
-        /// Curves, and values a curve.
+        /// Number of curves, and number of values of each.
         expected: [usize; 2],
     },
     /// A table entry that is not finite.
@@ -176,16 +184,16 @@ pub enum Error {
         /// Column of the entry.
         column: usize,
     },
-    /// A reading without tables.
+    /// A table reading without tables.
     #[error("a reading needs at least one table")]
     NoSheets,
-    /// A coupling between directions that have no table of their own.
+    /// A coupling between directions of which one has no table of its own.
     #[error("table {sheet} couples a direction that has no table of its own")]
     SheetAlone {
         /// Which table, from 0.
         sheet: usize,
     },
-    /// A second table for the same pair of directions.
+    /// A second table for the same pair of directions, or for the opposite pair.
     #[error("table {sheet} repeats the directions of another")]
     SheetTwice {
         /// Which table, from 0.
@@ -197,29 +205,29 @@ pub enum Error {
         /// Which table, from 0.
         sheet: usize,
     },
-    /// A coefficient that is infinite or not a number.
+    /// An influence coefficient that is infinite or not a number.
     #[error("no finite coefficient for a load at {x} and a deflection at {z}")]
     Coefficient {
-        /// Where the load stands.
+        /// Coordinate of the load.
         x: f64,
-        /// Where the deflection is taken.
+        /// Coordinate at which the deflection is taken.
         z: f64,
     },
-    /// A tolerance that no number of stations meets, up to the most allowed.
-    #[error("{most} stations give an error of {error:e}, more than asked")]
+    /// The tolerance is not reached with the largest number of stations allowed.
+    #[error("{most} stations give an error of {error:e}, which exceeds the tolerance")]
     Stations {
-        /// The most stations allowed.
+        /// Largest number of stations allowed.
         most: usize,
-        /// Their relative error.
+        /// Relative error with that many.
         error: f64,
     },
-    /// A tolerance that is negative or not a number.
-    #[error("tolerance {tolerance} is not a positive number")]
+    /// A tolerance that is negative, infinite or not a number.
+    #[error("tolerance {tolerance} is not a finite number of zero or more")]
     Tolerance {
-        /// What was given.
+        /// The tolerance given.
         tolerance: f64,
     },
-    /// A table that belongs to no uniform beam on knife edges at its stations.
-    #[error("table belongs to no uniform beam on knife edges at its stations")]
+    /// A table that no uniform beam with supports at its stations can have.
+    #[error("the table fits no uniform beam with supports at its stations")]
     Unliftable,
 }

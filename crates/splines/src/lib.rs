@@ -1,48 +1,66 @@
-//! Functions along a rail: cells, lines, compliance surfaces, table readings.
+//! Functions along a rail: how far it deflects at one place under a force at another.
 //!
-//! The bottom of the workspace: knows no file system, no unit, and no other crate of ours.
+//! The central object is a [`Compliance`]: influence coefficients G(p, q) between any [`Probe`]s, with their
+//! slopes. A [`Surface`] gives them exactly from rail elements and the compliance of their node states; a
+//! [`Reading`] or a [`Factored`] table interpolates tables of values, as ADAMS does or better; [`quality`]
+//! measures what a reading of a table costs. Displacements and forces are positive along +x, up and +z of the
+//! rail; units are those of the caller.
+//!
+//! ```
+//! use nalgebra::DMatrix;
+//! use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet, Table, lift};
+//!
+//! // Deflections of a simply supported beam of length 4 with 1/EI = 1, tabulated at five stations.
+//! let x: Vec<f64> = (0..5).map(f64::from).collect();
+//! let exact = |z: f64, x: f64| {
+//!     let (a, b) = (z.min(x), 4.0 - z.max(x));
+//!     a * b * (16.0 - a * a - b * b) / 24.0
+//! };
+//! let table = Table::new(x.clone(), x.clone(), DMatrix::from_fn(5, 5, |i, j| exact(x[i], x[j])))?;
+//!
+//! // Two wheels between the stations, read as ADAMS would, and exactly by fitting the beam behind the table.
+//! let wheels = [1.3, 1.8].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
+//! let vertical = (0, Axis::Vertical);
+//! let block = Sheet { deflection: vertical, load: vertical, table: table.clone() };
+//! let (mut adams, mut beam) = (Influence::zeros(2), Influence::zeros(2));
+//! Reading::new(Kind::Akispl, &[block])?.fill(&wheels, &mut adams)?;
+//! lift(0, &table)?.surface.fill(&wheels, &mut beam)?;
+//! assert!((beam.value[(0, 1)] - exact(1.3, 1.8)).abs() < 1e-13);
+//! assert!((adams.value[(0, 1)] - exact(1.3, 1.8)).abs() > 1e-2);
+//! assert_eq!(beam.value[(0, 1)], beam.value[(1, 0)]);
+//! # Ok::<(), splines::Error>(())
+//! ```
+//!
+//! This is the bottom of the workspace: it reads no file, knows no unit, and depends on no other crate of
+//! ours.
+//!
+//! # Wings
+//! In this order; a file imports nothing of a later wing. The order is kept by `tests/wings.rs`.
+//! 1. `vector`, `probe`, `error`, `compliance`: products of small vectors, places, errors, and the interface
+//!    of every compliance.
+//! 2. `curve`: piecewise cubics in one variable.
+//! 3. `rail`: rail elements, their shape functions and Green's function, rails.
+//! 4. `surface`: exact compliance and what follows from it: influence lines, residual flexibility, uncoupled
+//!    rails.
+//! 5. `table`: tables of values, their readings, the beam behind a table.
+//! 6. [`quality`]: errors of readings, their asymmetry and indefiniteness, the fewest stations.
 
-pub mod akima;
-pub mod cell;
-pub mod check;
-pub mod compliance;
-pub mod cubic;
-pub mod curve;
-pub mod effect;
-pub mod error;
-pub mod factored;
-mod family;
-mod kernel;
-mod lean;
-pub mod lift;
-pub mod line;
-pub mod parted;
-pub mod probe;
-pub mod reading;
-pub mod rest;
-pub mod row;
-pub mod sheet;
-pub mod stations;
-pub mod surface;
-pub mod table;
-mod tensor;
+mod compliance;
+mod curve;
+mod error;
+mod probe;
+pub mod quality;
+mod rail;
+mod surface;
+mod table;
+mod vector;
 
-pub use akima::akima;
-pub use cell::{Carrier, Cell, Flexibility};
 pub use compliance::{Compliance, Influence, Jet2, Jets};
-pub use cubic::natural;
-pub use curve::{Curve, Jet};
-pub use effect::{Component, Effects, Section};
+pub use curve::{Curve, Jet, akima, natural};
 pub use error::Error;
-pub use factored::{Curves, Factor, Factored, Rank};
-pub use lift::{Lift, lift};
-pub use line::Line;
-pub use parted::{Couplings, Parted};
 pub use probe::{Axis, Probe};
-pub use reading::{Kind, Reading};
-pub use rest::{Rest, Shapes};
-pub use row::Row;
-pub use sheet::Sheet;
-pub use stations::{Search, Stations, stations};
-pub use surface::Surface;
-pub use table::Table;
+pub use quality as check;
+pub use quality::{Search, Stations, stations};
+pub use rail::{Carrier, Cell, Flexibility, Line, Row};
+pub use surface::{Component, Couplings, Effects, Parted, Rest, Section, Shapes, Surface};
+pub use table::{Curves, Factor, Factored, Kind, Lift, Rank, Reading, Sheet, Table, lift};

@@ -1,6 +1,14 @@
-//! Where on a rail, and in which direction, one contact force acts.
+//! Where on a rail, and in which direction, a force acts or a displacement is measured.
 
-/// Direction of a rail frame: x along the rail, y up, z = x cross y (to the right when looking along x).
+/// Direction in the frame of a rail: x along the rail, y up, z = x cross y (to the right when looking along
+/// +x).
+///
+/// ```
+/// use splines::Axis;
+///
+/// assert_eq!(Axis::ALL.map(Axis::component), [0, 1, 2]);
+/// assert!(Axis::Longitudinal < Axis::Lateral);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Axis {
     /// Along the rail, +x.
@@ -15,7 +23,7 @@ impl Axis {
     /// All three, in the order x, y, z.
     pub const ALL: [Axis; 3] = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral];
 
-    /// Component of a vector in the rail frame: 0, 1 or 2.
+    /// Index of the component of a vector in the rail frame: 0, 1 or 2.
     #[must_use]
     pub const fn component(self) -> usize {
         match self {
@@ -26,12 +34,22 @@ impl Axis {
     }
 }
 
-/// A place on a rail and a direction: one row or column of an influence matrix.
+/// A place on a rail and a direction: one row and one column of an influence matrix.
+///
+/// ```
+/// use splines::{Axis, Probe};
+///
+/// // The vertical force of a wheel that stands 12.5 ft along the first rail.
+/// let wheel = Probe { rail: 0, x: 12.5, axis: Axis::Vertical };
+/// // The lateral force of the same wheel's flange.
+/// let flange = Probe { axis: Axis::Lateral, ..wheel };
+/// assert_eq!(flange.x, wheel.x);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Probe {
-    /// Which rail.
+    /// Index of the rail.
     pub rail: usize,
-    /// Coordinate along the rail.
+    /// Coordinate along the rail, length.
     pub x: f64,
     /// Direction of the force and of the displacement.
     pub axis: Axis,

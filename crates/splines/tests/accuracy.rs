@@ -13,7 +13,8 @@ use splines::{
 
 const UP: (usize, Axis) = (0, Axis::Vertical);
 
-/// Places, overhangs included: each cell of n stations cut into at least eight parts, the whole into at least 300.
+/// Places, overhangs included: each interval between stations in at least eight parts, the whole in at least
+/// 300.
 fn places(n: usize) -> Vec<f64> {
     let parts = (n - 1) * 2 * (300 / (n - 1)).div_ceil(2).max(4);
     (0..=parts).map(|k| -15.0 + 90.0 * k as f64 / parts as f64).collect()
@@ -49,14 +50,14 @@ fn both_akima(table: &Table, places: &[f64]) -> DMatrix<f64> {
     out
 }
 
-/// Values and slopes of the states by cubic shapes, without what the loaded cell adds.
+/// Values and slopes of the node states by cubic shapes, without Green's function of the loaded element.
 fn hermite(beam: &Beam, stations: &[f64]) -> Surface {
     let exact = beam.surface(stations);
     let line = Line::new(chain(stations, [0.0; 3], Flexibility::default())).expect("valid cells");
     Surface::new(Arc::new(line), exact.nodal().clone()).expect("fits")
 }
 
-/// Stations of the study, and a reading's largest errors at them, of the largest entry.
+/// Stations of the study, and the largest errors of a reading with them, relative to the largest entry.
 const NUMBERS: [usize; 5] = [7, 13, 19, 37, 73];
 
 fn errors(at: impl Fn(&Table, &[f64], usize) -> DMatrix<f64>) -> [f64; 5] {
@@ -105,7 +106,7 @@ fn akima_along_both_directions_errs_less_but_is_not_symmetric() {
         0.05,
         "the error peaks between the places that the prototype looked at; ours cut each cell into eight, and finer ones change nothing",
     );
-    // twice as many places find no more of it
+    // Twice as many places give no larger error.
     let beam = Beam::paper();
     let finer: Vec<f64> = (0..=72 * 16).map(|k| -15.0 + 90.0 * f64::from(k) / (72.0 * 16.0)).collect();
     let exact = grid(&beam.surface(&[-15.0, 0.0, 60.0, 75.0]), &finer);
@@ -137,7 +138,7 @@ fn natural_and_factored_readings_err_by_the_cube_of_the_distance() {
     }
 }
 
-/// Regression: along x exact to the natural spline's order, along z as AKISPL.
+/// Regression: along x the order of the natural spline, along z that of AKISPL.
 #[test]
 fn cubspl_errs_as_much_as_akispl() {
     let found = errors(|table, places, _| grid(&read(Kind::Cubspl, table.clone()), places));
@@ -147,7 +148,8 @@ fn cubspl_errs_as_much_as_akispl() {
     assert!((order(&found) - 2.0).abs() < 0.05);
 }
 
-/// Analytic: without the kernel of the loaded cell, cubic shapes are too stiff by it, at most h^3/(192 EI).
+/// Analytic: without Green's function of the loaded element, cubic shapes are too stiff by it, at most
+/// h^3/(192 EI).
 #[test]
 fn cubic_shapes_without_kernel_are_too_stiff_by_it() {
     let beam = Beam::paper();

@@ -1,4 +1,4 @@
-//! Several rails on one member, and effects of their loads (analytic).
+//! Several rails on one member, and influence lines of their loads, against closed forms.
 
 mod beam;
 
@@ -13,7 +13,7 @@ use splines::{
 
 const LENGTH: f64 = 10.0;
 
-/// A stretch of rail over a member of 10 that bends, shears, twists and stretches.
+/// A rail element on a member of length 10 that is flexible in bending, shear, torsion and axially.
 fn cell(rail: usize, ends: [usize; 2], offset: [f64; 3]) -> Cell {
     Cell {
         rail,
@@ -34,13 +34,13 @@ fn cell(rail: usize, ends: [usize; 2], offset: [f64; 3]) -> Cell {
     }
 }
 
-/// The same stretch seen from its other end: x runs from it, y up, z to the other side.
+/// The same element seen from its other end: x starts there, y points up, z to the other side.
 fn turned(cell: &Cell) -> Cell {
     let [x, y, z] = cell.offset;
     Cell { offset: [-x, y, -z], carrier: Some(Carrier { member: 4, reversed: true }), ..cell.clone() }
 }
 
-/// Both ends of every cell held.
+/// Both ends of every element are held.
 fn clamped(cells: Vec<Cell>) -> Surface {
     let line = Line::new(cells).expect("sound cells");
     let size = 6 * line.states();
@@ -99,9 +99,10 @@ fn a_rail_read_backwards_is_the_same_rail() {
     assert!(mixed.value == mixed.value.transpose());
 }
 
-/// Identity: a lone cell whose member runs against it is the same cell, in plane bending too (the short way).
+/// Identity: a single element whose member runs against it gives the same surface, in plane bending too (the
+/// fast path).
 #[test]
-fn a_member_that_runs_against_its_only_cell_changes_nothing() {
+fn a_member_that_runs_against_its_only_element_changes_nothing() {
     let own = cell(0, [0, 1], [0.0; 3]);
     let back = Cell { carrier: Some(Carrier { member: 4, reversed: true }), ..own.clone() };
     let at: Vec<Probe> = probes(0, &PLACES).into_iter().filter(|p| p.axis == Axis::Vertical).collect();
@@ -116,7 +117,7 @@ fn a_member_that_runs_against_its_only_cell_changes_nothing() {
 
 /// Identity: second derivatives keep their sign when a rail is read backwards, slopes change it.
 #[test]
-fn jets_of_a_rail_read_backwards_turn_their_slopes_alone() {
+fn derivatives_of_a_rail_read_backwards_change_the_sign_of_slopes_alone() {
     let first = cell(0, [0, 1], [0.2, 0.9, 0.4]);
     let second = Cell { rail: 1, ends: [2, 3], ..turned(&first) };
     let both = clamped(vec![first, second]);
@@ -141,7 +142,7 @@ fn jets_of_a_rail_read_backwards_turn_their_slopes_alone() {
 }
 
 #[test]
-fn cells_of_other_members_do_not_feel_the_load() {
+fn elements_of_other_members_are_independent_of_the_load() {
     let mut other = cell(1, [2, 3], [0.0; 3]);
     for carrier in [None, Some(Carrier { member: 5, reversed: false })] {
         other.carrier = carrier;
@@ -153,7 +154,7 @@ fn cells_of_other_members_do_not_feel_the_load() {
 }
 
 #[test]
-fn cells_of_one_member_that_differ_are_refused() {
+fn elements_of_one_member_that_differ_are_refused() {
     let good = cell(0, [0, 1], [0.0; 3]);
     let longer = Cell { rail: 1, length: 11.0, ..good.clone() };
     let softer = Cell { rail: 1, flexibility: Flexibility::default(), ..good.clone() };
@@ -163,7 +164,8 @@ fn cells_of_one_member_that_differ_are_refused() {
     }
 }
 
-/// What the clamped member carries at a section: with ends held, `ends` is minus the balance on its first end.
+/// Internal force of the clamped member at a section: with ends held, `ends` is minus the balance on the
+/// first end.
 fn held(line: Line, place: f64, component: Component) -> Effects {
     let balance = component.balance(place * LENGTH);
     let ends = std::array::from_fn(|k| if k < 6 { -balance[k] } else { 0.0 });
@@ -192,7 +194,7 @@ fn clamped_member_carries_fixed_end_moments_and_shears() {
             let (moment, shear) = (a * b * b / 1e2, b * b * (3.0 * a + b) / 1e3);
             assert!((read(Component::BendingZ, 0.0, probe) - moment).abs() < 1e-13);
             assert!((read(Component::ShearY, 0.0, probe) - shear).abs() < 1e-13);
-            // Beyond the load the shear has fallen by it; at it, by half.
+            // Beyond the load the shear is smaller by the load; at the load, by half of it.
             assert!((read(Component::ShearY, 1.0, probe) - shear + 1.0).abs() < 1e-13);
             assert!((read(Component::ShearY, a / LENGTH, probe) - shear + 0.5).abs() < 1e-13);
             let far = a * a * b / 1e2;

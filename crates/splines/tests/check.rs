@@ -1,11 +1,11 @@
-//! What readings of a table cost, against figures measured on independent prototypes and closed forms.
+//! Quality of readings of a table, against figures of independent prototypes and closed forms.
 
 mod beam;
 
 use beam::printed::{STATIONS, VERTICAL, table};
 use beam::{Beam, Random, read, tabulate};
 use nalgebra::DMatrix;
-use splines::check::{
+use splines::quality::{
     Strip, asymmetry, beyond, deviation, diagonal_kinks, digits, indefinite_share, kinks, pair_kinks, places,
     spectrum, station_asymmetry, station_spectrum, supports, weakest_layouts, work,
 };
@@ -33,9 +33,10 @@ fn close(found: f64, asked: f64, tolerance: f64) {
     assert!((found / asked - 1.0).abs() < tolerance, "found {found:e}, asked {asked:e}");
 }
 
-/// Regression, measured first on an independent prototype (printed table, wheels 32 in apart, P = 2.4e6 lb): 30 789 ft lb
-/// a loop near x = 15 ft, 2.4 percent of what the bogie stores at midspan. The prototype took the largest of samples; the
-/// peak is sharp, 0.13 percent higher, and at 15 ft to the last bit. From the other end it is the same.
+/// Regression, measured first on an independent prototype (printed table, wheels 32 in apart, P = 2.4e6 lb):
+/// 30 789 ft lb a loop near x = 15 ft, 2.4 percent of the energy that the bogie stores at midspan. The
+/// prototype took the largest of samples; the peak is sharp, 0.13 percent higher, and at 15 ft to the last
+/// bit. From the other end it is the same.
 #[test]
 fn closed_loop_of_forces_on_the_printed_table_gives_the_measured_work() {
     let reading = printed(Kind::Akispl);
@@ -85,7 +86,7 @@ fn slope_under_a_wheel_jumps_at_stations_as_measured() {
     }
 }
 
-/// A pair meets a station twice; the jumps of its mean are those that one-sided differences show.
+/// A pair passes every station twice; the jumps of its mean agree with one-sided differences.
 #[test]
 fn pair_of_wheels_meets_every_station_twice() {
     let reading = printed(Kind::Akispl);
@@ -110,9 +111,9 @@ fn kinks_are_exact_for_polynomials() {
     assert!((found[0].before - 6.0).abs() < 1e-12 && (found[0].beyond + 2.0).abs() < 1e-11, "{found:?}");
 }
 
-/// Regression, measured first on an independent prototype (rows of the printed table continued by 5 ft).
+/// Regression, measured first on an independent prototype (rows of the printed table extrapolated by 5 ft).
 #[test]
-fn rules_beyond_the_table_spread_as_measured() {
+fn rules_of_extrapolation_differ_as_measured() {
     let rows = beyond(&table(&VERTICAL), 80.0).expect("rows of a table");
     let last = rows[6];
     assert_eq!((last.z, last.x), (75.0, 80.0));
@@ -130,8 +131,9 @@ fn rules_beyond_the_table_spread_as_measured() {
     assert!(beyond(&table(&VERTICAL), 75.0).expect("on the table").is_empty());
 }
 
-/// Regression, measured first on an independent prototype: shares of random wheel sets with an indefinite symmetric
-/// part; k beyond 8e8 lb/ft is lost with 16 random wheels, so a searched layout must lose it earlier.
+/// Regression, measured first on an independent prototype: fractions of random wheel sets with an indefinite
+/// symmetric part; with 16 random wheels definiteness is lost above k = 8e8 lb/ft, so that a searched layout
+/// loses it earlier.
 #[test]
 fn akispl_is_indefinite_for_as_many_layouts_as_measured() {
     let reading = printed(Kind::Akispl);
@@ -146,7 +148,8 @@ fn akispl_is_indefinite_for_as_many_layouts_as_measured() {
     assert!(found.smallest < -1.2e-9 && found.stiffness.is_some_and(|k| k < 8e8), "{found:?}");
 }
 
-/// The stiffness told is the border: Cholesky's factor exists below it and not above, and no random layout is weaker.
+/// The stiffness found is the limit: the Cholesky factor exists below it and not above, and no random layout
+/// has a lower one.
 #[test]
 fn stiffness_found_is_where_definiteness_ends() {
     let reading = printed(Kind::Akispl);
@@ -175,8 +178,8 @@ fn stiffness_found_is_where_definiteness_ends() {
     }
 }
 
-/// Regression, measured first on an independent prototype: AKISPL 6.6 percent at 7 stations, CUBSPL 8 percent in the
-/// span; independently computed: 9.19e-8 in place of 9.93e-8 ft/lb under a wheel at 23.5 ft.
+/// Regression, measured first on an independent prototype: AKISPL 6.6 percent at 7 stations, CUBSPL 8 percent
+/// in the span; independently computed: 9.19e-8 instead of 9.93e-8 ft/lb under a wheel at 23.5 ft.
 #[test]
 fn deviations_are_those_measured_with_their_places() {
     let beam = Beam::paper();

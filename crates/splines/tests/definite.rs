@@ -1,4 +1,4 @@
-//! Which readings of the printed table give matrices that no structure has.
+//! Readings of the printed table whose influence matrices are indefinite, which those of a structure are not.
 
 mod beam;
 
@@ -6,7 +6,8 @@ use beam::printed::{VERTICAL, table};
 use beam::{Random, probe, read};
 use splines::{Axis, Compliance, Influence, Kind, Probe};
 
-/// Share of random sets of n wheels, overhangs included, whose symmetric part is indefinite; least eigenvalue.
+/// Fraction of random sets of n wheels, overhangs included, whose symmetric part is indefinite; smallest
+/// eigenvalue.
 fn indefinite(kind: Kind, n: usize, sets: usize) -> (f64, f64) {
     let reading = read(kind, table(&VERTICAL));
     let mut random = Random::new(61);
@@ -23,8 +24,8 @@ fn indefinite(kind: Kind, n: usize, sets: usize) -> (f64, f64) {
     (found as f64 / sets as f64, worst)
 }
 
-/// External: an independent prototype found 12 %, 72 %, all and all, and -1.2e-9 ft/lb at worst with 16 wheels.
-/// The symmetrised reading has the same symmetric part.
+/// External: an independent prototype found 12 %, 72 %, all and all, and -1.2e-9 ft/lb at worst with 16
+/// wheels. The symmetrised reading has the same symmetric part.
 #[test]
 fn akispl_of_the_printed_table_is_mostly_indefinite() {
     for (n, expected) in [(2, 0.12), (4, 0.72), (8, 1.0), (16, 1.0)] {
@@ -35,7 +36,7 @@ fn akispl_of_the_printed_table_is_mostly_indefinite() {
     }
 }
 
-/// Identity: the natural reading of the same table never is, though the table is rounded.
+/// Identity: the natural reading of the same table is never indefinite, although the table is rounded.
 #[test]
 fn natural_reading_of_the_printed_table_is_never_indefinite() {
     for n in [2, 4, 8, 16] {
@@ -43,8 +44,8 @@ fn natural_reading_of_the_printed_table_is_never_indefinite() {
     }
 }
 
-/// External: at worst -4.5e-12 ft/lb for two wheels 32 in apart, nothing for wheels of 1e8 lb/ft. Regression: on
-/// 43 % of the span (37 % were counted elsewhere, with a threshold that is not known).
+/// External: at worst -4.5e-12 ft/lb for two wheels 32 in apart, nothing for wheels of 1e8 lb/ft. Regression:
+/// on 43 % of the span (37 % were counted elsewhere, with a threshold that is not known).
 #[test]
 fn a_bogie_meets_indefinite_matrices_on_much_of_the_span() {
     let reading = read(Kind::Akispl, table(&VERTICAL));

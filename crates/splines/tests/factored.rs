@@ -61,7 +61,7 @@ fn a_tolerance_keeps_every_station_within_it() {
     assert!(matches!(bad, Err(Error::Tolerance { .. })));
 }
 
-/// A printed table of a mixed sign: what no structure has is dropped and reported.
+/// A printed table with a negative eigenvalue, which no structure has: it is dropped and reported.
 #[test]
 fn negative_eigenvalues_are_dropped_and_reported() {
     let mut values = tabulate(&Beam::paper(), &STATIONS).values().clone();
@@ -74,7 +74,7 @@ fn negative_eigenvalues_are_dropped_and_reported() {
     assert!((worst / -1e-8 - 1.0).abs() < 1e-9, "{worst:e}");
 }
 
-/// Identity: coupled directions share their products, uncoupled ones have their own.
+/// Identity: coupled directions share their products; uncoupled ones have products of their own.
 #[test]
 fn couplings_share_their_curves() {
     let other = (1, Axis::Vertical);

@@ -1,4 +1,4 @@
-//! Slopes and curvatures along both arguments, of everything that can be differentiated.
+//! First and second derivatives by both places, of every compliance that has them.
 
 mod beam;
 
@@ -18,8 +18,8 @@ fn along(p: Probe, step: f64) -> Probe {
     Probe { x: p.x + step, ..p }
 }
 
-/// Largest difference of each derivative from the central difference of the one below it, in terms of `scale`
-/// over powers of a foot; and of the value and slope from those of `fill`.
+/// Largest difference of each derivative from the central difference of the next lower one, relative to
+/// `scale` over powers of a foot; and of value and slope from those of `fill`.
 fn defects(of: &dyn Jets, p: Probe, q: Probe) -> [f64; 7] {
     let h = 1e-3;
     let got = jet(of, p, q);
@@ -72,7 +72,7 @@ fn swapped(j: Jet2) -> Jet2 {
     Jet2 { value: j.value, p: j.q, q: j.p, pp: j.qq, pq: j.pq, qq: j.pp }
 }
 
-/// Analytic: within a cell, across cells, at stations, on the diagonal.
+/// Analytic: within an element, across elements, at stations, on the diagonal.
 #[test]
 fn surface_has_the_closed_derivatives_of_a_simple_beam() {
     let beam = Beam::paper();
@@ -91,9 +91,9 @@ fn surface_has_the_closed_derivatives_of_a_simple_beam() {
 }
 
 /// Analytic: in shear alone G = g a (L - c)/L: a kink under one's own load, the mean of both slopes, and a
-/// mixed derivative of -g/L beside its pulse.
+/// mixed derivative of -g/L beside its delta function.
 #[test]
-fn shear_kinks_under_its_own_load() {
+fn slope_in_shear_jumps_under_its_own_load() {
     let beam = Beam { c: 0.0, g: 2e-9, supports: vec![0.0, 60.0] };
     let surface = beam.surface(&[0.0, 20.0, 60.0]);
     for (p, q) in [(10.0, 40.0), (40.0, 10.0), (25.0, 31.0), (33.0, 33.0), (7.0, 7.0)] {
@@ -114,7 +114,8 @@ fn shear_kinks_under_its_own_load() {
     }
 }
 
-/// Differences: bending, shear, several spans; a rail off both planes of a leaning girder, all nine pairs of axes.
+/// Differences: bending, shear, several spans; a rail outside both planes of an inclined girder, all nine
+/// pairs of axes.
 #[test]
 fn surfaces_have_the_derivatives_of_their_values() {
     let spans = Beam { c: 1.0 / EI, g: 2.5e-9, supports: vec![0.0, 20.0, 65.0, 100.0] };
@@ -181,9 +182,9 @@ fn readings_have_the_derivatives_of_their_values() {
     }
 }
 
-/// The rule at stations: each derivative is the mean of its limits from both sides.
+/// The convention at stations: each derivative is the mean of its limits from both sides.
 #[test]
-fn kinks_at_stations_give_the_mean_of_both_sides() {
+fn derivatives_at_stations_are_the_mean_of_both_sides() {
     let near = 1e-7;
     let given = tabulate(&Beam::paper(), &STATIONS);
     for kind in KINDS {
@@ -207,7 +208,8 @@ fn kinks_at_stations_give_the_mean_of_both_sides() {
     }
 }
 
-/// Natural and factored readings are twice continuously differentiable, the exact surface of a bent beam too.
+/// Natural and factored readings are twice continuously differentiable, the exact surface of a beam in
+/// bending too.
 #[test]
 fn smooth_evaluators_have_no_kinks() {
     let beam = Beam::paper();
@@ -227,7 +229,7 @@ fn smooth_evaluators_have_no_kinks() {
 }
 
 #[test]
-fn jets_refuse_what_filling_refuses() {
+fn derivatives_refuse_what_filling_refuses() {
     let surface = Beam::paper().surface(&STATIONS);
     let reading = read(Kind::Symmetrised, table(&VERTICAL));
     let good = probe(Axis::Vertical, 3.0);

@@ -1,4 +1,4 @@
-//! Tables of values raised to the exact surface.
+//! Beams fitted to tables of values.
 
 mod beam;
 
@@ -24,9 +24,9 @@ fn error(surface: &dyn Compliance, exact: &dyn Fn(f64, f64) -> f64, stations: &[
     error / scale
 }
 
-/// Analytic: the force method, one and several spans, the stations alone given.
+/// Analytic: the force method, one and several spans, from the table at the stations alone.
 #[test]
-fn table_with_all_digits_is_raised_without_loss() {
+fn table_with_all_digits_is_fitted_without_loss() {
     let paper = Beam::paper();
     let spans = Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 20.0, 65.0, 100.0] };
     let stations = [0.0, 10.0, 20.0, 40.0, 65.0, 80.0, 100.0, 108.0];
@@ -43,9 +43,10 @@ fn table_with_all_digits_is_raised_without_loss() {
     }
 }
 
-/// External: the jumps of third derivatives of an independent prototype, EI of each of the five columns that move.
+/// External: the jumps of third derivatives of an independent prototype, EI of each of the five columns that
+/// move.
 #[test]
-fn each_column_of_the_printed_table_says_its_own_bending() {
+fn each_column_of_the_printed_table_determines_the_bending() {
     let lift = lift(0, &table(&VERTICAL)).expect("a beam on knife edges");
     let expected = [(-15.0, 1.012), (15.0, 0.992), (30.0, 1.044), (45.0, 0.992), (75.0, 1.012)];
     for ((x, bending), (station, stiffness)) in lift.local.iter().zip(expected) {
@@ -58,7 +59,7 @@ fn each_column_of_the_printed_table_says_its_own_bending() {
     assert_eq!(lift.local.len(), 5);
 }
 
-/// Cantilever clamped at 0, and what supports at further places leave of it.
+/// Cantilever clamped at 0 with supports at further places.
 fn clamped_left(supports: &[f64]) -> impl Fn(f64, f64) -> f64 {
     let free = |x: f64, z: f64| {
         let (a, c) = (x.min(z), x.max(z));
@@ -81,7 +82,7 @@ fn table_of(exact: &dyn Fn(f64, f64) -> f64, x: &[f64]) -> Table {
 
 /// Analytic: a cantilever, propped, and over three supports with an overhang; both ends clamped.
 #[test]
-fn clamped_ends_are_found_and_raised_without_loss() {
+fn clamped_ends_are_found_and_fitted_without_loss() {
     let cases: [(&[f64], &[f64]); 3] = [
         (&[], &[0.0, 7.0, 15.0, 30.0]),
         (&[40.0], &[0.0, 10.0, 20.0, 30.0, 40.0]),
@@ -92,7 +93,7 @@ fn clamped_ends_are_found_and_raised_without_loss() {
         let lift = lift(0, &table_of(&exact, stations)).expect("a clamped beam");
         assert_eq!(lift.clamped, [true, false], "{supports:?}");
         assert!((lift.bending * EI - 1.0).abs() < 1e-12, "{:e}", lift.bending * EI - 1.0);
-        // What the reference loses by its differences, too.
+        // The reference loses digits by its differences, too.
         let error = error(&lift.surface, &exact, stations);
         assert!(error < 1e-11, "{supports:?} {error:e}");
     }
@@ -109,8 +110,8 @@ fn clamped_ends_are_found_and_raised_without_loss() {
     assert!(error < 1e-13, "{error:e}");
 }
 
-/// Three truncated digits: the surface within half a percent, where AKISPL errs by seven. External: least
-/// squares on an independent prototype found EI 1.0020 times too large.
+/// Three truncated digits: the error of the surface is within half a percent, where that of AKISPL is seven.
+/// External: least squares on an independent prototype found EI 1.0020 times too large.
 #[test]
 fn printed_table_keeps_only_the_error_of_its_digits() {
     let beam = Beam::paper();

@@ -1,9 +1,9 @@
-//! A give without some of its couplings: what is left, and what a scene may rely on.
+//! A compliance without some of its couplings: which coefficients remain, and that they stay positive.
 
 use nalgebra::DMatrix;
 use splines::{Axis, Compliance, Couplings, Error, Influence, Parted, Probe};
 
-/// Terms of the give.
+/// Number of terms of the compliance.
 const TERMS: usize = 4;
 
 /// G(p, q) = sum over k of s_k(p) s_k(q): symmetric and positive, every pair of rails and directions coupled.
@@ -58,9 +58,10 @@ fn filled(of: &dyn Compliance) -> Influence {
     out
 }
 
-/// Analytic: what is kept has the bits of the whole, all else is zero, slopes too.
+/// Analytic: coefficients that are kept equal those of the whole to the last bit; all others are zero, slopes
+/// too.
 #[test]
-fn what_is_left_has_the_bits_of_the_whole() {
+fn coefficients_kept_equal_those_of_the_whole_to_the_last_bit() {
     let (whole, at) = (filled(&Sums), probes());
     for (couplings, kept) in [(Couplings::All, 144), (Couplings::WithinRails, 72), (Couplings::None, 24)] {
         let left = filled(&Parted::new(Sums, couplings));
@@ -84,7 +85,7 @@ fn what_is_left_has_the_bits_of_the_whole() {
 
 /// Analytic: diagonal blocks of a positive matrix are positive.
 #[test]
-fn what_is_left_is_symmetric_and_positive() {
+fn coefficients_kept_are_symmetric_and_positive() {
     for couplings in [Couplings::WithinRails, Couplings::None] {
         let parted = Parted::new(Sums, couplings);
         let left = filled(&parted).value;

@@ -35,8 +35,8 @@ fn curves_give_the_values_published_for_adams() {
     }
 }
 
-/// Analytic: both reproduce a straight line; the natural spline has no curvature at its ends and none of its
-/// second derivatives jumps.
+/// Analytic: both reproduce a straight line; the natural spline has no curvature at its ends and no jump of
+/// its second derivative.
 #[test]
 fn natural_spline_is_twice_smooth_and_ends_straight() {
     let x = [0.0, 1.0, 2.5, 4.0, 4.5, 7.0];
@@ -60,7 +60,7 @@ fn natural_spline_is_twice_smooth_and_ends_straight() {
 
 /// Analytic: slopes and curvatures are the derivatives of the values, and of the slopes.
 #[test]
-fn jets_are_derivatives() {
+fn slopes_and_curvatures_are_derivatives() {
     let x = [0.0, 1.0, 2.5, 4.0, 4.5, 7.0];
     for through in [akima, natural] {
         let curve = through(&x, &[1.0, -2.0, 0.5, 3.0, 2.0, -1.0]).expect("increase");
@@ -132,7 +132,7 @@ fn printed_tables_follow_from_the_girder() {
     }
 }
 
-/// The CUBSPL reading is 8 percent off at seven stations, of the largest value in the span.
+/// The error of the CUBSPL reading at seven stations is 8 percent of the largest value in the span.
 #[test]
 fn cubspl_errs_as_measured() {
     let beam = Beam::paper();
@@ -175,7 +175,8 @@ fn slope_is_the_derivative_of_the_reading() {
             let slope = fill(&reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).slope[(0, 1)];
             let step = 1e-4;
             let exact = (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
-            // Akima's curvature jumps at a station: a central difference there errs by a quarter of jump and step.
+            // Akima's curvature jumps at a station: a central difference there has an error of a quarter of
+            // jump times step.
             let allowed = if kind == Kind::Symmetrised { 1e-14 } else { 1e-16 };
             assert!((slope - exact).abs() < allowed, "{kind:?} {z} {x}: {slope:e} {exact:e}");
         }

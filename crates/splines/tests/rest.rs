@@ -1,4 +1,4 @@
-//! A surface without what shapes take of it.
+//! Residual flexibility: an exact surface less what shapes account for.
 
 mod beam;
 
@@ -10,7 +10,8 @@ use splines::{Axis, Compliance, Error, Influence, Rest, Shapes};
 
 const STATIONS: [f64; 4] = [-15.0, 0.0, 60.0, 75.0];
 
-/// Shapes of the paper's beam by arbitrary motions of its states, on the line of its surface or on a finer one.
+/// Shapes of the paper's beam by arbitrary motions of its node states, on the elements of its surface or on
+/// finer ones.
 fn shapes(stations: &[f64], count: usize) -> Shapes {
     let line = Arc::clone(Beam::paper().surface(stations).line());
     let mut random = Random::new(3);
@@ -18,15 +19,16 @@ fn shapes(stations: &[f64], count: usize) -> Shapes {
     Shapes::new(line, states).expect("six freedoms a state")
 }
 
-/// Identity: every pair of probes loses the product of the shapes there, its slope that of slope and shape; none takes nothing.
+/// Identity: the coefficient of every pair of probes decreases by the product of the shapes there, its slope
+/// by the product of slope and shape; without shapes nothing changes.
 #[test]
-fn shapes_take_their_products_from_the_surface() {
+fn shapes_lower_the_surface_by_their_products() {
     let surface = Beam::paper().surface(&STATIONS);
     let at = [-9.0, 0.0, 13.5, 41.0, 66.0].map(|x| probe(Axis::Vertical, x));
     let mut whole = Influence::zeros(at.len());
     surface.fill(&at, &mut whole).expect("on the rail");
     for count in [0, 1, 3] {
-        // the finer line has joints where the surface has none
+        // The finer division has element ends where the surface has none.
         let taken = shapes(&[-15.0, 0.0, 20.0, 40.0, 60.0, 75.0], count);
         let rows = at.map(|p| {
             let (mut value, mut slope) = (vec![0.0; count], vec![0.0; count]);
@@ -46,9 +48,9 @@ fn shapes_take_their_products_from_the_surface() {
     }
 }
 
-/// Identity: along every cell, from both of its ends and between, a shape is the row of the line times the motions.
+/// Identity: along every element, at both ends and between, a shape is the shape row times the motions.
 #[test]
-fn shapes_are_rows_of_their_line_times_their_motions() {
+fn shapes_are_shape_rows_times_their_motions() {
     let line = Arc::clone(Beam::paper().surface(&STATIONS).line());
     let mut random = Random::new(7);
     let states = DMatrix::from_fn(6 * line.states(), 5, |_, _| random.between(-1.0, 1.0));
@@ -75,7 +77,7 @@ fn shapes_are_rows_of_their_line_times_their_motions() {
 }
 
 #[test]
-fn shapes_of_another_line_are_refused() {
+fn shapes_of_other_rails_are_refused() {
     let line = Arc::clone(Beam::paper().surface(&STATIONS).line());
     let rows = 6 * line.states();
     let wrong = Shapes::new(line, DMatrix::zeros(rows + 1, 2));

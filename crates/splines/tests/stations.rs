@@ -1,15 +1,14 @@
-//! Stations for a reading and a tolerance.
+//! The fewest stations for a reading and a tolerance.
 
 mod beam;
 
 use beam::{Beam, EI, Random, coupled};
-use splines::check::{Strip, places};
-use splines::stations::error_of;
+use splines::quality::{Strip, error_of, places};
 use splines::{
     Axis, Compliance, Error, Factored, Kind, Rank, Reading, Search, Sheet, Stations, lift, stations,
 };
 
-type Read = Box<splines::stations::Read<'static>>;
+type Read = Box<splines::quality::Read<'static>>;
 
 const VERTICAL: &[Axis] = &[Axis::Vertical];
 
@@ -45,7 +44,8 @@ fn holds(found: &Stations, fixed: &[f64], range: [f64; 2]) {
     assert!(fixed.iter().all(|x| found.at.contains(x)), "{:?}", found.at);
 }
 
-/// Analytic: the force method, at places that have nothing to do with those of the search, some just beside stations.
+/// Analytic: the force method, at places that are independent of those of the search, some just beside
+/// stations.
 #[test]
 fn error_found_is_never_exceeded_and_supports_are_stations() {
     let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
@@ -84,7 +84,8 @@ fn error_found_is_never_exceeded_and_supports_are_stations() {
     }
 }
 
-/// One station fewer fails: any one taken away, equal distances, and the best placing of one fewer.
+/// One station fewer fails: with any one removed, at equal distances, and with the best placement of one
+/// fewer.
 #[test]
 fn one_station_fewer_fails() {
     let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
@@ -108,7 +109,7 @@ fn one_station_fewer_fails() {
     }
 }
 
-/// Equal distances waste stations where spans differ; a stretch between breaks keeps at least its ends.
+/// Equal distances waste stations where spans differ; a stretch between breaks keeps at least its two ends.
 #[test]
 fn unequal_spans_and_stiffness_get_stations_where_they_need_them() {
     let beam = Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 20.0, 80.0, 90.0] };
@@ -127,7 +128,7 @@ fn unequal_spans_and_stiffness_get_stations_where_they_need_them() {
     assert!(equal.is_some_and(|n| n as usize + 1 > found.at.len() + 3), "{equal:?} {}", found.at.len());
 }
 
-/// The exact form needs the breaks, and the four stations of a SPLINE.
+/// The exact form needs only the breaks, and the four stations of a SPLINE.
 #[test]
 fn exact_reading_needs_breaks_alone() {
     let beam = Beam::paper();
@@ -172,7 +173,8 @@ fn couplings_keep_the_tolerance_too() {
     }
 }
 
-/// Regression: the table of stations in the book, fewest found beside equal distances, on the paper's girder.
+/// Regression: the table of stations in the book, fewest found compared with equal distances, on the paper's
+/// girder.
 #[test]
 #[ignore = "slow: hundreds of stations for 1e-4, half a minute"]
 fn stations_of_every_reading_are_those_of_the_book() {
@@ -196,8 +198,8 @@ fn stations_of_every_reading_are_those_of_the_book() {
     }
 }
 
-/// No random search finds a set with one station fewer that keeps the tolerance: each of the sets that lack one is moved
-/// about, and every step that lowers the error is kept.
+/// No random search finds a set with one station fewer within the tolerance: each set that lacks one station
+/// is moved at random, and every step that lowers the error is kept.
 #[test]
 #[ignore = "slow: tens of thousands of sets, a minute"]
 fn random_search_finds_no_set_with_one_station_fewer() {

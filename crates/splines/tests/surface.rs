@@ -115,7 +115,7 @@ fn slope_is_the_derivative_of_the_surface() {
 
 /// Analytic: clamped beam with a central load; symmetry is bit for bit.
 #[test]
-fn kernel_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
+fn clamped_element_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
     let (l, c, g) = (20.0, 1.0 / EI, 4e-10);
     let flexibility =
         Flexibility { bending_z: c, shear_y: g, bending_y: 3.0 * c, torsion: 2e-10, axial: 1e-9, shear_z: g };
@@ -139,10 +139,10 @@ fn kernel_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
     }
 }
 
-/// Independent route: a finely cut cell, its nodes released one by one, must give the same surface.
-/// An inclined member with an offset out of both planes, all flexibilities at once.
+/// Independent computation: a finely divided element, its nodes released one by one, gives the same surface.
+/// An inclined member with an offset outside both planes and all flexibilities at once.
 #[test]
-fn cutting_a_cell_changes_nothing() {
+fn dividing_an_element_changes_nothing() {
     let flexibility = Flexibility {
         axial: 1.1e-9,
         torsion: 2.3e-10,
@@ -195,7 +195,7 @@ fn tilted() -> [[f64; 3]; 3] {
 }
 
 /// Compliance of places s along a cantilever clamped at s = 0, states in the rail frame: integrals of the
-/// section laws, with the moment arm carried by hand.
+/// section laws, with the lever arm written out.
 fn cantilever(s: &[f64], f: &Flexibility, frame: [[f64; 3]; 3]) -> DMatrix<f64> {
     let n = s.len();
     let mut out = DMatrix::zeros(6 * n, 6 * n);
@@ -231,7 +231,8 @@ fn cantilever(s: &[f64], f: &Flexibility, frame: [[f64; 3]; 3]) -> DMatrix<f64> 
     out
 }
 
-/// Analytic: a rail h above the axis moves along by -h times the slope; both couplings follow.
+/// Analytic: a rail at height h above the axis moves longitudinally by -h times the slope; both couplings
+/// follow.
 #[test]
 fn rail_above_the_axis_couples_vertical_and_longitudinal() {
     let beam = Beam::paper();
@@ -263,7 +264,7 @@ fn rail_above_the_axis_moves_sideways_by_twist() {
     let got = fill(&surface, &[probe(Axis::Lateral, 10.0), probe(Axis::Lateral, 25.0)]);
     let expected = h * h * t * 10.0 * 15.0 / l;
     assert!((got.value[(0, 1)] / expected - 1.0).abs() < 1e-14);
-    // Kink under the own force: slopes h^2 t (l - x)/l and -h^2 t x/l, their mean.
+    // The slope jumps under one's own force from h^2 t (l - x)/l to -h^2 t x/l; the result is their mean.
     let mean = 0.5 * h * h * t * (30.0 - 10.0) / l;
     assert!((got.slope[(0, 0)] / mean - 1.0).abs() < 1e-13);
 }
@@ -299,7 +300,7 @@ fn arm(rail: usize, x: [f64; 2], end: usize) -> Cell {
     }
 }
 
-/// Analytic: rigid motion of a state.
+/// Analytic: rigid motion of a node state.
 #[test]
 fn rigid_arm_moves_with_its_state() {
     let line = Line::new(vec![arm(0, [10.0, 11.0], 0)]).expect("valid");
@@ -317,7 +318,7 @@ fn rigid_arm_moves_with_its_state() {
 }
 
 #[test]
-fn first_listed_cell_wins_where_two_meet() {
+fn first_listed_element_carries_the_place_where_two_meet() {
     let earlier = Line::new(vec![arm(0, [0.0, 1.0], 0), arm(0, [1.0, 2.0], 1)]).expect("valid");
     let later = Line::new(vec![arm(0, [1.0, 2.0], 1), arm(0, [0.0, 1.0], 0)]).expect("valid");
     let at = probe(Axis::Vertical, 1.0);
@@ -345,7 +346,7 @@ fn probes_off_the_rail_are_refused() {
 }
 
 #[test]
-fn what_nothing_resists_is_refused_only_where_it_is_needed() {
+fn missing_stiffness_is_refused_only_where_it_is_needed() {
     let loose = Flexibility { axial: f64::INFINITY, torsion: f64::INFINITY, ..Flexibility::default() };
     let row = |offset, axis| {
         let line = Line::new(chain(&[0.0, 10.0], offset, loose)).expect("valid");
@@ -364,7 +365,7 @@ fn what_nothing_resists_is_refused_only_where_it_is_needed() {
 }
 
 #[test]
-fn freedom_that_nothing_resists_refuses_the_probes_that_need_it() {
+fn infinite_nodal_compliance_refuses_the_probes_that_need_it() {
     let line = Arc::new(Line::new(chain(&[0.0, 10.0], [0.0; 3], Flexibility::default())).expect("valid"));
     let mut nodal = DMatrix::identity(12, 12);
     nodal[(2, 2)] = f64::INFINITY;
@@ -383,7 +384,7 @@ fn freedom_that_nothing_resists_refuses_the_probes_that_need_it() {
 }
 
 #[test]
-fn unusable_cells_are_refused() {
+fn unusable_elements_are_refused() {
     let good = chain(&[0.0, 10.0], [0.0; 3], Flexibility::default()).remove(0);
     let refuse = |cells: Vec<Cell>| Line::new(cells).map(|_| ()).expect_err("refused");
     assert_eq!(refuse(vec![]), Error::NoCells);

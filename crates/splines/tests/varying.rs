@@ -22,13 +22,13 @@ fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(|k| from + (to - from) * k as f64 / (count - 1) as f64).collect()
 }
 
-/// The surface without what the loaded cell adds.
+/// The surface without Green's function of the loaded element.
 fn stiff(nodal: &DMatrix<f64>, stations: &[f64]) -> Surface {
     let line = Line::new(chain(stations, [0.0; 3], Flexibility::default())).expect("valid cells");
     Surface::new(Arc::new(line), nodal.clone()).expect("fits")
 }
 
-/// The printed table within the span, by the largest value there, at midspan.
+/// The printed table within the span, relative to the largest value there, at midspan.
 #[test]
 fn printed_table_errs_by_its_reading_and_by_its_digits() {
     let beam = Beam::paper();
@@ -58,7 +58,7 @@ fn printed_table_errs_by_its_reading_and_by_its_digits() {
     claims::figure(SECTION, "its error", "prototype", -7.5e-2).met(under / true_one - 1.0, 0.01);
 }
 
-/// Independent: the force method, which knows no elements. Spans of one length but where said.
+/// Independent: the force method, which uses no elements. Spans are equal unless stated.
 #[test]
 fn several_spans_are_exact_with_the_kernel_and_far_off_by_akispl() {
     let equal = |spans: usize| (0..=spans).map(|k| 40.0 * k as f64).collect::<Vec<f64>>();
@@ -75,7 +75,7 @@ fn several_spans_are_exact_with_the_kernel_and_far_off_by_akispl() {
     for (name, supports, count, g, known) in cases {
         let beam = Beam { c: 1.0 / EI, g, supports: supports.clone() };
         let end = supports[supports.len() - 1];
-        // stations at the supports and evenly between
+        // Stations at the supports and evenly between.
         let cells = (count - 1) / (supports.len() - 1);
         let mut stations = vec![0.0];
         for pair in supports.windows(2) {
@@ -100,7 +100,7 @@ fn several_spans_are_exact_with_the_kernel_and_far_off_by_akispl() {
             shapes = [shapes[0].min(cubic), shapes[1].max(cubic)];
         }
         let what = format!("{name}, {} stations, with kernel: largest error / largest value", stations.len());
-        // what both routes lose to rounding: the order of magnitude is known, not the digits
+        // Rounding errors of both computations: their order of magnitude is known, not their digits.
         claims::figure(SECTION, what, "force method", 10.0 * known).below(found);
     }
     println!("AKISPL {akispl:?}, shapes {shapes:?}");
@@ -144,7 +144,7 @@ impl Span<'_> {
             let h = (pair[1] - pair[0]) / f64::from(count);
             for i in 0..count {
                 let a = pair[0] + h * f64::from(i);
-                // just inside: values at kinks belong to this side
+                // Just inside: values at kinks belong to this side.
                 let (low, high) = (a + 1e-9 * h, a + h - 1e-9 * h);
                 sum += h / 6.0 * (of(low) + 4.0 * of(a + 0.5 * h) + of(high));
             }
@@ -175,7 +175,8 @@ impl Span<'_> {
         out
     }
 
-    /// States that are exact, and on each cell the kernel of its mean give: that of the harmonic mean of EI.
+    /// Exact node states, and on each element Green's function of its mean flexibility, which is that of the
+    /// harmonic mean of EI.
     fn mean(&self, stations: &[f64]) -> Surface {
         let mut cells = chain(stations, [0.0; 3], Flexibility::default());
         for cell in &mut cells {

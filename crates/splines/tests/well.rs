@@ -1,4 +1,4 @@
-//! Work that wheels find or lose on a slow way over a table, with no motion simulated.
+//! Work that wheels gain or lose on a slow path over a table, without simulating a motion.
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
@@ -8,13 +8,14 @@ use beam::printed::{STATIONS, VERTICAL, table};
 use beam::{Beam, read};
 use splines::{Axis, Jets, Kind, Probe};
 
-/// Half of the bogie's base, ft; load of one of its wheels, lb; where it is let go, ft.
+/// Half of the bogie's base, ft; load of one of its wheels, lb; where it is released, ft.
 const ARM: f64 = 4.0 / 3.0;
 const LOAD: f64 = 2.4e6;
 const START: f64 = 12.0;
 
-/// 1/2 sum of F_i F_j (dG_ij/dx_i - dG_ij/dx_j), two equal forces F a distance apart: what the forces along the rail,
-/// F_i sum of dG_ij/dx_i F_j, do beyond the change of the energy stored, per length. Zero where G is symmetric.
+/// 1/2 sum of F_i F_j (dG_ij/dx_i - dG_ij/dx_j) for two equal forces F at a distance: the work per length of
+/// the forces along the rail, F_i sum of dG_ij/dx_i F_j, less the change of the energy stored. It is zero
+/// where G is symmetric.
 fn excess(give: &dyn Jets, x: f64) -> f64 {
     let at = [x - ARM, x + ARM].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
     let mut sum = 0.0;
@@ -27,7 +28,7 @@ fn excess(give: &dyn Jets, x: f64) -> f64 {
     sum
 }
 
-/// Its integral from the start along `way`, by the midpoint rule between places 0.001 ft apart: after each.
+/// Its integral from the start along the path `way`, after each step of 0.001 ft, by the midpoint rule.
 fn lost(give: &dyn Jets, way: &[f64]) -> Vec<f64> {
     let pieces = way.windows(2).scan(0.0, |sum, ends| {
         *sum += excess(give, 0.5 * (ends[0] + ends[1])) * (ends[1] - ends[0]);
@@ -40,8 +41,9 @@ fn forth() -> Vec<f64> {
     (0..=36_000).map(|i| START + 0.001 * f64::from(i)).collect()
 }
 
-/// From 12 to 48 ft, where the bogie turns, AKISPL loses up to 75,586 ft lb (10 % of the well) and gives all of it back:
-/// the table is its own mirror image, so that neither a way across nor a cycle loses anything at low speed.
+/// From 12 to 48 ft, where the bogie turns, AKISPL loses up to 75,586 ft lb (10 % of the well) and returns
+/// all of it: the table is its own mirror image, so that neither a crossing nor a cycle loses anything at low
+/// speed.
 ///
 /// Independent: the same integral by Akima's curves of scipy.
 #[test]

@@ -1,7 +1,8 @@
-//! A uniform straight beam on knife edges by the force method: an independent route to every coefficient.
+//! A uniform straight beam on rigid supports by the force method: an independent computation of every
+//! coefficient.
 //!
-//! Field of free space plus reactions and a rigid motion a + b x. Nothing here knows of elements,
-//! shape functions or clamped cells.
+//! The field of an infinite beam is superposed with reactions and a rigid motion a + b x, without elements,
+//! shape functions or clamped elements.
 #![allow(dead_code)]
 
 pub mod printed;
@@ -21,7 +22,7 @@ pub struct Beam {
     pub supports: Vec<f64>,
 }
 
-/// What acts or what is measured: a force and its deflection, a moment and its rotation.
+/// A load or the displacement that belongs to it: force and deflection, or moment and rotation.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Effect {
     Force,
@@ -33,7 +34,7 @@ impl Beam {
         Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 60.0] }
     }
 
-    /// Free-space field at x of a unit action at z, up to a rigid motion.
+    /// Field of the infinite beam at x under a unit load at z, up to a rigid motion.
     fn free(&self, at: Effect, x: f64, load: Effect, z: f64) -> f64 {
         let r = x - z;
         match (at, load) {
@@ -47,7 +48,8 @@ impl Beam {
     /// Deflection or rotation at x under a unit force or moment at z.
     pub fn give(&self, at: Effect, x: f64, load: Effect, z: f64) -> f64 {
         let n = self.supports.len();
-        // Unknowns: upward reactions, then a, b. Equations: no deflection at supports, no net force or moment.
+        // Unknowns: upward reactions, then a, b. Equations: no deflection at supports, no net force or
+        // moment.
         let mut matrix = DMatrix::zeros(n + 2, n + 2);
         let mut right = DVector::zeros(n + 2);
         for (i, &s) in self.supports.iter().enumerate() {
@@ -74,7 +76,8 @@ impl Beam {
         self.give(Effect::Force, x, Effect::Force, z)
     }
 
-    /// Exact surface of the vertical direction with states at `stations`, their compliance from `give`.
+    /// Exact surface of the vertical direction with node states at `stations`, their compliance by the force
+    /// method.
     pub fn surface(&self, stations: &[f64]) -> Surface {
         let mut nodal = DMatrix::zeros(6 * stations.len(), 6 * stations.len());
         let kinds = [(1, Effect::Force), (5, Effect::Moment)];
@@ -95,7 +98,7 @@ impl Beam {
 
 pub const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
-/// Cells of one straight rail from station to station.
+/// Elements of one straight rail from station to station.
 pub fn chain(stations: &[f64], offset: [f64; 3], flexibility: Flexibility) -> Vec<Cell> {
     let pairs = stations.windows(2).enumerate();
     pairs
@@ -116,7 +119,7 @@ pub fn probe(axis: Axis, x: f64) -> Probe {
     Probe { rail: 0, x, axis }
 }
 
-/// Numbers in 0..1 that look random: xorshift64*.
+/// Pseudo-random numbers in 0..1 by the generator xorshift64*.
 pub struct Random(u64);
 
 impl Random {
@@ -149,7 +152,8 @@ pub fn read(kind: Kind, table: Table) -> Reading {
     Reading::new(kind, &[Sheet { deflection: way, load: way, table }]).expect("one table")
 }
 
-/// A rolled and inclined girder with its rail off both planes, on states that give alike in all directions.
+/// A rolled and inclined girder with its rail outside both planes, on node states of equal compliance in all
+/// directions.
 pub fn coupled() -> Surface {
     let c = 1.0 / EI;
     let flexibility = Flexibility {

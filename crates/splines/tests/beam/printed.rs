@@ -5,10 +5,11 @@
 //! reproduce all its entries to the last digit, three digits truncated:
 //! - vertical: Euler-Bernoulli girder, 60 ft, EI = 9.528 x 4.32e9 lb ft^2; (15, 15) and (45, 45), 6.1496e-8,
 //!   stand in print as 6.15e-8;
-//! - lateral: bending with 1/EI = 2.6456e-10 /(lb ft^2) plus twist h^2/GJ = 1.2315e-8 /lb, held at both supports.
+//! - lateral: bending with 1/EI = 2.6456e-10 /(lb ft^2) plus twist h^2/GJ = 1.2315e-8 /lb, held at both
+//!   supports.
 //!
-//! So agreement of these digits with the girder says nothing about the print. The vertical ones are confirmed by
-//! an independent AKISPL of the printed table (`readings.rs`); the lateral ones have no such witness here.
+//! So agreement of these digits with the girder says nothing about the print. The vertical ones are confirmed
+//! by an independent AKISPL of the printed table (`readings.rs`); the lateral ones have no such witness here.
 #![allow(dead_code)]
 
 use nalgebra::DMatrix;

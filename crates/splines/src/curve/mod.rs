@@ -1,0 +1,11 @@
+//! Curves in one variable: piecewise cubics through given points, by Akima's rule and as natural splines.
+
+mod akima;
+mod cubic;
+mod natural;
+
+pub use akima::akima;
+pub use cubic::{Curve, Jet};
+pub(crate) use cubic::{Interval, check_increasing};
+pub use natural::natural;
+pub(crate) use natural::values_and_slopes;

@@ -1,0 +1,191 @@
+//! A uniform stretch of rail: the data of one rail element.
+
+use crate::error::Error;
+use crate::vector::{cross, dot};
+
+/// Rounding allowed in the frame of an element: how far its axes may be from orthogonal unit vectors.
+const ORTHOGONALITY: f64 = 1e-9;
+
+/// A frame whose axes are those of the rail.
+pub(crate) const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Flexibilities of a member's section: reciprocal stiffnesses, so that zero means rigid.
+///
+/// Local x runs along the member. `bending_z` and `shear_y` act in the local x-y plane, `bending_y` and
+/// `shear_z` in the local x-z plane. `f64::INFINITY` means that the section has no stiffness of that kind.
+///
+/// ```
+/// use splines::Flexibility;
+///
+/// // A steel girder in lb and ft: E = 4.32e9 lb/ft^2, Iz = 9.528 ft^4; all else rigid.
+/// let girder = Flexibility { bending_z: 1.0 / (4.32e9 * 9.528), ..Flexibility::default() };
+/// assert_eq!(girder.shear_y, 0.0);
+/// ```
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Flexibility {
+    /// 1/(E A), 1/force.
+    pub axial: f64,
+    /// 1/(G J), 1/(force length^2).
+    pub torsion: f64,
+    /// 1/(E Iy), 1/(force length^2).
+    pub bending_y: f64,
+    /// 1/(E Iz), 1/(force length^2).
+    pub bending_z: f64,
+    /// 1/(G Asy), 1/force.
+    pub shear_y: f64,
+    /// 1/(G Asz), 1/force.
+    pub shear_z: f64,
+}
+
+/// The member to which a rail element belongs.
+///
+/// Elements of one member, on different rails, are the same piece of steel: a force on one of them also bends
+/// the other between its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Carrier {
+    /// Identity of the member; only equality counts.
+    pub member: usize,
+    /// Whether the member's own local x runs against that of the element. The element's local axes are then
+    /// those of the member, turned by half a turn about local y.
+    pub reversed: bool,
+}
+
+/// A rail element: a uniform stretch of rail between two node states.
+///
+/// A node state is the displacement u and the rotation theta (six degrees of freedom, ux uy uz rx ry rz) of a
+/// flexible end, in the frame of the element's rail. The element joins state `ends[0]` at `x[0]` and state
+/// `ends[1]` at `x[1]`. The rail at x has the displacement u(x) + theta(x) cross `offset`.
+///
+/// Where `ends[0] == ends[1]` the element is a rigid arm of that one state: the rail at x has the
+/// displacement u + theta cross (`offset` + (x - `x[0]`) e_x), and `length`, `frame` and `flexibility` are
+/// ignored.
+///
+/// ```
+/// use splines::{Cell, Flexibility};
+///
+/// // 20 ft of rail, 3 ft above the axis of the girder that carries it.
+/// let element = Cell {
+///     rail: 0,
+///     x: [0.0, 20.0],
+///     ends: [0, 1],
+///     length: 20.0,
+///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+///     offset: [0.0, 3.0, 0.0],
+///     flexibility: Flexibility { bending_z: 2.4e-11, ..Flexibility::default() },
+///     carrier: None,
+/// };
+/// assert_eq!(element.place(5.0), 5.0);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Cell {
+    /// Index of the rail.
+    pub rail: usize,
+    /// First and last rail coordinate, increasing, length.
+    pub x: [f64; 2],
+    /// Indices of the node states at the two ends.
+    pub ends: [usize; 2],
+    /// Length of the member's stretch, > 0. It exceeds `x[1] - x[0]` where the member is inclined to the
+    /// rail.
+    pub length: f64,
+    /// 3 x 3, one row an axis: the local axes in the rail frame; local x runs from `ends[0]` to `ends[1]`.
+    pub frame: [[f64; 3]; 3],
+    /// Vector from the flexible axis to the rail, in the rail frame, length.
+    pub offset: [f64; 3],
+    /// Flexibilities of the section.
+    pub flexibility: Flexibility,
+    /// The member whose whole flexible part the element stands on; `None` where no other element shares it.
+    pub carrier: Option<Carrier>,
+}
+
+impl Cell {
+    /// Whether the member runs against the element.
+    #[must_use]
+    pub fn is_reversed(&self) -> bool {
+        self.carrier.is_some_and(|carrier| carrier.reversed)
+    }
+
+    /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail coordinate
+    /// x. Coordinates beyond the element count as its ends.
+    #[must_use]
+    pub fn place(&self, x: f64) -> f64 {
+        let [first, last] = self.x;
+        let r = if x >= last { 1.0 } else { ((x - first) / (last - first)).clamp(0.0, 1.0) };
+        if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
+    }
+
+    /// 3 x 3, one row an axis: the member's own local axes in the rail frame. They are those of `frame`,
+    /// turned by half a turn about local y where the member runs against the element.
+    #[must_use]
+    pub fn axes(&self) -> [[f64; 3]; 3] {
+        let [x, y, z] = self.frame;
+        if self.is_reversed() { [x.map(|a| -a), y, z.map(|a| -a)] } else { self.frame }
+    }
+
+    /// Whether the element is a rigid arm of one node state.
+    pub(crate) fn is_rigid_arm(&self) -> bool {
+        self.ends[0] == self.ends[1]
+    }
+
+    /// In which ways the section has no stiffness: axially, in torsion, in the x-y plane and in the x-z
+    /// plane.
+    pub(crate) fn without_stiffness(&self) -> [bool; 4] {
+        let flexibility = &self.flexibility;
+        let infinite = |x: f64| x == f64::INFINITY;
+        [
+            infinite(flexibility.axial),
+            infinite(flexibility.torsion),
+            infinite(flexibility.bending_z) || infinite(flexibility.shear_y),
+            infinite(flexibility.bending_y) || infinite(flexibility.shear_z),
+        ]
+    }
+
+    /// Checks the numbers of element number `index`.
+    pub(crate) fn check(&self, index: usize) -> Result<(), Error> {
+        let numbers = self.x.iter().chain(&self.offset);
+        if numbers.copied().any(|x| !x.is_finite()) || self.ends.iter().any(|&end| end > u32::MAX as usize) {
+            return Err(Error::CellNumber { cell: index });
+        }
+        if self.x[0] >= self.x[1] {
+            return Err(Error::CellExtent { cell: index, x: self.x });
+        }
+        if self.is_rigid_arm() {
+            return Ok(());
+        }
+        if !(self.length > 0.0 && self.length.is_finite()) {
+            return Err(Error::CellLength { cell: index, length: self.length });
+        }
+        let [x, y, z] = self.frame;
+        let third = cross(x, y);
+        let third = [third[0] - z[0], third[1] - z[1], third[2] - z[2]];
+        let defects = [dot(&x, &x) - 1.0, dot(&y, &y) - 1.0, dot(&x, &y), dot(&third, &third).sqrt()];
+        if defects.iter().any(|d| d.abs() > ORTHOGONALITY || d.is_nan()) {
+            return Err(Error::CellFrame { cell: index });
+        }
+        let f = &self.flexibility;
+        let all = [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z];
+        if all.iter().any(|x| *x < 0.0 || x.is_nan()) {
+            return Err(Error::CellFlexibility { cell: index });
+        }
+        Ok(())
+    }
+}
+
+/// A place in an element, measured from the nearer end.
+///
+/// Polynomials in the distance from the nearer end keep their relative accuracy where they vanish at that
+/// end.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LocalPlace {
+    /// Which end is nearer, 0 or 1.
+    pub end: usize,
+    /// Distance from it as a fraction of the element, 0..=0.5.
+    pub r: f64,
+}
+
+impl LocalPlace {
+    /// Distance from the first end as a fraction of the element, 0..=1.
+    #[inline]
+    pub fn fraction(self) -> f64 {
+        if self.end == 0 { self.r } else { 1.0 - self.r }
+    }
+}

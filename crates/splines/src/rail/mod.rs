@@ -1,0 +1,21 @@
+//! Rails as chains of uniform elements: how the rail moves with the ends of its elements, and what each
+//! element adds between them.
+//!
+//! Order: `element` (data), `load` (a rail force in the axes of the member), `green` and `shape` (the two
+//! functions of one element), `row` and `planar` (their values at a place), `track` (which element carries a
+//! place), `rails` (all together).
+
+mod element;
+mod green;
+mod load;
+mod planar;
+mod rails;
+mod row;
+mod shape;
+mod track;
+
+pub use element::{Carrier, Cell, Flexibility};
+pub(crate) use element::{IDENTITY, LocalPlace};
+pub(crate) use planar::{PlanarCubics, PlanarPlace};
+pub use rails::Line;
+pub use row::Row;

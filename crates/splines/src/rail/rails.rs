@@ -1,0 +1,299 @@
+//! Rails made of elements, ready for evaluation at any place.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use super::element::{Cell, LocalPlace};
+use super::green::ClampedElement;
+use super::load::AxisLoad;
+use super::planar::{PlanarCubics, PlanarPlace};
+use super::row::Row;
+use super::shape::ShapeCubics;
+use super::track::{Span, Track};
+use crate::error::Error;
+use crate::probe::Probe;
+
+/// Elements of any number of rails, checked and indexed.
+///
+/// It evaluates the two functions of an element at any coordinate: the shape row N(x) ([`Line::row`]) and
+/// Green's function b(x, z) of the element clamped at both ends ([`Line::kernel`]).
+///
+/// ```
+/// use splines::{Axis, Cell, Flexibility, Line, Probe};
+///
+/// let element = |k: usize, x: [f64; 2]| Cell {
+///     rail: 0,
+///     x,
+///     ends: [k, k + 1],
+///     length: x[1] - x[0],
+///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+///     offset: [0.0; 3],
+///     flexibility: Flexibility { bending_z: 2.0, ..Flexibility::default() },
+///     carrier: None,
+/// };
+/// let rail = Line::new(vec![element(0, [0.0, 4.0]), element(1, [4.0, 10.0])])?;
+/// assert_eq!(rail.states(), 3);
+/// assert_eq!(rail.breaks(0), [0.0, 4.0, 10.0]);
+/// assert_eq!(rail.row(Probe { rail: 0, x: 7.0, axis: Axis::Vertical })?.cell, 1);
+/// // Midspan deflection of a clamped beam, l^3/(192 EI), under a vertical force.
+/// assert!((rail.kernel(0, 2.0, 2.0)[1][1] - 2.0 * 4.0_f64.powi(3) / 192.0).abs() < 1e-15);
+/// # Ok::<(), splines::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Line {
+    elements: Vec<Cell>,
+    prepared: Vec<Prepared>,
+    tracks: Vec<Track>,
+    states: usize,
+    /// Whether some member has more than one element.
+    shares_members: bool,
+}
+
+/// An element prepared for evaluation.
+#[derive(Clone, Debug)]
+struct Prepared {
+    /// Cubics along x, y and z, computed when they are first needed.
+    cubics: [OnceLock<AxisCubics>; 3],
+    /// Rail directions in which the element has no stiffness.
+    without_stiffness: [bool; 3],
+    /// `None` for a rigid arm.
+    clamped: Option<ClampedElement>,
+    /// Index of the first element of the same member.
+    group: usize,
+}
+
+/// Shape functions along one rail direction, and the planar form where it exists.
+#[derive(Clone, Debug)]
+struct AxisCubics {
+    shapes: ShapeCubics,
+    planar: Option<PlanarCubics>,
+}
+
+impl AxisCubics {
+    // Kept out of line: it runs once, beside a look-up that runs for every probe.
+    #[cold]
+    #[inline(never)]
+    fn new(element: &Cell, axis: usize) -> AxisCubics {
+        let shapes = ShapeCubics::new(element, axis);
+        let planar = PlanarCubics::new(element, axis, &shapes);
+        AxisCubics { shapes, planar }
+    }
+}
+
+impl Line {
+    /// Checks and sorts elements. A rail may have gaps; where two of its elements meet, the one listed first
+    /// carries the common place. A gap or overlap below 1e-12 of the rail's largest coordinate counts as
+    /// rounding.
+    ///
+    /// # Errors
+    /// No element; a number that is not finite; `x` not increasing; a flexible element with a length that is
+    /// not positive, a frame that is not a rotation or a negative flexibility; elements of one rail that
+    /// overlap; elements of one member that differ in length or flexibility.
+    pub fn new(elements: Vec<Cell>) -> Result<Line, Error> {
+        if elements.is_empty() {
+            return Err(Error::NoCells);
+        }
+        let mut prepared = Vec::with_capacity(elements.len());
+        let mut states = 0;
+        let mut shares_members = false;
+        let mut first: BTreeMap<usize, usize> = BTreeMap::new();
+        for (index, element) in elements.iter().enumerate() {
+            element.check(index)?;
+            states = states.max(element.ends[0].max(element.ends[1]) + 1);
+            let rigid = element.is_rigid_arm();
+            let carrier = element.carrier.filter(|_| !rigid);
+            let group = carrier.map_or(index, |carrier| *first.entry(carrier.member).or_insert(index));
+            shares_members |= group != index;
+            let same = |a: &Cell| a.length == element.length && a.flexibility == element.flexibility;
+            if group != index && !same(&elements[group]) {
+                return Err(Error::CellCarrier { first: group, second: index });
+            }
+            let without = element.without_stiffness();
+            let along = |axis: usize| {
+                let uses = AxisLoad::new(element, &element.frame, axis).uses();
+                !rigid && uses.iter().zip(without).any(|(&used, missing)| used && missing)
+            };
+            prepared.push(Prepared {
+                cubics: Default::default(),
+                without_stiffness: [0, 1, 2].map(along),
+                clamped: (!rigid).then(|| ClampedElement::new(element)),
+                group,
+            });
+        }
+        let tracks = Track::all(&elements)?;
+        Ok(Line { elements, prepared, tracks, states, shares_members })
+    }
+
+    /// The elements, in the order given.
+    #[must_use]
+    pub fn cells(&self) -> &[Cell] {
+        &self.elements
+    }
+
+    /// Number of node states: one more than the largest state index.
+    #[must_use]
+    pub fn states(&self) -> usize {
+        self.states
+    }
+
+    /// Shape row N(x) of the element that carries a probe, along the probe's axis.
+    ///
+    /// Guarantee: exact for a uniform Euler-Bernoulli or Timoshenko member without load between its ends.
+    ///
+    /// # Errors
+    /// A rail that does not exist; a coordinate without an element; a direction in which the element has no
+    /// stiffness.
+    ///
+    /// # Source
+    /// Przemieniecki, Theory of Matrix Structural Analysis (1968), chapter 5.
+    pub fn row(&self, p: Probe) -> Result<Row, Error> {
+        let mut row = Row::EMPTY;
+        self.row_into(p, &mut row)?;
+        Ok(row)
+    }
+
+    /// [`Line::row`] into memory that the caller has.
+    pub(crate) fn row_into(&self, p: Probe, row: &mut Row) -> Result<(), Error> {
+        let span = self.stiff_span(p)?;
+        let axis = p.axis.component();
+        let place = span.local(p.x);
+        row.cell = span.element;
+        row.axis = axis;
+        row.s = span.start + place.fraction() * span.length;
+        row.rate = span.length * span.scale;
+        row.evaluate(&self.cubics(span.element, axis).shapes, place, span.scale);
+        Ok(())
+    }
+
+    /// The row of a probe, and the second derivatives of its values by x.
+    pub(crate) fn row_with_second_derivatives(&self, p: Probe) -> Result<(Row, [[f64; 4]; 3]), Error> {
+        let row = self.row(p)?;
+        let span = self.span(p.rail, p.x)?;
+        let shapes = &self.cubics(row.cell, row.axis).shapes;
+        Ok((row, shapes.second_derivatives(span.local(p.x), span.scale)))
+    }
+
+    /// The place of a probe whose direction involves one plane or one bar; `None` where it involves more.
+    #[inline]
+    pub(crate) fn planar(&self, p: Probe) -> Result<Option<PlanarPlace<'_>>, Error> {
+        let span = self.stiff_span(p)?;
+        let axis = p.axis.component();
+        let found = |cubics| {
+            let (block, at) = (3 * span.element + axis, span.local(p.x));
+            PlanarPlace { cubics, block, at, scale: span.scale }
+        };
+        Ok(self.cubics(span.element, axis).planar.as_ref().map(found))
+    }
+
+    /// The element that carries a probe, the place in it, and 1/(its extent in x).
+    pub(crate) fn place(&self, p: Probe) -> Result<(usize, LocalPlace, f64), Error> {
+        self.stiff_span(p).map(|span| (span.element, span.local(p.x), span.scale))
+    }
+
+    /// The rows at both ends of an element along a rail direction; slopes by the fraction of the element.
+    pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [Row; 2] {
+        [0, 1].map(|end| {
+            let mut row = Row::EMPTY;
+            row.evaluate(&self.cubics(element, axis).shapes, LocalPlace { end, r: 0.0 }, 1.0);
+            row
+        })
+    }
+
+    fn cubics(&self, element: usize, axis: usize) -> &AxisCubics {
+        self.prepared[element].cubics[axis].get_or_init(|| AxisCubics::new(&self.elements[element], axis))
+    }
+
+    /// What bounds of rounding errors at a probe need: [`Line::row`]; for each of its values the sum of the
+    /// absolute values of its terms; and the same sum for Green's function of the clamped element at the
+    /// probe. A computed value errs by a few units of rounding of its sum.
+    ///
+    /// # Errors
+    /// As [`Line::row`].
+    pub fn magnitudes(&self, p: Probe) -> Result<(Row, Vec<f64>, f64), Error> {
+        let row = self.row(p)?;
+        let place = self.span(p.rail, p.x)?.local(p.x);
+        let clamped = self.prepared[row.cell].clamped.as_ref();
+        let own = clamped.map_or(0.0, |clamped| clamped.magnitude(row.axis, row.s));
+        let magnitudes = self.cubics(row.cell, row.axis).shapes.magnitudes(place).collect();
+        Ok((row, magnitudes, own))
+    }
+
+    /// Green's function of element `element` clamped at both ends, 3 x 3: `[i][j]` is the displacement along
+    /// axis i at rail coordinate x per unit force along axis j at z, both at the rail's offset, length/force.
+    ///
+    /// Coordinates beyond the element count as its ends. The result is zero for a rigid arm or an element
+    /// that does not exist, and infinite in a direction in which the section has no stiffness.
+    ///
+    /// Guarantee: `kernel(c, x, z)[i][j] == kernel(c, z, x)[j][i]` to the last bit; positive semi-definite.
+    ///
+    /// # Source
+    /// theta' = m/EI, m' = -V, v' = theta + V/kGA, clamped at both ends: Cowper, J. Appl. Mech. 33 (1966).
+    #[must_use]
+    pub fn kernel(&self, element: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
+        let mut out = [[0.0; 3]; 3];
+        let (Some(given), Some(clamped)) = (self.elements.get(element), self.clamped(element)) else {
+            return out;
+        };
+        let (s, t) = (given.place(x), given.place(z));
+        for (a, row) in out.iter_mut().enumerate() {
+            for (b, entry) in row.iter_mut().enumerate() {
+                *entry = if clamped.is_without_stiffness(a, b) {
+                    f64::INFINITY
+                } else {
+                    clamped.pair(a, s, clamped, b, t).value
+                };
+            }
+        }
+        out
+    }
+
+    /// Green's function of a clamped element; `None` for a rigid arm or an element that does not exist.
+    pub(crate) fn clamped(&self, element: usize) -> Option<&ClampedElement> {
+        self.prepared.get(element).and_then(|prepared| prepared.clamped.as_ref())
+    }
+
+    /// Whether some member has more than one element.
+    pub(crate) fn shares_members(&self) -> bool {
+        self.shares_members
+    }
+
+    /// Green's functions of two elements that belong to one member; `None` where they do not.
+    pub(crate) fn clamped_on_one_member(&self, a: usize, b: usize) -> Option<[&ClampedElement; 2]> {
+        let (a, b) = (self.prepared.get(a)?, self.prepared.get(b)?);
+        Some([a.clamped.as_ref()?, b.clamped.as_ref()?]).filter(|_| a.group == b.group)
+    }
+
+    /// Ends of the elements of `rail`, increasing, each once; none where the rail does not exist.
+    #[must_use]
+    pub fn breaks(&self, rail: usize) -> Vec<f64> {
+        self.track(rail).map_or(Vec::new(), Track::breaks)
+    }
+
+    /// First and last coordinate of `rail`; `None` where it has no element.
+    #[must_use]
+    pub fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        self.track(rail).map(Track::range)
+    }
+
+    fn track(&self, rail: usize) -> Option<&Track> {
+        match self.tracks.get(rail) {
+            Some(track) if track.rail == rail => Some(track),
+            _ => self.tracks.binary_search_by_key(&rail, |t| t.rail).ok().map(|k| &self.tracks[k]),
+        }
+    }
+
+    /// The element that carries a coordinate.
+    fn span(&self, rail: usize, x: f64) -> Result<&Span, Error> {
+        self.track(rail).ok_or(Error::NoRail { rail })?.find(x)
+    }
+
+    /// The element that carries a probe, if it has stiffness along the probe's axis.
+    #[inline]
+    fn stiff_span(&self, p: Probe) -> Result<&Span, Error> {
+        let span = self.span(p.rail, p.x)?;
+        if self.prepared[span.element].without_stiffness[p.axis.component()] {
+            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
+        }
+        Ok(span)
+    }
+}

@@ -1,0 +1,261 @@
+//! Effects of rail loads elsewhere in the structure: influence lines of reactions and internal forces.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+
+use crate::error::Error;
+use crate::probe::Probe;
+use crate::rail::{Cell, Line, Row};
+use crate::vector::{cross, dot, unit};
+
+/// Places along a member that differ by less than this fraction of its length count as equal.
+const ROUNDING: f64 = 1e-12;
+
+/// A component of the internal force of a member, in its local axes.
+///
+/// Cut the member and take the face whose outward normal is +x. The part beyond the cut acts on it with the
+/// force (N, Vy, Vz) and the moment (Mx, My, Mz), positive along +x, +y, +z and right-handed about them. So N
+/// is tension, a positive Mz stretches the fibres at -y, a positive My those at +z, and between loads dMz/dx
+/// = -Vy and dMy/dx = Vz.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Component {
+    /// N, force per unit force.
+    Axial,
+    /// Vy.
+    ShearY,
+    /// Vz.
+    ShearZ,
+    /// Mx, moment per unit force.
+    Torsion,
+    /// My, bending in the local x-z plane.
+    BendingY,
+    /// Mz, bending in the local x-y plane.
+    BendingZ,
+}
+
+impl Component {
+    /// All six, in order.
+    pub const ALL: [Component; 6] = [
+        Component::Axial,
+        Component::ShearY,
+        Component::ShearZ,
+        Component::Torsion,
+        Component::BendingY,
+        Component::BendingZ,
+    ];
+
+    /// The component on a face at x that balances a force f and a moment m at z on the part before it: the
+    /// factors of fx fy fz mx my mz, with `lever` = x - z. Equilibrium of that part gives R = -f and M = -m +
+    /// lever e_x cross f.
+    #[must_use]
+    pub fn balance(self, lever: f64) -> [f64; 6] {
+        let mut out = [0.0; 6];
+        out[self as usize] = -1.0;
+        match self {
+            Component::BendingY => out[2] = -lever,
+            Component::BendingZ => out[1] = lever,
+            _ => {}
+        }
+        out
+    }
+}
+
+/// An internal force: a section of a member and the component of the force there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Identity of the member, as in [`crate::Carrier`].
+    pub member: usize,
+    /// Place along the member in the direction of its own local x, 0..=1. At 0 and 1 the section is just
+    /// inside.
+    pub place: f64,
+    /// Component of the internal force.
+    pub component: Component,
+    /// The component per unit load on the ends of the flexible part (fx fy fz mx my mz in local axes, first
+    /// end, then last) while the rest of the structure holds the member's ends.
+    pub ends: [f64; 12],
+}
+
+/// Effects of unit rail loads at any place (influence lines). An effect is a linear function of the load:
+///
+/// E(p) = A N(p)^T + \[p on the section's member\] e(p),
+///
+/// with the shape rows N of the rails, the effects A of unit loads on the node states, and the effect e of
+/// the load while the ends of the member are held.
+///
+/// Guarantee: exact wherever the load stands, on either side of a section and at it.
+///
+/// # Source
+/// Principle of Mueller-Breslau, by which A is a deflected shape of the structure: Ghali, Neville and Brown,
+/// Structural Analysis (2009), chapter 12.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use nalgebra::DMatrix;
+/// use splines::{Axis, Cell, Effects, Flexibility, Line, Probe};
+///
+/// let element = Cell {
+///     rail: 0,
+///     x: [0.0, 8.0],
+///     ends: [0, 1],
+///     length: 8.0,
+///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+///     offset: [0.0; 3],
+///     flexibility: Flexibility { bending_z: 1.0, ..Flexibility::default() },
+///     carrier: None,
+/// };
+/// // Reaction of the left support of a simply supported beam: -1 per unit force on the left end, 1/8 per
+/// // unit moment on either end.
+/// let mut rows = DMatrix::zeros(1, 12);
+/// (rows[(0, 1)], rows[(0, 5)], rows[(0, 11)]) = (-1.0, 0.125, 0.125);
+/// let effects = Effects::new(Arc::new(Line::new(vec![element])?), rows, vec![None])?;
+/// let mut reaction = [0.0];
+/// effects.fill(Probe { rail: 0, x: 2.0, axis: Axis::Vertical }, &mut reaction)?;
+/// assert!((reaction[0] + 0.75).abs() < 1e-15);
+/// # Ok::<(), splines::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Effects {
+    rails: Arc<Line>,
+    rows: DMatrix<f64>,
+    sections: Vec<Option<Section>>,
+}
+
+impl Effects {
+    /// Effects of loads on the rails `line`.
+    ///
+    /// `rows` is effects x 6 S with S = `line.states()`: the effect per unit load on each degree of freedom
+    /// of the node states, in the frames of the rails; infinite where the structure has no stiffness against
+    /// that load. `sections` has one entry an effect, `None` where the effect is no internal force.
+    ///
+    /// # Errors
+    /// Shapes that differ; an entry that is not a number; a place outside 0..=1.
+    pub fn new(
+        line: Arc<Line>,
+        rows: DMatrix<f64>,
+        sections: Vec<Option<Section>>,
+    ) -> Result<Effects, Error> {
+        let expected = [sections.len(), 6 * line.states()];
+        let (found, columns) = rows.shape();
+        if [found, columns] != expected {
+            return Err(Error::EffectShape { rows: found, columns, expected });
+        }
+        for (effect, section) in sections.iter().enumerate() {
+            let valid = |section: &Section| {
+                (0.0..=1.0).contains(&section.place) && section.ends.iter().all(|end| end.is_finite())
+            };
+            if !section.as_ref().is_none_or(valid) || rows.row(effect).iter().any(|entry| entry.is_nan()) {
+                return Err(Error::EffectNumber { effect });
+            }
+        }
+        Ok(Effects { rails: line, rows, sections })
+    }
+
+    /// Number of effects.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.sections.len()
+    }
+
+    /// Whether there are no effects.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.sections.is_empty()
+    }
+
+    /// The rails and their elements.
+    #[must_use]
+    pub fn line(&self) -> &Arc<Line> {
+        &self.rails
+    }
+
+    /// Writes every effect per unit force at a probe, along its axis, into `out`.
+    ///
+    /// Where the load stands at the section itself, the result is the mean of both sides; at an end of the
+    /// member the section is inside and the load outside.
+    ///
+    /// # Errors
+    /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has
+    /// no stiffness; `out` of another length than [`Effects::len`].
+    pub fn fill(&self, at: Probe, out: &mut [f64]) -> Result<(), Error> {
+        let n = self.len();
+        if out.len() != n {
+            return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [n, 1] });
+        }
+        let row = self.rails.row(at)?;
+        out.fill(0.0);
+        let entries = row.indices().iter().zip(row.values());
+        // Zero times an infinite effect would not be a number.
+        for (&index, &shape) in entries.filter(|(_, shape)| **shape != 0.0) {
+            for (sum, entry) in out.iter_mut().zip(self.rows.column(index)) {
+                *sum += shape * entry;
+            }
+        }
+        let element = &self.rails.cells()[row.cell];
+        if let Some(carrier) = element.carrier.filter(|_| !element.is_rigid_arm()) {
+            let mut load = None;
+            for (sum, section) in out.iter_mut().zip(&self.sections) {
+                if let Some(section) = section.as_ref().filter(|section| section.member == carrier.member) {
+                    let load = load.get_or_insert_with(|| MemberLoad::new(element, at, &row));
+                    *sum += load.with_ends_held(section);
+                }
+            }
+        }
+        if out.iter().all(|value| value.is_finite()) {
+            Ok(())
+        } else {
+            Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis })
+        }
+    }
+}
+
+/// A unit rail force on a member, in the member's own axes.
+struct MemberLoad {
+    /// Its place along the member.
+    place: f64,
+    /// Length of the member.
+    length: f64,
+    /// Force and moment on the axis at that place.
+    own: [f64; 6],
+    /// Equivalent forces and moments on the ends of the flexible part.
+    ends: [f64; 12],
+}
+
+impl MemberLoad {
+    fn new(element: &Cell, at: Probe, row: &Row) -> MemberLoad {
+        let axes = element.axes();
+        let in_member_axes = |v: [f64; 3]| axes.map(|axis| dot(&axis, &v));
+        let force = unit(at.axis.component());
+        let [f, m] = [in_member_axes(force), in_member_axes(cross(element.offset, force))];
+        // Force and moment on the first end of the member, then on its last.
+        let mut ends = [[0.0; 3]; 4];
+        for (&index, &value) in row.indices().iter().zip(row.values()) {
+            let end = usize::from(index / 6 != element.ends[0]) ^ usize::from(element.is_reversed());
+            ends[2 * end + index % 6 / 3][index % 3] = value;
+        }
+        let ends = ends.map(in_member_axes);
+        MemberLoad {
+            place: element.place(at.x),
+            length: element.length,
+            own: [f[0], f[1], f[2], m[0], m[1], m[2]],
+            ends: std::array::from_fn(|k| ends[k / 3][k % 3]),
+        }
+    }
+
+    /// The component at a section while the ends of the member are held: that of the forces on the ends, and
+    /// that of the load itself where it stands before the section.
+    fn with_ends_held(&self, section: &Section) -> f64 {
+        let lever = section.place * self.length - self.place;
+        let before = if lever.abs() > ROUNDING * self.length {
+            f64::from(u8::from(lever > 0.0))
+        } else if section.place == 0.0 {
+            1.0
+        } else if section.place == 1.0 {
+            0.0
+        } else {
+            0.5
+        };
+        dot(&section.ends, &self.ends) + before * dot(&section.component.balance(lever), &self.own)
+    }
+}

@@ -1,0 +1,19 @@
+//! Compliance surfaces that follow from the elements of rails and the compliance of their node states: exact
+//! influence coefficients, and what is derived from them.
+//!
+//! Order: `planar` (the fast path of the exact surface), `exact`, `effects` (reactions and internal forces),
+//! `shapes` (given motions of the rails), `residual` (a surface less what such motions account for),
+//! `uncoupled` (a compliance without some of its couplings).
+
+mod effects;
+mod exact;
+mod planar;
+mod residual;
+mod shapes;
+mod uncoupled;
+
+pub use effects::{Component, Effects, Section};
+pub use exact::Surface;
+pub use residual::Rest;
+pub use shapes::Shapes;
+pub use uncoupled::{Couplings, Parted};

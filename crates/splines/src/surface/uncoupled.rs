@@ -1,0 +1,97 @@
+//! A compliance without some of its couplings, as in models that treat each rail or each direction alone.
+
+use crate::compliance::{Compliance, Influence};
+use crate::error::Error;
+use crate::probe::Probe;
+
+/// Which couplings of a compliance are kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Couplings {
+    /// All: a load on a rail moves all rails in all directions.
+    #[default]
+    All,
+    /// Those within each rail: a load on a rail moves no other rail.
+    WithinRails,
+    /// None: a load moves its own rail, in its own direction alone.
+    None,
+}
+
+impl Couplings {
+    /// Whether displacements at `p` by forces at `q` are kept.
+    fn keep(self, p: &Probe, q: &Probe) -> bool {
+        match self {
+            Couplings::All => true,
+            Couplings::WithinRails => p.rail == q.rail,
+            Couplings::None => p.rail == q.rail && p.axis == q.axis,
+        }
+    }
+}
+
+/// A compliance without the couplings between groups of probes:
+///
+/// G'(p, q) = G(p, q) where `couplings` keeps the pair, else 0.
+///
+/// Guarantee: G' is symmetric and positive semi-definite where G is, since in some order of the probes it
+/// consists of diagonal blocks of G.
+///
+/// ```
+/// use nalgebra::DMatrix;
+/// use splines::{Axis, Compliance, Couplings, Influence, Kind, Parted, Probe, Reading, Sheet, Table};
+///
+/// // Two rails whose deflections are all one, whatever the load.
+/// let x = vec![0.0, 1.0, 2.0, 3.0];
+/// let table = Table::new(x.clone(), x, DMatrix::from_element(4, 4, 1.0))?;
+/// let block = |deflection, load| Sheet {
+///     deflection: (deflection, Axis::Vertical),
+///     load: (load, Axis::Vertical),
+///     table: table.clone(),
+/// };
+/// let whole = Reading::new(Kind::Natural, &[block(0, 0), block(0, 1), block(1, 1)])?;
+///
+/// let at = [0, 1].map(|rail| Probe { rail, x: 1.0, axis: Axis::Vertical });
+/// let mut out = Influence::zeros(2);
+/// whole.fill(&at, &mut out)?;
+/// assert_eq!(out.value[(0, 1)], 1.0);
+/// Parted::new(whole, Couplings::WithinRails).fill(&at, &mut out)?;
+/// assert_eq!(out.value[(0, 1)], 0.0);
+/// # Ok::<(), splines::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Parted<C> {
+    whole: C,
+    couplings: Couplings,
+}
+
+impl<C: Compliance> Parted<C> {
+    /// `whole` with the given couplings alone.
+    #[must_use]
+    pub const fn new(whole: C, couplings: Couplings) -> Self {
+        Parted { whole, couplings }
+    }
+}
+
+impl<C: Compliance> Compliance for Parted<C> {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
+        self.whole.fill(at, out)?;
+        for (j, q) in at.iter().enumerate() {
+            for (i, p) in at.iter().enumerate() {
+                if !self.couplings.keep(p, q) {
+                    (out.value[(i, j)], out.slope[(i, j)]) = (0.0, 0.0);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn breaks(&self, rail: usize) -> Vec<f64> {
+        self.whole.breaks(rail)
+    }
+
+    fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        self.whole.range(rail)
+    }
+
+    fn is_symmetric(&self) -> bool {
+        self.whole.is_symmetric()
+    }
+}
