@@ -1,6 +1,6 @@
 //! Static equilibrium of data sets whose answer is known.
 
-use adams::{DataSet, Equilibrium, Error, Fault, Model};
+use adams::{DataSet, Equilibrium, Error, Fault, Model, StatementId};
 
 fn model(text: &str) -> Model {
     let set = DataSet::read(text).unwrap_or_else(|error| panic!("{error}"));
@@ -144,7 +144,7 @@ fn free_body_without_support_has_no_equilibrium() {
         model("free\nPART/1,GROUND\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nACCGRAV/JGRAV=-1\nEND\n");
     let error = model.equilibrium(0.0, &model.initial());
     assert!(
-        matches!(error, Err(Error::Equilibrium { ref keyword, id: 2, .. }) if keyword == "PART"),
+        matches!(error, Err(Error::Equilibrium { ref statement, .. }) if *statement == StatementId::new("PART", 2)),
         "{error:?}"
     );
 }
@@ -152,8 +152,8 @@ fn free_body_without_support_has_no_equilibrium() {
 #[test]
 fn references_are_checked_by_statement() {
     let head = "refs\nPART/1,GROUND\nMARKER/1,PART=1\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nMARKER/9,PART=1,FLOATING\n";
-    let missing = |keyword: &str, id: u32| Fault::Missing { keyword: keyword.to_owned(), id };
-    let lacks = |argument: &str| Fault::Lacks { argument: argument.to_owned() };
+    let missing = |keyword: &str, id: u32| Fault::Missing { statement: StatementId::new(keyword, id) };
+    let lacks = |argument: &'static str| Fault::Lacks { argument };
     for (tail, expected) in [
         ("MARKER/3,PART=7", missing("PART", 7)),
         ("JOINT/1,REVOLUTE,I=2,J=8", missing("MARKER", 8)),

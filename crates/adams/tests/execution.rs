@@ -1,6 +1,6 @@
 //! Data sets that are read, resolved and solved at given states.
 
-use adams::{DataSet, Error, Model, Pose, Solution, State};
+use adams::{DataSet, Error, Model, Pose, Solution, State, StatementId};
 use nalgebra::{Matrix3, Vector3};
 
 fn model(text: &str) -> Model {
@@ -50,12 +50,12 @@ fn newton_closes_the_loop_where_substitution_diverges() {
 fn loop_without_a_solution_is_refused_by_name() {
     let error = model("none\nVARIABLE/7,FUN=VARVAL(7)+1\nEND\n").solve(&State::default());
     assert!(
-        matches!(error, Err(Error::Loop { ref keyword, id: 7, .. }) if keyword == "VARIABLE"),
+        matches!(error, Err(Error::Loop { ref statement, .. }) if *statement == StatementId::new("VARIABLE", 7)),
         "{error:?}"
     );
     let text = looped(1e8, 0.0, "SQRT(-1-VARVAL(1)**2)");
     let error = model(&text).solve(&model(&text).initial());
-    assert!(matches!(error, Err(Error::In { id: 1, .. })), "{error:?}");
+    assert!(matches!(error, Err(Error::In { statement: StatementId { id: 1, .. }, .. })), "{error:?}");
 }
 
 #[test]
@@ -184,5 +184,8 @@ fn implicit_rate_that_its_expression_lacks_stays_if_the_expression_holds() {
     // At the support, but not zero.
     state.time = 0.0;
     let error = model.solve(&state);
-    assert!(matches!(error, Err(Error::Loop { ref keyword, id: 1, .. }) if keyword == "DIFF"), "{error:?}");
+    assert!(
+        matches!(error, Err(Error::Loop { ref statement, .. }) if *statement == StatementId::new("DIFF", 1)),
+        "{error:?}"
+    );
 }

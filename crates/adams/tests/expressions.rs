@@ -110,7 +110,10 @@ fn values_that_are_not_finite_are_refused_by_name() {
         let set = DataSet::read(&format!("bad\nVARIABLE/31,FUN={text}\nEND\n")).expect("grammar");
         let model = Model::new(&set).expect("names");
         let error = model.solve(&model.initial());
-        assert!(matches!(error, Err(adams::Error::In { id: 31, .. })), "{text}: {error:?}");
+        assert!(
+            matches!(error, Err(adams::Error::In { statement: adams::StatementId { id: 31, .. }, .. })),
+            "{text}: {error:?}"
+        );
     }
 }
 

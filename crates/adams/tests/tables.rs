@@ -2,7 +2,7 @@
 //! is refused with its place.
 
 use adams::tables::{read, write};
-use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, Tables, Units};
+use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
 
 /// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
 struct Random(u64);
@@ -200,15 +200,15 @@ fn writer_refuses_what_could_not_be_read_back() {
     let good = spline(6, table());
     assert_eq!(
         write(&set(vec![good.clone(), good.clone()])),
-        Err(Error::Id { keyword: "SPLINE".into(), id: 6 })
+        Err(Error::Id { statement: StatementId::new("SPLINE", 6) })
     );
     assert_eq!(
         write(&set(vec![Spline { id: 0, ..good.clone() }])),
-        Err(Error::Id { keyword: "SPLINE".into(), id: 0 })
+        Err(Error::Id { statement: StatementId::new("SPLINE", 0) })
     );
     for name in ["", "it's", "two\nlines", &"x".repeat(80)] {
         let bad = Spline { name: Some(name.into()), ..good.clone() };
-        assert_eq!(write(&set(vec![bad])), Err(Error::Name { keyword: "SPLINE".into(), id: 6 }));
+        assert_eq!(write(&set(vec![bad])), Err(Error::Name { statement: StatementId::new("SPLINE", 6) }));
     }
 }
 

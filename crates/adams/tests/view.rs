@@ -2,7 +2,7 @@
 //! read; the rest is refused with its place.
 
 use adams::view::{read, write};
-use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, Tables, Units};
+use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
 
 /// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
 struct Random(u64);
@@ -163,16 +163,22 @@ fn faults_have_their_place() {
 #[test]
 fn writer_refuses_what_could_not_be_read_back() {
     let good = spline(6, four());
-    let keyword = || "SPLINE".to_owned();
     let refused = |splines| write(&set(splines), &[]);
-    assert_eq!(refused(vec![good.clone(), good.clone()]), Err(Error::Id { keyword: keyword(), id: 6 }));
-    assert_eq!(refused(vec![spline(0, four())]), Err(Error::Id { keyword: keyword(), id: 0 }));
+    assert_eq!(
+        refused(vec![good.clone(), good.clone()]),
+        Err(Error::Id { statement: StatementId::new("SPLINE", 6) })
+    );
+    assert_eq!(refused(vec![spline(0, four())]), Err(Error::Id { statement: StatementId::new("SPLINE", 0) }));
     for name in ["", "it's", "two words", "a.b", "6th", &"x".repeat(80)] {
         let bad = Spline { name: Some(name.into()), ..good.clone() };
-        assert_eq!(refused(vec![bad]), Err(Error::Name { keyword: keyword(), id: 6 }), "{name}");
+        assert_eq!(
+            refused(vec![bad]),
+            Err(Error::Name { statement: StatementId::new("SPLINE", 6) }),
+            "{name}"
+        );
     }
     let titled = Tables { title: Some("a b".into()), ..set(vec![]) };
-    assert_eq!(write(&titled, &[]), Err(Error::Name { keyword: "MODEL".to_owned(), id: 0 }));
+    assert_eq!(write(&titled, &[]), Err(Error::Name { statement: StatementId::new("MODEL", 0) }));
     assert!(write(&set(vec![]), &["x".repeat(90)]).is_err());
 }
 
