@@ -131,7 +131,8 @@ impl fmt::Display for StatementId {
 
 /// The item of `words` that `text` names in full or abbreviates, in any case.
 ///
-/// A full name takes precedence over an abbreviation of a longer one. An abbreviation of several words names none.
+/// A full name takes precedence over an abbreviation of a longer one. An abbreviation of several words names
+/// none.
 pub(crate) fn lookup<'a, T: Clone>(words: &'a [(T, &'a str)], text: &str) -> Option<T> {
     if let Some((item, _)) = words.iter().find(|(_, word)| word.eq_ignore_ascii_case(text)) {
         return Some(item.clone());

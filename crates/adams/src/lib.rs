@@ -1,9 +1,9 @@
 //! The ADAMS data-set language: statements, SPLINE tables, function expressions and their execution.
 //!
-//! The crate reads and writes whole data sets (`.adm`), resolves every reference, and computes what a data set
-//! says: forces at a given state, static equilibrium, the quasi-static path. It does not integrate motion. It
-//! depends on no other crate of this workspace, so that its results check the simulator independently, and it
-//! opens no file: callers pass text.
+//! The crate reads and writes whole data sets (`.adm`), resolves every reference, and computes what a data
+//! set says: forces at a given state, static equilibrium, the quasi-static path. It does not integrate
+//! motion. It depends on no other crate of this workspace, so that its results check the simulator
+//! independently, and it opens no file: callers pass text.
 //!
 //! A mass of 2 kg on a spring of 1000 N/m comes to rest where the spring carries its weight:
 //!

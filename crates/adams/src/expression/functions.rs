@@ -128,8 +128,8 @@ impl Function {
     /// The value may be infinite or NaN: callers check.
     ///
     /// # Errors
-    /// [`Fault::Arguments`] for a wrong number of arguments; [`Fault::Parameter`] for a ramp without length, or a
-    /// stiffness, exponent, damping or penetration outside the range of a contact law.
+    /// [`Fault::Arguments`] for a wrong number of arguments; [`Fault::Parameter`] for a ramp without length,
+    /// or a stiffness, exponent, damping or penetration outside the range of a contact law.
     pub fn value<T: Scalar>(self, arguments: &[T]) -> Result<T, Fault> {
         match (self, arguments) {
             (Function::Unary(unary), [a]) => Ok(unary.value(a)),
@@ -192,8 +192,8 @@ pub(crate) fn atan2<T: Scalar>(y: &T, x: &T) -> T {
     T::compose(a.atan2(b), &[(b / square, y), (-a / square, x)])
 }
 
-/// The power a^b. A negative base gives a number where b is a whole number; the derivative with respect to b is
-/// then taken as zero.
+/// The power a^b. A negative base gives a number where b is a whole number; the derivative with respect to b
+/// is then taken as zero.
 pub(crate) fn power<T: Scalar>(base: &T, exponent: &T) -> T {
     let (a, b) = (base.value(), exponent.value());
     let value = a.powf(b);
@@ -260,19 +260,19 @@ fn havsin<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, Fault> {
     ramp(x, ends, |d| (0.5 * (1.0 + angle(d).sin()), 0.5 * PI * angle(d).cos()))
 }
 
-/// Parameters of a contact law, checked: stiffness k >= 0, exponent e > 0, damping cmax >= 0 and the penetration
-/// d > 0 at which the damping is fully applied.
+/// Parameters of a contact law, checked: stiffness k >= 0, exponent e > 0, damping cmax >= 0 and the
+/// penetration d > 0 at which the damping is fully applied.
 fn contact_parameters<T: Scalar>(law: &[T]) -> Result<[&T; 4], Fault> {
     let [k, e, c, d] = law else { return Err(Fault::Arguments) };
     let sound = k.value() >= 0.0 && e.value() > 0.0 && c.value() >= 0.0 && d.value() > 0.0;
     if sound { Ok([k, e, c, d]) } else { Err(Fault::Parameter) }
 }
 
-/// Contact force max(0, k p^e - c xdot) at the penetration p > 0 (`depth`); c rises to cmax over the penetration d
-/// by STEP.
+/// Contact force max(0, k p^e - c xdot) at the penetration p > 0 (`depth`); c rises to cmax over the
+/// penetration d by STEP.
 ///
-/// The reference writes c as STEP(x, x1 - d, cmax, x1, 0). The equal form cmax STEP(p, 0, 0, d, 1) is used here
-/// because p and d are known without cancellation.
+/// The reference writes c as STEP(x, x1 - d, cmax, x1, 0). The equal form cmax STEP(p, 0, 0, d, 1) is used
+/// here because p and d are known without cancellation.
 fn contact_force<T: Scalar>(depth: &T, speed: &T, law: [&T; 4]) -> Result<T, Fault> {
     let [k, e, c, d] = law;
     let zero = T::constant(0.0);

@@ -3,14 +3,15 @@
 use super::tree::{Expression, Factor, Name, Sign};
 use crate::{Fault, number};
 
-/// Largest depth of nested brackets, signs and powers. It bounds the recursion of everything that walks a tree.
+/// Largest depth of nested brackets, signs and powers. It bounds the recursion of everything that walks a
+/// tree.
 const DEEPEST: usize = 100;
 
 /// Reads a function expression.
 ///
-/// The operator `**` associates to the right and binds more tightly than a sign (`-A**2` is `-(A**2)`); `*` and
-/// `/` come next, then `+` and `-`. A number may have an E or D exponent. A D without digits after it marks an
-/// angle in degrees, so that `90D` is pi/2, whereas `90D+5` is 90e5 as in Fortran.
+/// The operator `**` associates to the right and binds more tightly than a sign (`-A**2` is `-(A**2)`); `*`
+/// and `/` come next, then `+` and `-`. A number may have an E or D exponent. A D without digits after it
+/// marks an angle in degrees, so that `90D` is pi/2, whereas `90D+5` is 90e5 as in Fortran.
 ///
 /// # Errors
 /// The number of characters before the first place that cannot be read, and what is wrong there.

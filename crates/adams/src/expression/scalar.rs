@@ -2,8 +2,8 @@
 
 /// A number that expressions compute with: an `f64`, or a [`Dual`] that carries derivatives.
 ///
-/// Every operation is one call of [`Scalar::compose`]: a value and its partial derivatives with respect to the
-/// operands.
+/// Every operation is one call of [`Scalar::compose`]: a value and its partial derivatives with respect to
+/// the operands.
 pub trait Scalar: Clone {
     /// A constant, whose derivatives are zero.
     fn constant(value: f64) -> Self;
@@ -11,8 +11,8 @@ pub trait Scalar: Clone {
     /// The value without derivatives.
     fn value(&self) -> f64;
 
-    /// The function f(a, b, ...) of other scalars by the chain rule, given its value and the pairs (df/da, a),
-    /// (df/db, b), ...
+    /// The function f(a, b, ...) of other scalars by the chain rule, given its value and the pairs (df/da,
+    /// a), (df/db, b), ...
     fn compose(value: f64, parts: &[(f64, &Self)]) -> Self;
 
     /// a + b
@@ -129,8 +129,8 @@ impl Scalar for Dual {
             }
             slopes.resize(slopes.len().max(part.slopes.len()), 0.0);
             for (sum, slope) in slopes.iter_mut().zip(&part.slopes) {
-                // Zero slopes are skipped: an infinite factor times zero would be NaN although the quantity does
-                // not depend on this unknown.
+                // Zero slopes are skipped: an infinite factor times zero would be NaN although the quantity
+                // does not depend on this unknown.
                 if *slope != 0.0 {
                     *sum += factor * slope;
                 }

@@ -2,8 +2,8 @@
 
 /// A function expression as it is written, without meaning of its names.
 ///
-/// A sum or product of many operands is one node with a list, so that the depth of the tree comes from brackets,
-/// signs and powers alone.
+/// A sum or product of many operands is one node with a list, so that the depth of the tree comes from
+/// brackets, signs and powers alone.
 ///
 /// ```
 /// use adams::{Expression, expression};

@@ -87,12 +87,12 @@ impl<T: Scalar> Frame<T> {
     }
 }
 
-/// The value of a kinematic function of marker `i` relative to `j`, resolved in the axes of `k`, with velocities
-/// observed in the frame `l`. `same` says that `k` and `l` are one marker.
+/// The value of a kinematic function of marker `i` relative to `j`, resolved in the axes of `k`, with
+/// velocities observed in the frame `l`. `same` says that `k` and `l` are one marker.
 ///
-/// With d = p_i - p_j the displacement is A_k^T d. The velocity is the rate of d as observed in `l`,
-/// d' + A_l (A_l')^T d, resolved in `k`. Where `k` and `l` are one marker, it is computed as d/dt (A_k^T d), which
-/// is the same for orthogonal axes and exact for axes of small rotations.
+/// With d = p_i - p_j the displacement is A_k^T d. The velocity is the rate of d as observed in `l`, d' + A_l
+/// (A_l')^T d, resolved in `k`. Where `k` and `l` are one marker, it is computed as d/dt (A_k^T d), which is
+/// the same for orthogonal axes and exact for axes of small rotations.
 pub(crate) fn measure<T: Scalar>(what: Measure, [i, j, k, l]: [&Frame<T>; 4], same: bool) -> T {
     let distance = || subtract(&i.origin, &j.origin);
     let seen = || {
@@ -119,7 +119,8 @@ pub(crate) fn measure<T: Scalar>(what: Measure, [i, j, k, l]: [&Frame<T>; 4], sa
     }
 }
 
-/// The angle of `i` about an axis of `j`, from -pi to pi, by the projection of one axis of `i` on a plane of `j`.
+/// The angle of `i` about an axis of `j`, from -pi to pi, by the projection of one axis of `i` on a plane of
+/// `j`.
 pub(crate) fn angle<T: Scalar>(axis: usize, i: &Frame<T>, j: &Frame<T>) -> T {
     let along = |a: usize, b: usize| dot(&column(&i.axes, a), &column(&j.axes, b));
     match axis {

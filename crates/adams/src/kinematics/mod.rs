@@ -1,7 +1,9 @@
-//! Kinematics: vectors of scalars, states and poses of parts, frames of markers, and what is measured between them.
+//! Kinematics: vectors of scalars, states and poses of parts, frames of markers, and what is measured between
+//! them.
 //!
-//! A [`State`] gives the [`Pose`] of every moving part. A `Frame` is a part or marker in ground coordinates with
-//! its velocities, over plain numbers or numbers with derivatives; `measure` evaluates DX to WZ between frames.
+//! A [`State`] gives the [`Pose`] of every moving part. A `Frame` is a part or marker in ground coordinates
+//! with its velocities, over plain numbers or numbers with derivatives; `measure` evaluates DX to WZ between
+//! frames.
 
 mod frame;
 mod state;

@@ -25,9 +25,9 @@ pub struct State {
 
 /// The position, orientation and velocities of a part in ground coordinates.
 ///
-/// `rotation` transforms part coordinates to ground coordinates and is used as it is given, without being made
-/// orthogonal. A simulator with small rotations theta gives I + theta x here and theta' x as `rate`; the positions
-/// and velocities of points then agree with that simulator's to the last digits.
+/// `rotation` transforms part coordinates to ground coordinates and is used as it is given, without being
+/// made orthogonal. A simulator with small rotations theta gives I + theta x here and theta' x as `rate`; the
+/// positions and velocities of points then agree with that simulator's to the last digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Position of the origin of the part.

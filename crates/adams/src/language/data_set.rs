@@ -27,14 +27,14 @@ pub struct DataSet {
 impl DataSet {
     /// Writes the data set as text that ends with END.
     ///
-    /// Guarantees: no line is longer than 79 ASCII characters, and every number reads back to the same bits. A
-    /// list is broken before a separating comma, an expression after an operator or comma, because the comma that
-    /// begins a continued line separates items of a list but is dropped from an expression.
+    /// Guarantees: no line is longer than 79 ASCII characters, and every number reads back to the same bits.
+    /// A list is broken before a separating comma, an expression after an operator or comma, because the
+    /// comma that begins a continued line separates items of a list but is dropped from an expression.
     ///
     /// # Errors
-    /// [`Error::Id`] for an identifier that is zero or used twice by one kind of statement; [`Error::Name`] for a
-    /// name or unit that does not fit between quotes on a line; [`Error::Long`] for a piece of text that is longer
-    /// than a line and cannot be broken.
+    /// [`Error::Id`] for an identifier that is zero or used twice by one kind of statement; [`Error::Name`]
+    /// for a name or unit that does not fit between quotes on a line; [`Error::Long`] for a piece of text
+    /// that is longer than a line and cannot be broken.
     pub fn write(&self) -> Result<String, Error> {
         let mut layout = Layout::new(&self.title);
         for (k, statement) in self.statements.iter().enumerate() {

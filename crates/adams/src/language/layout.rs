@@ -47,8 +47,8 @@ impl Layout {
         Ok(())
     }
 
-    /// Writes one argument; `None` if its text cannot be broken into lines. An expression that is not the last
-    /// argument ends with `\`.
+    /// Writes one argument; `None` if its text cannot be broken into lines. An expression that is not the
+    /// last argument ends with `\`.
     fn argument(&mut self, name: &str, value: &Value, last: bool) -> Option<()> {
         match value {
             Value::Flag => self.line(&format!(", {name}")),
@@ -157,8 +157,8 @@ fn items(text: &str) -> Vec<&str> {
     pieces.map(str::trim).collect()
 }
 
-/// The pieces of an expression between which a line may end. Each ends with a comma, an operator or an opening
-/// bracket.
+/// The pieces of an expression between which a line may end. Each ends with a comma, an operator or an
+/// opening bracket.
 fn pieces(text: &str) -> Vec<&str> {
     let bytes = text.as_bytes();
     let mut out = Vec::new();

@@ -59,9 +59,9 @@ pub(crate) fn statement_word(text: &str) -> Option<&str> {
 
 /// The title and the statements of a data set, up to END.
 ///
-/// The first line is the title unless it is blank, a comment or a statement. A line continues the statement before
-/// it if it begins with a comma, or if that statement ended with a comma and the line does not begin a statement.
-/// `;` ends a statement, `!` begins a comment.
+/// The first line is the title unless it is blank, a comment or a statement. A line continues the statement
+/// before it if it begins with a comma, or if that statement ended with a comma and the line does not begin a
+/// statement. `;` ends a statement, `!` begins a comment.
 pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'_>>), Error> {
     let mut lines = text.lines().enumerate().peekable();
     let title = match lines.peek() {
@@ -187,8 +187,8 @@ pub(crate) fn tokens<'a>(statement: &RawStatement<'a>) -> Result<Vec<Token<'a>>,
     Ok(out)
 }
 
-/// The number of bytes of the number at the start of `text`. Letters that follow without a gap are counted too, so
-/// that they are refused as part of a malformed number.
+/// The number of bytes of the number at the start of `text`. Letters that follow without a gap are counted
+/// too, so that they are refused as part of a malformed number.
 fn number_length(text: &[u8]) -> usize {
     let mut k = 1;
     while let Some(&c) = text.get(k) {

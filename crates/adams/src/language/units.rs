@@ -7,7 +7,8 @@ use super::statement::Statement;
 pub struct Units {
     /// FORCE.
     pub force: Force,
-    /// MASS. It need not be consistent with force and length: ADAMS converts mass times acceleration to force.
+    /// MASS. It need not be consistent with force and length: ADAMS converts mass times acceleration to
+    /// force.
     pub mass: Mass,
     /// LENGTH.
     pub length: Length,

@@ -2,8 +2,8 @@
 
 use crate::{Error, Fault, Statement, StatementId, Value};
 
-/// A statement whose arguments are read and checked. A missing optional argument is `None`; a value of the wrong
-/// form is an error that names the statement and the argument.
+/// A statement whose arguments are read and checked. A missing optional argument is `None`; a value of the
+/// wrong form is an error that names the statement and the argument.
 #[derive(Clone, Copy)]
 pub(super) struct Arguments<'a> {
     pub statement: &'a Statement,
@@ -110,7 +110,8 @@ impl<'a> Arguments<'a> {
     }
 }
 
-/// The cosine and sine of every angle of a value. They are exact for multiples of 90 degrees given in degrees.
+/// The cosine and sine of every angle of a value. They are exact for multiples of 90 degrees given in
+/// degrees.
 pub(super) fn cosines_and_sines(value: &Value) -> Option<Vec<(f64, f64)>> {
     match value {
         Value::Numbers(all) => Some(all.iter().map(|angle| (angle.cos(), angle.sin())).collect()),

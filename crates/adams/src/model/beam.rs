@@ -7,8 +7,8 @@ use crate::{Error, Fault, Scalar, Value};
 
 /// A massless beam from J to I, which lies at the distance LENGTH along x of J in the undeformed state.
 ///
-/// The force and torque on I are F = -K u - C v, where u are the displacements and small rotations of I from the
-/// undeformed state and v their rates, in the axes of J.
+/// The force and torque on I are F = -K u - C v, where u are the displacements and small rotations of I from
+/// the undeformed state and v their rates, in the axes of J.
 #[derive(Clone, Debug)]
 pub(crate) struct Beam {
     length: f64,
@@ -17,7 +17,8 @@ pub(crate) struct Beam {
 }
 
 impl Beam {
-    /// A BEAM statement: the stiffness of a Timoshenko beam with P_y = 12 E Izz ASY/(G A L^2), and likewise P_z.
+    /// A BEAM statement: the stiffness of a Timoshenko beam with P_y = 12 E Izz ASY/(G A L^2), and likewise
+    /// P_z.
     ///
     /// ASY and ASZ are factors of the shear flexibility: the shear area is AREA/ASY.
     ///
@@ -25,8 +26,8 @@ impl Beam {
     /// Arguments that are missing or outside their range, and any FORMULATION other than LINEAR.
     ///
     /// # Source
-    /// Timoshenko's beam element, J. S. Przemieniecki, Theory of Matrix Structural Analysis (1968), section 5.6,
-    /// with the argument names of the Adams Solver reference, BEAM.
+    /// Timoshenko's beam element, J. S. Przemieniecki, Theory of Matrix Structural Analysis (1968), section
+    /// 5.6, with the argument names of the Adams Solver reference, BEAM.
     pub(super) fn read(arguments: &Arguments<'_>) -> Result<Beam, Error> {
         let [length, area, e, g] = [
             arguments.required("LENGTH")?,
@@ -85,7 +86,8 @@ impl Beam {
     }
 }
 
-/// The symmetric matrix of CMATRIX from its 21 numbers: the columns of the lower triangle, from the diagonal down.
+/// The symmetric matrix of CMATRIX from its 21 numbers: the columns of the lower triangle, from the diagonal
+/// down.
 fn symmetric(list: &[f64]) -> Option<[[f64; 6]; 6]> {
     if list.len() != 21 {
         return None;

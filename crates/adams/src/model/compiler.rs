@@ -35,7 +35,8 @@ impl Compiler<'_> {
     /// Compiles an expression.
     ///
     /// # Errors
-    /// The number of characters before the first name that is not known or not executed, and what is wrong with it.
+    /// The number of characters before the first name that is not known or not executed, and what is wrong
+    /// with it.
     pub fn compile(&self, expression: &Expression) -> Compiled {
         match expression {
             Expression::Number(value) => Ok(Formula::Number(*value)),

@@ -12,8 +12,8 @@ use crate::{Expression, Fault, State};
 
 /// A data set with every reference resolved, which can be executed.
 ///
-/// [`Model::solve`] gives the forces at a state, [`Model::equilibrium`] static equilibrium, and [`Model::path`] the
-/// quasi-static path.
+/// [`Model::solve`] gives the forces at a state, [`Model::equilibrium`] static equilibrium, and
+/// [`Model::path`] the quasi-static path.
 ///
 /// ```
 /// use adams::{DataSet, Model};

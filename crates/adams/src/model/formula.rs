@@ -22,7 +22,8 @@ pub(crate) enum Formula {
     Mode,
     /// A kinematic function of the markers i, j, k and l; `None` is ground.
     Measure(Measure, [Option<usize>; 4]),
-    /// A component of a load: 1 the magnitude of the force, 2 to 4 its components, 5 to 8 likewise for the torque.
+    /// A component of a load: 1 the magnitude of the force, 2 to 4 its components, 5 to 8 likewise for the
+    /// torque.
     Load {
         load: usize,
         on_j: bool,
@@ -219,8 +220,8 @@ impl Formula {
     }
 }
 
-/// A component of a force and torque in the axes of `frame`: 1 |F|, 2 to 4 F, 5 |T|, 6 to 8 T. On J the components
-/// have the opposite sign; magnitudes have none.
+/// A component of a force and torque in the axes of `frame`: 1 |F|, 2 to 4 F, 5 |T|, 6 to 8 T. On J the
+/// components have the opposite sign; magnitudes have none.
 fn component_of<T: Scalar>(wrench: &[Vector<T>; 2], component: usize, frame: &Frame<T>, on_j: bool) -> T {
     let vector = &wrench[usize::from(component > 4)];
     match (component - 1) % 4 {

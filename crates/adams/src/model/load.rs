@@ -5,8 +5,8 @@ use super::configuration::Configuration;
 use crate::Scalar;
 use crate::kinematics::vector::{Vector, apply, column, norm, resolve, scale, subtract, vector};
 
-/// A force and torque on the part of marker I at I, with the opposite force and torque on the part of J at the same
-/// point.
+/// A force and torque on the part of marker I at I, with the opposite force and torque on the part of J at
+/// the same point.
 #[derive(Clone, Debug)]
 pub(crate) struct Load {
     pub kind: LoadKind,
@@ -51,8 +51,8 @@ impl Load {
         (self.kind.keyword(), argument)
     }
 
-    /// The slot that equals a component (2 to 4, 6 to 8) in the axes of `frame`, which must be those of the load's
-    /// own marker RM. `None` if the component needs arithmetic, `Some(None)` if it is zero.
+    /// The slot that equals a component (2 to 4, 6 to 8) in the axes of `frame`, which must be those of the
+    /// load's own marker RM. `None` if the component needs arithmetic, `Some(None)` if it is zero.
     pub fn direct(&self, component: usize, frame: Option<usize>) -> Option<Option<usize>> {
         match (&self.law, component) {
             (Law::Components { slots, rm }, 2..=4) if frame == Some(*rm) => Some(slots[component - 2]),

@@ -1,9 +1,9 @@
 //! A data set with every reference resolved, ready to be executed.
 //!
-//! `build` reads the statements of a [`DataSet`](crate::DataSet): PART and MARKER into `part`, forces into `load`,
-//! joints and motions into `constraint`, expressions through `compiler` into `formula`. Every scalar that an expression
-//! defines is a slot; `order` sorts the slots and finds the algebraic loops among them. A `configuration` holds frames
-//! and values of slots, on which formulas and loads are evaluated.
+//! `build` reads the statements of a [`DataSet`](crate::DataSet): PART and MARKER into `part`, forces into
+//! `load`, joints and motions into `constraint`, expressions through `compiler` into `formula`. Every scalar
+//! that an expression defines is a slot; `order` sorts the slots and finds the algebraic loops among them. A
+//! `configuration` holds frames and values of slots, on which formulas and loads are evaluated.
 
 mod arguments;
 mod beam;

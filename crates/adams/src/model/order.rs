@@ -7,19 +7,21 @@ use std::collections::BTreeSet;
 pub(crate) enum Block {
     /// A slot that follows from those before it.
     Direct(usize),
-    /// An algebraic loop. Given values of the torn slots, the `rest` follows in order; the unknowns are the torn
-    /// values, and the equations say that each equals its own expression.
+    /// An algebraic loop. Given values of the torn slots, the `rest` follows in order; the unknowns are the
+    /// torn values, and the equations say that each equals its own expression.
     Loop { torn: Vec<usize>, rest: Vec<usize> },
 }
 
 /// Orders the slots into blocks so that each block reads only itself and the blocks before it.
 ///
-/// `needs[k]` are the slots that the expression of slot k reads. Slots that read each other form a strongly connected
-/// component of this graph. Each such component becomes a loop, whose torn slots are chosen greedily until the rest
-/// has no cycle. Slots with `implicit[k]` are always torn; those with `preferred[k]` are torn before others.
+/// `needs[k]` are the slots that the expression of slot k reads. Slots that read each other form a strongly
+/// connected component of this graph. Each such component becomes a loop, whose torn slots are chosen
+/// greedily until the rest has no cycle. Slots with `implicit[k]` are always torn; those with `preferred[k]`
+/// are torn before others.
 ///
 /// # Source
-/// Strongly connected components: R. Tarjan, SIAM Journal on Computing 1(2), 1972; here by two searches (Kosaraju).
+/// Strongly connected components: R. Tarjan, SIAM Journal on Computing 1(2), 1972; here by two searches
+/// (Kosaraju).
 pub(crate) fn order(needs: &[BTreeSet<usize>], implicit: &[bool], preferred: &[bool]) -> Vec<Block> {
     let all: BTreeSet<usize> = (0..needs.len()).collect();
     components(needs, &all)
@@ -49,7 +51,8 @@ fn tear(
         let Some(group) = groups.iter().find(|group| closed(group)) else {
             return (torn.into_iter().collect(), groups.concat());
         };
-        // A slot that reads itself must be torn. Otherwise the one that most others read is torn, the first of equals.
+        // A slot that reads itself must be torn. Otherwise the one that most others read is torn, the first
+        // of equals.
         let inside: BTreeSet<usize> = group.iter().copied().collect();
         let uses = |k: usize| inside.iter().filter(|other| needs[**other].contains(&k)).count();
         let rank = |k: usize| (needs[k].contains(&k), preferred[k], uses(k), std::cmp::Reverse(k));
@@ -70,7 +73,8 @@ fn components(needs: &[BTreeSet<usize>], nodes: &BTreeSet<usize>) -> Vec<Vec<usi
             users[need].push(k);
         }
     }
-    // The order in which a depth-first search of the reversed graph finishes, with a stack instead of recursion.
+    // The order in which a depth-first search of the reversed graph finishes, with a stack instead of
+    // recursion.
     let mut seen = BTreeSet::new();
     let mut finished: Vec<usize> = Vec::new();
     for &root in nodes {

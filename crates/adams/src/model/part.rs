@@ -52,7 +52,8 @@ impl Part {
         })
     }
 
-    /// The initial pose. VX to VZ are the velocity of the centre of mass, from which that of the origin follows.
+    /// The initial pose. VX to VZ are the velocity of the centre of mass, from which that of the origin
+    /// follows.
     pub fn pose(&self, markers: &[Marker]) -> Pose {
         let rotation = Matrix3::from_fn(|i, j| self.rotation[i][j]);
         let center = self.cm.and_then(|k| markers.get(k)).map_or([0.0; 3], |marker| marker.position);
@@ -71,7 +72,8 @@ impl Marker {
     }
 }
 
-/// The origin and axes of a PART or MARKER: from a point and Euler angles, or from a point and points on the axes.
+/// The origin and axes of a PART or MARKER: from a point and Euler angles, or from a point and points on the
+/// axes.
 fn placement(
     arguments: &Arguments<'_>,
     [q, z, x]: [&'static str; 3],
@@ -85,7 +87,8 @@ fn placement(
         (None, Some(point), other) => {
             let first = subtract(&point, &origin);
             let by_x = arguments.flag("USEXP");
-            // Without a second point the x axis of the part takes its place, or the y axis if the first point is on x.
+            // Without a second point the x axis of the part takes its place, or the y axis if the first point
+            // is on x.
             let spare = if first[1].abs() + first[2].abs() > 1e-9 * norm(&first) {
                 [1.0, 0.0, 0.0]
             } else {

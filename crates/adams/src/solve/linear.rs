@@ -4,8 +4,9 @@ use nalgebra::{DMatrix, DVector, Dyn, FullPivLU, SVD};
 
 /// A square matrix A with its factorization.
 ///
-/// The scaled matrix R A C, with diagonal R and C, is factored by elimination with full pivoting. If it is singular,
-/// equations are solved in the least-squares sense by singular values, with the smallest norm of the scaled unknowns.
+/// The scaled matrix R A C, with diagonal R and C, is factored by elimination with full pivoting. If it is
+/// singular, equations are solved in the least-squares sense by singular values, with the smallest norm of
+/// the scaled unknowns.
 pub(super) struct FactoredMatrix {
     /// R.
     rows: Vec<f64>,
@@ -52,8 +53,8 @@ impl FactoredMatrix {
         FactoredMatrix::new(matrix, rows, columns)
     }
 
-    /// A matrix scaled by the typical sizes of residuals (`rows`) and unknowns (`columns`): R has the inverse sizes of
-    /// residuals, C the sizes of unknowns. `None` for a matrix that is not finite.
+    /// A matrix scaled by the typical sizes of residuals (`rows`) and unknowns (`columns`): R has the inverse
+    /// sizes of residuals, C the sizes of unknowns. `None` for a matrix that is not finite.
     pub fn scaled(matrix: &DMatrix<f64>, rows: &[f64], columns: &[f64]) -> Option<FactoredMatrix> {
         FactoredMatrix::new(matrix, rows.iter().map(|row| 1.0 / row).collect(), columns.to_vec())
     }

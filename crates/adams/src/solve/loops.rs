@@ -10,14 +10,15 @@ use nalgebra::DMatrix;
 impl Model {
     /// VARIABLEs, forces and rates at a state.
     ///
-    /// Expressions are evaluated in the order in which they depend on each other. Expressions that depend on each
-    /// other in a loop are solved by Newton's method with exact derivatives and step halving, starting from the IC of
-    /// the VARIABLEs, until corrections are at the level of rounding, about 1e-15 of each VARIABLE. An implicit DIFF
-    /// is solved for DIF1. If its expression does not contain DIF1 and is zero, DIF1 keeps its initial value.
+    /// Expressions are evaluated in the order in which they depend on each other. Expressions that depend on
+    /// each other in a loop are solved by Newton's method with exact derivatives and step halving, starting
+    /// from the IC of the VARIABLEs, until corrections are at the level of rounding, about 1e-15 of each
+    /// VARIABLE. An implicit DIFF is solved for DIF1. If its expression does not contain DIF1 and is zero,
+    /// DIF1 keeps its initial value.
     ///
     /// # Errors
-    /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression without a
-    /// finite value; [`Error::Loop`] if the iteration does not converge.
+    /// [`Error::State`] for a state without one of the parts or DIFFs; [`Error::In`] for an expression
+    /// without a finite value; [`Error::Loop`] if the iteration does not converge.
     ///
     /// ```
     /// use adams::{DataSet, Model};
@@ -58,8 +59,9 @@ impl Model {
 
     /// Solves one loop, and returns the number of iterations.
     ///
-    /// Unknowns are the values of the torn slots. Given them, the other slots follow in order; the residual of a torn
-    /// slot is its value minus the value of its expression, or the expression itself if the slot is implicit.
+    /// Unknowns are the values of the torn slots. Given them, the other slots follow in order; the residual
+    /// of a torn slot is its value minus the value of its expression, or the expression itself if the slot is
+    /// implicit.
     fn close(
         &self,
         on: &mut Evaluation<'_, f64>,

@@ -1,8 +1,8 @@
 //! Solution of a model: forces at a given state, static equilibrium, the quasi-static path.
 //!
-//! `loops` evaluates the slots of a model in order and closes its algebraic loops by the method of `newton`, whose
-//! linear equations `linear` solves. `statics` finds parts, loops and reactions together at rest. `solution` reports
-//! the values.
+//! `loops` evaluates the slots of a model in order and closes its algebraic loops by the method of `newton`,
+//! whose linear equations `linear` solves. `statics` finds parts, loops and reactions together at rest.
+//! `solution` reports the values.
 
 mod linear;
 mod loops;

@@ -24,16 +24,18 @@ type Linearization = (Vec<f64>, DMatrix<f64>);
 
 /// Solves r(x) = 0 from an initial value, and returns x and the number of iterations.
 ///
-/// Newton's method is tried first. Where it does not converge, for instance at a kink of r on the side from which
-/// steps lead back, the initial value first follows the differential equation x' = -r(x) by implicit Euler steps of
-/// growing length (pseudo-transient continuation), and Newton's method starts again from there. Only the unknowns
-/// marked in `continued` have a time derivative; the equations of the others hold at every step.
+/// Newton's method is tried first. Where it does not converge, for instance at a kink of r on the side from
+/// which steps lead back, the initial value first follows the differential equation x' = -r(x) by implicit
+/// Euler steps of growing length (pseudo-transient continuation), and Newton's method starts again from
+/// there. Only the unknowns marked in `continued` have a time derivative; the equations of the others hold at
+/// every step.
 ///
-/// `linearize` gives r and J, `residual_at` gives r alone. Their errors at the start of Newton's method are returned.
+/// `linearize` gives r and J, `residual_at` gives r alone. Their errors at the start of Newton's method are
+/// returned.
 ///
 /// # Source
-/// C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM Journal on Numerical
-/// Analysis 35(2), 1998.
+/// C. T. Kelley, D. E. Keyes, Convergence analysis of pseudo-transient continuation, SIAM Journal on
+/// Numerical Analysis 35(2), 1998.
 pub(super) fn solve<E>(
     start: Vec<f64>,
     continued: &[bool],
@@ -54,8 +56,8 @@ pub(super) fn solve<E>(
 
 /// The end of pseudo-transient continuation and the number of steps; `None` if the steps fail.
 ///
-/// Each step solves (J + rate) dx = -r. The rate, the inverse of the time step, decreases with the residual; a step
-/// that increases the residual too much is repeated with an eightfold rate.
+/// Each step solves (J + rate) dx = -r. The rate, the inverse of the time step, decreases with the residual;
+/// a step that increases the residual too much is repeated with an eightfold rate.
 fn continuation<E>(
     mut x: Vec<f64>,
     continued: &[bool],
@@ -92,10 +94,10 @@ fn continuation<E>(
 
 /// Newton's method for r(x) = 0; returns x and the number of iterations.
 ///
-/// The step -J^-1 r is halved until the simplified correction -J^-1 r(x + step), with the same J, is smaller than the
-/// step. This test of natural monotonicity does not depend on the units of x and r. The iteration ends when the
-/// corrections are at the level of rounding. A step by a singular J is accepted as the last one only if it solves the
-/// linear equations.
+/// The step -J^-1 r is halved until the simplified correction -J^-1 r(x + step), with the same J, is smaller
+/// than the step. This test of natural monotonicity does not depend on the units of x and r. The iteration
+/// ends when the corrections are at the level of rounding. A step by a singular J is accepted as the last one
+/// only if it solves the linear equations.
 ///
 /// # Source
 /// P. Deuflhard, Newton Methods for Nonlinear Problems (2004), section 3.3: natural monotonicity.

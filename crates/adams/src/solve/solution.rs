@@ -15,8 +15,9 @@ pub struct Solution {
     pub rates: BTreeMap<u32, f64>,
     /// Every SFORCE, VFORCE, GFORCE and BEAM, by keyword and identifier.
     pub loads: BTreeMap<(&'static str, u32), Load>,
-    /// The columns of every REQUEST with function expressions, by identifier; F1 to F8 are numbered 1 to 8. Reactions
-    /// of joints are known at equilibrium only; at other states the columns that read them are left out.
+    /// The columns of every REQUEST with function expressions, by identifier; F1 to F8 are numbered 1 to 8.
+    /// Reactions of joints are known at equilibrium only; at other states the columns that read them are left
+    /// out.
     pub requests: BTreeMap<u32, BTreeMap<usize, f64>>,
     /// The identifiers of SPLINEs that were read beyond their values.
     pub beyond: BTreeSet<u32>,
@@ -31,8 +32,8 @@ pub struct Solution {
 /// The force and torque of one statement, in the units of the data set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Load {
-    /// FX to TZ as the expressions give them, in the axes of RM. An SFORCE has its value and zeros; a BEAM has its
-    /// components in the axes of J.
+    /// FX to TZ as the expressions give them, in the axes of RM. An SFORCE has its value and zeros; a BEAM
+    /// has its components in the axes of J.
     pub components: [f64; 6],
     /// Force on I, in ground axes. The opposite force acts on J, unless the load acts on I only.
     pub force: Vector3<f64>,
@@ -46,7 +47,8 @@ impl Model {
         const COLUMNS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
         let mut out = Solution { iterations, ..Solution::default() };
         for (k, (slot, value)) in self.slots.iter().zip(&on.at.values).enumerate() {
-            // Every expression is evaluated once more, so that every table read beyond its values is recorded.
+            // Every expression is evaluated once more, so that every table read beyond its values is
+            // recorded.
             self.slot_value(k, on)?;
             match slot.owner {
                 Owner::Variable => out.variables.insert(slot.id, *value),
@@ -87,8 +89,8 @@ impl Model {
     /// The value of any expression, such as `GFORCE(17,0,3,49)`, at a state that has been solved.
     ///
     /// # Errors
-    /// [`Error::In`] with the keyword REQUEST and identifier zero for text that is not an expression, for unknown
-    /// names or identifiers, and for a value that is not finite.
+    /// [`Error::In`] with the keyword REQUEST and identifier zero for text that is not an expression, for
+    /// unknown names or identifiers, and for a value that is not finite.
     ///
     /// ```
     /// use adams::{DataSet, Model};

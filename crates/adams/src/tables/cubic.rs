@@ -6,8 +6,8 @@ pub(super) struct HermiteCurve {
     x: Vec<f64>,
     y: Vec<f64>,
     slopes: Vec<f64>,
-    /// Whether the tangent continues the curve beyond its ends, instead of the parabola through the three points at
-    /// that end.
+    /// Whether the tangent continues the curve beyond its ends, instead of the parabola through the three
+    /// points at that end.
     linear: bool,
 }
 
@@ -23,7 +23,8 @@ impl HermiteCurve {
         first.is_some_and(|first| x < *first) || last.is_some_and(|last| x > *last)
     }
 
-    /// The value and the first three derivatives at x; at a point between two pieces, those of the piece after it.
+    /// The value and the first three derivatives at x; at a point between two pieces, those of the piece
+    /// after it.
     pub fn derivatives(&self, x: f64) -> [f64; 4] {
         let n = self.x.len();
         if self.beyond(x) {
@@ -48,7 +49,8 @@ impl HermiteCurve {
         ]
     }
 
-    /// The value, slope and half the second derivative, at an end, of the parabola through the three points there.
+    /// The value, slope and half the second derivative, at an end, of the parabola through the three points
+    /// there.
     fn parabola(&self, end: usize) -> [f64; 3] {
         let n = self.x.len();
         let [a, b, c] = if end == 0 { [0, 1, 2] } else { [n - 1, n - 2, n - 3] };
@@ -90,13 +92,12 @@ pub(super) fn akima_slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
         .collect()
 }
 
-/// Slopes t at the points of the natural cubic spline, for increasing x and at least two points: second derivatives
-/// are continuous, and zero at both ends.
+/// Slopes t at the points of the natural cubic spline, for increasing x and at least two points: second
+/// derivatives are continuous, and zero at both ends.
 ///
-/// h and m are the length and slope of the chord before (`-`) and after (`+`) a point:
-/// t_-/h_- + 2 t (1/h_- + 1/h_+) + t_+/h_+ = 3 (m_-/h_- + m_+/h_+), and 2 t + t_+ = 3 m_+ at the first point
-/// (likewise at the last). The tridiagonal equations are diagonally dominant and are solved by elimination without
-/// pivoting.
+/// h and m are the length and slope of the chord before (`-`) and after (`+`) a point: t_-/h_- + 2 t (1/h_- +
+/// 1/h_+) + t_+/h_+ = 3 (m_-/h_- + m_+/h_+), and 2 t + t_+ = 3 m_+ at the first point (likewise at the last).
+/// The tridiagonal equations are diagonally dominant and are solved by elimination without pivoting.
 ///
 /// # Source
 /// C. de Boor, A Practical Guide to Splines (2001), chapter IV.

@@ -4,7 +4,8 @@ use crate::Fault;
 
 /// Values y over x: one curve for each z, or a single curve without z.
 ///
-/// In an influence table x is the position of the load and z the position at which the deflection is measured.
+/// In an influence table x is the position of the load and z the position at which the deflection is
+/// measured.
 ///
 /// ```
 /// use adams::{Curves, Fault};
@@ -27,14 +28,15 @@ impl Curves {
     /// The smallest number of x values of a SPLINE.
     pub const LEAST: usize = 4;
 
-    /// A family of curves, where `y[i]` are the values over `x` at `z[i]`; with an empty `z` the single curve `y[0]`.
+    /// A family of curves, where `y[i]` are the values over `x` at `z[i]`; with an empty `z` the single curve
+    /// `y[0]`.
     ///
     /// Shapes: `y` has `max(1, z.len())` lists of `x.len()` values each.
     ///
     /// # Errors
-    /// [`Fault::Points`] for fewer than four x values; [`Fault::Order`] for x or z values that are not finite or do
-    /// not increase; [`Fault::Curves`] and [`Fault::Values`] for a wrong shape of `y`; [`Fault::NotFinite`] for a y
-    /// value that is not finite.
+    /// [`Fault::Points`] for fewer than four x values; [`Fault::Order`] for x or z values that are not finite
+    /// or do not increase; [`Fault::Curves`] and [`Fault::Values`] for a wrong shape of `y`;
+    /// [`Fault::NotFinite`] for a y value that is not finite.
     pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<Curves, Fault> {
         if x.len() < Curves::LEAST {
             return Err(Fault::Points { found: x.len(), least: Curves::LEAST });

@@ -66,12 +66,13 @@ impl Family {
         !self.z.is_empty()
     }
 
-    /// The value at (x, z) for `order` 0, or the first or second derivative of a single curve for `order` 1 or 2.
+    /// The value at (x, z) for `order` 0, or the first or second derivative of a single curve for `order` 1
+    /// or 2.
     ///
-    /// Beyond the x values of the SPLINE the curve continues by its tangent with LINEAR_EXTRAPOLATE, and by the
-    /// parabola through the last three points without it. Two pages of the ADAMS documentation give different
-    /// rules here, so a data set should not rely on either. Beyond the z values the last straight line continues
-    /// with LINEAR_EXTRAPOLATE.
+    /// Beyond the x values of the SPLINE the curve continues by its tangent with LINEAR_EXTRAPOLATE, and by
+    /// the parabola through the last three points without it. Two pages of the ADAMS documentation give
+    /// different rules here, so a data set should not rely on either. Beyond the z values the last straight
+    /// line continues with LINEAR_EXTRAPOLATE.
     ///
     /// # Errors
     /// [`Fault::Beyond`] for z outside a SPLINE without LINEAR_EXTRAPOLATE.
@@ -113,8 +114,8 @@ mod tests {
         Spline { id: 1, name: None, units: None, linear, curves }
     }
 
-    /// The Adams View help prints these values for AKIMA_SPLINE({1,2,3,4},{0,2,1,3},10) and CSPLINE of the same
-    /// points. The page of CSPLINE prints 0.936 instead of 0.963.
+    /// The Adams View help prints these values for AKIMA_SPLINE({1,2,3,4},{0,2,1,3},10) and CSPLINE of the
+    /// same points. The page of CSPLINE prints 0.936 instead of 0.963.
     #[test]
     fn published_values_of_akima_spline_and_cspline_are_met() {
         let points = curve(&[1.0, 2.0, 3.0, 4.0], &[0.0, 2.0, 1.0, 3.0], false);

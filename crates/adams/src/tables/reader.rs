@@ -1,7 +1,7 @@
 //! Reader of SPLINE and UNITS statements that passes over everything else.
 //!
-//! It reads tokens instead of using the reader of whole data sets, so that a file with statements that this crate
-//! cannot read still gives its tables.
+//! It reads tokens instead of using the reader of whole data sets, so that a file with statements that this
+//! crate cannot read still gives its tables.
 
 use super::curves::Curves;
 use super::spline::{Spline, Tables};
@@ -12,8 +12,9 @@ use crate::{Error, Fault, number};
 
 /// Reads the SPLINE and UNITS statements of a data set, up to END, and passes over every other statement.
 ///
-/// Keywords may be in upper or lower case and may be abbreviated; numbers may have D exponents. A continuation line
-/// begins with a comma, which also separates the items of a list; several commas in a row count as one.
+/// Keywords may be in upper or lower case and may be abbreviated; numbers may have D exponents. A
+/// continuation line begins with a comma, which also separates the items of a list; several commas in a row
+/// count as one.
 ///
 /// # Errors
 /// [`Error::At`] with line and column for text that is not a statement of these kinds, values in another file
@@ -154,7 +155,8 @@ fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error
     Ok(out)
 }
 
-/// The curves of a SPLINE: one list of n values is a single curve; lists of n + 1 values, z first, are a family.
+/// The curves of a SPLINE: one list of n values is a single curve; lists of n + 1 values, z first, are a
+/// family.
 fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Curves, Error> {
     let n = x.values.len();
     let (z, values) = match y {

@@ -51,8 +51,8 @@ impl Spline {
 /// The table of a SPLINE statement that has been read or built.
 ///
 /// # Errors
-/// [`Error::Statement`] for values in another file, a missing X or Y, lists of unequal length, fewer than four x
-/// values, or x or z values that do not increase.
+/// [`Error::Statement`] for values in another file, a missing X or Y, lists of unequal length, fewer than
+/// four x values, or x or z values that do not increase.
 pub fn of_statement(statement: &Statement) -> Result<Spline, Error> {
     let id = statement.id.unwrap_or(0);
     let refuse = |fault: Fault| {
@@ -95,12 +95,12 @@ pub fn of_statement(statement: &Statement) -> Result<Spline, Error> {
 /// Writes a data set with a title, UNITS, the SPLINE statements with their Adams View names, and END.
 ///
 /// Guarantees: no line is longer than 79 ASCII characters, and every number has the digits that make
-/// [`super::read`] return the same bits. A title is cut to one such line; `Model: ` is put before a title that
-/// would otherwise read as a statement or comment.
+/// [`super::read`] return the same bits. A title is cut to one such line; `Model: ` is put before a title
+/// that would otherwise read as a statement or comment.
 ///
 /// # Errors
-/// [`Error::Id`] for an identifier that is zero or used twice; [`Error::Name`] for a name or unit that cannot be
-/// written between quotes on one line.
+/// [`Error::Id`] for an identifier that is zero or used twice; [`Error::Name`] for a name or unit that cannot
+/// be written between quotes on one line.
 pub fn write(tables: &Tables) -> Result<String, Error> {
     let units = tables.units.iter().map(Units::statement);
     let statements = units.chain(tables.splines.iter().map(Spline::statement)).collect();

@@ -28,7 +28,8 @@ impl CommandToken<'_> {
     }
 }
 
-/// The commands of a file. `!` at the start of a line begins a comment; a line that ends with `&` is continued.
+/// The commands of a file. `!` at the start of a line begins a comment; a line that ends with `&` is
+/// continued.
 pub(super) fn commands(text: &str) -> Vec<Command<'_>> {
     let mut all: Vec<Command<'_>> = Vec::new();
     let mut open = false;

@@ -10,9 +10,9 @@ use crate::{Error, Fault, number};
 
 /// Reads the commands `data_element create spline` and `defaults units`, and passes over every other command.
 ///
-/// The values of a family are listed curve after curve, x fastest. A spline without `adams_id` gets the next free
-/// identifier, as in Adams View; a spline with the default name of its identifier has no name. The title is the name
-/// of the model.
+/// The values of a family are listed curve after curve, x fastest. A spline without `adams_id` gets the next
+/// free identifier, as in Adams View; a spline with the default name of its identifier has no name. The title
+/// is the name of the model.
 ///
 /// # Errors
 /// [`Error::At`] with line and column for the same faults as [`crate::tables::read`], for values that are
@@ -239,8 +239,8 @@ impl DefaultUnits {
         Ok(())
     }
 
-    /// The units, if force and length are given. A missing unit of mass becomes the kilogram, since tables have no
-    /// mass.
+    /// The units, if force and length are given. A missing unit of mass becomes the kilogram, since tables
+    /// have no mass.
     fn units(&self) -> Option<Units> {
         let (force, length) = self.force.zip(self.length)?;
         Some(Units { force, mass: self.mass.unwrap_or(Mass::Kilogram), length })

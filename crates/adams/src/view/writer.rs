@@ -15,13 +15,13 @@ pub(super) fn default_name(id: u32) -> String {
 /// Writes the commands that create a model with these tables: `defaults units`, `model create`, and one
 /// `data_element create spline` for each table. The title is the name of the model.
 ///
-/// `remarks` are comments at the start of the file. Guarantees: no line is longer than 79 ASCII characters, and
-/// every number has the digits that make [`super::read`] return the same bits.
+/// `remarks` are comments at the start of the file. Guarantees: no line is longer than 79 ASCII characters,
+/// and every number has the digits that make [`super::read`] return the same bits.
 ///
 /// # Errors
-/// [`Error::Id`] for an identifier that is zero or used twice; [`Error::Name`] for a name that is too long for a
-/// line, begins with a digit, or has other characters than letters, digits and underscores; [`Error::Long`] for a
-/// remark that cannot be broken into lines.
+/// [`Error::Id`] for an identifier that is zero or used twice; [`Error::Name`] for a name that is too long
+/// for a line, begins with a digit, or has other characters than letters, digits and underscores;
+/// [`Error::Long`] for a remark that cannot be broken into lines.
 ///
 /// ```
 /// let text = "SPLINE/6, X=0,20,40,60, Y=0,2.5,2.5,0\nEND";
@@ -117,7 +117,8 @@ impl Out {
         Ok(())
     }
 
-    /// A command: `head  &`, then a line `key = value, value  &` for each key, broken after a separating comma.
+    /// A command: `head  &`, then a line `key = value, value  &` for each key, broken after a separating
+    /// comma.
     fn command(&mut self, head: &str, entries: &[(&str, Vec<String>)]) {
         self.line(&format!("{head}  &"));
         for (k, (key, values)) in entries.iter().enumerate() {

@@ -134,8 +134,8 @@ fn whole(cursor: &mut Cursor) -> Result<Value, Error> {
     value.map(Value::Whole).ok_or_else(|| cursor.fault(start, Fault::Id))
 }
 
-/// Reads numbers up to the next argument. With `angles` a number that ends with D is an angle in degrees; a list
-/// that mixes degrees and radians is converted to radians.
+/// Reads numbers up to the next argument. With `angles` a number that ends with D is an angle in degrees; a
+/// list that mixes degrees and radians is converted to radians.
 fn numbers(cursor: &mut Cursor, angles: bool) -> Result<Value, Error> {
     cursor.separator();
     let mut all: Vec<(f64, bool)> = Vec::new();
@@ -190,7 +190,8 @@ fn function(cursor: &mut Cursor, table: Option<Arguments>) -> Result<Value, Erro
             blank = true;
             continue;
         }
-        // A blank between two names or numbers stays, so that the parser refuses them instead of joining them.
+        // A blank between two names or numbers stays, so that the parser refuses them instead of joining
+        // them.
         if blank && joins(character.c) && text.last().is_some_and(|c| joins(*c)) {
             text.push(' ');
             places.push(at);

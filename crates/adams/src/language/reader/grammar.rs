@@ -239,8 +239,8 @@ pub(super) fn has_no_id(keyword: &Keyword) -> bool {
     matches!(keyword, Keyword::Units | Keyword::Accgrav)
 }
 
-/// The keyword that a word names or abbreviates, and its arguments. A word that is unknown or ambiguous stands for
-/// itself.
+/// The keyword that a word names or abbreviates, and its arguments. A word that is unknown or ambiguous
+/// stands for itself.
 pub(super) fn keyword(word: &str) -> (Keyword, Option<Arguments>) {
     let keyword = lookup(Keyword::ALL, word).unwrap_or_else(|| Keyword::Other(word.to_ascii_uppercase()));
     let arguments = arguments(&keyword);

@@ -17,18 +17,18 @@ use std::collections::BTreeSet;
 impl DataSet {
     /// Reads a data set, up to END.
     ///
-    /// Keywords and names of arguments may be in upper or lower case and may be abbreviated as long as they stay
-    /// unique; arguments may come in any order. The result has the full names. A line that begins with a comma
-    /// continues the line before it: in a list this comma separates items, in a function expression it is dropped.
-    /// An expression ends with `\`, with the statement, or before a comma and the name of another argument.
-    /// Blanks in expressions are removed.
+    /// Keywords and names of arguments may be in upper or lower case and may be abbreviated as long as they
+    /// stay unique; arguments may come in any order. The result has the full names. A line that begins with a
+    /// comma continues the line before it: in a list this comma separates items, in a function expression it
+    /// is dropped. An expression ends with `\`, with the statement, or before a comma and the name of another
+    /// argument. Blanks in expressions are removed.
     ///
     /// Statements of kinds that this crate does not execute are kept as they are written.
     ///
     /// # Errors
-    /// [`Error::At`] with line and column for text that is not a statement, an unknown or repeated argument, a
-    /// value of the wrong form, an expression that cannot be parsed, or an identifier that is missing or used
-    /// twice.
+    /// [`Error::At`] with line and column for text that is not a statement, an unknown or repeated argument,
+    /// a value of the wrong form, an expression that cannot be parsed, or an identifier that is missing or
+    /// used twice.
     ///
     /// # Source
     /// Adams Solver reference, the statements; continuation as in data sets written by Adams View.

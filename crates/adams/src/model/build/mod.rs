@@ -1,7 +1,7 @@
 //! Construction of a model from the statements of a data set.
 //!
-//! Statements are read kind by kind, those that others refer to first. Expressions are compiled last, once every
-//! identifier is known.
+//! Statements are read kind by kind, those that others refer to first. Expressions are compiled last, once
+//! every identifier is known.
 
 mod constraints;
 mod loads;
@@ -17,8 +17,8 @@ use crate::tables::{Family, Method};
 use crate::{DataSet, Error, Fault, Statement, StatementId, expression, tables};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Statements without effect on a solution: settings of the solver and of output, and values that only statements read
-/// which are not executed.
+/// Statements without effect on a solution: settings of the solver and of output, and values that only
+/// statements read which are not executed.
 const IGNORED: &[&str] = &[
     "ARRAY",
     "DEBUG",
@@ -73,9 +73,9 @@ impl Model {
     /// Resolves every reference of a data set.
     ///
     /// # Errors
-    /// [`Error::Statement`] for statements that are not executed, arguments that are missing or have the wrong form,
-    /// and references to statements that do not exist. [`Error::In`] for expressions that cannot be parsed, use
-    /// unknown names, or call a function with a wrong number of arguments.
+    /// [`Error::Statement`] for statements that are not executed, arguments that are missing or have the
+    /// wrong form, and references to statements that do not exist. [`Error::In`] for expressions that cannot
+    /// be parsed, use unknown names, or call a function with a wrong number of arguments.
     pub fn new(set: &DataSet) -> Result<Model, Error> {
         let (symbols, model) = (Symbols::default(), Model::default());
         let mut build = Build { set, symbols, model, pending: Vec::new() };
@@ -266,7 +266,8 @@ impl<'a> Build<'a> {
                 Target::Request(request, column) => self.model.requests[request].columns[column].1 = formula,
                 Target::Motion(constraint) => {
                     if let Some(motion) = &mut self.model.constraints[constraint].motion {
-                        // A prescribed velocity is integrated over time, so it must not depend on anything else.
+                        // A prescribed velocity is integrated over time, so it must not depend on anything
+                        // else.
                         if motion.start.is_some() && !formula.is_function_of_time() {
                             return Err(arguments.fault(Fault::Unsupported));
                         }

@@ -10,8 +10,8 @@ const POUND_FORCE: f64 = 4.448_221_615_260_5;
 const POUND_MASS: f64 = 0.453_592_37;
 const FOOT: f64 = 0.3048;
 
-/// The force, in the unit of a UNITS statement, that gives one unit of mass an acceleration of one unit of length
-/// per second squared.
+/// The force, in the unit of a UNITS statement, that gives one unit of mass an acceleration of one unit of
+/// length per second squared.
 ///
 /// It is one without UNITS, with SYSTEM=NONE, and where the three units are consistent.
 ///
@@ -57,6 +57,7 @@ pub(super) fn force_of_mass(arguments: &Arguments<'_>) -> Result<f64, Error> {
         Length::Inch => FOOT / 12.0,
     };
     let factor: f64 = kilogram * meter / newton;
-    // Slug and foot are consistent with the pound-force by definition; their quotient is not one to the last bit.
+    // Slug and foot are consistent with the pound-force by definition; their quotient is not one to the last
+    // bit.
     Ok(if (factor - 1.0).abs() < 1e-12 { 1.0 } else { factor })
 }

@@ -11,10 +11,11 @@ use crate::{Error, Scalar};
 /// The force on every part, and the torque about its origin, in ground axes.
 type Wrenches<T> = Vec<[Vector<T>; 2]>;
 
-/// The residuals, one for each unknown: the force along a translation, the torque about a rotation, the error of a torn
-/// slot, DIF1 of a DIF, and the gap of the equation that a reaction enforces.
+/// The residuals, one for each unknown: the force along a translation, the torque about a rotation, the error
+/// of a torn slot, DIF1 of a DIF, and the gap of the equation that a reaction enforces.
 ///
-/// The values of torn slots are in `on`. All other slots and the reactions are computed here and stored in `on`.
+/// The values of torn slots are in `on`. All other slots and the reactions are computed here and stored in
+/// `on`.
 pub(super) fn balance<T: Scalar>(
     model: &Model,
     parts: &[Frame<T>],
@@ -95,7 +96,8 @@ fn add_wrench<T: Scalar>(
     total[0] = add(&total[0], &force);
 }
 
-/// Adds a force and torque at I to the part of I, and the opposite to the part of J unless the load acts on I only.
+/// Adds a force and torque at I to the part of I, and the opposite to the part of J unless the load acts on I
+/// only.
 fn apply<T: Scalar>(
     model: &Model,
     wrenches: &mut Wrenches<T>,

@@ -16,13 +16,13 @@ pub struct Equilibrium {
     pub reactions: BTreeMap<(&'static str, u32), Reaction>,
     /// Newton iterations.
     pub iterations: usize,
-    /// The rank deficiency of the equations: the number of degrees of freedom that no equation determines, such as the
-    /// rotation of a wheel without torque, and of redundant constraints.
+    /// The rank deficiency of the equations: the number of degrees of freedom that no equation determines,
+    /// such as the rotation of a wheel without torque, and of redundant constraints.
     pub undetermined: usize,
 }
 
-/// The force and torque that a constraint exerts on the part of its marker I, in ground axes and in the units of the
-/// data set. The opposite force and torque act on the part of J at the same point.
+/// The force and torque that a constraint exerts on the part of its marker I, in ground axes and in the units
+/// of the data set. The opposite force and torque act on the part of J at the same point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
     /// Force.

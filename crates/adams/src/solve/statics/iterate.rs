@@ -117,8 +117,8 @@ impl Iterate {
         still.map(|(origin, rotation)| Frame::at_rest((*origin).into(), rows(rotation))).collect()
     }
 
-    /// The frames of the parts with derivatives with respect to the unknowns. The derivative of axes A with respect to
-    /// a rotation about the axis e is e x A.
+    /// The frames of the parts with derivatives with respect to the unknowns. The derivative of axes A with
+    /// respect to a rotation about the axis e is e x A.
     pub fn dual_frames(&self, unknowns: &[Unknown]) -> Vec<Frame<Dual>> {
         let count = unknowns.len();
         let mut origins: Vec<[Dual; 3]> =

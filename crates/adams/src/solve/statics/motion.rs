@@ -30,8 +30,8 @@ pub(super) fn prescribed<T: Scalar>(constraint: &Constraint, on: &mut Evaluation
     Ok(T::constant(start + path?))
 }
 
-/// The integral of the speed over an interval whose first estimate `whole` is known. The interval is halved until the
-/// sum of both halves agrees with the whole.
+/// The integral of the speed over an interval whose first estimate `whole` is known. The interval is halved
+/// until the sum of both halves agrees with the whole.
 fn integral(
     speed: &mut impl FnMut(f64) -> Result<f64, Error>,
     [a, b]: [f64; 2],

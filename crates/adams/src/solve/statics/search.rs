@@ -1,13 +1,14 @@
 //! Newton's method for static equilibrium, with pseudo-transient continuation where it fails.
 //!
-//! The unknowns and equations are those of `iterate` and `balance`. Every iteration evaluates the residual r and its
-//! Jacobian J, scales both, and solves J s = -r, in the least-squares sense where J is singular. The step s is halved
-//! until the simplified correction after it is smaller than s (natural monotonicity). Rotations are limited to half a
-//! radian. The iteration ends when steps are at the level of rounding and the scaled residual is below 1e-9.
+//! The unknowns and equations are those of `iterate` and `balance`. Every iteration evaluates the residual r
+//! and its Jacobian J, scales both, and solves J s = -r, in the least-squares sense where J is singular. The
+//! step s is halved until the simplified correction after it is smaller than s (natural monotonicity).
+//! Rotations are limited to half a radian. The iteration ends when steps are at the level of rounding and the
+//! scaled residual is below 1e-9.
 //!
-//! If no fraction of a step passes the test, the parts continue against a viscous resistance: J s - D s = -r, where D
-//! resists translations and rotations. The resistance decreases with the residual. Once it is negligible, Newton's
-//! method starts again.
+//! If no fraction of a step passes the test, the parts continue against a viscous resistance: J s - D s = -r,
+//! where D resists translations and rotations. The resistance decreases with the residual. Once it is
+//! negligible, Newton's method starts again.
 
 use super::balance::balance;
 use super::equilibrium::{Equilibrium, Reaction};
@@ -104,8 +105,8 @@ impl Search<'_> {
         Err(Error::Equilibrium { statement, residual: worst.1, iterations })
     }
 
-    /// The matrix with viscous resistance, factored in scales in which the stiffness that supports a part counts and
-    /// rounding does not.
+    /// The matrix with viscous resistance, factored in scales in which the stiffness that supports a part
+    /// counts and rounding does not.
     fn factor(&self, at: &Iterate, mut matrix: DMatrix<f64>, resistance: f64) -> Option<FactoredMatrix> {
         self.add_resistance(&mut matrix, resistance);
         let zero = vec![0.0; self.unknowns.len()];
@@ -146,8 +147,8 @@ impl Search<'_> {
         None
     }
 
-    /// A step against the viscous resistance, limited to a twentieth of the size of the model and 0.2 rad, and the
-    /// resistance of the next step. A step that increases the residual too much is rejected.
+    /// A step against the viscous resistance, limited to a twentieth of the size of the model and 0.2 rad,
+    /// and the resistance of the next step. A step that increases the residual too much is rejected.
     fn resisted_step(&self, at: Iterate, step: &[f64], left: f64, resistance: f64) -> (Iterate, f64) {
         let limit = |unknown: &Unknown| match unknown {
             Unknown::Translation(..) => 0.05 * self.length,

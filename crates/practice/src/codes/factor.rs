@@ -1,38 +1,40 @@
 //! Dynamic factors of EN 1991-3.
 
 use crate::Error;
-use crate::error::{Argument, least_zero, positive, within};
+use crate::error::{Argument, non_negative, positive, within};
 
-/// phi1 on the dead weight of the crane when the load leaves the ground: the lower and the upper value.
+/// The dynamic factor phi1 on the dead weight of the crane when the load leaves the ground: lower and upper
+/// value.
 ///
 /// # Source
-/// EN 1991-3:2006, Table 2.4: 0.9 < phi1 < 1.1, both ends to be taken.
+/// EN 1991-3:2006, Table 2.4: 0.9 < phi1 < 1.1, of which both limits are used.
 pub const PHI1: [f64; 2] = [0.9, 1.1];
 
-/// phi4 on dead weight and lifted load while the crane travels, where the rails keep the tolerances of EN 1993-6.
+/// The dynamic factor phi4 on dead weight and lifted load while the crane travels, on rails within the
+/// tolerances of EN 1993-6.
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.4.
 pub const PHI4: f64 = 1.0;
 
-/// Hoisting class: how gently a load leaves the ground.
+/// The hoisting class, by how smoothly a load leaves the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Hoisting {
-    /// Gentlest.
+    /// HC1, the smoothest.
     Hc1,
-    /// Medium.
+    /// HC2.
     Hc2,
-    /// Hard.
+    /// HC3.
     Hc3,
-    /// Hardest.
+    /// HC4, the most abrupt.
     Hc4,
 }
 
 impl Hoisting {
-    /// All four, in order.
+    /// All classes in order.
     pub const ALL: [Hoisting; 4] = [Hoisting::Hc1, Hoisting::Hc2, Hoisting::Hc3, Hoisting::Hc4];
 
-    /// phi2,min and beta2 in s/m.
+    /// phi2,min, and beta2 in s/m.
     ///
     /// # Source
     /// EN 1991-3:2006, Table 2.5.
@@ -47,33 +49,36 @@ impl Hoisting {
     }
 }
 
-/// phi2 = phi2,min + beta2 v on the lifted load when it leaves the ground; v, steady hoisting speed, in m/s.
+/// The dynamic factor phi2 = phi2,min + beta2 v on the lifted load when it leaves the ground. `speed` is the
+/// steady hoisting speed v, in m/s.
 ///
 /// # Errors
-/// A speed that is negative or not finite.
+/// [`Error::Range`] for a speed that is negative or not finite.
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.4 with Table 2.5.
 pub fn phi2(class: Hoisting, speed: f64) -> Result<f64, Error> {
     let [least, slope] = class.values();
-    Ok(least + slope * least_zero(Argument::Speed, speed)?)
+    Ok(least + slope * non_negative(Argument::Speed, speed)?)
 }
 
-/// How fast a part of the payload lets go.
+/// How fast a part of the payload is released.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Release {
-    /// Grabs and the like, beta3 = 0.5.
+    /// Grabs and similar devices, beta3 = 0.5.
     Slow,
-    /// Magnets and the like, beta3 = 1.
+    /// Magnets and similar devices, beta3 = 1.
     Rapid,
 }
 
-/// phi3 = 1 - (dm/m) (1 + beta3) on the lifted load when the part dm of its mass m is let go.
+/// The dynamic factor phi3 = 1 - (dm/m) (1 + beta3) on the lifted load when the part dm of its mass m is
+/// released.
 ///
-/// Negative where the rope would throw the hook up. The formula is *not confirmed*.
+/// It is negative where the released rope would lift the hook. The formula is *not confirmed*.
 ///
 /// # Errors
-/// A total mass that is not positive; a part that is negative or more than the whole.
+/// [`Error::Range`] for a `total` mass m that is not positive, or a `released` mass dm that is negative or
+/// above m.
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.4.
@@ -90,19 +95,19 @@ pub fn phi3(released: f64, total: f64, release: Release) -> Result<f64, Error> {
 /// How the forces of a drive change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Onset {
-    /// Not at all: centrifugal forces.
+    /// No change, as for centrifugal forces.
     Steady,
-    /// Smoothly.
+    /// A smooth change.
     Smooth,
-    /// Suddenly.
+    /// A sudden change.
     Sudden,
-    /// Through much backlash.
+    /// A change through considerable backlash.
     Backlash,
 }
 
-/// phi5 on forces of drives: the least and the most to be taken.
+/// The dynamic factor phi5 on the forces of drives: the smallest and largest value.
 ///
-/// The numbers are *not confirmed*, but for the 1.5 of smooth drives.
+/// The numbers are *not confirmed*, except the 1.5 of smooth drives.
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.6.
@@ -116,11 +121,12 @@ pub fn phi5(onset: Onset) -> [f64; 2] {
     }
 }
 
-/// phi6 = (1 + phi2)/2 on a dynamic test load of at least 110 % of the rated load. On a static one, of at least
-/// 125 %, phi6 is 1. The formula is as a public program has it.
+/// The dynamic factor phi6 = (1 + phi2)/2 on a dynamic test load of at least 110 % of the rated load.
+///
+/// On a static test load of at least 125 % phi6 is 1. The formula is that of a public program.
 ///
 /// # Errors
-/// A factor below one or not finite.
+/// [`Error::Range`] for a factor below one or not finite.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.10.

@@ -1,18 +1,18 @@
 //! Fatigue strength of AISC 360, Appendix 3, which AIST TR-13 refers to.
 
+use super::rainflow::Cycle;
+use super::strength::{Damage, REFERENCE};
 use crate::Error;
-use crate::error::{Argument, least_zero, positive};
-use crate::fatigue::{Damage, REFERENCE};
-use crate::rainflow::Cycle;
+use crate::error::{Argument, non_negative, positive};
 
-/// Stress category of a detail.
+/// The stress category of a detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Category {
     /// Plain material.
     A,
     /// Built-up members with continuous welds.
     B,
-    /// B'.
+    /// Category B'.
     BPrime,
     /// Stiffeners and short attachments.
     C,
@@ -20,12 +20,12 @@ pub enum Category {
     D,
     /// Long attachments, ends of cover plates.
     E,
-    /// E'.
+    /// Category E'.
     EPrime,
 }
 
 impl Category {
-    /// All, with their words.
+    /// All categories with their names.
     pub const ALL: [(&'static str, Category); 7] = [
         ("A", Category::A),
         ("B", Category::B),
@@ -36,8 +36,9 @@ impl Category {
         ("E'", Category::EPrime),
     ];
 
-    /// C_f, and the threshold F_TH in ksi. Those of E and E' are as a public program has them: 11e8 and 3.9e8, 31 and
-    /// 18 N/mm2.
+    /// The constant C_f, and the threshold F_TH in ksi. The values of E and E' are those of a public program:
+    /// 11e8 and
+    /// 3.9e8, 31 and 18 N/mm2.
     ///
     /// # Source
     /// AISC 360-16, Table A-3.1.
@@ -55,51 +56,62 @@ impl Category {
     }
 }
 
-/// A fatigue strength curve in any unit of stress.
+/// A fatigue strength curve of AISC 360: N = 1e9 C_f/F^3 cycles of the range F in ksi.
+///
+/// ```
+/// use practice::aisc::{Category, Curve};
+///
+/// // Ranges in N/mm2; 1 ksi is 6.894757 N/mm2.
+/// let curve = Curve::new(Category::C, 6.894757)?;
+/// assert!((curve.damage(curve.limit())? * 4.4e6 - 1.0).abs() < 1e-12);
+/// # Ok::<(), practice::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Curve {
     category: Category,
-    /// One ksi in the unit of the ranges.
+    /// One ksi in the unit of stress of the ranges.
     ksi: f64,
 }
 
 impl Curve {
-    /// The curve of a category, with one `ksi` in the unit of the ranges.
+    /// The curve of a category. `ksi` is one ksi in the unit of stress of the ranges, above zero.
     ///
     /// # Errors
-    /// A unit that is not positive.
+    /// [`Error::Range`] for a `ksi` that is not positive.
     pub fn new(category: Category, ksi: f64) -> Result<Curve, Error> {
         Ok(Curve { category, ksi: positive(Argument::Range, ksi)? })
     }
 
-    /// The range that is borne [`REFERENCE`] times on the sloping line, without the threshold.
+    /// The range whose life on the sloping line is [`REFERENCE`] cycles; the threshold is disregarded.
     #[must_use]
     pub fn reference(&self) -> f64 {
         (self.category.values()[0] * 1e9 / REFERENCE).cbrt() * self.ksi
     }
 
-    /// F_TH: if no range is larger, none does damage.
+    /// F_TH: if no range of a history is larger, the history does no damage.
     #[must_use]
     pub fn limit(&self) -> f64 {
         self.category.values()[1] * self.ksi
     }
 
-    /// Damage of one cycle on the sloping line, 1/N with N = 1e9 C_f/F^3, F in ksi: F_SR = 1000 (C_f/n)^(1/3).
+    /// The damage 1/N of one cycle on the sloping line, N = 1e9 C_f/F^3 with F in ksi, which is
+    /// F_SR = 1000 (C_f/n)^(1/3).
     ///
     /// # Errors
-    /// A range that is negative or not finite.
+    /// [`Error::Range`] for a range that is negative or not finite.
     ///
     /// # Source
-    /// AISC 360-16, A-3-1 (the exponent 0.333 there taken as 1/3).
+    /// AISC 360-16, equation A-3-1, whose exponent 0.333 is taken as 1/3.
     pub fn damage(&self, range: f64) -> Result<f64, Error> {
-        let range = least_zero(Argument::Range, range)? / self.ksi;
+        let range = non_negative(Argument::Range, range)? / self.ksi;
         Ok(range.powi(3) / (self.category.values()[0] * 1e9))
     }
 
-    /// The sum of damages of a history; the sloping line goes on below the threshold, since larger ranges may be among them.
+    /// Miner's sum of a history. The sloping line continues below the threshold, because larger ranges may
+    /// occur too.
     ///
     /// # Errors
-    /// A cycle whose range or count is negative or not finite.
+    /// [`Error::Range`] for a cycle whose range or count is negative or not finite.
     pub fn miner(&self, cycles: &[Cycle]) -> Result<Damage, Error> {
         Damage::of(cycles, self.limit(), |range| self.damage(range))
     }
@@ -107,8 +119,8 @@ impl Curve {
     /// The constant range that does the damage `sum` in [`REFERENCE`] cycles.
     ///
     /// # Errors
-    /// A sum that is negative or not finite.
+    /// [`Error::Range`] for a sum that is negative or not finite.
     pub fn equivalent(&self, sum: f64) -> Result<f64, Error> {
-        Ok(self.reference() * least_zero(Argument::Factor, sum)?.cbrt())
+        Ok(self.reference() * non_negative(Argument::Factor, sum)?.cbrt())
     }
 }

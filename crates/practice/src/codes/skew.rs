@@ -1,21 +1,21 @@
-//! Skewing of a crane, EN 1991-3.
+//! Skewing of a crane by EN 1991-3, and the coefficient of FEM 1.001.
 
 use crate::Error;
-use crate::error::{Argument, least_zero, positive, within};
+use crate::error::{Argument, non_negative, positive, within};
 
-/// The largest skewing angle that is accepted, rad.
+/// The largest permitted skewing angle, in rad.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4.
 pub const MOST: f64 = 0.015;
 
-/// alpha0, what tolerances of wheels and rails add, rad. *Not confirmed.*
+/// alpha_0, the part of the skewing angle from tolerances of wheels and rails, in rad. *Not confirmed.*
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.7.
 pub const TOLERANCE: f64 = 0.001;
 
-/// What guides a crane.
+/// The guides of a crane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Guide {
     /// Guide rollers.
@@ -24,14 +24,15 @@ pub enum Guide {
     Flanges,
 }
 
-/// alpha = alpha_F + alpha_V + alpha_0 in rad; compare with [`MOST`].
+/// The skewing angle alpha = alpha_F + alpha_V + alpha_0, in rad, which must not exceed [`MOST`].
 ///
-/// alpha_F = 0.75 x/a with 0.75 x at least 5 mm (rollers) or 10 mm (flanges); alpha_V = y/a with the wear y of
-/// 0.03 b (rollers) or 0.10 b (flanges); `slack` x between rail and guide, `head` width b of the rail's head,
-/// `spacing` a of the outer guides, all in m. The parts are *not confirmed*.
+/// alpha_F = 0.75 x/a, where 0.75 x is at least 5 mm for rollers and 10 mm for flanges. alpha_V = y/a with
+/// the wear y = 0.03 b for rollers and 0.10 b for flanges. `slack` is the clearance x between rail and guide,
+/// `head` the width b of the rail head, `spacing` the distance a of the outer guides, all in m. The parts are
+/// *not confirmed*.
 ///
 /// # Errors
-/// A slack or head that is negative, a spacing that is not positive.
+/// [`Error::Range`] for a slack or head that is negative, or a spacing that is not positive.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4, Table 2.7.
@@ -40,61 +41,63 @@ pub fn angle(guide: Guide, slack: f64, head: f64, spacing: f64) -> Result<f64, E
         Guide::Rollers => [0.005, 0.03],
         Guide::Flanges => [0.010, 0.10],
     };
-    let slack = (0.75 * least_zero(Argument::Length, slack)?).max(least);
-    let wear = wear * least_zero(Argument::Length, head)?;
+    let slack = (0.75 * non_negative(Argument::Length, slack)?).max(least);
+    let wear = wear * non_negative(Argument::Length, head)?;
     Ok((slack + wear) / positive(Argument::Length, spacing)? + TOLERANCE)
 }
 
-/// f = 0.3 (1 - exp(-250 alpha)), the friction that a wheel at the angle alpha feels.
+/// The coefficient of friction f = 0.3 (1 - exp(-250 alpha)) of a wheel at the skewing angle alpha, in rad.
 ///
 /// # Errors
-/// An angle that is negative or not finite.
+/// [`Error::Range`] for an angle that is negative or not finite.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4.
 pub fn friction(angle: f64) -> Result<f64, Error> {
-    Ok(-0.3 * (-250.0 * least_zero(Argument::Angle, angle)?).exp_m1())
+    Ok(-0.3 * (-250.0 * non_negative(Argument::Angle, angle)?).exp_m1())
 }
 
-/// How the wheels of both rails are driven and held sideways.
+/// How the wheels of both rails are driven, and whether they are fixed laterally.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Pairs {
-    /// Driven alone, fixed sideways on both rails (IFF).
+    /// Driven separately, fixed laterally on both rails (IFF).
     AloneFixed,
-    /// Driven alone, fixed on one rail and free on the other (IFM).
+    /// Driven separately, fixed on one rail and free on the other (IFM).
     AloneFree,
-    /// Coupled by a shaft, fixed on both (CFF).
+    /// Coupled by a shaft, fixed on both rails (CFF).
     CoupledFixed,
-    /// Coupled by a shaft, fixed on one and free on the other (CFM).
+    /// Coupled by a shaft, fixed on one rail and free on the other (CFM).
     CoupledFree,
 }
 
-/// Forces of skewing per f sum Q_r.
+/// The coefficients of the skewing forces, which are to be multiplied by f sum Q_r.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Skewing {
-    /// h, how far behind the guide the centre lies that the crane turns about.
+    /// h, the distance from the guide back to the centre of rotation of the crane.
     pub reach: f64,
-    /// lambda_S of the guide force S.
+    /// lambda_S, of the guide force S.
     pub guide: f64,
-    /// lambda_S,i,j,L of every wheel pair, alike on both rails, against each other.
+    /// lambda_S,i,j,L, of the longitudinal forces of every wheel pair; those of the two rails are opposite.
     pub along: Vec<f64>,
-    /// lambda_S,i,j,T of every wheel pair: on rail 1, where the guide is, and on rail 2.
+    /// lambda_S,i,j,T, of the lateral forces of every wheel pair: on rail 1, where the guide is, and on rail
+    /// 2.
     pub across: Vec<[f64; 2]>,
 }
 
-/// Coefficients of the forces of skewing.
+/// The coefficients of the skewing forces of a crane.
 ///
 /// h = (m c l^2 + sum e_j^2)/sum e_j with c = xi1 xi2 (fixed) or xi1 (free) for m coupled pairs;
 /// lambda_S = (1 - sum e_j/(n h)) or xi2 times that; lambda_S,i,j,L = xi1 xi2 l/(n h) for coupled pairs;
 /// lambda_S,1,j,T = (xi2/n)(1 - e_j/h), lambda_S,2,j,T = (xi1/n)(1 - e_j/h), the latter zero where free.
 ///
-/// `span` l; `share` xi1 of the loads on the rail that carries more, xi2 = 1 - xi1; `pairs` e_j, distances of
-/// the n wheel pairs from the front guide, all coupled or none.
+/// `span` is l; `share` is xi1, the fraction of the loads on the rail that carries more, and xi2 = 1 - xi1;
+/// `pairs` are the distances e_j of the n wheel pairs from the front guide, of which all or none are coupled.
 ///
-/// Guarantees: the forces balance, across and about the guide.
+/// Guarantee: the lateral forces and the moments about the guide are in equilibrium.
 ///
 /// # Errors
-/// A span that is not positive, a share outside 0..=1, a negative distance; no pair, or all at the guide.
+/// [`Error::Range`] for a span that is not positive, a fraction outside 0 to 1, or a negative distance;
+/// [`Error::NoReach`] for no pair, or all pairs at the guide.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4, Tables 2.8 and 2.9.
@@ -104,7 +107,7 @@ pub fn skewing(kind: Pairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skew
     let light = 1.0 - heavy;
     let (mut first, mut second) = (0.0, 0.0);
     for &pair in pairs {
-        first += least_zero(Argument::Length, pair)?;
+        first += non_negative(Argument::Length, pair)?;
         second += pair * pair;
     }
     let count = pairs.len() as f64;
@@ -129,14 +132,15 @@ pub fn skewing(kind: Pairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skew
     })
 }
 
-/// 0.025 p/a within 0.05..=0.2: sideways force of a wheel per its vertical load, by the span p over the wheel
-/// base a.
+/// The ratio of the lateral force of a wheel to its vertical load, 0.025 p/a within 0.05 and 0.2, with the
+/// `span` p and the wheel base a (`base`).
 ///
 /// # Errors
-/// A length that is not positive.
+/// [`Error::Range`] for a length that is not positive.
 ///
 /// # Source
-/// FEM 1.001, booklet 2, 2.2.3.3: 0.05 at p/a = 2, 0.2 at 8; the chart between them as a straight line.
+/// FEM 1.001, booklet 2, 2.2.3.3: 0.05 at p/a = 2 and 0.2 at 8; the chart between them is taken as a straight
+/// line.
 pub fn fem_coefficient(span: f64, base: f64) -> Result<f64, Error> {
     let ratio = positive(Argument::Length, span)? / positive(Argument::Length, base)?;
     Ok((0.025 * ratio).clamp(0.05, 0.2))

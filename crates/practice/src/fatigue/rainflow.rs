@@ -1,60 +1,71 @@
 //! Rainflow counting.
 
 use crate::Error;
-use crate::error::usable;
+use crate::error::check_samples;
 
-/// A cycle, or half of one, of a history.
+/// A cycle or half cycle of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cycle {
-    /// Its two turning points, the earlier first.
+    /// The values of its two turning points, the earlier first.
     pub ends: [f64; 2],
-    /// Which samples they are.
+    /// The indices of their samples.
     pub samples: [usize; 2],
-    /// 1, or 0.5 for a half.
+    /// One, or 0.5 for a half cycle.
     pub count: f64,
 }
 
 impl Cycle {
-    /// Largest less smallest value.
+    /// The difference between its largest and smallest value.
     #[must_use]
     pub fn range(&self) -> f64 {
         (self.ends[0] - self.ends[1]).abs()
     }
 
-    /// Halfway between them.
+    /// The mean of its turning points.
     #[must_use]
     pub fn mean(&self) -> f64 {
         0.5 * self.ends[0] + 0.5 * self.ends[1]
     }
 }
 
-/// What becomes of the ranges that no larger one closes, the residue.
+/// How the residue is counted: the ranges that no larger range closes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum History {
-    /// The history happens once: they are halves of cycles.
+    /// The history occurs once; the ranges of the residue are half cycles.
     Once,
-    /// The history follows itself again and again: it is counted from its highest point round to that point
-    /// again, and every range closes. The largest range comes as two halves.
+    /// The history is repeated. It is counted from its highest point through its end and beginning back to
+    /// that point, so that every range closes. The largest range is reported as two half cycles.
     Repeated,
 }
 
-/// A turning point and its sample.
+/// The value of a turning point and the index of its sample.
 type Turn = (f64, usize);
 
-/// Every cycle of a history, in the order in which they close; halves last.
+/// The rainflow cycles of a history in the order in which they close; half cycles come last.
 ///
-/// Of four successive turning points a, b, c, d the two in the middle make a cycle if |b - c| is neither more
-/// than |a - b| nor more than |c - d|; they are taken out and the search goes on. Guarantee: ranges and their
-/// counts are those of the three-point rule of E1049, 5.4.4.
+/// Of four successive turning points a, b, c, d the two in the middle form a cycle if |b - c| is at most |a -
+/// b| and at most |c - d|. They are removed, and the test is repeated with the points that remain. Guarantee:
+/// ranges and their counts are those of the three-point rule of E1049, 5.4.4.
 ///
 /// # Errors
-/// A sample that is not finite.
+/// [`Error::Number`] for a sample that is not finite.
 ///
 /// # Source
-/// ASTM E1049-85, 5.4.4 (once) and 5.4.5 (repeated); the four-point rule: Amzallag, Gerey, Robert and Bahuaud,
-/// Standardization of the rainflow counting method for fatigue analysis, Int. J. Fatigue 16, 287-293 (1994).
+/// ASTM E1049-85, 5.4.4 (once) and 5.4.5 (repeated); the four-point rule: Amzallag, Gerey, Robert and
+/// Bahuaud, Standardization of the rainflow counting method for fatigue analysis, Int. J. Fatigue 16, 287-293
+/// (1994).
+///
+/// ```
+/// use practice::{History, rainflow};
+///
+/// // The small range of 2 is a whole cycle; the ranges of 5 and 6 around it are half cycles.
+/// let cycles = rainflow(&[0.0, 5.0, 2.0, 4.0, -1.0], History::Once)?;
+/// let found: Vec<[f64; 2]> = cycles.iter().map(|cycle| [cycle.range(), cycle.count]).collect();
+/// assert_eq!(found, [[2.0, 1.0], [5.0, 0.5], [6.0, 0.5]]);
+/// # Ok::<(), practice::Error>(())
+/// ```
 pub fn rainflow(values: &[f64], history: History) -> Result<Vec<Cycle>, Error> {
-    usable(0, values)?;
+    check_samples(0, values)?;
     let samples = values.iter().copied().zip(0..);
     let turns = match history {
         History::Once => turning_points(samples),
@@ -81,7 +92,7 @@ pub fn rainflow(values: &[f64], history: History) -> Result<Vec<Cycle>, Error> {
     Ok(cycles)
 }
 
-/// Ranges in rising order, equal ones together: pairs of range and count.
+/// The ranges in increasing order as pairs of range and count; equal ranges are combined.
 #[must_use]
 pub fn ranges(cycles: &[Cycle]) -> Vec<[f64; 2]> {
     let mut pairs: Vec<[f64; 2]> = cycles.iter().map(|cycle| [cycle.range(), cycle.count]).collect();
@@ -94,11 +105,12 @@ pub fn ranges(cycles: &[Cycle]) -> Vec<[f64; 2]> {
     pairs
 }
 
+/// The cycle between two turning points.
 fn cycle(from: Turn, to: Turn, count: f64) -> Cycle {
     Cycle { ends: [from.0, to.0], samples: [from.1, to.1], count }
 }
 
-/// First and last sample and every one where the history turns; of equal ones in a row the first.
+/// The first and last sample and every turning point; of successive equal samples the first is taken.
 fn turning_points(samples: impl Iterator<Item = Turn>) -> Vec<Turn> {
     let mut turns: Vec<Turn> = Vec::new();
     for sample in samples {

@@ -1,61 +1,62 @@
-//! A response in the few numbers that engineers compare.
+//! The characteristics of a response that engineers compare.
 
+use super::decay::{Decay, decay};
+use super::filter::low_pass;
+use super::series::{Excursions, excursions, mean, resample};
+use super::spectrum::{Tone, dominant};
 use crate::Error;
-use crate::decay::{Decay, decay};
 use crate::error::{Argument, within};
-use crate::filter::low_pass;
-use crate::series::{Excursions, excursions, mean, resample};
-use crate::spectrum::{Tone, dominant};
 
-/// What is looked at, and how.
+/// How a response is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// From when on the response counts.
+    /// Time from which the response is evaluated.
     pub from: f64,
-    /// From when on it is taken as settled.
+    /// Time from which the response is taken as settled.
     pub settled: f64,
-    /// Between even samples.
+    /// Interval of the even samples.
     pub step: f64,
-    /// Cut of the low-pass, cycles per unit of time, if there is one.
+    /// Cut-off frequency of the low-pass filter, in cycles per unit of time; `None` for no filter.
     pub cut: Option<f64>,
-    /// Half width of the band for excursions, as a share of the settled mean.
+    /// Half width of the band of excursions, as a fraction of the settled mean.
     pub share: f64,
-    /// Frequencies among which the dominant one is sought.
+    /// Lower and upper limit of the dominant frequency, in cycles per unit of time.
     pub band: [f64; 2],
-    /// The smallest range that counts for damping, as a share of the largest.
+    /// The smallest range that is used for the damping, as a fraction of the largest.
     pub floor: f64,
 }
 
 /// A value and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// When.
+    /// Time.
     pub time: f64,
-    /// How much.
+    /// Value.
     pub value: f64,
 }
 
-/// A response from [`View::from`] on, sampled evenly and, if asked, filtered.
+/// The characteristics of a response from [`View::from`] on, which is sampled evenly and, if requested,
+/// filtered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Response {
-    /// Mean over time from [`View::settled`] to the end, of the history as given.
+    /// Time average of the unfiltered history from [`View::settled`] to the end.
     pub mean: f64,
     /// Largest value.
     pub peak: Mark,
     /// Smallest value.
     pub least: Mark,
-    /// Beyond the band about the mean.
+    /// Excursions beyond the band about the mean.
     pub excursions: Excursions,
-    /// Strongest sine.
+    /// Strongest sine component; `None` if the spectrum has no peak in the band.
     pub tone: Option<Tone>,
-    /// Damping, if the response is that of one mode.
+    /// Damping, which is meaningful if the response is that of one mode; `None` if it does not oscillate.
     pub decay: Option<Decay>,
 }
 
-/// Settled mean, extremes, excursions, dominant frequency and damping of a history.
+/// The settled mean, extremes, excursions, dominant frequency and damping of a history.
 ///
 /// # Errors
-/// As of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
+/// Those of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
 pub fn response(times: &[f64], values: &[f64], view: &View) -> Result<Response, Error> {
     let settled = within(Argument::Time, view.settled, view.from, 1e30)?;
     let mean = mean(times, values, settled)?;

@@ -1,46 +1,56 @@
 //! Envelopes with coincident values.
 
+use super::series::check;
 use crate::Error;
-use crate::series::check;
 
-/// Histories of one simulation.
+/// The histories of one simulation.
 #[derive(Clone, Copy, Debug)]
 pub struct Run<'a> {
     /// Times, not decreasing.
     pub times: &'a [f64],
-    /// Series over these times, the same in every run: first those to be enveloped, then any others whose
-    /// values are wanted beside them, such as positions of the crane and its trolley.
+    /// Series over these times, the same in every run: first those whose extremes are sought, then any others
+    /// whose coincident values are wanted, such as the positions of crane and trolley.
     pub series: &'a [&'a [f64]],
 }
 
-/// Everything at the instant when one series is extreme.
+/// The values of all series at the instant when one of them is extreme.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
-    /// Which run.
+    /// Index of the run.
     pub run: usize,
-    /// Which sample of it.
+    /// Index of the sample.
     pub sample: usize,
-    /// When.
+    /// Time of the sample.
     pub time: f64,
-    /// Values of all series at that instant, the extreme one among them.
+    /// Values of all series at that instant, including the extreme one.
     pub values: Vec<f64>,
 }
 
 /// The extremes of one series over all runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extremes {
-    /// Where it is largest; the first of equals.
+    /// The instant of the largest value; the first of equals.
     pub most: Instant,
-    /// Where it is smallest; the first of equals.
+    /// The instant of the smallest value; the first of equals.
     pub least: Instant,
 }
 
-/// Largest and smallest value of each of the first `count` series over all runs, with the values of all series at
-/// those instants. Samples are taken as they are, without interpolation between them.
+/// The largest and smallest value of each of the first `count` series over all runs, with the coincident
+/// values of all series. Only samples are considered, without interpolation between them.
 ///
 /// # Errors
-/// No sample at all, runs that differ in their number of series or have fewer than `count`, a series of another
-/// length than its times, a number that is not finite, times that decrease.
+/// [`Error::Few`] for no sample at all; [`Error::Series`] for runs that differ in their number of series or
+/// have fewer than `count`; [`Error::Samples`], [`Error::Number`] and [`Error::Order`] for a series and times
+/// of different length, a sample that is not finite, or times that decrease.
+///
+/// ```
+/// use practice::{Run, envelope};
+///
+/// let (times, moment, position) = ([0.0, 1.0, 2.0], [1.0, 8.0, 3.0], [10.0, 12.0, 14.0]);
+/// let found = envelope(&[Run { times: &times, series: &[&moment, &position] }], 1)?;
+/// assert_eq!(found[0].most.values, [8.0, 12.0]);
+/// # Ok::<(), practice::Error>(())
+/// ```
 pub fn envelope(runs: &[Run], count: usize) -> Result<Vec<Extremes>, Error> {
     let expected = runs.first().map_or(0, |run| run.series.len()).max(count);
     for (index, run) in runs.iter().enumerate() {
@@ -60,7 +70,7 @@ pub fn envelope(runs: &[Run], count: usize) -> Result<Vec<Extremes>, Error> {
         .collect())
 }
 
-/// Where a series is better than anywhere before; some run has a sample.
+/// The instant at which a series is `better` than at every one before. At least one run must have a sample.
 fn extreme(runs: &[Run], series: usize, better: impl Fn(f64, f64) -> bool) -> Instant {
     let mut best: Option<(usize, usize, f64)> = None;
     for (index, run) in runs.iter().enumerate() {

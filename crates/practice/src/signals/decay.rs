@@ -1,41 +1,51 @@
-//! Damping of a free oscillation.
+//! The damping of a free oscillation.
 
 use std::f64::consts::PI;
 
+use super::spectrum::NOISE;
 use crate::Error;
-use crate::error::{Argument, positive, usable, within};
-use crate::spectrum::NOISE;
+use crate::error::{Argument, check_samples, positive, within};
 
-/// A free oscillation that dies away.
+/// The properties of a free oscillation that decays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay {
-    /// Damping ratio, negative where it grows.
+    /// Damping ratio, negative for an oscillation that grows.
     pub ratio: f64,
-    /// Damped frequency, cycles per unit of time.
+    /// Damped frequency, in cycles per unit of time.
     pub frequency: f64,
-    /// Over how many half cycles.
+    /// Number of half cycles from which they are determined.
     pub halves: usize,
 }
 
-/// Damping ratio by the logarithmic decrement.
+/// The damping ratio by the logarithmic decrement.
 ///
-/// With the ranges r_k between successive extremes (a parabola through three samples each), from the largest on
-/// while above `floor` of it, delta = -2 s for the slope s of the line through (k, ln r_k) by least squares, and
+/// r_k are the ranges between successive extremes, each found from a parabola through three samples. They are
+/// used from the largest range on, as long as they exceed the fraction `floor` of it. With the slope s of the
+/// line through (k, ln r_k) by least squares, the logarithmic decrement is delta = -2 s and the damping ratio
 ///
 /// zeta = delta/sqrt(4 pi^2 + delta^2).
 ///
-/// Ranges do not feel a constant shift, so the settled mean need not be known. None where fewer than two ranges
-/// remain. Several modes at once have no one damping: filter first.
+/// Ranges do not depend on a constant offset, so that the settled mean need not be known. The result is
+/// `None` if fewer than two ranges remain. `step` is the interval of samples. A history with several modes
+/// has no single damping ratio and must be filtered first.
 ///
 /// # Errors
-/// A step that is not positive, a floor outside 0..=1, a sample that is not finite.
+/// [`Error::Range`] for a step that is not positive or a floor outside 0 to 1; [`Error::Number`] for a sample
+/// that is not finite.
 ///
 /// # Source
 /// Clough and Penzien, Dynamics of Structures (1993), section 2-6.
+///
+/// ```
+/// let free: Vec<f64> = (0..400).map(|k| 0.05 * f64::from(k)).map(|t| (-0.1 * t).exp() * (5.0 * t).cos()).collect();
+/// let found = practice::decay(&free, 0.05, 0.1)?.expect("an oscillation");
+/// assert!((found.ratio - 0.02).abs() < 1e-3);
+/// # Ok::<(), practice::Error>(())
+/// ```
 pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Error> {
     let step = positive(Argument::Time, step)?;
     let floor = within(Argument::Share, floor, 0.0, 1.0)?;
-    usable(0, values)?;
+    check_samples(0, values)?;
     let noise = NOISE * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let tops = extremes(values);
     let ranges: Vec<f64> = tops.windows(2).map(|pair| (pair[0].1 - pair[1].1).abs()).collect();
@@ -63,7 +73,7 @@ pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Err
     }))
 }
 
-/// Places, in samples, and values of the extremes, by parabolas.
+/// The positions, in samples, and values of the extremes, by parabolas through three samples.
 fn extremes(values: &[f64]) -> Vec<(f64, f64)> {
     let mut tops = Vec::new();
     for k in 1..values.len().saturating_sub(1) {

@@ -1,35 +1,44 @@
-//! Fatigue strength and accumulated damage, EN 1993-1-9.
+//! Fatigue strength curves and accumulated damage by EN 1993-1-9.
 
+use super::rainflow::Cycle;
 use crate::Error;
-use crate::error::{Argument, least_zero, positive};
-use crate::rainflow::Cycle;
+use crate::error::{Argument, non_negative, positive};
 
-/// Cycles at which the reference strength is given.
+/// The number of cycles at which the reference strength is given.
 pub const REFERENCE: f64 = 2e6;
 
-/// Cycles at the constant-amplitude limit.
+/// The number of cycles at the constant-amplitude fatigue limit.
 pub const KNEE: f64 = 5e6;
 
-/// Cycles at the cut-off.
+/// The number of cycles at the cut-off limit.
 pub const END: f64 = 1e8;
 
-/// Detail categories for direct stress, N/mm2.
+/// The detail categories for direct stress, in N/mm2.
 ///
 /// # Source
 /// EN 1993-1-9:2005, Figure 7.1.
 pub const CATEGORIES: [f64; 14] =
     [36.0, 40.0, 45.0, 50.0, 56.0, 63.0, 71.0, 80.0, 90.0, 100.0, 112.0, 125.0, 140.0, 160.0];
 
-/// Which stress a detail category is for.
+/// The kind of stress of a detail category.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stress {
-    /// Slope 3 to 5 million cycles, 5 to 100 million, none beyond.
+    /// Direct stress: slope 3 up to 5 million cycles, slope 5 up to 100 million, no damage below the cut-off.
     Direct,
-    /// Slope 5 to 100 million cycles, none beyond.
+    /// Shear stress: slope 5 up to 100 million cycles, no damage below the cut-off.
     Shear,
 }
 
-/// A fatigue strength curve: ranges of nominal stress and the cycles that they are borne.
+/// A fatigue strength curve: the number of cycles to failure by the range of nominal stress.
+///
+/// ```
+/// use practice::fatigue::{REFERENCE, Strength, Stress};
+///
+/// let strength = Strength::new(Stress::Direct, 80.0, 1.0, 1.0)?;
+/// assert!((strength.damage(80.0)? * REFERENCE - 1.0).abs() < 1e-12);
+/// assert_eq!(strength.damage(30.0)?, 0.0);
+/// # Ok::<(), practice::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strength {
     stress: Stress,
@@ -37,11 +46,12 @@ pub struct Strength {
 }
 
 impl Strength {
-    /// The curve of a detail category, divided by both partial factors, gamma_Ff of the ranges and gamma_Mf of
-    /// the strength; so ranges come to it as they are. Category and ranges in any one unit of stress.
+    /// The curve of a detail category, divided by the partial factors gamma_Ff (`loads`) and gamma_Mf
+    /// (`material`), so that stress ranges are compared with it without factors. `category` and ranges are in
+    /// the same unit of stress.
     ///
     /// # Errors
-    /// A category or factor that is not positive.
+    /// [`Error::Range`] for a category or factor that is not positive.
     ///
     /// # Source
     /// EN 1993-1-9:2005, 7.1 and A.5.
@@ -53,14 +63,14 @@ impl Strength {
         Ok(Strength { stress, reference })
     }
 
-    /// The range that is borne [`REFERENCE`] times.
+    /// The reference strength: the range whose life is [`REFERENCE`] cycles.
     #[must_use]
     pub fn reference(&self) -> f64 {
         self.reference
     }
 
-    /// The largest range that does no damage if none is larger: (2/5)^(1/3) = 0.737 of the reference for direct
-    /// stress; the cut-off for shear.
+    /// The range below which a history does no damage if none of its ranges is larger: (2/5)^(1/3) = 0.737 of
+    /// the reference strength for direct stress, the cut-off limit for shear.
     #[must_use]
     pub fn limit(&self) -> f64 {
         match self.stress {
@@ -69,8 +79,8 @@ impl Strength {
         }
     }
 
-    /// The largest range that never counts: (5/100)^(1/5) = 0.549 of the limit for direct stress,
-    /// (2/100)^(1/5) = 0.457 of the reference for shear.
+    /// The cut-off limit, up to which a range does no damage: (5/100)^(1/5) = 0.549 of the fatigue limit for
+    /// direct stress, (2/100)^(1/5) = 0.457 of the reference strength for shear.
     #[must_use]
     pub fn cut_off(&self) -> f64 {
         match self.stress {
@@ -79,18 +89,19 @@ impl Strength {
         }
     }
 
-    /// Damage of one cycle, 1/N; zero at and below the cut-off.
+    /// The damage 1/N of one cycle; zero at and below the cut-off limit.
     ///
-    /// N = 2e6 (reference/range)^3 down to the limit, 5e6 (limit/range)^5 below; for shear
-    /// 2e6 (reference/range)^5. The curves are drawn from 1e4 cycles on; above, this is their extension.
+    /// For direct stress N = 2e6 (reference/range)^3 down to the fatigue limit and 5e6 (limit/range)^5 below
+    /// it; for shear N = 2e6 (reference/range)^5. The standard gives the curves from 1e4 cycles on; for fewer
+    /// cycles they are extended.
     ///
     /// # Errors
-    /// A range that is negative or not finite.
+    /// [`Error::Range`] for a range that is negative or not finite.
     ///
     /// # Source
     /// EN 1993-1-9:2005, 7.1.
     pub fn damage(&self, range: f64) -> Result<f64, Error> {
-        let range = least_zero(Argument::Range, range)?;
+        let range = non_negative(Argument::Range, range)?;
         let limit = self.limit();
         Ok(if range <= self.cut_off() {
             0.0
@@ -103,10 +114,10 @@ impl Strength {
         })
     }
 
-    /// D = sum n/N over the cycles of a history.
+    /// Miner's sum D = sum n/N over the cycles of a history.
     ///
     /// # Errors
-    /// A cycle whose range or count is negative or not finite.
+    /// [`Error::Range`] for a cycle whose range or count is negative or not finite.
     ///
     /// # Source
     /// EN 1993-1-9:2005, A.5 (Palmgren and Miner).
@@ -114,16 +125,17 @@ impl Strength {
         Damage::of(cycles, self.limit(), |range| self.damage(range))
     }
 
-    /// The constant range that does the damage `sum` in [`REFERENCE`] cycles: reference sum^(1/3), or
-    /// sum^(1/5) for shear. At most the reference exactly when the sum is at most one.
+    /// The equivalent constant range, which does the damage `sum` in [`REFERENCE`] cycles: the reference
+    /// strength times sum^(1/3), or sum^(1/5) for shear. It is at most the reference strength exactly when
+    /// the sum is at most one.
     ///
     /// # Errors
-    /// A sum that is negative or not finite.
+    /// [`Error::Range`] for a sum that is negative or not finite.
     ///
     /// # Source
     /// EN 1993-1-9:2005, 1.3 and A.6: the equivalent range related to 2 million cycles.
     pub fn equivalent(&self, sum: f64) -> Result<f64, Error> {
-        let sum = least_zero(Argument::Factor, sum)?;
+        let sum = non_negative(Argument::Factor, sum)?;
         Ok(self.reference
             * match self.stress {
                 Stress::Direct => sum.cbrt(),
@@ -132,19 +144,20 @@ impl Strength {
     }
 }
 
-/// What the cycles of a history do.
+/// The damage of the cycles of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Damage {
-    /// Miner's sum; 1 is failure.
+    /// Miner's sum; failure is predicted at one.
     pub sum: f64,
-    /// The largest range.
+    /// The largest range of the history.
     pub most: f64,
-    /// Whether no range is above the limit, so that the sum, though not zero, may be taken as zero.
+    /// Whether no range is above the fatigue limit. The damage may then be taken as zero although the sum is
+    /// not.
     pub endures: bool,
 }
 
 impl Damage {
-    /// The sum over `cycles` of their counts times `by` of their ranges; nothing fails at ranges up to `limit`.
+    /// The sum of count times `by(range)` over all cycles, with the fatigue limit `limit`.
     pub(crate) fn of(
         cycles: &[Cycle],
         limit: f64,
@@ -153,15 +166,15 @@ impl Damage {
         let mut damage = Damage { sum: 0.0, most: 0.0, endures: true };
         for cycle in cycles {
             let range = cycle.range();
-            damage.sum += least_zero(Argument::Count, cycle.count)? * by(range)?;
+            damage.sum += non_negative(Argument::Count, cycle.count)? * by(range)?;
             damage.most = damage.most.max(range);
         }
         damage.endures = damage.most <= limit;
-        least_zero(Argument::Factor, damage.sum)?;
+        non_negative(Argument::Factor, damage.sum)?;
         Ok(damage)
     }
 
-    /// How often the history is borne; none if it does no damage.
+    /// The number of repetitions of the history to failure, 1/sum; `None` if it does no damage.
     #[must_use]
     pub fn repeats(&self) -> Option<f64> {
         let repeats = 1.0 / self.sum;

@@ -6,48 +6,58 @@ use realfft::RealFftPlanner;
 use realfft::num_complex::Complex;
 
 use crate::Error;
-use crate::error::{Argument, least_zero, positive, usable, within};
+use crate::error::{Argument, check_samples, non_negative, positive, within};
 
-/// Fewest samples of a spectrum.
+/// Smallest number of samples of a spectrum.
 const LEAST: usize = 8;
 
-/// Amplitudes over the largest value that rounding makes.
+/// Amplitudes below this fraction of the largest value are rounding.
 pub(crate) const NOISE: f64 = 64.0 * f64::EPSILON;
 
-/// A sine within a history.
+/// A sine component of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tone {
-    /// Cycles per unit of time.
+    /// Frequency, in cycles per unit of time.
     pub frequency: f64,
-    /// From its middle to its top.
+    /// Amplitude, half of the range from trough to crest.
     pub amplitude: f64,
 }
 
-/// The strongest sine of a frequency in `band`, the least and the most in cycles per unit of time; `step` between
-/// samples. None where the spectrum has no peak inside.
+/// The strongest sine component with a frequency in `band`, given by its lower and upper limit in cycles per
+/// unit of time. `step` is the interval of samples. `None` if the spectrum has no peak in the band.
 ///
-/// The history less its mean, under Hann's window, is transformed; at the highest peak, bin k with the larger
-/// neighbour k +- 1 and the ratio a of their magnitudes, the frequency is that of k +- d, d = (2 a - 1)/(a + 1),
-/// and the amplitude 4 |X_k| (1 - d^2) pi d/(n sin(pi d)). Exact for a sine alone, but for what reaches over from
-/// its negative frequency; of a decaying one the amplitude is a mean.
+/// The mean is subtracted, Hann's window applied and the result transformed. At the highest peak, in bin k,
+/// let a be the ratio of the magnitude of the larger neighbour k +- 1 to that of the peak. The frequency is
+/// that of k +- d with d = (2 a - 1)/(a + 1), and the amplitude 4 |X_k| (1 - d^2) pi d/(n sin(pi d)). This is
+/// exact for a single sine except for the leakage of its negative frequency; for a decaying sine the
+/// amplitude is an average.
 ///
 /// # Errors
-/// Fewer than 8 samples, one that is not finite, a step that is not positive, a band that is not one.
+/// [`Error::Few`] for fewer than 8 samples; [`Error::Number`] for a sample that is not finite;
+/// [`Error::Range`] for a step that is not positive or limits of the band in the wrong order.
 ///
 /// # Source
-/// Grandke, Interpolation algorithms for discrete Fourier transforms of weighted signals, IEEE Trans. Instrum.
-/// Meas. 32, 350-355 (1983).
+/// Grandke, Interpolation algorithms for discrete Fourier transforms of weighted signals, IEEE Trans.
+/// Instrum. Meas. 32, 350-355 (1983).
+///
+/// ```
+/// let sine: Vec<f64> = (0..200).map(|k| 3.0 * (0.13 * f64::from(k)).sin()).collect();
+/// let tone = practice::dominant(&sine, 0.1, [0.05, 5.0])?.expect("a peak");
+/// assert!((tone.frequency - 1.3 / std::f64::consts::TAU).abs() < 1e-3);
+/// assert!((tone.amplitude - 3.0).abs() < 0.05);
+/// # Ok::<(), practice::Error>(())
+/// ```
 pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Tone>, Error> {
     let step = positive(Argument::Time, step)?;
-    let least = least_zero(Argument::Frequency, band[0])?;
+    let least = non_negative(Argument::Frequency, band[0])?;
     let most = within(Argument::Frequency, band[1], least, 1e30)?;
-    usable(0, values)?;
+    check_samples(0, values)?;
     if values.len() < LEAST {
         return Err(Error::Few { found: values.len(), least: LEAST });
     }
     let n = values.len() as f64;
     let sizes: Vec<f64> = transform(values).iter().map(|bin| bin.norm()).collect();
-    // What rounding leaves of a constant is no sine.
+    // The rounding errors of a constant history must not count as a sine.
     let noise = NOISE * n * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let mut peak: Option<(usize, f64)> = None;
     for k in 1..sizes.len() - 1 {
@@ -68,7 +78,7 @@ pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Tone
     }))
 }
 
-/// Bins of the history less its mean, under Hann's window.
+/// The Fourier transform of the history without its mean, under Hann's window.
 fn transform(values: &[f64]) -> Vec<Complex<f64>> {
     let n = values.len() as f64;
     let mean = values.iter().map(|value| value / n).sum::<f64>();
