@@ -15,6 +15,18 @@ pub(crate) struct RawStatement<'a> {
     pub remarks: Vec<&'a str>,
 }
 
+impl<'a> RawStatement<'a> {
+    /// Takes the name, the units or the remark of a comment.
+    fn note(&mut self, comment: &'a str) {
+        let (name, units) = (quoted(comment, "adams_view_name"), quoted(comment, "adams_view_units"));
+        if (name, units) == (None, None) && !comment.trim().is_empty() {
+            self.remarks.push(comment.trim());
+        }
+        self.name = name.or(self.name);
+        self.units = units.or(self.units);
+    }
+}
+
 /// Part of a line.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece<'a> {
@@ -73,18 +85,14 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'
         _ => None,
     };
     let mut all: Vec<RawStatement<'_>> = Vec::new();
-    let (mut name, mut units, mut remarks) = (None, None, Vec::new());
+    // What the comments since the last statement say about the next one.
+    let mut next = RawStatement::default();
     // Whether the last statement may be continued, and whether it ended with a comma.
     let (mut open, mut comma) = (false, false);
     for (number, line) in lines {
         let body = line.trim_start();
         if let Some(comment) = body.strip_prefix('!') {
-            let views = (quoted(comment, "adams_view_name"), quoted(comment, "adams_view_units"));
-            if views == (None, None) && !comment.trim().is_empty() {
-                remarks.push(comment.trim());
-            }
-            name = views.0.or(name);
-            units = views.1.or(units);
+            next.note(comment);
             continue;
         }
         let parts = split_statements(line);
@@ -112,9 +120,7 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'
                 if statement_word(trimmed).is_some_and(|word| word.eq_ignore_ascii_case("END")) {
                     return Ok((title, all));
                 }
-                let remarks = std::mem::take(&mut remarks);
-                let pieces = vec![piece];
-                all.push(RawStatement { pieces, name: name.take(), units: units.take(), remarks });
+                all.push(RawStatement { pieces: vec![piece], ..std::mem::take(&mut next) });
             }
             open = k == ends;
             comma = trimmed.ends_with(',');

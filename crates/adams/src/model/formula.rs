@@ -93,7 +93,6 @@ impl Formula {
 
     /// The value, which may be infinite or NaN.
     fn part<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, Fault> {
-        let slot = |index: usize| on.at.values.get(index).cloned().ok_or(Fault::Text);
         match self {
             Formula::Number(value) => Ok(T::constant(*value)),
             Formula::Time => Ok(T::constant(on.at.time)),
@@ -114,19 +113,10 @@ impl Formula {
                 let wrench = on.reactions.get(*constraint).and_then(Option::as_ref).ok_or(Fault::Reaction)?;
                 Ok(component_of(wrench, *component, on.at.frame(*frame), *on_j))
             }
-            Formula::Slot(index) => slot(*index),
+            Formula::Slot(index) => on.at.values.get(*index).cloned().ok_or(Fault::Text),
             Formula::Differential(index) => on.at.differentials.get(*index).cloned().ok_or(Fault::Text),
             Formula::Spline { family, order, x, z } => {
-                let (x, z) = (x.part(on)?, z.part(on)?);
-                let table = on.families.get(*family).ok_or(Fault::Text)?;
-                if !(x.value().is_finite() && z.value().is_finite()) {
-                    return Err(Fault::Infinite);
-                }
-                let read = table.read(x.value(), z.value(), *order)?;
-                if read.beyond {
-                    on.beyond.borrow_mut().insert(*family);
-                }
-                Ok(T::compose(read.value, &[(read.by_x, &x), (read.by_z, &z)]))
+                interpolated(on, *family, *order, &x.part(on)?, &z.part(on)?)
             }
             Formula::Choice(parts) => {
                 let [test, below, zero, above] = parts.as_ref();
@@ -141,31 +131,8 @@ impl Formula {
                 let all: Result<Vec<T>, Fault> = arguments.iter().map(|one| one.part(on)).collect();
                 function.value(&all?)
             }
-            Formula::Sum(terms) => {
-                let mut sum: Option<T> = None;
-                for (sign, term) in terms {
-                    let term = term.part(on)?;
-                    sum = Some(match (sum, sign) {
-                        (None, Sign::Plus) => term,
-                        (None, Sign::Minus) => term.negated(),
-                        (Some(sum), Sign::Plus) => sum.plus(&term),
-                        (Some(sum), Sign::Minus) => sum.minus(&term),
-                    });
-                }
-                Ok(sum.unwrap_or(T::constant(0.0)))
-            }
-            Formula::Product(factors) => {
-                let mut product: Option<T> = None;
-                for (factor, part) in factors {
-                    let part = part.part(on)?;
-                    product = Some(match (product, factor) {
-                        (None, _) => part,
-                        (Some(product), Factor::Times) => product.times(&part),
-                        (Some(product), Factor::Over) => product.over(&part),
-                    });
-                }
-                Ok(product.unwrap_or(T::constant(1.0)))
-            }
+            Formula::Sum(terms) => sum(on, terms),
+            Formula::Product(factors) => product(on, factors),
             Formula::Power(base, exponent) => Ok(power(&base.part(on)?, &exponent.part(on)?)),
         }
     }
@@ -218,6 +185,54 @@ impl Formula {
             Formula::Product(parts) => parts.iter().for_each(|(_, part)| part.needs(loads, out)),
         }
     }
+}
+
+/// The value of a family at (x, z), with a note if that is beyond its values.
+fn interpolated<T: Scalar>(
+    on: &Evaluation<'_, T>,
+    family: usize,
+    order: usize,
+    x: &T,
+    z: &T,
+) -> Result<T, Fault> {
+    let table = on.families.get(family).ok_or(Fault::Text)?;
+    if !(x.value().is_finite() && z.value().is_finite()) {
+        return Err(Fault::Infinite);
+    }
+    let read = table.read(x.value(), z.value(), order)?;
+    if read.beyond {
+        on.beyond.borrow_mut().insert(family);
+    }
+    Ok(T::compose(read.value, &[(read.by_x, x), (read.by_z, z)]))
+}
+
+/// The sum of terms from left to right.
+fn sum<T: Scalar>(on: &Evaluation<'_, T>, terms: &[(Sign, Formula)]) -> Result<T, Fault> {
+    let mut sum: Option<T> = None;
+    for (sign, term) in terms {
+        let term = term.part(on)?;
+        sum = Some(match (sum, sign) {
+            (None, Sign::Plus) => term,
+            (None, Sign::Minus) => term.negated(),
+            (Some(sum), Sign::Plus) => sum.plus(&term),
+            (Some(sum), Sign::Minus) => sum.minus(&term),
+        });
+    }
+    Ok(sum.unwrap_or(T::constant(0.0)))
+}
+
+/// The product of factors from left to right.
+fn product<T: Scalar>(on: &Evaluation<'_, T>, factors: &[(Factor, Formula)]) -> Result<T, Fault> {
+    let mut product: Option<T> = None;
+    for (factor, part) in factors {
+        let part = part.part(on)?;
+        product = Some(match (product, factor) {
+            (None, _) => part,
+            (Some(product), Factor::Times) => product.times(&part),
+            (Some(product), Factor::Over) => product.over(&part),
+        });
+    }
+    Ok(product.unwrap_or(T::constant(1.0)))
 }
 
 /// A component of a force and torque in the axes of `frame`: 1 |F|, 2 to 4 F, 5 |T|, 6 to 8 T. On J the

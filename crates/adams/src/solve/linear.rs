@@ -88,6 +88,11 @@ impl FactoredMatrix {
         }
     }
 
+    /// The Newton correction -A^-1 r for the Jacobian A and the residual r; `None` if it is not finite.
+    pub fn correction(&self, residual: &[f64]) -> Option<Vec<f64>> {
+        Some(self.solve(residual)?.iter().map(|value| -value).collect())
+    }
+
     /// The solution x of A x = b; `None` if it is not finite.
     pub fn solve(&self, b: &[f64]) -> Option<Vec<f64>> {
         let right = DVector::from_iterator(b.len(), b.iter().zip(&self.rows).map(|(b, row)| b * row));

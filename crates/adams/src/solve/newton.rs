@@ -110,17 +110,12 @@ fn newton<E>(
     let mut before = f64::INFINITY;
     for iterations in 0..MOST {
         let (residual, matrix) = linearize(&x)?;
-        let correct = |linear: &FactoredMatrix, residual: &[f64]| {
-            let all = linear.solve(residual)?;
-            Some(all.iter().map(|value| -value).collect::<Vec<f64>>())
-        };
         let linear = FactoredMatrix::balanced(&matrix);
-        let step = linear.as_ref().and_then(|linear| correct(linear, &residual));
+        let step = linear.as_ref().and_then(|linear| linear.correction(&residual));
         let (Some(linear), Some(step)) = (linear, step) else {
             return Ok(Err(NotConverged { iterations, worst: largest(&residual) }));
         };
-        let ahead = |fraction: f64| x.iter().zip(&step).map(|(x, d)| x + fraction * d).collect::<Vec<f64>>();
-        let goal = ahead(1.0);
+        let goal = advanced(&x, &step, 1.0);
         let now: Vec<f64> = x.iter().zip(&goal).map(|(a, b)| a.abs().max(b.abs())).collect();
         if step.iter().zip(&now).all(|(d, scale)| d.abs() <= ROUNDING * scale) {
             let closed = linear.rank_deficiency() == 0 || is_solution(&matrix, &step, &residual, &goal);
@@ -132,31 +127,13 @@ fn newton<E>(
         }
         let most = top.iter().copied().fold(0.0, f64::max);
         let scales: Vec<f64> = top.iter().zip(&now).map(|(a, b)| a.max(*b).max(1e-9 * most)).collect();
-        let size = |step: &[f64]| {
-            step.iter()
-                .zip(&scales)
-                .map(|(d, s)| if *d == 0.0 { 0.0 } else { d.abs() / s })
-                .fold(0.0, f64::max)
-        };
-        let length = size(&step);
+        let length = scaled_size(&step, &scales);
         let rounding = length <= STALLED;
         if rounding && length >= 0.1 * before {
             return Ok(Ok((x, iterations + 1)));
         }
         before = length;
-        let mut fraction = 1.0;
-        let next = loop {
-            let candidate = ahead(fraction);
-            let found = residual_at(&candidate).ok().and_then(|residual| correct(&linear, &residual));
-            if found.is_some_and(|step| size(&step) <= (1.0 - 0.25 * fraction) * length) {
-                break Some(candidate);
-            }
-            fraction *= 0.5;
-            if fraction < 1e-9 {
-                break None;
-            }
-        };
-        match next {
+        match damped_step(&x, &step, &scales, &linear, &mut residual_at) {
             Some(candidate) => x = candidate,
             None if rounding => return Ok(Ok((x, iterations + 1))),
             None => {
@@ -169,6 +146,39 @@ fn newton<E>(
         }
     }
     Ok(Err(NotConverged { iterations: MOST, worst: 0 }))
+}
+
+/// The unknowns after the largest fraction of a step that passes the test of natural monotonicity; `None` if no
+/// fraction above 1e-9 does.
+fn damped_step<E>(
+    x: &[f64],
+    step: &[f64],
+    scales: &[f64],
+    linear: &FactoredMatrix,
+    residual_at: &mut impl FnMut(&[f64]) -> Result<Vec<f64>, E>,
+) -> Option<Vec<f64>> {
+    let length = scaled_size(step, scales);
+    let mut fraction = 1.0;
+    while fraction >= 1e-9 {
+        let candidate = advanced(x, step, fraction);
+        let after = residual_at(&candidate).ok().and_then(|residual| linear.correction(&residual));
+        if after.is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length) {
+            return Some(candidate);
+        }
+        fraction *= 0.5;
+    }
+    None
+}
+
+/// x plus a fraction of a step.
+fn advanced(x: &[f64], step: &[f64], fraction: f64) -> Vec<f64> {
+    x.iter().zip(step).map(|(x, d)| x + fraction * d).collect()
+}
+
+/// The largest ratio of a step to its scale.
+fn scaled_size(step: &[f64], scales: &[f64]) -> f64 {
+    let ratio = |(d, s): (&f64, &f64)| if *d == 0.0 { 0.0 } else { d.abs() / s };
+    step.iter().zip(scales).map(ratio).fold(0.0, f64::max)
 }
 
 /// Whether a step satisfies J step + r = 0. Singular equations may have no solution.

@@ -79,7 +79,7 @@ impl Search<'_> {
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
             let Some(factored) = self.factor(&at, matrix, resistance) else { break };
-            let Some(step) = correction(&factored, &residual) else { break };
+            let Some(step) = factored.correction(&residual) else { break };
             if resistance > 0.0 {
                 (at, resistance) = self.resisted_step(at, &step, left, resistance);
                 continue;
@@ -138,7 +138,7 @@ impl Search<'_> {
         let mut fraction = if angle > 0.5 { 0.5 / angle } else { 1.0 };
         while fraction > 1e-6 {
             let next = at.after(&self.unknowns, step, fraction);
-            let after = self.residual(&next).ok().and_then(|residual| correction(factored, &residual));
+            let after = self.residual(&next).ok().and_then(|residual| factored.correction(&residual));
             if after.is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length) {
                 return Some(next);
             }
@@ -313,11 +313,6 @@ impl Search<'_> {
         }
         Ok(Equilibrium { state: at.state(self.model), solution, reactions, iterations, undetermined })
     }
-}
-
-/// The Newton correction -J^-1 r.
-fn correction(factored: &FactoredMatrix, residual: &[f64]) -> Option<Vec<f64>> {
-    Some(factored.solve(residual)?.iter().map(|value| -value).collect())
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.
