@@ -19,18 +19,11 @@ pub(crate) fn feet_per_minute(speed: f64) -> f64 {
 /// CMAA 70-2010, 1.4.6.
 pub const RUNWAY_VERTICAL: f64 = 600.0;
 
-/// Smallest ratio of the runway span to its lateral deflection under the fraction [`RUNWAY_SIDE`] of the
-/// largest wheel loads without impact.
+/// Smallest ratio of the runway span to its lateral deflection under a tenth of the largest wheel loads without impact.
 ///
 /// # Source
 /// CMAA 70-2010, 1.4.6.
 pub const RUNWAY_LATERAL: f64 = 400.0;
-
-/// Fraction of the largest wheel loads that acts laterally when the lateral deflection is checked.
-///
-/// # Source
-/// CMAA 70-2010, 1.4.6.
-pub const RUNWAY_SIDE: f64 = 0.1;
 
 /// Largest ratio of the deflection of a bridge girder to its span under trolley and rated load, without
 /// impact.
@@ -38,12 +31,6 @@ pub const RUNWAY_SIDE: f64 = 0.1;
 /// # Source
 /// CMAA 70-1983, 3.5.5.
 pub const BRIDGE: f64 = 0.001125;
-
-/// Hoist load factor of bucket and magnet cranes.
-///
-/// # Source
-/// CMAA 70-1983, 3.3.2.1.1.4.2.
-pub const BUCKET: f64 = 0.5;
 
 /// Fraction of the rated speed at which cranes and trolleys meet their bumpers.
 ///

@@ -1,6 +1,5 @@
 //! Values of 29 CFR 1910.179 (OSHA), with arguments in SI.
 
-use super::cmaa::FOOT;
 use crate::Error;
 use crate::error::{Argument, non_negative};
 
@@ -9,19 +8,6 @@ use crate::error::{Argument, non_negative};
 /// # Source
 /// 29 CFR 1910.179(e)(2).
 pub const BUMPER_SPEED: f64 = 0.4;
-
-/// Fraction of the rated speed at which the mean deceleration by bumpers must not exceed
-/// [`BUMPER_DECELERATION`].
-///
-/// # Source
-/// 29 CFR 1910.179(e)(2).
-pub const BUMPER_GENTLE: f64 = 0.2;
-
-/// Largest mean deceleration by bumpers at [`BUMPER_GENTLE`], 3 ft/s2, in m/s2.
-///
-/// # Source
-/// 29 CFR 1910.179(e)(2).
-pub const BUMPER_DECELERATION: f64 = 3.0 * FOOT;
 
 /// The largest distance, in m, within which brakes must stop a bridge or trolley from its full-load `speed`
 /// in m/s.
