@@ -1,5 +1,5 @@
-//! SPLINE tables in the command language of Adams View: what is written is read back; what others write is
-//! read; the rest is refused with its place.
+//! Adams View commands: what this crate writes reads back, what other programs write is read, and anything
+//! else is refused with its place.
 
 use adams::view::{read, write};
 use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
@@ -76,7 +76,8 @@ fn commands_of_any_doubles_read_back_bit_for_bit() {
     }
 }
 
-/// Other commands between, everything on one line, abbreviated commands, no numbers, later changes of units.
+/// Other commands in between, everything on one line, abbreviated commands, no identifiers, later changes of
+/// units.
 #[test]
 fn reads_what_others_write() {
     let text = "\
@@ -118,7 +119,7 @@ default units length = inch
     assert_eq!(six.curves.y(), [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0]]);
 }
 
-/// Where and why: line, column, fault.
+/// Each text with the line, column and fault of its error.
 #[test]
 fn faults_have_their_place() {
     let head = "data_element create spline ";

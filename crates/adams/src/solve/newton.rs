@@ -148,8 +148,8 @@ fn newton<E>(
     Ok(Err(NotConverged { iterations: MOST, worst: 0 }))
 }
 
-/// The unknowns after the largest fraction of a step that passes the test of natural monotonicity; `None` if no
-/// fraction above 1e-9 does.
+/// The unknowns after the largest fraction of a step that passes the test of natural monotonicity; `None` if
+/// no fraction above 1e-9 does.
 fn damped_step<E>(
     x: &[f64],
     step: &[f64],

@@ -19,7 +19,8 @@ pub(crate) fn feet_per_minute(speed: f64) -> f64 {
 /// CMAA 70-2010, 1.4.6.
 pub const RUNWAY_VERTICAL: f64 = 600.0;
 
-/// Smallest ratio of the runway span to its lateral deflection under a tenth of the largest wheel loads without impact.
+/// Smallest ratio of the runway span to its lateral deflection under a tenth of the largest wheel loads
+/// without impact.
 ///
 /// # Source
 /// CMAA 70-2010, 1.4.6.

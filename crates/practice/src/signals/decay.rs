@@ -37,7 +37,8 @@ pub struct Decay {
 /// Clough and Penzien, Dynamics of Structures (1993), section 2-6.
 ///
 /// ```
-/// let free: Vec<f64> = (0..400).map(|k| 0.05 * f64::from(k)).map(|t| (-0.1 * t).exp() * (5.0 * t).cos()).collect();
+/// let free = |t: f64| (-0.1 * t).exp() * (5.0 * t).cos();
+/// let free: Vec<f64> = (0..400).map(|k| free(0.05 * f64::from(k))).collect();
 /// let found = practice::decay(&free, 0.05, 0.1)?.expect("an oscillation");
 /// assert!((found.ratio - 0.02).abs() < 1e-3);
 /// # Ok::<(), practice::Error>(())

@@ -37,7 +37,8 @@ impl DataSet {
     /// use adams::{DataSet, Value};
     ///
     /// let set = DataSet::read("title\nVAR/1, FUN=TIME\n,*2\nEND")?;
-    /// assert_eq!(set.find("VARIABLE", 1).and_then(|one| one.get("FUNCTION")), Some(&Value::Function("TIME*2".into())));
+    /// let function = set.find("VARIABLE", 1).and_then(|one| one.get("FUNCTION"));
+    /// assert_eq!(function, Some(&Value::Function("TIME*2".into())));
     /// # Ok::<(), adams::Error>(())
     /// ```
     pub fn read(text: &str) -> Result<DataSet, Error> {
