@@ -4,6 +4,7 @@
 //! whose linear equations `linear` solves. `statics` finds parts, loops and reactions together at rest.
 //! `solution` reports the values.
 
+mod evaluation;
 mod linear;
 mod loops;
 mod newton;

@@ -4,17 +4,19 @@
 //! every identifier is known.
 
 mod constraints;
+mod context;
 mod loads;
 mod units;
 
 use super::arguments::Arguments;
 use super::compiler::{Compiler, Symbols};
-use super::data::{Diff, Model, Owner, Request, Slot};
+use super::data::{Diff, Model, Owner, Request};
 use super::formula::Formula;
 use super::order;
 use super::part::{Marker, Part};
 use crate::tables::{Family, Method};
-use crate::{DataSet, Error, Fault, Statement, StatementId, expression, tables};
+use crate::{DataSet, Error, Fault, StatementId, expression, tables};
+use context::{Build, Pending, Target, missing};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Statements without effect on a solution: settings of the solver and of output, and values that only
@@ -43,32 +45,6 @@ const EXECUTED: &[&str] = &[
     "SPLINE", "UNITS", "VARIABLE", "VFORCE",
 ];
 
-/// A model under construction.
-struct Build<'a> {
-    set: &'a DataSet,
-    symbols: Symbols,
-    model: Model,
-    /// Expressions to compile once every identifier is known.
-    pending: Vec<Pending<'a>>,
-}
-
-/// An expression to compile, and the place of its formula.
-struct Pending<'a> {
-    statement: &'a Statement,
-    argument: &'static str,
-    target: Target,
-}
-
-/// The place of a formula in the model.
-enum Target {
-    /// A slot.
-    Slot(usize),
-    /// The prescribed motion of a constraint.
-    Motion(usize),
-    /// A request and the index of its column.
-    Request(usize, usize),
-}
-
 impl Model {
     /// Resolves every reference of a data set.
     ///
@@ -85,21 +61,14 @@ impl Model {
         build.splines()?;
         build.variables()?;
         build.differential_equations()?;
-        build.loads()?;
-        build.constraints()?;
+        loads::read(&mut build)?;
+        constraints::read(&mut build)?;
         build.requests()?;
         build.compile()
     }
 }
 
 impl<'a> Build<'a> {
-    /// The statements of a kind.
-    fn each(&self, keyword: &str) -> impl Iterator<Item = Arguments<'a>> + use<'a> {
-        let keyword = keyword.to_owned();
-        let all = self.set.statements.iter().filter(move |one| one.keyword == keyword);
-        all.map(|statement| Arguments { statement })
-    }
-
     /// Checks that every kind of statement is known and every identifier is used once.
     fn check_kinds(&self) -> Result<(), Error> {
         let mut seen = BTreeSet::new();
@@ -171,37 +140,6 @@ impl<'a> Build<'a> {
             }
         }
         Ok(())
-    }
-
-    /// The index of the marker that an argument names.
-    fn marker(&self, arguments: &Arguments<'_>, name: &'static str) -> Result<Option<usize>, Error> {
-        let Some(id) = arguments.reference(name)? else { return Ok(None) };
-        let found = self.symbols.markers.get(&id).copied();
-        found.map(Some).ok_or_else(|| missing(arguments, "MARKER", id))
-    }
-
-    /// The index of the marker that a required argument names.
-    fn required_marker(&self, arguments: &Arguments<'_>, name: &'static str) -> Result<usize, Error> {
-        self.marker(arguments, name)?.ok_or_else(|| arguments.missing_argument(name))
-    }
-
-    /// Adds a slot for the expression of an argument.
-    fn slot(
-        &mut self,
-        arguments: &Arguments<'a>,
-        argument: &'static str,
-        owner: Owner,
-    ) -> Result<usize, Error> {
-        let slot = self.model.slots.len();
-        self.model.slots.push(Slot {
-            owner,
-            id: arguments.id()?,
-            formula: Formula::Number(0.0),
-            implicit: matches!(owner, Owner::Rate(_)) && arguments.flag("IMPLICIT"),
-            guess: 0.0,
-        });
-        self.pending.push(Pending { statement: arguments.statement, argument, target: Target::Slot(slot) });
-        Ok(slot)
     }
 
     /// VARIABLE.
@@ -292,9 +230,4 @@ impl<'a> Build<'a> {
         model.symbols = self.symbols;
         Ok(model)
     }
-}
-
-/// The error of a reference to a statement that does not exist.
-fn missing(arguments: &Arguments<'_>, keyword: &str, id: u32) -> Error {
-    arguments.fault(Fault::Missing { statement: StatementId::new(keyword, id) })
 }
