@@ -57,6 +57,13 @@ impl Hoisting {
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.4 with Table 2.5.
+///
+/// ```
+/// use practice::factor::{Hoisting, phi2};
+///
+/// assert!((phi2(Hoisting::Hc2, 0.2)? - 1.168).abs() < 1e-12);
+/// # Ok::<(), practice::Error>(())
+/// ```
 pub fn phi2(class: Hoisting, speed: f64) -> Result<f64, Error> {
     let [least, slope] = class.values();
     Ok(least + slope * non_negative(Argument::Speed, speed)?)

@@ -57,6 +57,22 @@ pub struct Response {
 ///
 /// # Errors
 /// Those of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
+///
+/// ```
+/// use practice::{View, response};
+///
+/// // A step to 50 at time zero that oscillates at 2 Hz with a damping of 3 %.
+/// let times: Vec<f64> = (0..1000).map(|k| 0.01 * f64::from(k)).collect();
+/// let omega = 4.0 * std::f64::consts::PI;
+/// let step = |t: &f64| 50.0 - 50.0 * (-0.03 * omega * t).exp() * (omega * t).cos();
+/// let values: Vec<f64> = times.iter().map(step).collect();
+/// let view =
+///     View { from: 0.0, settled: 8.0, step: 0.01, cut: None, share: 0.1, band: [0.5, 5.0], floor: 0.1 };
+/// let found = response(&times, &values, &view)?;
+/// assert!((found.mean - 50.0).abs() < 0.5 && found.peak.value > 90.0);
+/// assert!((found.decay.expect("an oscillation").ratio - 0.03).abs() < 1e-3);
+/// # Ok::<(), practice::Error>(())
+/// ```
 pub fn response(times: &[f64], values: &[f64], view: &View) -> Result<Response, Error> {
     let settled = within(Argument::Time, view.settled, view.from, 1e30)?;
     let mean = mean(times, values, settled)?;
