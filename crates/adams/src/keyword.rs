@@ -94,12 +94,6 @@ impl From<&str> for Keyword {
     }
 }
 
-impl PartialEq<str> for Keyword {
-    fn eq(&self, word: &str) -> bool {
-        self.as_str() == word
-    }
-}
-
 impl fmt::Display for Keyword {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.as_str())
