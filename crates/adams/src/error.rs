@@ -1,9 +1,14 @@
-//! What can go wrong, by place, identifier and number.
+//! Errors: where in the text or in which statement something is wrong, and what.
+//!
+//! An [`Error`] gives the place: line and column of the text, or the statement by keyword and identifier. A
+//! [`Fault`] says what is wrong there.
 
-/// Why a data set is refused.
+use crate::keyword::StatementId;
+
+/// Why a data set is refused, or why it has no solution at a state.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// Text that cannot be read.
+    /// The text cannot be read at this place.
     #[error("line {line}, column {column}: {fault}")]
     At {
         /// Line, from 1.
@@ -13,80 +18,64 @@ pub enum Error {
         /// What is wrong there.
         fault: Fault,
     },
-    /// An identifier that is zero or used twice.
-    #[error("{keyword}/{id} is zero or stands twice")]
+    /// An identifier is zero or used twice by one kind of statement.
+    #[error("{statement} is zero or stands twice")]
     Id {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
+        /// Which statement.
+        statement: StatementId,
     },
-    /// A name that has no place between quotes on a line.
-    #[error("{keyword}/{id} has a name or units that cannot be written")]
+    /// An Adams View name or unit cannot be written between quotes on one line.
+    #[error("{statement} has a name or units that cannot be written")]
     Name {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
+        /// Which statement.
+        statement: StatementId,
     },
-    /// An item of an expression or list that is longer than a line.
-    #[error("{keyword}/{id} has text that cannot be broken into lines")]
+    /// An item of an expression or list is longer than a line.
+    #[error("{statement} has text that cannot be broken into lines")]
     Long {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier, zero for statements without one.
-        id: u32,
+        /// Which statement.
+        statement: StatementId,
     },
-    /// A statement that cannot be executed.
-    #[error("{keyword}/{id}: {fault}")]
+    /// A statement cannot be executed.
+    #[error("{statement}: {fault}")]
     Statement {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier, zero for statements without one.
-        id: u32,
+        /// Which statement.
+        statement: StatementId,
         /// Why not.
         fault: Box<Fault>,
     },
-    /// An expression that cannot be executed, or has no value at a state.
-    #[error("{keyword}/{id}, {argument}, after {offset} characters: {fault}")]
+    /// An expression cannot be compiled, or has no value at a state.
+    #[error("{statement}, {argument}, after {offset} characters: {fault}")]
     In {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
-        /// The argument.
-        argument: String,
+        /// Which statement.
+        statement: StatementId,
+        /// The argument that holds the expression.
+        argument: &'static str,
         /// Characters of the expression before the place.
         offset: usize,
         /// Why not.
         fault: Box<Fault>,
     },
-    /// A state without one of the parts or differential equations.
-    #[error("the state has no {keyword}/{id}")]
+    /// The state has no entry for one of the parts or differential equations.
+    #[error("the state has no {statement}")]
     State {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
+        /// Which statement.
+        statement: StatementId,
     },
-    /// A loop of expressions without a solution that Newton's method finds from the initial values.
-    #[error("{keyword}/{id}: no solution of the loop that it belongs to, after {iterations} iterations")]
+    /// Newton's method finds no solution of an algebraic loop from the initial values.
+    #[error("{statement}: no solution of the loop that it belongs to, after {iterations} iterations")]
     Loop {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
+        /// The statement of the loop that moved most in the last iteration.
+        statement: StatementId,
         /// Iterations done.
         iterations: usize,
     },
-    /// No static equilibrium was found; the statement is the one that is farthest from it.
-    #[error("no equilibrium after {iterations} iterations: {keyword}/{id} is off by {residual:e}")]
+    /// No static equilibrium was found.
+    #[error("no equilibrium after {iterations} iterations: {statement} is off by {residual:e}")]
     Equilibrium {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
-        /// Unbalanced force or torque, gap of a joint, or error of a VARIABLE.
+        /// The statement with the largest scaled residual.
+        statement: StatementId,
+        /// Its unbalanced force or torque, gap of a joint, or error of a VARIABLE.
         residual: f64,
         /// Iterations done.
         iterations: usize,
@@ -96,49 +85,49 @@ pub enum Error {
 /// What is wrong at a place of a data set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Fault {
-    /// Something that cannot stand there.
+    /// The text does not belong there.
     #[error("unexpected text")]
     Text,
-    /// A number that is no finite real number.
+    /// The text is not a finite real number.
     #[error("not a number")]
     Number,
-    /// An identifier that is no positive integer.
+    /// The text is not a positive integer.
     #[error("not an identifier")]
     Id,
-    /// An identifier used before.
+    /// The identifier was used before.
     #[error("identifier {id} stands twice")]
     Twice {
         /// The identifier.
         id: u32,
     },
-    /// An argument that the statement has not, or that is ambiguous.
+    /// The statement has no such argument, or the abbreviation is ambiguous.
     #[error("unknown argument")]
     Argument,
-    /// An argument given before.
+    /// The argument was given before.
     #[error("argument given twice")]
     Repeated,
-    /// Values kept in another file.
+    /// The values of a SPLINE are in another file.
     #[error("SPLINE/{id} keeps its values in another file")]
     File {
         /// The identifier.
         id: u32,
     },
-    /// A SPLINE that a later command changes.
+    /// A later command modifies a SPLINE.
     #[error("a SPLINE is changed after it is made")]
     Changed,
-    /// No X.
+    /// A SPLINE has no X.
     #[error("SPLINE/{id} has no X")]
     NoX {
         /// The identifier.
         id: u32,
     },
-    /// No Y.
+    /// A SPLINE has no Y.
     #[error("SPLINE/{id} has no Y")]
     NoY {
         /// The identifier.
         id: u32,
     },
-    /// A Y list of the wrong length: one value each x, with z before them in a family.
+    /// A Y list has the wrong length. It has one value for each x, preceded by z in a family of curves.
     #[error("SPLINE/{id}: {found} values, expected {expected}")]
     Count {
         /// The identifier.
@@ -148,7 +137,7 @@ pub enum Fault {
         /// Values expected.
         expected: usize,
     },
-    /// Values of a SPLINE that make no curves.
+    /// The values of a SPLINE do not make curves.
     #[error("SPLINE/{id}: {source}")]
     Spline {
         /// The identifier.
@@ -156,7 +145,7 @@ pub enum Fault {
         /// Why not.
         source: Box<Fault>,
     },
-    /// Too few x.
+    /// There are too few x values.
     #[error("{found} points, at least {least} are needed")]
     Points {
         /// Points found.
@@ -164,13 +153,13 @@ pub enum Fault {
         /// Points needed.
         least: usize,
     },
-    /// x or z that does not increase.
+    /// An x or z value is not finite or not above the one before it.
     #[error("point {index} is not above the one before it")]
     Order {
         /// Which point, from 0.
         index: usize,
     },
-    /// Curves that do not match z.
+    /// The number of curves differs from the number of z values.
     #[error("{found} curves, expected {expected}")]
     Curves {
         /// Curves found.
@@ -178,7 +167,7 @@ pub enum Fault {
         /// Curves expected.
         expected: usize,
     },
-    /// Values that do not match x.
+    /// The number of values of a curve differs from the number of x values.
     #[error("curve {curve} has {found} values, expected {expected}")]
     Values {
         /// Which curve, from 0.
@@ -188,7 +177,7 @@ pub enum Fault {
         /// Values expected.
         expected: usize,
     },
-    /// A value that is not finite.
+    /// A value is not finite.
     #[error("value {index} of curve {curve} is not finite")]
     NotFinite {
         /// Which curve, from 0.
@@ -196,66 +185,64 @@ pub enum Fault {
         /// Which value, from 0.
         index: usize,
     },
-    /// Brackets, signs and powers too deep within each other.
+    /// Brackets, signs and powers are nested more than 100 deep.
     #[error("nested too deep")]
     Deep,
-    /// A name that an expression cannot have.
+    /// The name is no function or constant of the expression language.
     #[error("{name} is not known")]
     Unknown {
-        /// In capitals.
+        /// The name in capitals.
         name: String,
     },
-    /// A number of arguments that the function has not.
+    /// The number of arguments is wrong, or an argument that must be a whole number is outside its range.
     #[error("wrong number of arguments, or one outside its range")]
     Arguments,
-    /// A parameter for which a function or element has no meaning.
+    /// A function or element is not defined for a parameter.
     #[error("a parameter is outside its range")]
     Parameter,
-    /// Derivatives of a family of curves.
+    /// A derivative of a family of curves is asked for.
     #[error("derivatives can be asked of one curve alone")]
     Derivative,
-    /// z outside a SPLINE without LINEAR_EXTRAPOLATE.
+    /// z is outside a SPLINE without LINEAR_EXTRAPOLATE.
     #[error("z is outside the SPLINE, which has no LINEAR_EXTRAPOLATE")]
     Beyond,
-    /// No finite real number.
+    /// The value of an expression is not a finite number.
     #[error("the value is not finite")]
     Infinite,
-    /// A reaction of a joint or motion where none is known.
+    /// The reaction of a joint or motion is read where none is known.
     #[error("reactions are known at equilibrium alone, to requests")]
     Reaction,
-    /// A reference to what is not there.
-    #[error("{keyword}/{id} is missing")]
+    /// A statement that is referred to does not exist.
+    #[error("{statement} is missing")]
     Missing {
-        /// Kind of statement.
-        keyword: String,
-        /// The identifier.
-        id: u32,
+        /// Which statement.
+        statement: StatementId,
     },
-    /// An argument that must be there.
+    /// A required argument is missing.
     #[error("{argument} is missing")]
     Lacks {
         /// The argument.
-        argument: String,
+        argument: &'static str,
     },
-    /// An argument that is given something else than it takes.
+    /// The value of an argument has the wrong form.
     #[error("{argument} is given something else than it takes")]
     Given {
         /// The argument.
-        argument: String,
+        argument: &'static str,
     },
-    /// A kind of statement, or one of its options, that is not executed.
+    /// A kind of statement, or one of its options, is not executed by this crate.
     #[error("not executed")]
     Unsupported,
-    /// No type of joint or motion, or one that does not fit.
+    /// The type of a joint or motion is missing or does not fit.
     #[error("the type is missing or does not fit")]
     Type,
-    /// A marker that must float, or must not; or that floats for two forces.
+    /// A marker must float, must not float, or floats for two forces.
     #[error("JFLOAT takes a FLOATING marker of its own, everything else takes fixed ones")]
     Floating,
-    /// Axes by both angles and points, or by points in line.
+    /// Axes are given by both angles and points, or by points in one line.
     #[error("the axes are not determined")]
     Axes,
-    /// A unit that is not known, or UNITS without force and length.
+    /// A unit is not known, or UNITS has no force or length.
     #[error("unknown unit")]
     Unit,
 }

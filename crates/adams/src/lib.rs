@@ -1,42 +1,70 @@
-//! The ADAMS data-set language: statements, SPLINE tables, function expressions, their execution.
+//! The ADAMS data-set language: statements, SPLINE tables, function expressions and their execution.
 //!
-//! Depends on no other crate of ours: what it finds is a second opinion on the simulator. Knows no file.
+//! The crate reads and writes whole data sets (`.adm`), resolves every reference, and computes what a data
+//! set says: forces at a given state, static equilibrium, the quasi-static path. It does not integrate
+//! motion. It depends on no other crate of this workspace, so that its results check the simulator
+//! independently, and it opens no file: callers pass text.
+//!
+//! A mass of 2 kg on a spring of 1000 N/m comes to rest where the spring carries its weight:
+//!
+//! ```
+//! use adams::{DataSet, Model};
+//!
+//! let text = "mass on a spring
+//! UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
+//! PART/1, GROUND
+//! MARKER/1, PART=1
+//! PART/2, MASS=2, CM=2, IP=1,1,1
+//! MARKER/2, PART=2
+//! JOINT/1, TRANSLATIONAL, I=2, J=1
+//! SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=-1000*DZ(2,1)
+//! ACCGRAV/KGRAV=-9.80665
+//! END";
+//! let model = Model::new(&DataSet::read(text)?)?;
+//! let rest = model.equilibrium(0.0, &model.initial())?;
+//! let height = rest.state.parts[&2].origin.z;
+//! assert!((height + 2.0 * 9.80665 / 1000.0).abs() < 1e-12);
+//! # Ok::<(), adams::Error>(())
+//! ```
+//!
+//! # Order of the wings
+//!
+//! A file imports from its own wing and from those before it, never from a later one.
+//!
+//! 1. `keyword`, `error`, `number`: words, errors and numbers, which every wing uses.
+//! 2. `expression`: function expressions as trees, their functions, dual numbers.
+//! 3. `language`: lines, statements, data sets, units.
+//! 4. `tables`: SPLINE statements and how AKISPL and CUBSPL interpolate them.
+//! 5. `view`: the same tables in the command language of Adams View.
+//! 6. `kinematics`: vectors, poses, frames, and what DX to WZ measure.
+//! 7. `model`: a data set with every reference resolved.
+//! 8. `solve`: linear and nonlinear equations, algebraic loops, static equilibrium.
 
-mod code;
-pub mod curves;
-pub mod dataset;
+mod keyword;
+
 pub mod error;
-pub mod expression;
-mod frame;
-pub mod functions;
-pub mod interpolation;
-mod layout;
-mod lexer;
-mod linear;
-pub mod model;
-mod newton;
 pub mod number;
-mod reader;
-pub mod scalar;
-mod solve;
-mod space;
-pub mod state;
-pub mod statement;
-pub mod statics;
+
+pub mod expression;
+
+mod language;
+
 pub mod tables;
-pub mod units;
+
 pub mod view;
 
-pub use curves::Curves;
-pub use dataset::DataSet;
+mod kinematics;
+
+mod model;
+
+mod solve;
+
 pub use error::{Error, Fault};
-pub use expression::Expression;
-pub use interpolation::{Family, Method, Reading};
+pub use expression::functions;
+pub use expression::{Dual, Expression, Scalar};
+pub use keyword::{Keyword, StatementId};
+pub use kinematics::{Pose, State};
+pub use language::{Argument, DataSet, Force, Length, Mass, Statement, Units, Value};
 pub use model::Model;
-pub use scalar::{Dual, Scalar};
-pub use solve::{Load, Solution};
-pub use state::{Pose, State};
-pub use statement::{Argument, Statement, Value};
-pub use statics::{Equilibrium, Reaction};
-pub use tables::{Spline, Tables};
-pub use units::{Force, Length, Mass, Units};
+pub use solve::{Equilibrium, Load, Reaction, Solution};
+pub use tables::{Curves, Family, Method, Reading, Spline, Tables};

@@ -1,6 +1,15 @@
 //! Numbers as data sets write them.
 
-/// Shortest digits that read back to the same bits, always with a decimal point.
+/// Writes a number with the fewest digits that read back to the same bits.
+///
+/// The text always has a decimal point; outside 1e-4 to 1e7 it has an exponent.
+///
+/// ```
+/// use adams::number;
+///
+/// assert_eq!(number::write(15.0), "15.0");
+/// assert_eq!(number::write(1.09e-7), "1.09E-7");
+/// ```
 #[must_use]
 pub fn write(value: f64) -> String {
     let size = value.abs();
@@ -14,7 +23,14 @@ pub fn write(value: f64) -> String {
     }
 }
 
-/// A finite real number as Fortran writes it, with an E or D exponent.
+/// Reads a finite real number as Fortran writes it, with an E or D exponent; `None` for any other text.
+///
+/// ```
+/// use adams::number;
+///
+/// assert_eq!(number::read("1.5D+01"), Some(15.0));
+/// assert_eq!(number::read("inf"), None);
+/// ```
 #[must_use]
 pub fn read(text: &str) -> Option<f64> {
     let plain = text.bytes().all(|c| c.is_ascii_digit() || b"+-.eEdD".contains(&c));

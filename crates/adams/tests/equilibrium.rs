@@ -1,6 +1,6 @@
-//! Static equilibrium of data sets whose answer is known.
+//! Static equilibrium of data sets with known solutions.
 
-use adams::{DataSet, Equilibrium, Error, Fault, Model};
+use adams::{DataSet, Equilibrium, Error, Fault, Model, StatementId};
 
 fn model(text: &str) -> Model {
     let set = DataSet::read(text).unwrap_or_else(|error| panic!("{error}"));
@@ -48,7 +48,7 @@ fn cantilever_of_one_beam_bends_as_timoshenko_says() {
     near(tip.y, -(8.0 / (3.0 * ei[0]) + 2.0 * 1.2 / ga), 1e-10);
     near(tip.z, 8.0 / (3.0 * ei[1]) + 2.0 * 1.1 / ga, 1e-10);
     near(heading(&out, 2), -4.0 / (2.0 * ei[0]), 1e-10);
-    // What the clamp gets: the load and its moment.
+    // The reaction of the clamp: the load and its moment.
     let beam = out.solution.loads[&("BEAM", 1)];
     near(beam.force.y, 1.0, 1e-12);
     near(beam.torque.norm(), 0.0, 1e-9);
@@ -91,7 +91,8 @@ fn motions_hold_angles_places_and_integrals_of_speeds() {
 
 #[test]
 fn differential_equations_rest_where_their_rates_vanish() {
-    // A spring through a lag: x' = (DY - x)/2 explicit, and 0 = 3 y - x + DIF1 implicit.
+    // A spring whose displacement passes through a first-order lag: x' = (DY - x)/2 explicit, and 0 = 3 y - x
+    // + DIF1 implicit.
     let text = "lag\nPART/1,GROUND\nMARKER/1,PART=1\nPART/2,MASS=2,CM=2,IP=1,1,1\nMARKER/2,PART=2,REULER=0D,90D,0D\n\
                 MARKER/3,PART=1,REULER=0D,90D,0D\nJOINT/1,TRANSLATIONAL,I=2,J=3\nMARKER/9,PART=1,FLOATING\n\
                 DIFF/1,IC=7,FUN=(DY(2,1)-DIF(1))/2\nDIFF/2,IC=0,IMPLICIT,FUN=3*DIF(2)-DIF(1)+DIF1(2)\n\
@@ -102,7 +103,7 @@ fn differential_equations_rest_where_their_rates_vanish() {
     near(out.state.differentials[&1], -16.0 / 5.0, 1e-12);
     near(out.state.parts[&2].origin.y, -16.0 / 5.0, 1e-12);
     near(out.state.differentials[&3], 4.0, 0.0);
-    // At a state: explicit rates are values, implicit ones are solved for.
+    // At a given state explicit rates are evaluated and implicit ones are solved.
     let model = model(text);
     let rates = model.solve(&model.initial()).expect("rates").rates;
     assert_eq!((rates[&1], rates[&2], rates[&3]), (-3.5, 7.0, 1.0));
@@ -144,7 +145,7 @@ fn free_body_without_support_has_no_equilibrium() {
         model("free\nPART/1,GROUND\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nACCGRAV/JGRAV=-1\nEND\n");
     let error = model.equilibrium(0.0, &model.initial());
     assert!(
-        matches!(error, Err(Error::Equilibrium { ref keyword, id: 2, .. }) if keyword == "PART"),
+        matches!(error, Err(Error::Equilibrium { ref statement, .. }) if *statement == StatementId::new("PART", 2)),
         "{error:?}"
     );
 }
@@ -152,8 +153,8 @@ fn free_body_without_support_has_no_equilibrium() {
 #[test]
 fn references_are_checked_by_statement() {
     let head = "refs\nPART/1,GROUND\nMARKER/1,PART=1\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nMARKER/9,PART=1,FLOATING\n";
-    let missing = |keyword: &str, id: u32| Fault::Missing { keyword: keyword.to_owned(), id };
-    let lacks = |argument: &str| Fault::Lacks { argument: argument.to_owned() };
+    let missing = |keyword: &str, id: u32| Fault::Missing { statement: StatementId::new(keyword, id) };
+    let lacks = |argument: &'static str| Fault::Lacks { argument };
     for (tail, expected) in [
         ("MARKER/3,PART=7", missing("PART", 7)),
         ("JOINT/1,REVOLUTE,I=2,J=8", missing("MARKER", 8)),

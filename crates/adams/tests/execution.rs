@@ -1,6 +1,6 @@
 //! Data sets that are read, resolved and solved at given states.
 
-use adams::{DataSet, Error, Model, Pose, Solution, State};
+use adams::{DataSet, Error, Model, Pose, Solution, State, StatementId};
 use nalgebra::{Matrix3, Vector3};
 
 fn model(text: &str) -> Model {
@@ -26,7 +26,7 @@ fn looped(k: f64, start: f64, force: &str) -> String {
 
 #[test]
 fn newton_closes_the_loop_where_substitution_diverges() {
-    // k g = 10.9: substitution would multiply errors by that each time.
+    // k g = 10.9: each substitution would multiply the error by this factor.
     let out = solved(&looped(1e8, 0.0, "-$K*(VARVAL(1)-1.25)"), 0.0);
     let exact = (1.2 + 10.9 * 1.25) / 11.9;
     assert!((out.variables[&1] - exact).abs() < 4e-16 * exact, "{}", out.variables[&1]);
@@ -36,7 +36,7 @@ fn newton_closes_the_loop_where_substitution_diverges() {
         substituted = 1.2 + 10.9 * (1.25 - substituted);
     }
     assert!((substituted - exact).abs() > 1e-4);
-    // One-sided and progressive, from penetrations of 1.25 ft and from no contact at all.
+    // A one-sided progressive law, starting from penetrations of 1.25 ft and from no contact.
     for start in [0.0, 1.25, 3.0] {
         let out = solved(&looped(1e8, start, "IMPACT(VARVAL(1),VY(2,1),1.25,$K,1.1,1E5,.01)"), 0.0);
         let gap = out.variables[&1];
@@ -50,17 +50,18 @@ fn newton_closes_the_loop_where_substitution_diverges() {
 fn loop_without_a_solution_is_refused_by_name() {
     let error = model("none\nVARIABLE/7,FUN=VARVAL(7)+1\nEND\n").solve(&State::default());
     assert!(
-        matches!(error, Err(Error::Loop { ref keyword, id: 7, .. }) if keyword == "VARIABLE"),
+        matches!(error, Err(Error::Loop { ref statement, .. }) if *statement == StatementId::new("VARIABLE", 7)),
         "{error:?}"
     );
     let text = looped(1e8, 0.0, "SQRT(-1-VARVAL(1)**2)");
     let error = model(&text).solve(&model(&text).initial());
-    assert!(matches!(error, Err(Error::In { id: 1, .. })), "{error:?}");
+    assert!(matches!(error, Err(Error::In { statement: StatementId { id: 1, .. }, .. })), "{error:?}");
 }
 
 #[test]
 fn velocities_are_seen_in_the_fourth_marker() {
-    // Marker 2 on a turning part, marker 3 fixed to ground: derivative in ground against derivative in the part.
+    // Marker 2 on a turning part, marker 3 fixed to ground: derivative in ground against derivative in the
+    // part.
     let text = "turn\nPART/1,GROUND\nPART/2\nMARKER/3,PART=1,QP=2,0,0\nMARKER/2,PART=2\n\
                 VARIABLE/1,FUN=VX(3,2,2)\nVARIABLE/2,FUN=VY(3,2,2)\nVARIABLE/3,FUN=VY(3,2,2,2)\n\
                 VARIABLE/4,FUN=VY(3,2)\nVARIABLE/5,FUN=WZ(2,3)\nVARIABLE/6,FUN=VM(2,3)\nEND\n";
@@ -77,12 +78,12 @@ fn velocities_are_seen_in_the_fourth_marker() {
     };
     close(1, local.x);
     close(2, local.y);
-    // Seen from the part, the point turns back: - w x d.
+    // Observed from the part, the point rotates backwards: - w x d.
     close(3, local.y - 4.0 * 2.0 * angle.cos());
     close(4, -0.5);
     close(5, 4.0);
     close(6, velocity.norm());
-    // Small rotations as another program has them: d/dt of A^T d itself.
+    // Small rotations as in a simulator: the rate of A^T d itself.
     let theta = Matrix3::new(0.0, -angle, 0.0, angle, 0.0, 0.0, 0.0, 0.0, 0.0);
     let rate = theta * (4.0 / angle);
     let pose = Pose {
@@ -115,7 +116,8 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
         pose.origin = Vector3::new(0.0, 1.25 - drop, x);
     }
     let out = model.solve(&state).unwrap_or_else(|error| panic!("{error}"));
-    // The listing has one compliance for both: g(x, x) of the wheel whose force it is, here equal by symmetry.
+    // The listing has one compliance for both: g(x, x) of the wheel whose force it is, here equal by
+    // symmetry.
     let g = model.evaluate(&state, &out, "AKISPL(DZ(216,46),DZ(216,46),6)").expect("a value");
     let force = drop / (1e-8 + 2.0 * g);
     for id in [17, 18] {
@@ -131,7 +133,8 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
 
 #[test]
 fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
-    // Compliance g of every wheel by every other falls off with distance; wheels of 1e10 lb/ft, initially touching.
+    // Compliance g of every wheel by every other falls off with distance; wheels of 1e10 lb/ft, initially
+    // touching.
     let (n, stiffness) = (8, 1e10);
     let compliance = |i: usize, j: usize| 1e-7 * (-0.3 * (i as f64 - j as f64).abs()).exp();
     let mut text = String::from("many\nPART/1,GROUND\nMARKER/1,PART=1\n");
@@ -161,7 +164,7 @@ fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
             let sunk: f64 = (1..=n).map(|j| compliance(i, j) * force(j)).sum();
             let gap = state.parts[&(100 + i as u32)].origin.y + sunk;
             let found = out.variables[&(i as u32)];
-            // k g eps: what rounding of 1.25 makes of the gap.
+            // k g eps: the rounding error of 1.25 in the gap.
             assert!((gap - found).abs() < 1e-12, "{gap} {found}");
             assert_eq!(force(i), (stiffness * (1.25 - found)).max(0.0));
         }
@@ -170,7 +173,7 @@ fn eight_wheels_are_solved_from_the_kink_of_their_law_at_random_heights() {
 
 #[test]
 fn implicit_rate_that_its_expression_lacks_stays_if_the_expression_holds() {
-    // A wheel over a support: the girder gives nothing, so its rate is not in the expression.
+    // A wheel over a support: the compliance is zero, so that the rate is not in the expression.
     let text = "rate\nVARIABLE/1,FUN=TIME*DIF1(1)\nDIFF/1,IC=0,7,IMPLICIT,FUN=DIF(1)-VARVAL(1)\n\
                 DIFF/2,IC=3,IMPLICIT,FUN=DIF1(2)*2-VARVAL(1)-DIF(2)\nEND\n";
     let model = model(text);
@@ -181,8 +184,11 @@ fn implicit_rate_that_its_expression_lacks_stays_if_the_expression_holds() {
     state.differentials.insert(1, 8.0);
     let out = model.solve(&state).expect("rates");
     assert_eq!((out.rates[&1], out.rates[&2]), (4.0, 5.5));
-    // At the support, but not zero.
+    // The compliance is zero, but the expression is not.
     state.time = 0.0;
     let error = model.solve(&state);
-    assert!(matches!(error, Err(Error::Loop { ref keyword, id: 1, .. }) if keyword == "DIFF"), "{error:?}");
+    assert!(
+        matches!(error, Err(Error::Loop { ref statement, .. }) if *statement == StatementId::new("DIFF", 1)),
+        "{error:?}"
+    );
 }

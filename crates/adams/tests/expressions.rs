@@ -51,7 +51,7 @@ fn functions_have_the_values_of_their_definitions() {
         ("STEP(-1,0,1,1,3)+STEP(9,0,1,1,3)", 4.0),
         ("STEP5(0.25,0,1,1,3)", 1.0 + 2.0 * 0.015625 * (10.0 - 3.75 + 0.375)),
         ("HAVSIN(0.5,0,1,1,3)", 2.0),
-        // k p^e, damping in full beyond d, never pulling, nothing above.
+        // k p^e with full damping beyond d, without tension, and zero above the contact.
         ("IMPACT(.5,0,1,8,2,4,.1)", 2.0),
         ("IMPACT(.5,-1,1,8,2,4,.1)", 6.0),
         ("IMPACT(.5,9,1,8,2,4,.1)", 0.0),
@@ -110,7 +110,10 @@ fn values_that_are_not_finite_are_refused_by_name() {
         let set = DataSet::read(&format!("bad\nVARIABLE/31,FUN={text}\nEND\n")).expect("grammar");
         let model = Model::new(&set).expect("names");
         let error = model.solve(&model.initial());
-        assert!(matches!(error, Err(adams::Error::In { id: 31, .. })), "{text}: {error:?}");
+        assert!(
+            matches!(error, Err(adams::Error::In { statement: adams::StatementId { id: 31, .. }, .. })),
+            "{text}: {error:?}"
+        );
     }
 }
 
@@ -147,7 +150,7 @@ fn forces_are_read_on_either_side_and_in_any_frame() {
             "{expression}: {}",
             out.variables[&1]
         );
-        // The same asked afterwards.
+        // The same expression evaluated afterwards.
         let asked = model.evaluate(&model.initial(), &out, expression);
         assert_eq!(asked, Ok(out.variables[&1]), "{expression}");
     }

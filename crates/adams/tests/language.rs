@@ -1,4 +1,5 @@
-//! Data sets of other programs and of our own: read, written, read again; refused with their place.
+//! Data sets of other programs and our own are read, written and read again; wrong ones are refused with
+//! their place.
 
 use adams::{DataSet, Error, Fault, Statement, Value};
 
@@ -62,7 +63,7 @@ fn packed_and_abbreviated_statements_are_read_in_full() {
 fn round_trips(set: &DataSet) {
     let text = set.write().unwrap_or_else(|error| panic!("{error}"));
     assert!(text.is_ascii() && text.lines().all(|line| line.len() <= 79), "{text}");
-    // Comments may be broken once into lines that fit.
+    // Comments may be broken into lines once.
     let bare = |set: &DataSet| {
         let mut set = set.clone();
         set.statements.iter_mut().for_each(|one| one.remarks.clear());
@@ -127,7 +128,7 @@ fn faults_have_their_place() {
         ("t\nPART/1 GROUND\n", 2, 8, Fault::Text),
         ("t\nPART/1\nGROUND\n", 3, 1, Fault::Text),
     ] {
-        // A list that ends with a comma is complete: commas collapse.
+        // A list that ends with a comma is complete: several commas count as one.
         if column == 0 {
             assert!(DataSet::read(text).is_ok());
             continue;
@@ -210,7 +211,7 @@ fn any_pieces_in_any_order_are_read_or_refused_without_panic() {
         }
         let Ok(set) = DataSet::read(&text) else { continue };
         kept += 1;
-        // Models of it too.
+        // Models of the text do not panic either.
         if let Ok(model) = adams::Model::new(&set) {
             let _ = model.solve(&model.initial());
         }

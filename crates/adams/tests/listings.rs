@@ -1,6 +1,6 @@
-//! The paper's listings, rebuilt from descriptions, executed as they stand, and by how much each of their loose
-//! ends moves the result. Reference figures: exact beam theory, and an independent reading of the printed table
-//! by documented AKISPL and CUBSPL.
+//! The paper's listings, reconstructed from descriptions and executed without changes, and the effect of each
+//! of their weak points. References: exact beam theory, and an independent interpolation of the printed table
+//! by AKISPL and CUBSPL as documented.
 
 use adams::{DataSet, Error, Family, Method, Model, Solution, State, tables};
 use nalgebra::Vector3;
@@ -9,7 +9,7 @@ const FLEXIBLE: &str = include_str!("listings/flexible.adm");
 const RIGID: &str = include_str!("listings/rigid.adm");
 const TABLES: &str = include_str!("../../../examples/bogie/printed.adm");
 
-/// Of all wheels.
+/// The total load of all wheels, in lb.
 const WEIGHT: f64 = 4.8e6;
 
 fn model(listing: &str, tables: &str) -> Model {
@@ -19,7 +19,7 @@ fn model(listing: &str, tables: &str) -> Model {
     Model::new(&set).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// What the trunnion sinks at places along the rail.
+/// The deflections of the trunnion at positions along the rail.
 fn sinks(model: &Model, places: &[f64]) -> Vec<f64> {
     let path = model.path(places).unwrap_or_else(|error| panic!("{error}"));
     path.iter().map(|one| 1.25 - one.state.parts[&2].origin.y).collect()
@@ -34,7 +34,7 @@ fn near(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} instead of {expected}");
 }
 
-/// The other wheel's force times the compliance from there to here.
+/// The listing with cross terms: the force of the other wheel is multiplied by the compliance G(x_i, x_j).
 fn crossed() -> String {
     let mut out = FLEXIBLE.to_owned();
     for (own, other, force) in [("216", "226", "18"), ("226", "216", "17")] {
@@ -44,7 +44,7 @@ fn crossed() -> String {
                     "-GFORCE({force},0,{component},49)*(-1.0)*AKISPL(DZ({other},46),DZ({z},46),{table})\n"
                 )
             };
-            // The second line of each gap is the other wheel's.
+            // The second line of each gap has the force of the other wheel.
             let gap = if component == "3" { "1" } else { "2" };
             let variable = format!("VARIABLE/{}{gap}", if own == "216" { "17" } else { "18" });
             let start = out.find(&variable).expect("a gap");
@@ -74,12 +74,12 @@ fn fine() -> String {
 
 #[test]
 fn trunnion_path_of_the_listing_peaks_where_documented_akispl_says() {
-    // 0.5076 ft of the girder by AKISPL of the printed table and 0.024 of the wheel; the paper's figure shows .545.
+    // 0.5076 ft of the girder by AKISPL on the printed table and 0.024 ft of the wheel. The paper shows .545.
     near(peak(FLEXIBLE, TABLES), 0.532_18, 1e-5);
     // The same listing with the exact influence function at stations 3 inches apart.
     let exact = peak(&crossed(), &fine());
     near(exact, 0.545_75, 2e-5);
-    // Half a wheel's force is right for both wheels: the path is symmetric.
+    // Both wheels carry half of the load, so that the path is symmetric.
     let model = model(FLEXIBLE, TABLES);
     let path = sinks(&model, &[0.0, 10.0, 20.0, 30.0, 40.0, 50.0, 60.0]);
     for k in 0..3 {
@@ -137,7 +137,7 @@ fn solved(model: &Model, state: &State) -> Solution {
 #[test]
 fn lifted_wheel_of_the_listing_is_pulled() {
     let model = model(FLEXIBLE, TABLES);
-    // At a support, where the girder gives way least: a hundredth of a foot above the rail.
+    // A hundredth of a foot above the rail at a support, where the girder is stiffest.
     let state = held(&model, 0.0, 1.26);
     let out = solved(&model, &state);
     let force = out.loads[&("GFORCE", 17)].force.y;
@@ -158,9 +158,10 @@ fn friction_of_the_listing_comes_from_a_smaller_force_than_it_carries() {
     }
     let out = solved(&model, &state);
     let load = out.loads[&("GFORCE", 17)].components;
-    // Sliding without spin: mu N of the IMPACT wheel at 0.024 ft, (0.024)^0.1 = 0.689 of 0.2 FY.
+    // Sliding without rotation: the friction is mu N of the IMPACT law at 0.024 ft, (0.024)^0.1 = 0.689 of
+    // 0.2 FY.
     near(load[0] / (-0.2 * load[1]), 0.024_f64.powf(0.1), 1e-3);
-    // The torque has the arm of the gap.
+    // The lever arm of the torque is the gap.
     near(load[5], load[0] * out.variables[&171], 1e-9 * load[5].abs());
 }
 
@@ -171,13 +172,15 @@ fn force_of_one_loop_does_not_depend_on_its_initial_value() {
     let state = held(&from_zero, 30.0, 0.75);
     let (a, b) = (solved(&from_zero, &state), solved(&from_radius, &state));
     near(a.variables[&171], b.variables[&171], 1e-15);
-    // The initial value 0.0 means a first guess of 1.25e8 lb a wheel; the law is linear, so no more follows.
+    // The initial value 0.0 gives a first guess of 1.25e8 lb for each wheel. It has no effect, as the law is
+    // linear.
     assert!(a.iterations <= 4 && b.iterations <= 4);
 }
 
 #[test]
 fn damper_of_the_listing_is_tied_to_ground() {
-    // Rolling at 5 ft/s along the quasi-static path, each wheel sinks at 5 z'(x); c z'(x)^2 v integrated.
+    // Rolling at 5 ft/s along the quasi-static path, each wheel descends at 5 z'(x): the work is c v times
+    // the integral of z'(x)^2.
     let model = model(FLEXIBLE, TABLES);
     let step = 0.25;
     let places: Vec<f64> = (0..=240).map(|k| step * f64::from(k)).collect();
@@ -187,7 +190,7 @@ fn damper_of_the_listing_is_tied_to_ground() {
     near(work, 21_113.0, 1.0);
     let steepest = slopes.clone().fold(0.0, |top: f64, slope| top.max(slope.abs()));
     near(2.0 * 1e5 * 5.0 * steepest, 33_224.0, 1.0);
-    // The force along the rail, W z' / 2, that no statement of the listing has.
+    // The longitudinal force W z' / 2, which is missing from the listing.
     near(0.5 * WEIGHT * steepest, 79_737.0, 1.0);
     let at = model.equilibrium(12.5, &held(&model, 12.5, 1.0)).expect("an equilibrium");
     assert!(at.reactions[&("MOTION", 2)].force.norm() < 1.0);
@@ -202,7 +205,7 @@ fn girder_of_the_listing_carries_no_reaction() {
     assert!(up < 1e-3, "{up}");
     let wheels: f64 = [17, 18].iter().map(|id| out.solution.loads[&("GFORCE", *id)].force.y).sum();
     near(wheels, WEIGHT, 0.1);
-    // The spin of either wheel.
+    // The rotations of both wheels are not determined.
     assert_eq!(out.undetermined, 2);
 }
 
@@ -244,7 +247,7 @@ fn wheel_of_the_rigid_listing_stands_and_slides_as_its_formulas_say() {
     let sunk = 1.25 - rest.state.parts[&3].origin.y;
     near(sunk, 0.05_f64.powf(1.0 / 1.1), 1e-12);
     near(sunk, 0.0656, 1e-4);
-    // 10 ft/s without spin: friction is mu N, its torque has the arm of the rolling radius.
+    // 10 ft/s without rotation: the friction is mu N, and the lever arm of its torque is the rolling radius.
     let mut state = model.initial();
     let pose = state.parts.get_mut(&3).expect("a wheel");
     pose.origin.y -= sunk;

@@ -1,8 +1,8 @@
-//! SPLINE statements of ADAMS data sets: what is written is read back; what others write is read; the rest
+//! SPLINE statements: what this crate writes reads back, what other programs write is read, and anything else
 //! is refused with its place.
 
 use adams::tables::{read, write};
-use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, Tables, Units};
+use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
 
 /// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
 struct Random(u64);
@@ -14,7 +14,7 @@ impl Random {
     }
 }
 
-/// A table like the paper's: a sine in both directions, with digits to the last.
+/// A table of the form of the paper's: a sine in both directions, with all digits.
 fn table() -> Curves {
     let x: Vec<f64> = (0..7).map(|i| 15.0 * f64::from(i) - 15.0).collect();
     let y = x.iter().map(|z| x.iter().map(|x| 1e-7 * (x / 19.0).sin() * (z / 19.0).sin()).collect());
@@ -87,8 +87,8 @@ fn random_bits_read_back() {
     }
 }
 
-/// Written as other programs write: packed lines, trailing commas, blanks, comments, D exponents, lower case,
-/// abbreviations, statements of other kinds, several statements a line.
+/// A text in the style of other programs: packed lines, trailing commas, blanks, comments, D exponents, lower
+/// case, abbreviations, statements of other kinds, several statements on a line.
 #[test]
 fn reads_what_others_write() {
     let text = "\
@@ -134,7 +134,7 @@ SPLINE/9, X = nonsense
     assert_eq!(eight.curves.z(), [] as [f64; 0]);
 }
 
-/// Where and why: line, column, fault.
+/// Each text with the line, column and fault of its error.
 #[test]
 fn faults_have_their_place() {
     let points = |index| Fault::Spline { id: 6, source: Box::new(Fault::Order { index }) };
@@ -200,15 +200,15 @@ fn writer_refuses_what_could_not_be_read_back() {
     let good = spline(6, table());
     assert_eq!(
         write(&set(vec![good.clone(), good.clone()])),
-        Err(Error::Id { keyword: "SPLINE".into(), id: 6 })
+        Err(Error::Id { statement: StatementId::new("SPLINE", 6) })
     );
     assert_eq!(
         write(&set(vec![Spline { id: 0, ..good.clone() }])),
-        Err(Error::Id { keyword: "SPLINE".into(), id: 0 })
+        Err(Error::Id { statement: StatementId::new("SPLINE", 0) })
     );
     for name in ["", "it's", "two\nlines", &"x".repeat(80)] {
         let bad = Spline { name: Some(name.into()), ..good.clone() };
-        assert_eq!(write(&set(vec![bad])), Err(Error::Name { keyword: "SPLINE".into(), id: 6 }));
+        assert_eq!(write(&set(vec![bad])), Err(Error::Name { statement: StatementId::new("SPLINE", 6) }));
     }
 }
 

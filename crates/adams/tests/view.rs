@@ -1,8 +1,8 @@
-//! SPLINE tables in the command language of Adams View: what is written is read back; what others write is
-//! read; the rest is refused with its place.
+//! Adams View commands: what this crate writes reads back, what other programs write is read, and anything
+//! else is refused with its place.
 
 use adams::view::{read, write};
-use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, Tables, Units};
+use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
 
 /// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
 struct Random(u64);
@@ -76,7 +76,8 @@ fn commands_of_any_doubles_read_back_bit_for_bit() {
     }
 }
 
-/// Other commands between, everything on one line, abbreviated commands, no numbers, later changes of units.
+/// Other commands in between, everything on one line, abbreviated commands, no identifiers, later changes of
+/// units.
 #[test]
 fn reads_what_others_write() {
     let text = "\
@@ -118,7 +119,7 @@ default units length = inch
     assert_eq!(six.curves.y(), [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0]]);
 }
 
-/// Where and why: line, column, fault.
+/// Each text with the line, column and fault of its error.
 #[test]
 fn faults_have_their_place() {
     let head = "data_element create spline ";
@@ -163,16 +164,22 @@ fn faults_have_their_place() {
 #[test]
 fn writer_refuses_what_could_not_be_read_back() {
     let good = spline(6, four());
-    let keyword = || "SPLINE".to_owned();
     let refused = |splines| write(&set(splines), &[]);
-    assert_eq!(refused(vec![good.clone(), good.clone()]), Err(Error::Id { keyword: keyword(), id: 6 }));
-    assert_eq!(refused(vec![spline(0, four())]), Err(Error::Id { keyword: keyword(), id: 0 }));
+    assert_eq!(
+        refused(vec![good.clone(), good.clone()]),
+        Err(Error::Id { statement: StatementId::new("SPLINE", 6) })
+    );
+    assert_eq!(refused(vec![spline(0, four())]), Err(Error::Id { statement: StatementId::new("SPLINE", 0) }));
     for name in ["", "it's", "two words", "a.b", "6th", &"x".repeat(80)] {
         let bad = Spline { name: Some(name.into()), ..good.clone() };
-        assert_eq!(refused(vec![bad]), Err(Error::Name { keyword: keyword(), id: 6 }), "{name}");
+        assert_eq!(
+            refused(vec![bad]),
+            Err(Error::Name { statement: StatementId::new("SPLINE", 6) }),
+            "{name}"
+        );
     }
     let titled = Tables { title: Some("a b".into()), ..set(vec![]) };
-    assert_eq!(write(&titled, &[]), Err(Error::Name { keyword: "MODEL".to_owned(), id: 0 }));
+    assert_eq!(write(&titled, &[]), Err(Error::Name { statement: StatementId::new("MODEL", 0) }));
     assert!(write(&set(vec![]), &["x".repeat(90)]).is_err());
 }
 

@@ -1,6 +1,6 @@
-//! What can go wrong.
+//! Errors: numbers and samples that a formula refuses.
 
-/// Which argument a number was given for.
+/// The quantity that a refused number was given for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Argument {
     /// A weight or another force.
@@ -21,11 +21,11 @@ pub enum Argument {
     Friction,
     /// A dynamic factor.
     Factor,
-    /// A share of a whole.
+    /// A fraction of a whole.
     Share,
-    /// How many wheels, rails or pairs.
+    /// A number of wheels, rails, pairs or cycles.
     Count,
-    /// A range of stress.
+    /// A stress range or stress.
     Range,
     /// A partial factor.
     Partial,
@@ -33,39 +33,39 @@ pub enum Argument {
     Section,
     /// A frequency.
     Frequency,
-    /// A time, or a step of time.
+    /// A time or a time step.
     Time,
 }
 
-/// Errors of this crate: numbers and places; the caller knows the names.
+/// Errors of this crate. They give numbers and indices; the caller knows the names that belong to them.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A number outside what the formula allows; nothing beyond 1e30 is.
+    /// A number is outside the range that the formula allows. No formula takes numbers beyond 1e30.
     #[error("{argument:?} is {value}, must be between {least} and {most}")]
     Range {
-        /// Which.
+        /// The quantity.
         argument: Argument,
-        /// What was given.
+        /// The number given.
         value: f64,
-        /// The least that is allowed.
+        /// The smallest number allowed.
         least: f64,
-        /// The most that is allowed.
+        /// The largest number allowed.
         most: f64,
     },
-    /// Wheel pairs that cannot be steered: all at the guide.
+    /// All wheel pairs are at the guide, so that the crane has no centre of rotation behind it.
     #[error("no wheel pair lies behind the guide")]
     NoReach,
-    /// A series of another length than its times.
+    /// A series and its times differ in length.
     #[error("series {series} has {found} samples, expected {expected}")]
     Samples {
-        /// Which, from 0.
+        /// Which series, from 0.
         series: usize,
-        /// Samples given.
+        /// Samples of the series.
         found: usize,
         /// Samples of the times.
         expected: usize,
     },
-    /// Runs that differ in their number of series.
+    /// Runs differ in their number of series.
     #[error("run {run} has {found} series, expected {expected}")]
     Series {
         /// Which run, from 0.
@@ -75,15 +75,15 @@ pub enum Error {
         /// Series of the first run.
         expected: usize,
     },
-    /// Fewer samples than needed.
+    /// There are fewer samples than needed.
     #[error("{found} samples, at least {least} needed")]
     Few {
         /// Samples given.
         found: usize,
-        /// Fewest that will do.
+        /// Smallest number of samples.
         least: usize,
     },
-    /// A sample that is not a number, or beyond 1e100.
+    /// A sample is not a number, or beyond 1e100.
     #[error("sample {sample} of series {series} cannot be used")]
     Number {
         /// Which series, from 0.
@@ -91,7 +91,7 @@ pub enum Error {
         /// Which sample, from 0.
         sample: usize,
     },
-    /// Times that do not increase.
+    /// A time is before the one that precedes it.
     #[error("time {sample} does not lie after the one before it")]
     Order {
         /// Which sample, from 0.
@@ -99,13 +99,13 @@ pub enum Error {
     },
 }
 
-/// The largest number that formulas take: powers and products of such stay finite.
+/// The largest number that formulas take, so that products and powers of several stay finite.
 const LARGE: f64 = 1e30;
 
-/// The largest sample that series take.
+/// The largest magnitude of a sample.
 const LARGEST_SAMPLE: f64 = 1e100;
 
-/// The value, if it lies in `least..=most`.
+/// Returns the value if it is in `least..=most`.
 pub(crate) fn within(argument: Argument, value: f64, least: f64, most: f64) -> Result<f64, Error> {
     if (least..=most).contains(&value) {
         Ok(value)
@@ -114,28 +114,28 @@ pub(crate) fn within(argument: Argument, value: f64, least: f64, most: f64) -> R
     }
 }
 
-/// The value, if it is a number of either sign.
+/// Returns the value if it is a number of either sign.
 pub(crate) fn signed(argument: Argument, value: f64) -> Result<f64, Error> {
     within(argument, value, -LARGE, LARGE)
 }
 
-/// The value, if it is a number that is not negative.
-pub(crate) fn least_zero(argument: Argument, value: f64) -> Result<f64, Error> {
+/// Returns the value if it is zero or positive.
+pub(crate) fn non_negative(argument: Argument, value: f64) -> Result<f64, Error> {
     within(argument, value, 0.0, LARGE)
 }
 
-/// The value, if it is a number above zero.
+/// Returns the value if it is above zero.
 pub(crate) fn positive(argument: Argument, value: f64) -> Result<f64, Error> {
     within(argument, value, 1.0 / LARGE, LARGE)
 }
 
-/// How many, if there is at least one.
+/// Returns a count as a number if it is at least one.
 pub(crate) fn count(value: u32) -> Result<f64, Error> {
     within(Argument::Count, f64::from(value), 1.0, LARGE)
 }
 
-/// Whether every sample of a series can be used.
-pub(crate) fn usable(series: usize, values: &[f64]) -> Result<(), Error> {
+/// Checks that every sample of a series is a number within bounds.
+pub(crate) fn check_samples(series: usize, values: &[f64]) -> Result<(), Error> {
     match values.iter().position(|value| value.is_nan() || value.abs() > LARGEST_SAMPLE) {
         Some(sample) => Err(Error::Number { series, sample }),
         None => Ok(()),

@@ -1,40 +1,56 @@
-//! What crane engineers set beside a simulation: values of codes, fatigue, envelopes, stresses, signals.
+//! Values that crane engineers compare with a simulation: code values, fatigue damage, characteristics of
+//! signals.
 //!
-//! Pure numbers: knows no file, no name, no scene and no other crate of ours. Formulas without constants that
-//! carry units take any consistent system; the others say which (SI, unless told).
+//! The crate works on plain numbers. It knows no file, no scene and no other crate of this workspace.
+//! Formulas without dimensional constants take any consistent units; the others say which units they take, SI
+//! unless stated otherwise.
 //!
-//! Where a comment says *not confirmed*, the value is from memory: it could not be compared with the text of its
-//! standard, or with a source that quotes or uses it. `docs/theory/practice.md` has the list.
+//! Where a comment says *not confirmed*, the value is from memory: it could not be compared with the text of
+//! its standard, or with a source that quotes or uses it. `docs/theory/practice.md` has the list.
+//!
+//! The wheel loads of a maintenance crane and the side thrust by AIST TR-13, in kN and m:
+//!
+//! ```
+//! use practice::Crane;
+//! use practice::aist::{Kind, side_thrust, with_impact};
+//!
+//! let crane = Crane {
+//!     lifted: 200.0,
+//!     trolley: 40.0,
+//!     bridge: 190.0,
+//!     span: 23.0,
+//!     approach: 1.2,
+//!     wheels: 2,
+//! };
+//! let wheel = crane.wheel_loads(1.0, 1.0)?;
+//! assert!((wheel.near - 161.239).abs() < 5e-4);
+//! assert!((with_impact(Kind::MotorRoom, wheel.near)? - 193.487).abs() < 5e-4);
+//! assert!((side_thrust(Kind::MotorRoom, &crane)?.governing() - 60.0).abs() < 1e-12);
+//! # Ok::<(), practice::Error>(())
+//! ```
+//!
+//! # Order of the wings
+//!
+//! A file imports from its own wing and from those before it. The last three wings do not import each other.
+//!
+//! 1. `error`: numbers that are refused.
+//! 2. `codes`: values of EN 1991-3, CMAA 70, AIST TR-13, OSHA and FEM.
+//! 3. `fatigue`: stress at a point, rainflow cycles, strength curves and damage.
+//! 4. `signals`: means, filters, frequencies, damping, envelopes.
 
-pub mod aisc;
-pub mod aist;
-pub mod buffer;
-pub mod cmaa;
-pub mod crane;
-pub mod decay;
-pub mod drive;
-pub mod duty;
-pub mod envelope;
 pub mod error;
-pub mod factor;
-pub mod fatigue;
-pub mod filter;
-pub mod osha;
-pub mod rainflow;
-pub mod response;
-pub mod series;
-pub mod skew;
-pub mod spectrum;
-pub mod stress;
 
+mod codes;
+
+pub mod fatigue;
+
+mod signals;
+
+pub use codes::{aist, buffer, cmaa, crane, drive, duty, factor, osha, skew};
 pub use crane::{Crane, WheelLoads};
-pub use decay::{Decay, decay};
-pub use envelope::{Extremes, Instant, Run, envelope};
 pub use error::{Argument, Error};
-pub use fatigue::{Damage, Strength};
-pub use filter::low_pass;
-pub use rainflow::{Cycle, History, rainflow};
-pub use response::{Mark, Response, View, response};
-pub use series::{Excursions, excursions, mean, resample};
-pub use spectrum::{Tone, dominant};
-pub use stress::{Point, Section};
+pub use fatigue::{Cycle, Damage, History, Point, Section, Strength, aisc, rainflow, stress};
+pub use signals::{
+    Decay, Excursions, Extremes, Instant, Mark, Response, Run, Tone, View, decay, dominant, envelope,
+    excursions, low_pass, mean, resample, response,
+};

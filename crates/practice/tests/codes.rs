@@ -33,7 +33,7 @@ fn the_worked_case_comes_out_to_its_digits() -> Result<(), Error> {
     close(thrust.governing(), 60.0, 1e-12);
     let driven = [loads.near, loads.near, loads.far, loads.far];
     close(aist::tractive_force(Kind::MotorRoom, &driven)?, 86.0, 1e-12);
-    // The same crane's CMAA factors, at 4 and 30 m/min, are at their floors.
+    // The CMAA factors of the same crane, at 4 and 30 m/min, are at their lower bounds.
     close(cmaa::hoist_load_factor(4.0 / 60.0)?, 0.15, 0.0);
     close(cmaa::dead_load_factor(30.0 / 60.0)?, 1.1, 0.0);
     Ok(())
@@ -142,7 +142,7 @@ fn forces_of_skewing_balance_across_and_about_the_guide() -> Result<(), Error> {
             close(turning, along * span, 1e-12);
         }
     }
-    // External: two pairs driven alone, the first at the guide, turn about the second.
+    // External: a crane with two separately driven pairs, the first at the guide, rotates about the second.
     let two = skew::skewing(Pairs::AloneFixed, span, share, &[0.0, 4.0])?;
     close(two.reach, 4.0, 1e-12);
     close(two.guide, 0.5, 1e-12);
@@ -166,8 +166,7 @@ fn cmaa_and_osha_agree_with_their_feet() -> Result<(), Error> {
     close(skew::fem_coefficient(20.0, 2.0)?, 0.2, 1e-12);
     // 25 ft at 250 ft/min.
     close(osha::brake_distance(250.0 * FOOT_PER_MINUTE)?, 25.0 * FOOT, 1e-12);
-    close(osha::BUMPER_DECELERATION, 0.9144, 1e-12);
-    // Two equal cranes that close at 0.8 v lose what half of one has at that speed.
+    // Two equal cranes with a closing speed of 0.8 v lose half of the kinetic energy of one at that speed.
     close(cmaa::collision_energy([2.0, 2.0], [1.0, 1.0])?, 0.5 * 1.0 * 0.64, 1e-12);
     Ok(())
 }
@@ -183,7 +182,8 @@ fn limits_of_runways_and_frames_are_those_of_tr_13() -> Result<(), Error> {
 
 #[test]
 fn damage_equivalent_loads_follow_their_classes() -> Result<(), Error> {
-    // Each class doubles the damage of the one below: by cubes for normal stresses, by fifth powers for shear.
+    // Each class doubles the damage of the one below: by cubes for normal stresses, by fifth powers for
+    // shear.
     for index in 0..10 {
         let class = duty::Duty::new(index).expect("there are ten");
         let doublings = f64::from(index) - 7.0;

@@ -12,7 +12,7 @@ fn close(found: f64, expected: f64, slack: f64) {
 /// The history of E1049, Figures 6 and 7.
 const PUBLISHED: [f64; 9] = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0];
 
-/// Numbers that look random, from a seed.
+/// Pseudorandom numbers from a seed.
 fn history(seed: u64, length: usize, levels: u64) -> Vec<f64> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {
@@ -22,7 +22,7 @@ fn history(seed: u64, length: usize, levels: u64) -> Vec<f64> {
     (0..length).map(|_| next() as f64).collect()
 }
 
-/// The three-point rule as E1049, 5.4.4 words it, on turning points alone.
+/// The three-point rule of E1049, 5.4.4, applied to turning points.
 fn by_three_points(points: &[f64]) -> Vec<[f64; 2]> {
     let mut counts: Vec<[f64; 2]> = Vec::new();
     let mut kept: Vec<f64> = Vec::new();
@@ -103,7 +103,7 @@ fn another_program_counts_the_same() -> Result<(), Error> {
 
 #[test]
 fn four_points_count_what_three_points_count() -> Result<(), Error> {
-    // Independent: the rule of the standard, word for word.
+    // Independent: the rule of the standard, word by word.
     for seed in 0..300 {
         for levels in [3, 7, 50] {
             let values = history(seed, 200, levels);
@@ -186,7 +186,7 @@ fn partial_factors_count_on_either_side() -> Result<(), Error> {
 #[test]
 fn miners_sum_and_its_equivalent_range_belong_together() -> Result<(), Error> {
     let curve = Strength::new(Stress::Direct, 71.0, 1.0, 1.0)?;
-    // Two ranges of 100, in halves, and one of 20 that never counts.
+    // Two ranges of 100 as half cycles, and one of 20 below the cut-off.
     let cycles = rainflow(&[0.0, 100.0, 0.0, 100.0, 80.0, 100.0, 0.0], History::Once)?;
     let damage = curve.miner(&cycles)?;
     close(damage.most, 100.0, 0.0);
@@ -232,7 +232,7 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     close(n, 120.0, 1e-9);
     close(my, 35.0, 35.0 * 3e-5);
     close(mz, -90.0, 90.0 * 3e-5);
-    // A positive Mz stretches the fibres at -y, a positive My those at +z.
+    // A positive Mz causes tension at -y, a positive My at +z.
     assert!(weights(&section, Point { y: -0.3, z: 0.0 })?[5] > 0.0);
     assert!(weights(&section, Point { y: 0.0, z: 0.15 })?[4] > 0.0);
     assert!(direct(&Section { area: 0.0, ..section }, Point { y: 0.0, z: 0.0 }, forces).is_err());
@@ -240,8 +240,8 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     Ok(())
 }
 
-/// Published: AISC 360, Appendix 3: the line 1000 (C_f/n)^(1/3) of category C meets its threshold of 10 ksi at 4.4 million cycles, of
-/// category A 24 ksi at 1.8 million.
+/// Published: AISC 360, Appendix 3: the line 1000 (C_f/n)^(1/3) of category C meets its threshold of 10 ksi
+/// at 4.4 million cycles, of category A 24 ksi at 1.8 million.
 #[test]
 fn categories_of_aisc_meet_their_thresholds_where_they_are_known_to() {
     use practice::aisc::{Category, Curve};

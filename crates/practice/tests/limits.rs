@@ -1,4 +1,4 @@
-//! Whatever comes in, numbers or errors come out.
+//! Every function returns finite numbers or an error for any input.
 
 use practice::factor::{Hoisting, Release};
 use practice::fatigue::Stress;

@@ -33,7 +33,7 @@ fn an_envelope_has_what_stood_beside_it() -> Result<(), Error> {
     ];
     let found = envelope(&runs, 2)?;
     assert_eq!(found.len(), 2);
-    // The first of equals, with everything at that instant.
+    // The first of equal values, with all values at that instant.
     let most = &found[0].most;
     assert_eq!((most.run, most.sample, most.time), (1, 0, 5.0));
     assert_eq!(most.values, [7.0, 0.0, 50.0]);
@@ -78,13 +78,13 @@ fn means_and_samples_of_straight_lines_are_exact() -> Result<(), Error> {
 
 #[test]
 fn excursions_count_the_half_cycles_that_leave_the_band() -> Result<(), Error> {
-    // Analytic: extremes follow at half periods, each exp(-pi zeta/sqrt(1 - zeta^2)) of the one before; the first,
-    // at zero, is almost one.
+    // Analytic: extremes follow at half periods, each exp(-pi zeta/sqrt(1 - zeta^2)) of the one before; the
+    // first, at zero, is almost one.
     let (ratio, level) = (0.02_f64, 100.0);
     let fall = (PI * ratio / (1.0 - ratio * ratio).sqrt()).exp();
     let shape = ringing(ratio, 2.0);
     for halves in [4, 7, 12] {
-        // Between the last extreme outside and the first inside.
+        // The band lies between the last extreme outside and the first inside.
         let edge = fall.powf(0.5 - f64::from(halves));
         let values = samples(8000, 0.002, |t| level * (1.0 + 0.1 * shape(t)));
         let counts = excursions(&values, level, 0.1 * edge)?;
@@ -121,7 +121,7 @@ fn the_filter_leaves_straight_lines_alone_up_to_their_ends() -> Result<(), Error
     for (found, given) in low_pass(&line, 0.01, 2.0)?.iter().zip(&line) {
         close(*found, *given, 1e-9);
     }
-    // Reversed in time it does the same.
+    // The filter is symmetric in time.
     let bent = samples(300, 0.01, |t| (3.0 * t * t).sin() + (40.0 * t).cos());
     let turned: Vec<f64> = bent.iter().rev().copied().collect();
     let [there, back] = [low_pass(&bent, 0.01, 5.0)?, low_pass(&turned, 0.01, 5.0)?];
@@ -163,7 +163,7 @@ fn the_stronger_of_two_sines_within_the_band_is_taken() -> Result<(), Error> {
     close(tone([0.0, 50.0])?.expect("one"), 1.3, 1e-4);
     close(tone([3.0, 50.0])?.expect("the other"), 6.1, 1e-4);
     assert_eq!(dominant(&samples(100, 0.1, |_| 4.0), 0.1, [0.0, 5.0])?, None);
-    // What falls from beyond the band's edge is no peak.
+    // The flank of a peak outside the band does not count as a peak.
     let slow = samples(1000, 0.01, |t| (2.0 * PI * 0.1 * t).sin());
     assert!(dominant(&slow, 0.01, [0.5, 0.9])?.is_none_or(|tone| tone.amplitude < 0.01));
     assert!(dominant(&[1.0; 7], 0.1, [0.0, 5.0]).is_err());
@@ -189,7 +189,8 @@ fn damping_is_found_whatever_the_mean() -> Result<(), Error> {
 
 #[test]
 fn a_response_is_told_in_its_numbers() -> Result<(), Error> {
-    // A step of 50 at 1 s that rings at 2 Hz with 3 %, and chatter at 30 Hz that a low-pass takes away.
+    // A step of 50 at 1 s that oscillates at 2 Hz with 3 % damping, and chatter at 30 Hz that the filter
+    // removes.
     let shape = ringing(0.03, 2.0);
     let value = |t: f64| 1000.0 + if t < 1.0 { 0.0 } else { 50.0 * (1.0 - shape(t - 1.0)) };
     let times: Vec<f64> = (0..16001).map(|k| f64::from(k) * 1e-3).collect();

@@ -1,20 +1,27 @@
-//! Tokens of an expression to a tree.
+//! Parser of function expressions: characters to tokens, tokens to a tree.
 
-use super::token::{Token, tokens};
-use super::{Expression, Factor, Name, Sign};
-use crate::Fault;
+use super::tree::{Expression, Factor, Name, Sign};
+use crate::{Fault, number};
 
-/// Brackets, signs and powers within each other.
+/// Largest depth of nested brackets, signs and powers. It bounds the recursion of everything that walks a
+/// tree.
 const DEEPEST: usize = 100;
 
 /// Reads a function expression.
 ///
-/// `**` binds from the right and before a sign (`-A**2` is `-(A**2)`), then `*` and `/`, then `+` and `-`.
-/// Numbers may have E or D exponents; a D with no digits after it makes an angle in degrees, so `90D` is pi/2
-/// and `90D+5` is 90e5, as Fortran has it.
+/// The operator `**` associates to the right and binds more tightly than a sign (`-A**2` is `-(A**2)`); `*`
+/// and `/` come next, then `+` and `-`. A number may have an E or D exponent. A D without digits after it
+/// marks an angle in degrees, so that `90D` is pi/2, whereas `90D+5` is 90e5 as in Fortran.
 ///
 /// # Errors
-/// What cannot stand there, with the number of characters before it.
+/// The number of characters before the first place that cannot be read, and what is wrong there.
+///
+/// ```
+/// use adams::{Expression, Fault, expression};
+///
+/// assert_eq!(expression::parse("180D"), Ok(Expression::Number(std::f64::consts::PI)));
+/// assert_eq!(expression::parse("1+*2"), Err((2, Fault::Text)));
+/// ```
 pub fn parse(text: &str) -> Result<Expression, (usize, Fault)> {
     let letters: Vec<char> = text.chars().collect();
     let tokens = tokens(&letters)?;
@@ -26,10 +33,14 @@ pub fn parse(text: &str) -> Result<Expression, (usize, Fault)> {
     }
 }
 
+/// A recursive-descent parser.
 struct Parser<'a> {
     tokens: &'a [(usize, Token)],
+    /// Index of the next token.
     next: usize,
+    /// Characters of the whole text.
     end: usize,
+    /// Nesting depth of the place that is being read.
     depth: usize,
 }
 
@@ -44,6 +55,7 @@ impl Parser<'_> {
         self.tokens.get(self.next).map_or(self.end, |(offset, _)| *offset)
     }
 
+    /// Passes over a token if it comes next, and returns whether it did.
     fn take(&mut self, token: &Token) -> bool {
         let found = self.peek() == Some(token);
         self.next += usize::from(found);
@@ -54,7 +66,7 @@ impl Parser<'_> {
         if self.take(token) { Ok(()) } else { Err((self.offset(), Fault::Text)) }
     }
 
-    /// One level deeper.
+    /// Reads a part that is nested one level deeper.
     fn within(&mut self, part: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
         if self.depth == DEEPEST {
             return Err((self.offset(), Fault::Deep));
@@ -109,7 +121,7 @@ impl Parser<'_> {
         Ok(Expression::Product(factors))
     }
 
-    /// A power, or one with a sign, as in `A*-B`.
+    /// Reads a power, possibly with a sign before it as in `A*-B`.
     fn signed(&mut self) -> Parsed {
         match self.sign() {
             Some(sign) => {
@@ -168,4 +180,89 @@ impl Parser<'_> {
             }
         }
     }
+}
+
+/// A token of an expression.
+#[derive(Clone, Debug, PartialEq)]
+enum Token {
+    Number(f64),
+    Word(String),
+    Plus,
+    Minus,
+    Times,
+    Over,
+    Power,
+    Open,
+    Close,
+    Comma,
+    Colon,
+}
+
+/// The tokens of an expression, each with the number of characters before it.
+fn tokens(text: &[char]) -> Result<Vec<(usize, Token)>, (usize, Fault)> {
+    let mut out = Vec::new();
+    let mut k = 0;
+    while let Some(&c) = text.get(k) {
+        let start = k;
+        k += 1;
+        let token = match c {
+            c if c.is_whitespace() => continue,
+            '+' => Token::Plus,
+            '-' => Token::Minus,
+            '*' if text.get(k) == Some(&'*') => {
+                k += 1;
+                Token::Power
+            }
+            '*' => Token::Times,
+            '/' => Token::Over,
+            '(' => Token::Open,
+            ')' => Token::Close,
+            ',' => Token::Comma,
+            ':' => Token::Colon,
+            c if c.is_ascii_digit() || c == '.' => {
+                let (value, end) = number_at(text, start).ok_or((start, Fault::Number))?;
+                k = end;
+                Token::Number(value)
+            }
+            c if c.is_ascii_alphabetic() || c == '_' => {
+                while text.get(k).is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_') {
+                    k += 1;
+                }
+                Token::Word(text[start..k].iter().collect::<String>().to_ascii_uppercase())
+            }
+            _ => return Err((start, Fault::Text)),
+        };
+        out.push((start, token));
+    }
+    Ok(out)
+}
+
+/// The value of the number at `start` and the index after it. `1.5D+01` has an exponent; `90D` is an angle in
+/// degrees, whose value is returned in radians.
+fn number_at(text: &[char], start: usize) -> Option<(f64, usize)> {
+    let digit = |k: usize| text.get(k).is_some_and(char::is_ascii_digit);
+    let mut k = start;
+    while digit(k) || text.get(k) == Some(&'.') {
+        k += 1;
+    }
+    let mut degrees = false;
+    if text.get(k).is_some_and(|c| "eEdD".contains(*c)) {
+        let sign = usize::from(text.get(k + 1).is_some_and(|c| "+-".contains(*c)));
+        if digit(k + 1 + sign) {
+            k += 1 + sign;
+            while digit(k) {
+                k += 1;
+            }
+        }
+    }
+    let digits: String = text[start..k].iter().collect();
+    if text.get(k).is_some_and(|c| "dD".contains(*c)) {
+        degrees = true;
+        k += 1;
+    }
+    if text.get(k).is_some_and(|c| c.is_ascii_alphanumeric() || *c == '_' || *c == '.') {
+        return None;
+    }
+    let value = number::read(&digits)?;
+    Some((if degrees { value.to_radians() } else { value }, k))
 }

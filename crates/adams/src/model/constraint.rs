@@ -1,8 +1,8 @@
-//! JOINT, JPRIM, MOTION as scalar equations.
+//! JOINT, JPRIM and MOTION as scalar equations between two markers.
 
-use crate::code::Code;
+use super::formula::Formula;
 
-/// A joint or motion: equations between two markers.
+/// A joint, joint primitive or motion: scalar equations between the markers I and J.
 #[derive(Clone, Debug)]
 pub(crate) struct Constraint {
     pub keyword: &'static str,
@@ -10,26 +10,26 @@ pub(crate) struct Constraint {
     pub i: usize,
     pub j: usize,
     pub equations: Vec<Equation>,
-    /// What a motion prescribes.
-    pub drive: Option<Drive>,
+    /// The prescribed displacement of a MOTION.
+    pub motion: Option<PrescribedMotion>,
 }
 
-/// One equation.
+/// One scalar equation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Equation {
-    /// An axis of J . (p_i - p_j) = 0, or the motion's value.
+    /// a_j . (p_i - p_j) = 0 for an axis a_j of J, or equal to the prescribed displacement.
     Along(usize),
-    /// An axis of I . an axis of J = 0.
+    /// a_i . b_j = 0: an axis of I is normal to an axis of J.
     Normal(usize, usize),
-    /// The angle of I about z of J is the motion's value.
+    /// The angle of I about z of J equals the prescribed rotation.
     About,
 }
 
-/// The value that a motion prescribes.
+/// The displacement or rotation that a MOTION prescribes.
 #[derive(Clone, Debug)]
-pub(crate) struct Drive {
-    pub code: Code,
-    /// The expression is a velocity: value at the start.
+pub(crate) struct PrescribedMotion {
+    pub formula: Formula,
+    /// ICDISP, the value at time zero, if the expression is a velocity.
     pub start: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ const ORIENTATION: [Equation; 3] = [Normal(0, 1), Normal(1, 2), Normal(2, 0)];
 const INLINE: [Equation; 2] = [Along(0), Along(1)];
 const POINT: [Equation; 3] = [Along(0), Along(1), Along(2)];
 
-/// The equations of a type of JOINT or JPRIM; none for types that are not executed.
+/// The equations of a type of JOINT or JPRIM. The list is empty for types that are not executed.
 pub(super) fn equations(kind: &str) -> Vec<Equation> {
     let parts: &[&[Equation]] = match kind {
         "FIXED" => &[&POINT, &ORIENTATION],

@@ -1,21 +1,27 @@
-//! In which order scalars are found, and which must be found together.
+//! The order in which the slots are evaluated, and the algebraic loops among them.
 
 use std::collections::BTreeSet;
 
-/// Scalars found together.
+/// Slots that are found together.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Block {
-    /// From those before.
+    /// A slot that follows from those before it.
     Direct(usize),
-    /// A loop: with values for `torn`, the `rest` follows in order; then each expression of `torn` must agree.
+    /// An algebraic loop. Given values of the torn slots, the `rest` follows in order; the unknowns are the
+    /// torn values, and the equations say that each equals its own expression.
     Loop { torn: Vec<usize>, rest: Vec<usize> },
 }
 
-/// Blocks in order. `needs[k]` are the scalars that the expression of scalar k reads; `implicit[k]` must be
-/// torn; `preferred[k]` are torn before others.
+/// Orders the slots into blocks so that each block reads only itself and the blocks before it.
+///
+/// `needs[k]` are the slots that the expression of slot k reads. Slots that read each other form a strongly
+/// connected component of this graph. Each such component becomes a loop, whose torn slots are chosen
+/// greedily until the rest has no cycle. Slots with `implicit[k]` are always torn; those with `preferred[k]`
+/// are torn before others.
 ///
 /// # Source
-/// Strong components: R. Tarjan, SIAM Journal on Computing 1(2), 1972; here by two searches (Kosaraju).
+/// Strongly connected components: R. Tarjan, SIAM Journal on Computing 1(2), 1972; here by two searches
+/// (Kosaraju).
 pub(crate) fn order(needs: &[BTreeSet<usize>], implicit: &[bool], preferred: &[bool]) -> Vec<Block> {
     let all: BTreeSet<usize> = (0..needs.len()).collect();
     components(needs, &all)
@@ -31,7 +37,7 @@ pub(crate) fn order(needs: &[BTreeSet<usize>], implicit: &[bool], preferred: &[b
         .collect()
 }
 
-/// Torn scalars, then the others in order.
+/// The torn slots of a loop, and its other slots in order.
 fn tear(
     needs: &[BTreeSet<usize>],
     implicit: &[bool],
@@ -45,7 +51,8 @@ fn tear(
         let Some(group) = groups.iter().find(|group| closed(group)) else {
             return (torn.into_iter().collect(), groups.concat());
         };
-        // A scalar that reads itself must be torn; then the one that is read most, the first of equals.
+        // A slot that reads itself must be torn. Otherwise the one that most others read is torn, the first
+        // of equals.
         let inside: BTreeSet<usize> = group.iter().copied().collect();
         let uses = |k: usize| inside.iter().filter(|other| needs[**other].contains(&k)).count();
         let rank = |k: usize| (needs[k].contains(&k), preferred[k], uses(k), std::cmp::Reverse(k));
@@ -57,16 +64,17 @@ fn tear(
     }
 }
 
-/// Strong components among `nodes`, each after those that it needs.
+/// The strongly connected components among `nodes`, each after those that it needs.
 fn components(needs: &[BTreeSet<usize>], nodes: &BTreeSet<usize>) -> Vec<Vec<usize>> {
-    // Users of each scalar: the graph the other way round.
+    // The slots that read each slot: the reversed graph.
     let mut users: Vec<Vec<usize>> = vec![Vec::new(); needs.len()];
     for &k in nodes {
         for &need in needs[k].intersection(nodes) {
             users[need].push(k);
         }
     }
-    // Finish times of a search along the users, without recursion.
+    // The order in which a depth-first search of the reversed graph finishes, with a stack instead of
+    // recursion.
     let mut seen = BTreeSet::new();
     let mut finished: Vec<usize> = Vec::new();
     for &root in nodes {
@@ -85,7 +93,7 @@ fn components(needs: &[BTreeSet<usize>], nodes: &BTreeSet<usize>) -> Vec<Vec<usi
             }
         }
     }
-    // From the last finished, everything that it needs and that is left.
+    // A search of the graph from the last finished slot reaches exactly one component, and so on.
     let mut out: Vec<Vec<usize>> = Vec::new();
     let mut left = nodes.clone();
     for &root in finished.iter().rev() {

@@ -1,26 +1,41 @@
-//! Text to data set.
+//! Reader of SPLINE and UNITS statements that passes over everything else.
+//!
+//! It reads tokens instead of using the reader of whole data sets, so that a file with statements that this
+//! crate cannot read still gives its tables.
 
-use super::{Spline, Tables};
-use crate::lexer::{Statement, Token, TokenKind, statements, tokens};
-use crate::units::{Force, Keyword, Length, Mass, Units, lookup};
-use crate::{Curves, Error, Fault, number};
+use super::curves::Curves;
+use super::spline::{Spline, Tables};
+use crate::keyword::lookup;
+use crate::language::lexer::{RawStatement, Token, TokenKind, statement_word, statements, tokens};
+use crate::language::{Force, Length, Mass, UnitWords, Units};
+use crate::{Error, Fault, number};
 
-/// Reads the SPLINE and UNITS statements of a data set, up to END; every other statement is passed over.
+/// Reads the SPLINE and UNITS statements of a data set, up to END, and passes over every other statement.
 ///
-/// Keywords may be abbreviated, in any case; numbers may have D exponents. Continuation lines begin with a
-/// comma, which in a list also separates; several commas count as one.
+/// Keywords may be in upper or lower case and may be abbreviated; numbers may have D exponents. A
+/// continuation line begins with a comma, which also separates the items of a list; several commas in a row
+/// count as one.
 ///
 /// # Errors
-/// [`Error::At`] with line and column: text that is no statement of these kinds, values kept in another
-/// file (FILE=, BLOCK=, CHANNEL=), lists that do not fit, fewer than four x, x or z not increasing.
+/// [`Error::At`] with line and column for text that is not a statement of these kinds, values in another file
+/// (FILE=, BLOCK=, CHANNEL=), lists of unequal length, fewer than four x values, or x or z values that do not
+/// increase.
 ///
 /// # Source
 /// Adams Solver reference, SPLINE and UNITS.
+///
+/// ```
+/// let text = "influence\nSPLINE/6, X=0,20,40,60, Y=0,2.5,2.5,0, LINEAR\nEND";
+/// let tables = adams::tables::read(text)?;
+/// assert_eq!(tables.splines[0].curves.y()[0], [0.0, 2.5, 2.5, 0.0]);
+/// assert_eq!(adams::tables::read(&adams::tables::write(&tables)?)?, tables);
+/// # Ok::<(), adams::Error>(())
+/// ```
 pub fn read(text: &str) -> Result<Tables, Error> {
     let (title, all) = statements(text)?;
     let mut out = Tables { title: title.map(str::to_owned), units: None, splines: Vec::new() };
     for statement in &all {
-        let Some(word) = statement.pieces.first().and_then(|piece| crate::lexer::head(piece.text)) else {
+        let Some(word) = statement.pieces.first().and_then(|piece| statement_word(piece.text)) else {
             continue;
         };
         if abbreviates(word, "SPLINE", 3) {
@@ -33,6 +48,7 @@ pub fn read(text: &str) -> Result<Tables, Error> {
     Ok(out)
 }
 
+/// Whether a word abbreviates a keyword by at least so many letters.
 fn abbreviates(word: &str, full: &str, least: usize) -> bool {
     word.len() >= least && lookup(&[((), full)], word).is_some()
 }
@@ -54,15 +70,24 @@ const ARGUMENTS: &[(Argument, &str)] = &[
     (Argument::File, "CHANNEL"),
 ];
 
-/// A list of values and where it began.
+/// A list of values and the token that began it.
 struct List<'a> {
     at: Token<'a>,
     values: Vec<f64>,
 }
 
-fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error> {
+/// The arguments of a SPLINE statement.
+#[derive(Default)]
+struct Arguments<'a> {
+    x: Option<List<'a>>,
+    y: Vec<List<'a>>,
+    linear: bool,
+}
+
+/// One SPLINE statement; `before` are those whose identifiers are used already.
+fn spline(statement: &RawStatement<'_>, before: &[Spline]) -> Result<Spline, Error> {
     let tokens = tokens(statement)?;
-    let (id, at, mut rest) = match tokens.as_slice() {
+    let (id, at, rest) = match tokens.as_slice() {
         [_, _, at, rest @ ..] => match at.kind {
             TokenKind::Number(text) => {
                 let id = text.parse::<u32>().ok().filter(|&id| id > 0);
@@ -76,10 +101,17 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
     if before.iter().any(|spline| spline.id == id) {
         return Err(at.fault(Fault::Twice { id }));
     }
-    let mut x: Option<List<'_>> = None;
-    let mut y: Vec<List<'_>> = Vec::new();
-    let mut linear = false;
-    // Into which list numbers go, and whether a comma or "=" stood before.
+    let Arguments { x, y, linear } = arguments(id, rest)?;
+    let x = x.ok_or_else(|| at.fault(Fault::NoX { id }))?;
+    let owned = |text: Option<&str>| text.map(str::to_owned);
+    let curves = curves(id, at, x, &y)?;
+    Ok(Spline { id, name: owned(statement.name), units: owned(statement.units), linear, curves })
+}
+
+/// The arguments of the SPLINE `id`, from the tokens after its identifier.
+fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error> {
+    let mut out = Arguments::default();
+    // The list that takes the next number, and whether a comma or "=" has separated it from the text before.
     let mut target = None;
     let mut separated = false;
     while let [token, after @ ..] = rest {
@@ -89,8 +121,8 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
             _ if !separated => return Err(token.fault(Fault::Text)),
             TokenKind::Number(text) => {
                 let list = match target {
-                    Some(Argument::X) => x.as_mut(),
-                    Some(Argument::Y) => y.last_mut(),
+                    Some(Argument::X) => out.x.as_mut(),
+                    Some(Argument::Y) => out.y.last_mut(),
                     _ => None,
                 };
                 let list = list.ok_or_else(|| token.fault(Fault::Text))?;
@@ -101,10 +133,10 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
                 let argument = lookup(ARGUMENTS, word).ok_or_else(|| token.fault(Fault::Argument))?;
                 match argument {
                     Argument::File => return Err(token.fault(Fault::File { id })),
-                    Argument::Linear if linear => return Err(token.fault(Fault::Repeated)),
-                    Argument::Linear => (linear, separated, target) = (true, false, None),
+                    Argument::Linear if out.linear => return Err(token.fault(Fault::Repeated)),
+                    Argument::Linear => (out.linear, separated, target) = (true, false, None),
                     Argument::X | Argument::Y => {
-                        if argument == Argument::X && x.is_some() {
+                        if argument == Argument::X && out.x.is_some() {
                             return Err(token.fault(Fault::Repeated));
                         }
                         let [Token { kind: TokenKind::Equals, .. }, after @ ..] = rest else {
@@ -113,20 +145,18 @@ fn spline(statement: &Statement<'_>, before: &[Spline]) -> Result<Spline, Error>
                         rest = after;
                         target = Some(argument);
                         let list = List { at: *token, values: Vec::new() };
-                        if argument == Argument::X { x = Some(list) } else { y.push(list) }
+                        if argument == Argument::X { out.x = Some(list) } else { out.y.push(list) }
                     }
                 }
             }
             TokenKind::Equals | TokenKind::Slash => return Err(token.fault(Fault::Text)),
         }
     }
-    let x = x.ok_or_else(|| at.fault(Fault::NoX { id }))?;
-    let owned = |text: Option<&str>| text.map(str::to_owned);
-    let curves = curves(id, at, x, &y)?;
-    Ok(Spline { id, name: owned(statement.name), units: owned(statement.units), linear, curves })
+    Ok(out)
 }
 
-/// One list of n values is a curve; lists of n + 1, z first, are a family.
+/// The curves of a SPLINE: one list of n values is a single curve; lists of n + 1 values, z first, are a
+/// family.
 fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Curves, Error> {
     let n = x.values.len();
     let (z, values) = match y {
@@ -178,6 +208,7 @@ const SYSTEMS: &[(Option<Units>, &str)] = &[
     (None, "NONE"),
 ];
 
+/// The units of a UNITS statement.
 fn units(tokens: &[Token<'_>]) -> Result<Option<Units>, Error> {
     let (mut force, mut mass, mut length) = (None, None, None);
     let mut rest = tokens.get(2..).unwrap_or(&[]);

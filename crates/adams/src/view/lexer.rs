@@ -1,20 +1,20 @@
-//! Lines to commands, commands to tokens.
+//! Lines to commands, and commands to tokens.
 
-use crate::lexer::Piece;
+use crate::language::lexer::Piece;
 use crate::{Error, Fault};
 
-/// A command: its pieces of text, one a line, without the `&` that continues them.
+/// A command: one piece of text for each line, without the `&` that continues it.
 pub(super) struct Command<'a>(Vec<Piece<'a>>);
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Token<'a> {
+pub(super) struct CommandToken<'a> {
     pub line: usize,
     pub column: usize,
-    pub kind: Kind<'a>,
+    pub kind: CommandTokenKind<'a>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kind<'a> {
+pub(super) enum CommandTokenKind<'a> {
     Word(&'a str),
     /// Text between double quotes.
     Quoted(&'a str),
@@ -22,13 +22,14 @@ pub(super) enum Kind<'a> {
     Comma,
 }
 
-impl Token<'_> {
+impl CommandToken<'_> {
     pub fn fault(&self, fault: Fault) -> Error {
         Error::At { line: self.line, column: self.column, fault }
     }
 }
 
-/// Commands of a file. `!` at the start of a line begins a comment; a line that ends with `&` goes on.
+/// The commands of a file. `!` at the start of a line begins a comment; a line that ends with `&` is
+/// continued.
 pub(super) fn commands(text: &str) -> Vec<Command<'_>> {
     let mut all: Vec<Command<'_>> = Vec::new();
     let mut open = false;
@@ -52,7 +53,7 @@ pub(super) fn commands(text: &str) -> Vec<Command<'_>> {
 }
 
 impl<'a> Command<'a> {
-    /// The first words, in any case, where each begins one of `words` with at least as many letters as given.
+    /// Whether the command begins with `words`, each abbreviated to no fewer letters than given, in any case.
     pub fn starts(&self, words: &[(&str, usize)]) -> bool {
         let mut given = self.0.iter().flat_map(|piece| piece.text.split_whitespace());
         words.iter().all(|(full, least)| {
@@ -64,8 +65,8 @@ impl<'a> Command<'a> {
         })
     }
 
-    /// All tokens.
-    pub fn tokens(&self) -> Result<Vec<Token<'a>>, Error> {
+    /// The tokens of the command.
+    pub fn tokens(&self) -> Result<Vec<CommandToken<'a>>, Error> {
         let mut out = Vec::new();
         for piece in &self.0 {
             let mut rest = piece.text;
@@ -77,20 +78,20 @@ impl<'a> Command<'a> {
                 let Some(first) = rest.chars().next() else { break };
                 let refused = || Error::At { line: piece.line, column, fault: Fault::Text };
                 let (length, kind) = match first {
-                    '=' => (1, Kind::Equals),
-                    ',' => (1, Kind::Comma),
+                    '=' => (1, CommandTokenKind::Equals),
+                    ',' => (1, CommandTokenKind::Comma),
                     '"' => {
                         let end = rest[1..].find('"').ok_or_else(refused)?;
-                        (end + 2, Kind::Quoted(&rest[1..=end]))
+                        (end + 2, CommandTokenKind::Quoted(&rest[1..=end]))
                     }
                     c if c.is_ascii_alphanumeric() || "._+-".contains(c) => {
                         let ends = |c: char| !(c.is_ascii_alphanumeric() || "._+-".contains(c));
                         let length = rest.find(ends).unwrap_or(rest.len());
-                        (length, Kind::Word(&rest[..length]))
+                        (length, CommandTokenKind::Word(&rest[..length]))
                     }
                     _ => return Err(refused()),
                 };
-                out.push(Token { line: piece.line, column, kind });
+                out.push(CommandToken { line: piece.line, column, kind });
                 column += rest[..length].chars().count();
                 rest = &rest[length..];
             }

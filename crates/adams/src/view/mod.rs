@@ -1,7 +1,7 @@
 //! SPLINE tables in the command language of Adams View (`.cmd`).
 //!
-//! [`write()`] makes a file of commands that [`read()`] turns into the same numbers, bit for bit. [`read()`] takes
-//! files of any commands and keeps their `data_element create spline` and `defaults units`.
+//! [`write()`] makes a file of commands that [`read()`] turns into the same numbers, bit for bit. [`read()`]
+//! takes files with any commands and uses only `data_element create spline` and `defaults units`.
 
 mod lexer;
 mod reader;

@@ -1,26 +1,30 @@
-//! Commands to tables.
+//! Reader of tables in Adams View commands.
 
-use super::lexer::{Command, Kind, Token, commands};
+use super::lexer::{Command, CommandToken, CommandTokenKind, commands};
 use super::units::{FORCES, LENGTHS, MASSES, TIMES, unit};
-use crate::tables::{Spline, Tables};
-use crate::units::{Mass, Units, lookup};
-use crate::{Curves, Error, Fault, number};
+use super::writer::default_name;
+use crate::keyword::lookup;
+use crate::language::{Force, Length, Mass, Units};
+use crate::tables::{Curves, Spline, Tables};
+use crate::{Error, Fault, number};
 
-/// Reads the commands `data_element create spline` and `defaults units`; every other one is passed over.
+/// Reads the commands `data_element create spline` and `defaults units`, and passes over every other command.
 ///
-/// The values of a family stand curve after curve, x fastest. A spline without `adams_id` takes the next free
-/// number, as in Adams View; one that is called after its number has no name. The title is the model's name.
+/// The values of a family are listed curve after curve, x fastest. A spline without `adams_id` gets the next
+/// free identifier, as in Adams View; a spline with the default name of its identifier has no name. The title
+/// is the name of the model.
 ///
 /// # Errors
-/// [`Error::At`] with line and column, as [`crate::tables::read`]; values that are expressions or stand in a
-/// file or result set; a spline that a later command modifies.
+/// [`Error::At`] with line and column for the same faults as [`crate::tables::read`], for values that are
+/// expressions or come from a file or result set, and for a spline that a later command modifies.
 ///
 /// # Source
 /// Adams View command help, `data_element create spline` and `defaults units`.
 pub fn read(text: &str) -> Result<Tables, Error> {
     let mut out = Tables { title: None, units: None, splines: Vec::new() };
+    // Splines without an identifier.
     let mut free = Vec::new();
-    let mut given = Given::default();
+    let mut units = DefaultUnits::default();
     for command in &commands(text) {
         if command.starts(&[("data_element", 4), ("create", 2), ("spline", 3)]) {
             let (spline, model, numbered) = spline(command, &out.splines)?;
@@ -31,10 +35,10 @@ pub fn read(text: &str) -> Result<Tables, Error> {
             out.splines.push(spline);
         } else if command.starts(&[("data_element", 4), ("modify", 2), ("spline", 3)]) {
             let tokens = command.tokens()?;
-            let fault = |token: &Token<'_>| Err(token.fault(Fault::Changed));
+            let fault = |token: &CommandToken<'_>| Err(token.fault(Fault::Changed));
             tokens.first().map_or(Ok(()), fault)?;
         } else if command.starts(&[("defaults", 3), ("units", 4)]) {
-            given.take(command)?;
+            units.take(command)?;
         }
     }
     for k in free {
@@ -42,20 +46,20 @@ pub fn read(text: &str) -> Result<Tables, Error> {
         out.splines[k].id = last.saturating_add(1);
     }
     for spline in &mut out.splines {
-        spline.name = spline.name.take().filter(|name| *name != super::writer::unnamed(spline.id));
+        spline.name = spline.name.take().filter(|name| *name != default_name(spline.id));
     }
-    out.units = given.units();
+    out.units = units.units();
     Ok(out)
 }
 
-/// `key = values` of a command.
+/// One `key = values` of a command.
 struct Entry<'a> {
-    key: Token<'a>,
+    key: CommandToken<'a>,
     word: &'a str,
-    values: Vec<Token<'a>>,
+    values: Vec<CommandToken<'a>>,
 }
 
-/// The entries after `skip` words.
+/// The entries of a command after `skip` words.
 fn entries<'a>(command: &Command<'a>, skip: usize) -> Result<Vec<Entry<'a>>, Error> {
     let tokens = command.tokens()?;
     let mut all: Vec<Entry<'a>> = Vec::new();
@@ -64,16 +68,19 @@ fn entries<'a>(command: &Command<'a>, skip: usize) -> Result<Vec<Entry<'a>>, Err
     while let [token, after @ ..] = rest {
         rest = after;
         match (token.kind, after) {
-            (Kind::Word(word), [Token { kind: Kind::Equals, .. }, after @ ..]) => {
+            (
+                CommandTokenKind::Word(word),
+                [CommandToken { kind: CommandTokenKind::Equals, .. }, after @ ..],
+            ) => {
                 rest = after;
                 all.push(Entry { key: *token, word, values: Vec::new() });
                 separated = true;
             }
-            (Kind::Word(_) | Kind::Quoted(_), _) if separated && !all.is_empty() => {
+            (CommandTokenKind::Word(_) | CommandTokenKind::Quoted(_), _) if separated && !all.is_empty() => {
                 all.last_mut().into_iter().for_each(|last| last.values.push(*token));
                 separated = false;
             }
-            (Kind::Comma, _) if !all.is_empty() => separated = true,
+            (CommandTokenKind::Comma, _) if !all.is_empty() => separated = true,
             _ => return Err(token.fault(Fault::Text)),
         }
     }
@@ -115,7 +122,7 @@ const KEYS: &[(Key, &str)] = &[
 
 const ANSWERS: &[(bool, &str)] = &[(true, "yes"), (false, "no"), (true, "true"), (false, "false")];
 
-/// The spline, its model and whether it has a number of its own.
+/// The spline of a command, the name of its model, and whether it has an identifier.
 fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<String>, bool), Error> {
     let entries = entries(command, 3)?;
     let mut seen = Vec::new();
@@ -168,11 +175,11 @@ fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<St
     Ok((Spline { id, name, units, linear, curves }, model, numbered))
 }
 
-/// The one value of an entry.
-fn one<'a>(entry: &Entry<'a>) -> Result<(&'a str, Token<'a>), Error> {
+/// The value of an entry that has exactly one.
+fn one<'a>(entry: &Entry<'a>) -> Result<(&'a str, CommandToken<'a>), Error> {
     match entry.values.as_slice() {
         [token] => match token.kind {
-            Kind::Word(word) | Kind::Quoted(word) => Ok((word, *token)),
+            CommandTokenKind::Word(word) | CommandTokenKind::Quoted(word) => Ok((word, *token)),
             _ => Err(token.fault(Fault::Text)),
         },
         [_, second, ..] => Err(second.fault(Fault::Text)),
@@ -180,20 +187,22 @@ fn one<'a>(entry: &Entry<'a>) -> Result<(&'a str, Token<'a>), Error> {
     }
 }
 
+/// The values of an entry as numbers.
 fn numbers(entry: &Entry<'_>) -> Result<Vec<f64>, Error> {
-    let read = |token: &Token<'_>| match token.kind {
-        Kind::Word(text) => number::read(text).ok_or_else(|| token.fault(Fault::Number)),
+    let read = |token: &CommandToken<'_>| match token.kind {
+        CommandTokenKind::Word(text) => number::read(text).ok_or_else(|| token.fault(Fault::Number)),
         _ => Err(token.fault(Fault::Number)),
     };
     entry.values.iter().map(read).collect()
 }
 
+/// The curves of a spline from its x, z and concatenated y values.
 fn curves(
     id: u32,
-    at: Token<'_>,
+    at: CommandToken<'_>,
     x: Vec<f64>,
     z: Vec<f64>,
-    (key, y): (Token<'_>, Vec<f64>),
+    (key, y): (CommandToken<'_>, Vec<f64>),
 ) -> Result<Curves, Error> {
     let expected = x.len().saturating_mul(z.len().max(1));
     if y.len() != expected || x.is_empty() {
@@ -203,15 +212,15 @@ fn curves(
     Curves::new(x, z, rows).map_err(|source| at.fault(Fault::Spline { id, source: Box::new(source) }))
 }
 
-/// What `defaults units` has said so far; a later command changes what it names.
+/// The units of all `defaults units` commands so far; a later command replaces the units it names.
 #[derive(Default)]
-struct Given {
-    force: Option<crate::Force>,
+struct DefaultUnits {
+    force: Option<Force>,
     mass: Option<Mass>,
-    length: Option<crate::Length>,
+    length: Option<Length>,
 }
 
-impl Given {
+impl DefaultUnits {
     fn take(&mut self, command: &Command<'_>) -> Result<(), Error> {
         for entry in entries(command, 2)? {
             let key = entry.word.to_ascii_lowercase();
@@ -230,7 +239,8 @@ impl Given {
         Ok(())
     }
 
-    /// Units of force and length; a mass that is not said is in kilograms, and no table has one.
+    /// The units, if force and length are given. A missing unit of mass becomes the kilogram, since tables
+    /// have no mass.
     fn units(&self) -> Option<Units> {
         let (force, length) = self.force.zip(self.length)?;
         Some(Units { force, mass: self.mass.unwrap_or(Mass::Kilogram), length })

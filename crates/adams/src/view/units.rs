@@ -1,8 +1,9 @@
-//! Words of the command `defaults units`.
+//! The words for units in the command `defaults units`.
 
-use crate::units::{Force, Length, Mass, lookup};
+use crate::keyword::lookup;
+use crate::language::{Force, Length, Mass};
 
-/// The first word of each unit is the one that is written.
+/// Units of length; the first word of each unit is the one that is written.
 pub(super) const LENGTHS: &[(Length, &str)] = &[
     (Length::Millimeter, "mm"),
     (Length::Meter, "meter"),
@@ -14,6 +15,7 @@ pub(super) const LENGTHS: &[(Length, &str)] = &[
     (Length::Inch, "in"),
 ];
 
+/// Units of force, likewise.
 pub(super) const FORCES: &[(Force, &str)] = &[
     (Force::Newton, "newton"),
     (Force::Kilonewton, "knewton"),
@@ -24,6 +26,7 @@ pub(super) const FORCES: &[(Force, &str)] = &[
     (Force::Pound, "lbf"),
 ];
 
+/// Units of mass, likewise.
 pub(super) const MASSES: &[(Mass, &str)] = &[
     (Mass::Kilogram, "kg"),
     (Mass::Tonne, "tonne"),
@@ -35,14 +38,15 @@ pub(super) const MASSES: &[(Mass, &str)] = &[
     (Mass::Pound, "lbm"),
 ];
 
+/// Words for the second, the only unit of time.
 pub(super) const TIMES: &[((), &str)] = &[((), "sec"), ((), "second")];
 
-/// The word of a unit.
+/// The word that is written for a unit.
 pub(super) fn word<U: PartialEq>(words: &[(U, &'static str)], unit: &U) -> &'static str {
     words.iter().find(|(one, _)| one == unit).map_or("", |(_, word)| word)
 }
 
-/// The unit of a word, in any case, in full.
+/// The unit of a full word in upper or lower case.
 pub(super) fn unit<U: Copy>(words: &[(U, &str)], text: &str) -> Option<U> {
     let same: Vec<(U, &str)> =
         words.iter().filter(|(_, word)| word.eq_ignore_ascii_case(text)).copied().collect();

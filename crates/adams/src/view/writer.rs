@@ -1,26 +1,35 @@
-//! Tables to commands.
+//! Writer of tables as Adams View commands.
 
 use super::units::{FORCES, LENGTHS, MASSES, word};
 use crate::tables::{Spline, Tables};
-use crate::{Error, number};
+use crate::{Error, StatementId, number};
 
-/// No line is longer.
+/// Largest number of characters of a line.
 const WIDTH: usize = 79;
 
-/// The name of a spline that has none of its own, as Adams View gives it.
-pub(super) fn unnamed(id: u32) -> String {
+/// The name that Adams View gives to a spline without a name.
+pub(super) fn default_name(id: u32) -> String {
     format!("SPLINE_{id}")
 }
 
-/// Writes the commands that make a model with these tables: `defaults units`, `model create`, and
-/// `data_element create spline` for each. The title is the model's name.
+/// Writes the commands that create a model with these tables: `defaults units`, `model create`, and one
+/// `data_element create spline` for each table. The title is the name of the model.
 ///
-/// `remarks` are comment lines at the head. Guarantees: lines of at most 79 ASCII characters, every number with
-/// the digits that make [`super::read`] return the same bits.
+/// `remarks` are comments at the start of the file. Guarantees: no line is longer than 79 ASCII characters,
+/// and every number has the digits that make [`super::read`] return the same bits.
 ///
 /// # Errors
-/// An identifier that is zero or used twice; a name that is not of letters, digits and underscores, beginning
-/// with no digit; a remark that cannot be broken into lines.
+/// [`Error::Id`] for an identifier that is zero or used twice; [`Error::Name`] for a name that is too long
+/// for a line, begins with a digit, or has other characters than letters, digits and underscores;
+/// [`Error::Long`] for a remark that cannot be broken into lines.
+///
+/// ```
+/// let text = "SPLINE/6, X=0,20,40,60, Y=0,2.5,2.5,0\nEND";
+/// let tables = adams::tables::read(text)?;
+/// let commands = adams::view::write(&tables, &["influence of the girder".to_owned()])?;
+/// assert_eq!(adams::view::read(&commands)?.splines, tables.splines);
+/// # Ok::<(), adams::Error>(())
+/// ```
 pub fn write(tables: &Tables, remarks: &[String]) -> Result<String, Error> {
     let mut out = Out(String::new());
     for remark in remarks {
@@ -41,25 +50,26 @@ pub fn write(tables: &Tables, remarks: &[String]) -> Result<String, Error> {
     }
     let model = tables.title.as_deref().unwrap_or("MODEL_1");
     if !plain(model) {
-        return Err(Error::Name { keyword: "MODEL".to_owned(), id: 0 });
+        return Err(Error::Name { statement: StatementId::new("MODEL", 0) });
     }
     out.command("model create", &[("model_name", vec![format!(".{model}")])]);
     for (k, spline) in tables.splines.iter().enumerate() {
-        let keyword = || "SPLINE".to_owned();
+        let statement = StatementId::new("SPLINE", spline.id);
         if spline.id == 0 || tables.splines[..k].iter().any(|other| other.id == spline.id) {
-            return Err(Error::Id { keyword: keyword(), id: spline.id });
+            return Err(Error::Id { statement });
         }
-        let name = spline.name.clone().unwrap_or_else(|| unnamed(spline.id));
+        let name = spline.name.clone().unwrap_or_else(|| default_name(spline.id));
         let entries = entries(spline, &format!(".{model}.{name}"));
         let short = 12 + model.len() + name.len() < WIDTH - 12;
         if !plain(&name) || !short || !spline.units.as_deref().is_none_or(plain) {
-            return Err(Error::Name { keyword: keyword(), id: spline.id });
+            return Err(Error::Name { statement });
         }
         out.command("data_element create spline", &entries);
     }
     Ok(out.0)
 }
 
+/// The keys of a spline and their values.
 fn entries<'s>(spline: &Spline, name: &str) -> Vec<(&'s str, Vec<String>)> {
     let list = |values: &[f64]| values.iter().map(|&value| number::write(value)).collect::<Vec<_>>();
     let mut all = vec![("spline_name", vec![name.to_owned()]), ("adams_id", vec![spline.id.to_string()])];
@@ -74,12 +84,13 @@ fn entries<'s>(spline: &Spline, name: &str) -> Vec<(&'s str, Vec<String>)> {
     all
 }
 
-/// A name that Adams View takes.
+/// Whether Adams View accepts a name: letters, digits and underscores, not beginning with a digit.
 fn plain(name: &str) -> bool {
     let letter = |c: char| c.is_ascii_alphanumeric() || c == '_';
     !name.starts_with(|c: char| c.is_ascii_digit()) && !name.is_empty() && name.chars().all(letter)
 }
 
+/// The text of the command file as it grows.
 struct Out(String);
 
 impl Out {
@@ -88,7 +99,7 @@ impl Out {
         self.0.push('\n');
     }
 
-    /// A comment, broken at blanks.
+    /// A comment, broken into lines at blanks.
     fn remark(&mut self, text: &str) -> Result<(), Error> {
         let mut line = String::from("!");
         for word in text.split_whitespace() {
@@ -99,14 +110,15 @@ impl Out {
             line.push(' ');
             line.push_str(word);
             if line.len() > WIDTH || !line.is_ascii() {
-                return Err(Error::Long { keyword: "!".to_owned(), id: 0 });
+                return Err(Error::Long { statement: StatementId::new("!", 0) });
             }
         }
         self.line(&line);
         Ok(())
     }
 
-    /// `head  &`, then `key = value, value  &` and so on, broken after a separating comma.
+    /// A command: `head  &`, then a line `key = value, value  &` for each key, broken after a separating
+    /// comma.
     fn command(&mut self, head: &str, entries: &[(&str, Vec<String>)]) {
         self.line(&format!("{head}  &"));
         for (k, (key, values)) in entries.iter().enumerate() {

@@ -1,0 +1,15 @@
+//! Solution of a model: forces at a given state, static equilibrium, the quasi-static path.
+//!
+//! `loops` evaluates the slots of a model in order and closes its algebraic loops by the method of `newton`,
+//! whose linear equations `linear` solves. `statics` finds parts, loops and reactions together at rest.
+//! `solution` reports the values.
+
+mod evaluation;
+mod linear;
+mod loops;
+mod newton;
+mod solution;
+mod statics;
+
+pub use solution::{Load, Solution};
+pub use statics::{Equilibrium, Reaction};

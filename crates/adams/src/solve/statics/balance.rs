@@ -1,0 +1,158 @@
+//! The equations of static equilibrium.
+
+use super::iterate::Unknown;
+use super::motion::prescribed;
+use crate::expression::functions::{Function, Unary, atan2};
+use crate::kinematics::Frame;
+use crate::kinematics::vector::{Vector, add, column, cross, dot, scale, subtract, vector};
+use crate::model::{Block, Constraint, Equation, Evaluation, Model, Owner};
+use crate::{Error, Scalar};
+
+/// The force on every part, and the torque about its origin, in ground axes.
+type Wrenches<T> = Vec<[Vector<T>; 2]>;
+
+/// The residuals, one for each unknown: the force along a translation, the torque about a rotation, the error
+/// of a torn slot, DIF1 of a DIF, and the gap of the equation that a reaction enforces.
+///
+/// The values of torn slots are in `on`. All other slots and the reactions are computed here and stored in
+/// `on`.
+pub(super) fn balance<T: Scalar>(
+    model: &Model,
+    parts: &[Frame<T>],
+    on: &mut Evaluation<'_, T>,
+    unknowns: &[Unknown],
+    multipliers: &[Vec<T>],
+) -> Result<Vec<T>, Error> {
+    let errors = slots(model, on)?;
+    let mut gaps = Vec::with_capacity(model.constraints.len());
+    let mut wrenches: Wrenches<T> = vec![[vector([0.0; 3]), vector([0.0; 3])]; model.parts.len()];
+    for (k, constraint) in model.constraints.iter().enumerate() {
+        let value = prescribed(constraint, on)?;
+        let (gap, wrench) = constrain(constraint, on, &value, &multipliers[k]);
+        apply(model, &mut wrenches, parts, on, [constraint.i, constraint.j], &wrench, false);
+        on.reactions[k] = Some(wrench);
+        gaps.push(gap);
+    }
+    for load in &model.loads {
+        let wrench = load.wrench(&on.at);
+        apply(model, &mut wrenches, parts, on, [load.i, load.j], &wrench, load.action_only());
+    }
+    let gravity = vector(model.gravity);
+    for (k, part) in model.parts.iter().enumerate() {
+        let weight = scale(&gravity, &T::constant(part.mass));
+        let place = part.cm.map_or(&parts[k].origin, |cm| &on.at.frames[cm].origin);
+        add_wrench(&mut wrenches[k], &parts[k], place, &[weight, vector([0.0; 3])], 1.0);
+    }
+    unknowns
+        .iter()
+        .map(|unknown| {
+            Ok(match *unknown {
+                Unknown::Translation(part, axis) => wrenches[part][0][axis].clone(),
+                Unknown::Rotation(part, axis) => wrenches[part][1][axis].clone(),
+                Unknown::Slot(slot) => errors[slot].clone().unwrap_or(T::constant(0.0)),
+                Unknown::Differential(diff) => model.slot_value(model.diffs[diff].slot, on)?,
+                Unknown::Reaction(constraint, equation) => gaps[constraint][equation].clone(),
+            })
+        })
+        .collect()
+}
+
+/// Computes all slots from the torn ones, and returns the errors of the torn ones. DIF1 is zero.
+fn slots<T: Scalar>(model: &Model, on: &mut Evaluation<'_, T>) -> Result<Vec<Option<T>>, Error> {
+    let mut errors = vec![None; model.slots.len()];
+    let rate = |slot: usize| matches!(model.slots[slot].owner, Owner::Rate(_));
+    for block in &model.order {
+        let (torn, rest): (&[usize], &[usize]) = match block {
+            Block::Direct(slot) => (&[], std::slice::from_ref(slot)),
+            Block::Loop { torn, rest } => (torn, rest),
+        };
+        for slot in torn.iter().chain(rest).copied().filter(|slot| rate(*slot)) {
+            on.at.values[slot] = T::constant(0.0);
+        }
+        for slot in rest.iter().copied().filter(|slot| !rate(*slot)) {
+            let value = model.slot_value(slot, on)?;
+            on.at.values[slot] = value;
+        }
+        for slot in torn.iter().copied().filter(|slot| !rate(*slot)) {
+            let value = model.slot_value(slot, on)?;
+            errors[slot] = Some(on.at.values[slot].minus(&value));
+        }
+    }
+    Ok(errors)
+}
+
+/// Adds a force and torque at a point, times a sign, to those on a part.
+fn add_wrench<T: Scalar>(
+    total: &mut [Vector<T>; 2],
+    part: &Frame<T>,
+    place: &Vector<T>,
+    wrench: &[Vector<T>; 2],
+    sign: f64,
+) {
+    let sign = T::constant(sign);
+    let (force, torque) = (scale(&wrench[0], &sign), scale(&wrench[1], &sign));
+    let arm = subtract(place, &part.origin);
+    total[1] = add(&total[1], &add(&torque, &cross(&arm, &force)));
+    total[0] = add(&total[0], &force);
+}
+
+/// Adds a force and torque at I to the part of I, and the opposite to the part of J unless the load acts on I
+/// only.
+fn apply<T: Scalar>(
+    model: &Model,
+    wrenches: &mut Wrenches<T>,
+    parts: &[Frame<T>],
+    on: &Evaluation<'_, T>,
+    [i, j]: [usize; 2],
+    wrench: &[Vector<T>; 2],
+    action_only: bool,
+) {
+    let place = &on.at.frames[i].origin;
+    let (a, b) = (model.markers[i].part, model.markers[j].part);
+    add_wrench(&mut wrenches[a], &parts[a], place, wrench, 1.0);
+    if !action_only {
+        add_wrench(&mut wrenches[b], &parts[b], place, wrench, -1.0);
+    }
+}
+
+/// The gaps of the equations of a constraint, and the force and torque on I that its multipliers make.
+fn constrain<T: Scalar>(
+    constraint: &Constraint,
+    on: &Evaluation<'_, T>,
+    prescribed: &T,
+    multipliers: &[T],
+) -> (Vec<T>, [Vector<T>; 2]) {
+    let (i, j) = (&on.at.frames[constraint.i], &on.at.frames[constraint.j]);
+    let distance = subtract(&i.origin, &j.origin);
+    let [mut force, mut torque] = [vector([0.0; 3]), vector([0.0; 3])];
+    let mut gaps = Vec::with_capacity(multipliers.len());
+    for (equation, multiplier) in constraint.equations.iter().zip(multipliers) {
+        match *equation {
+            Equation::Along(axis) => {
+                let axis = column(&j.axes, axis);
+                gaps.push(dot(&axis, &distance).minus(prescribed));
+                force = add(&force, &scale(&axis, multiplier));
+            }
+            Equation::Normal(a, b) => {
+                let (a, b) = (column(&i.axes, a), column(&j.axes, b));
+                gaps.push(dot(&a, &b));
+                torque = add(&torque, &scale(&cross(&a, &b), multiplier));
+            }
+            Equation::About => {
+                let x = column(&i.axes, 0);
+                let (sin, cos) = (dot(&x, &column(&j.axes, 1)), dot(&x, &column(&j.axes, 0)));
+                gaps.push(angle_difference(&sin, &cos, prescribed));
+                torque = add(&torque, &scale(&column(&j.axes, 2), multiplier));
+            }
+        }
+    }
+    (gaps, [force, torque])
+}
+
+/// The difference between an angle, given by its sine and cosine, and another angle, from -pi to pi.
+fn angle_difference<T: Scalar>(sin: &T, cos: &T, other: &T) -> T {
+    let one =
+        |unary: Unary| Function::Unary(unary).value(std::slice::from_ref(other)).unwrap_or(T::constant(0.0));
+    let (s, c) = (one(Unary::Sin), one(Unary::Cos));
+    atan2(&sin.times(&c).minus(&cos.times(&s)), &cos.times(&c).plus(&sin.times(&s)))
+}

@@ -1,0 +1,348 @@
+//! Newton's method for static equilibrium, with pseudo-transient continuation where it fails.
+//!
+//! The unknowns and equations are those of `iterate` and `balance`. Every iteration evaluates the residual r
+//! and its Jacobian J, scales both, and solves J s = -r, in the least-squares sense where J is singular. The
+//! step s is halved until the simplified correction after it is smaller than s (natural monotonicity).
+//! Rotations are limited to half a radian. The iteration ends when steps are at the level of rounding and the
+//! scaled residual is below 1e-9.
+//!
+//! If no fraction of a step passes the test, the parts continue against a viscous resistance: J s - D s = -r,
+//! where D resists translations and rotations. The resistance decreases with the residual. Once it is
+//! negligible, Newton's method starts again.
+
+use super::balance::balance;
+use super::equilibrium::{Equilibrium, Reaction};
+use super::iterate::{Iterate, Unknown, seed, unknowns};
+use crate::kinematics::Frame;
+use crate::model::{Configuration, Equation, Evaluation, Model, Owner};
+use crate::solve::linear::FactoredMatrix;
+use crate::{Dual, Error, Scalar, State, StatementId};
+use nalgebra::{DMatrix, Vector3};
+use std::collections::BTreeMap;
+
+/// Largest number of iterations.
+const MOST: usize = 400;
+/// Steps of at most this size, relative to their scale, are at the level of rounding.
+const ROUNDING: f64 = 1e-15;
+/// Steps that no longer decrease count as rounding if they are below this size.
+const STALLED: f64 = 1e-10;
+/// Largest scaled residual of an equilibrium.
+const RESIDUAL: f64 = 1e-9;
+
+/// Finds the equilibrium near a guess. Another equilibrium, if given, supplies the initial values of loops.
+pub(super) fn search(
+    model: &Model,
+    guess: &State,
+    before: Option<&Equilibrium>,
+) -> Result<Equilibrium, Error> {
+    let mut start = Iterate::new(model, guess)?;
+    if let Some(before) = before.filter(|one| one.solution.values.len() == model.slots.len()) {
+        start.values.clone_from(&before.solution.values);
+    } else if let Ok(closed) = model.solve(guess) {
+        // An IC of zero does not give the size of a variable; loops that are closed at the guess do.
+        start.values.clone_from(&closed.values);
+    }
+    let search = Search {
+        model,
+        unknowns: unknowns(model),
+        length: model_length(model, &start),
+        force: model_force(model),
+    };
+    if search.unknowns.is_empty() {
+        return search.report(&start, 0, 0);
+    }
+    search.run(start)
+}
+
+/// A search and the scales of its quantities.
+struct Search<'a> {
+    model: &'a Model,
+    unknowns: Vec<Unknown>,
+    /// Typical length of the model.
+    length: f64,
+    /// Typical force: its largest weight.
+    force: f64,
+}
+
+impl Search<'_> {
+    /// Iterates from `at` to equilibrium.
+    fn run(&self, mut at: Iterate) -> Result<Equilibrium, Error> {
+        // The viscous resistance, force over length; zero in Newton's method.
+        let mut resistance = 0.0;
+        let mut before = f64::INFINITY;
+        let mut worst = (0, f64::INFINITY);
+        let mut iterations = 0;
+        while iterations < MOST {
+            iterations += 1;
+            let (residual, matrix) = self.linearize(&at)?;
+            let rows = self.residual_scales(&at);
+            let left = scaled_size(&residual, &rows);
+            worst = largest(&residual, &rows);
+            let Some(factored) = self.factor(&at, matrix, resistance) else { break };
+            let Some(step) = factored.correction(&residual) else { break };
+            if resistance > 0.0 {
+                (at, resistance) = self.resisted_step(at, &step, left, resistance);
+                continue;
+            }
+            let scales = self.step_scales(&at, &step);
+            let length = scaled_size(&step, &scales);
+            let stalled = length <= STALLED && length >= 0.1 * before;
+            if (length <= ROUNDING || stalled) && left <= RESIDUAL {
+                let end = if stalled { at } else { at.after(&self.unknowns, &step, 1.0) };
+                return self.report(&end, iterations, factored.rank_deficiency());
+            }
+            before = length;
+            match self.damped_step(&at, &factored, &step, &scales).filter(|_| length > ROUNDING) {
+                Some(next) => at = next,
+                None if length <= STALLED && left <= RESIDUAL => {
+                    return self.report(&at, iterations, factored.rank_deficiency());
+                }
+                None => (resistance, before) = (self.force / (0.01 * self.length), f64::INFINITY),
+            }
+        }
+        let (keyword, id) = self.statement_of(worst.0);
+        let statement = StatementId::new(keyword, id);
+        Err(Error::Equilibrium { statement, residual: worst.1, iterations })
+    }
+
+    /// The matrix with viscous resistance, factored in scales in which the stiffness that supports a part
+    /// counts and rounding does not.
+    fn factor(&self, at: &Iterate, mut matrix: DMatrix<f64>, resistance: f64) -> Option<FactoredMatrix> {
+        self.add_resistance(&mut matrix, resistance);
+        let zero = vec![0.0; self.unknowns.len()];
+        let (mut rows, mut columns) = (self.residual_scales(at), self.step_scales(at, &zero));
+        for (k, unknown) in self.unknowns.iter().enumerate() {
+            if let Unknown::Slot(slot) = unknown
+                && self.model.slots[*slot].owner == Owner::Variable
+            {
+                let large = at.values[*slot].abs().max(0.01 * self.length);
+                (rows[k], columns[k]) = (large, large);
+            }
+        }
+        FactoredMatrix::scaled(&matrix, &rows, &columns)
+    }
+
+    /// The iterate after the largest fraction of a step that passes the test of natural monotonicity.
+    fn damped_step(
+        &self,
+        at: &Iterate,
+        factored: &FactoredMatrix,
+        step: &[f64],
+        scales: &[f64],
+    ) -> Option<Iterate> {
+        let length = scaled_size(step, scales);
+        // The linearization is not used for rotations beyond half a radian.
+        let rotations =
+            self.unknowns.iter().zip(step).filter(|(unknown, _)| matches!(unknown, Unknown::Rotation(..)));
+        let angle = rotations.fold(0.0_f64, |top, (_, d)| top.max(d.abs()));
+        let mut fraction = if angle > 0.5 { 0.5 / angle } else { 1.0 };
+        while fraction > 1e-6 {
+            let next = at.after(&self.unknowns, step, fraction);
+            let after = self.residual(&next).ok().and_then(|residual| factored.correction(&residual));
+            if after.is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length) {
+                return Some(next);
+            }
+            fraction *= 0.5;
+        }
+        None
+    }
+
+    /// A step against the viscous resistance, limited to a twentieth of the size of the model and 0.2 rad,
+    /// and the resistance of the next step. A step that increases the residual too much is rejected.
+    fn resisted_step(&self, at: Iterate, step: &[f64], left: f64, resistance: f64) -> (Iterate, f64) {
+        let limit = |unknown: &Unknown| match unknown {
+            Unknown::Translation(..) => 0.05 * self.length,
+            Unknown::Rotation(..) => 0.2,
+            _ => f64::INFINITY,
+        };
+        let most = self.unknowns.iter().zip(step).map(|(unknown, d)| d.abs() / limit(unknown));
+        let fraction = 1.0 / most.fold(1.0, f64::max);
+        let next = at.after(&self.unknowns, step, fraction);
+        let after = self.residual(&next).ok();
+        let after = after.map(|residual| scaled_size(&residual, &self.residual_scales(&next)));
+        match after {
+            Some(after) if after <= 3.0 * left || after <= RESIDUAL => {
+                let reduced = resistance * (after / left).clamp(0.05, 0.6);
+                let negligible = reduced * self.length < 1e-6 * self.force || after < 1e-6;
+                (next, if negligible { 0.0 } else { reduced })
+            }
+            _ => (at, 8.0 * resistance),
+        }
+    }
+
+    /// Adds the viscous resistance to the derivatives of forces and torques.
+    fn add_resistance(&self, matrix: &mut DMatrix<f64>, resistance: f64) {
+        for (k, unknown) in self.unknowns.iter().enumerate() {
+            match unknown {
+                Unknown::Translation(..) => matrix[(k, k)] -= resistance,
+                Unknown::Rotation(..) => matrix[(k, k)] -= resistance * self.length * self.length,
+                _ => {}
+            }
+        }
+    }
+
+    /// Everything that expressions read, for parts in the given frames.
+    fn evaluation<T: Scalar>(
+        &self,
+        time: f64,
+        frames: &[Frame<T>],
+        differentials: Vec<T>,
+        values: Vec<T>,
+    ) -> Evaluation<'_, T> {
+        let at = Configuration::new(&self.model.markers, frames, 0);
+        let mode = Configuration::<T>::STATIC;
+        self.model.evaluation_on(Configuration { time, mode, differentials, values, ..at })
+    }
+
+    /// The residuals and all values at an iterate.
+    fn balanced(&self, at: &Iterate) -> Result<(Vec<f64>, Evaluation<'_, f64>), Error> {
+        let frames = at.frames();
+        let mut on = self.evaluation(at.time, &frames, at.differentials.clone(), at.values.clone());
+        let residual = balance(self.model, &frames, &mut on, &self.unknowns, &at.reactions)?;
+        Ok((residual, on))
+    }
+
+    /// The residuals.
+    fn residual(&self, at: &Iterate) -> Result<Vec<f64>, Error> {
+        Ok(self.balanced(at)?.0)
+    }
+
+    /// The residuals and their Jacobian.
+    fn linearize(&self, at: &Iterate) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
+        let count = self.unknowns.len();
+        let index = |wanted: Unknown| self.unknowns.iter().position(|unknown| *unknown == wanted);
+        let frames = at.dual_frames(&self.unknowns);
+        let differential = |(k, value): (usize, &f64)| seed(*value, index(Unknown::Differential(k)), count);
+        let differentials = at.differentials.iter().enumerate().map(differential).collect();
+        let slot = |(k, value): (usize, &f64)| seed(*value, index(Unknown::Slot(k)), count);
+        let values = at.values.iter().enumerate().map(slot).collect();
+        let reactions: Vec<Vec<Dual>> = at
+            .reactions
+            .iter()
+            .enumerate()
+            .map(|(k, list)| {
+                let one = |(e, value): (usize, &f64)| seed(*value, index(Unknown::Reaction(k, e)), count);
+                list.iter().enumerate().map(one).collect()
+            })
+            .collect();
+        let mut on = self.evaluation(at.time, &frames, differentials, values);
+        let all = balance(self.model, &frames, &mut on, &self.unknowns, &reactions)?;
+        let matrix = DMatrix::from_fn(count, count, |i, j| all[i].slope(j));
+        Ok((all.iter().map(Scalar::value).collect(), matrix))
+    }
+
+    /// The scale of each unknown, relative to which its steps are measured.
+    fn step_scales(&self, at: &Iterate, step: &[f64]) -> Vec<f64> {
+        let reaction = at.reactions.iter().flatten().fold(self.force, |top, value| top.max(value.abs()));
+        let scale = |(unknown, d): (&Unknown, &f64)| match *unknown {
+            Unknown::Translation(..) => self.length,
+            Unknown::Rotation(..) => 1.0,
+            Unknown::Slot(slot) => {
+                let floor = match self.model.slots[slot].owner {
+                    Owner::Load(..) => self.force,
+                    _ => self.length,
+                };
+                let value = at.values[slot];
+                value.abs().max((value + d).abs()).max(1e-6 * floor)
+            }
+            Unknown::Differential(k) => {
+                let value = at.differentials[k];
+                value.abs().max((value + d).abs()).max(1e-6 * self.length)
+            }
+            Unknown::Reaction(constraint, equation) => {
+                match self.model.constraints[constraint].equations[equation] {
+                    Equation::Along(_) => reaction,
+                    _ => reaction * self.length.max(1.0),
+                }
+            }
+        };
+        self.unknowns.iter().zip(step).map(scale).collect()
+    }
+
+    /// The scale of each residual.
+    fn residual_scales(&self, at: &Iterate) -> Vec<f64> {
+        let scale = |unknown: &Unknown| match *unknown {
+            Unknown::Translation(..) => self.force,
+            Unknown::Rotation(..) => self.force * self.length,
+            Unknown::Slot(slot) => match self.model.slots[slot].owner {
+                Owner::Load(_, component) if component < 3 => self.force,
+                Owner::Load(..) => self.force * self.length,
+                _ => at.values[slot].abs().max(1e-6 * self.length),
+            },
+            Unknown::Differential(_) => self.length,
+            Unknown::Reaction(constraint, equation) => {
+                match self.model.constraints[constraint].equations[equation] {
+                    Equation::Along(_) => self.length,
+                    _ => 1.0,
+                }
+            }
+        };
+        self.unknowns.iter().map(scale).collect()
+    }
+
+    /// The keyword and identifier of the statement that an equation belongs to.
+    fn statement_of(&self, equation: usize) -> (&'static str, u32) {
+        match self.unknowns.get(equation) {
+            Some(Unknown::Translation(part, _) | Unknown::Rotation(part, _)) => {
+                ("PART", self.model.parts[*part].id)
+            }
+            Some(Unknown::Slot(slot)) => {
+                let slot = &self.model.slots[*slot];
+                (self.model.label(slot).0, slot.id)
+            }
+            Some(Unknown::Differential(diff)) => ("DIFF", self.model.diffs[*diff].id),
+            Some(Unknown::Reaction(constraint, _)) => {
+                let constraint = &self.model.constraints[*constraint];
+                (constraint.keyword, constraint.id)
+            }
+            None => ("PART", 0),
+        }
+    }
+
+    /// The equilibrium at an iterate.
+    fn report(&self, at: &Iterate, iterations: usize, undetermined: usize) -> Result<Equilibrium, Error> {
+        let (_, on) = self.balanced(at)?;
+        on.beyond.borrow_mut().clear();
+        let solution = self.model.report(&on, iterations)?;
+        let mut reactions = BTreeMap::new();
+        for (constraint, reaction) in self.model.constraints.iter().zip(&solution.reactions) {
+            if let Some([force, torque]) = reaction {
+                let reaction = Reaction { force: (*force).into(), torque: (*torque).into() };
+                reactions.insert((constraint.keyword, constraint.id), reaction);
+            }
+        }
+        Ok(Equilibrium { state: at.state(self.model), solution, reactions, iterations, undetermined })
+    }
+}
+
+/// The largest ratio of a number to its scale; NaN counts as infinite.
+fn scaled_size(all: &[f64], scales: &[f64]) -> f64 {
+    let ratio = |(value, scale): (&f64, &f64)| if *value == 0.0 { 0.0 } else { value.abs() / scale };
+    all.iter()
+        .zip(scales)
+        .map(ratio)
+        .fold(0.0, |top, one| if one.is_nan() { f64::INFINITY } else { top.max(one) })
+}
+
+/// The index and value of the number with the largest ratio to its scale.
+fn largest(all: &[f64], scales: &[f64]) -> (usize, f64) {
+    let ratio = |k: usize| all[k].abs() / scales[k];
+    let worst = (0..all.len()).max_by(|a, b| ratio(*a).total_cmp(&ratio(*b))).unwrap_or(0);
+    (worst, all.get(worst).copied().unwrap_or(0.0))
+}
+
+/// The size of the model: the largest distance of a marker from its part, or of a part from the first one.
+fn model_length(model: &Model, at: &Iterate) -> f64 {
+    let arms = model.markers.iter().map(|marker| Vector3::from(marker.position).norm());
+    let first = at.origins.first().copied().unwrap_or_default();
+    let parts = at.origins.iter().map(|origin| (origin - first).norm());
+    let top = arms.chain(parts).fold(0.0, f64::max);
+    if top > 0.0 { top } else { 1.0 }
+}
+
+/// The largest weight of a part.
+fn model_force(model: &Model) -> f64 {
+    let g = Vector3::from(model.gravity).norm();
+    let top = model.parts.iter().map(|part| part.mass.abs() * g).fold(0.0, f64::max);
+    if top > 0.0 { top } else { 1.0 }
+}

@@ -1,0 +1,87 @@
+//! The values of a SPLINE.
+
+use crate::Fault;
+
+/// Values y over x: one curve for each z, or a single curve without z.
+///
+/// In an influence table x is the position of the load and z the position at which the deflection is
+/// measured.
+///
+/// ```
+/// use adams::{Curves, Fault};
+///
+/// let x = vec![0.0, 20.0, 40.0, 60.0];
+/// let single = Curves::new(x.clone(), vec![], vec![vec![0.0, 2.0, 2.0, 0.0]])?;
+/// assert!(single.z().is_empty());
+/// let short = Curves::new(x, vec![], vec![vec![0.0, 2.0]]);
+/// assert_eq!(short, Err(Fault::Values { curve: 0, found: 2, expected: 4 }));
+/// # Ok::<(), Fault>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curves {
+    x: Vec<f64>,
+    z: Vec<f64>,
+    y: Vec<Vec<f64>>,
+}
+
+impl Curves {
+    /// The smallest number of x values of a SPLINE.
+    pub const LEAST: usize = 4;
+
+    /// A family of curves, where `y[i]` are the values over `x` at `z[i]`; with an empty `z` the single curve
+    /// `y[0]`.
+    ///
+    /// Shapes: `y` has `max(1, z.len())` lists of `x.len()` values each.
+    ///
+    /// # Errors
+    /// [`Fault::Points`] for fewer than four x values; [`Fault::Order`] for x or z values that are not finite
+    /// or do not increase; [`Fault::Curves`] and [`Fault::Values`] for a wrong shape of `y`;
+    /// [`Fault::NotFinite`] for a y value that is not finite.
+    pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<Curves, Fault> {
+        if x.len() < Curves::LEAST {
+            return Err(Fault::Points { found: x.len(), least: Curves::LEAST });
+        }
+        increasing(&x)?;
+        increasing(&z)?;
+        if y.len() != z.len().max(1) {
+            return Err(Fault::Curves { found: y.len(), expected: z.len().max(1) });
+        }
+        for (curve, values) in y.iter().enumerate() {
+            if values.len() != x.len() {
+                return Err(Fault::Values { curve, found: values.len(), expected: x.len() });
+            }
+            if let Some(index) = values.iter().position(|value| !value.is_finite()) {
+                return Err(Fault::NotFinite { curve, index });
+            }
+        }
+        Ok(Curves { x, z, y })
+    }
+
+    /// The x values, increasing.
+    #[must_use]
+    pub fn x(&self) -> &[f64] {
+        &self.x
+    }
+
+    /// The z values, increasing; empty for a single curve.
+    #[must_use]
+    pub fn z(&self) -> &[f64] {
+        &self.z
+    }
+
+    /// The values, one list for each curve.
+    #[must_use]
+    pub fn y(&self) -> &[Vec<f64>] {
+        &self.y
+    }
+}
+
+fn increasing(list: &[f64]) -> Result<(), Fault> {
+    if let Some(index) = list.iter().position(|value| !value.is_finite()) {
+        return Err(Fault::Order { index });
+    }
+    match list.windows(2).position(|pair| pair[0] >= pair[1]) {
+        Some(k) => Err(Fault::Order { index: k + 1 }),
+        None => Ok(()),
+    }
+}

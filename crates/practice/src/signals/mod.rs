@@ -1,0 +1,19 @@
+//! Signals: what a history says in a few numbers, and the extremes of many histories.
+//!
+//! `series` has means, even samples and excursions; `filter`, `spectrum` and `decay` work on even samples;
+//! `response` applies all of them to one history; `envelope` finds extremes over several runs with coincident
+//! values.
+
+mod decay;
+mod envelope;
+mod filter;
+mod response;
+mod series;
+mod spectrum;
+
+pub use decay::{Decay, decay};
+pub use envelope::{Extremes, Instant, Run, envelope};
+pub use filter::low_pass;
+pub use response::{Mark, Response, View, response};
+pub use series::{Excursions, excursions, mean, resample};
+pub use spectrum::{Tone, dominant};

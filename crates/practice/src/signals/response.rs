@@ -1,0 +1,96 @@
+//! The characteristics of a response that engineers compare.
+
+use super::decay::{Decay, decay};
+use super::filter::low_pass;
+use super::series::{Excursions, excursions, mean, resample};
+use super::spectrum::{Tone, dominant};
+use crate::Error;
+use crate::error::{Argument, within};
+
+/// How a response is evaluated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Time from which the response is evaluated.
+    pub from: f64,
+    /// Time from which the response is taken as settled.
+    pub settled: f64,
+    /// Interval of the even samples.
+    pub step: f64,
+    /// Cut-off frequency of the low-pass filter, in cycles per unit of time; `None` for no filter.
+    pub cut: Option<f64>,
+    /// Half width of the band of excursions, as a fraction of the settled mean.
+    pub share: f64,
+    /// Lower and upper limit of the dominant frequency, in cycles per unit of time.
+    pub band: [f64; 2],
+    /// The smallest range that is used for the damping, as a fraction of the largest.
+    pub floor: f64,
+}
+
+/// A value and its time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mark {
+    /// Time.
+    pub time: f64,
+    /// Value.
+    pub value: f64,
+}
+
+/// The characteristics of a response from [`View::from`] on, which is sampled evenly and, if requested,
+/// filtered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Response {
+    /// Time average of the unfiltered history from [`View::settled`] to the end.
+    pub mean: f64,
+    /// Largest value.
+    pub peak: Mark,
+    /// Smallest value.
+    pub least: Mark,
+    /// Excursions beyond the band about the mean.
+    pub excursions: Excursions,
+    /// Strongest sine component; `None` if the spectrum has no peak in the band.
+    pub tone: Option<Tone>,
+    /// Damping, which is meaningful if the response is that of one mode; `None` if it does not oscillate.
+    pub decay: Option<Decay>,
+}
+
+/// The settled mean, extremes, excursions, dominant frequency and damping of a history.
+///
+/// # Errors
+/// Those of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
+///
+/// ```
+/// use practice::{View, response};
+///
+/// // A step to 50 at time zero that oscillates at 2 Hz with a damping of 3 %.
+/// let times: Vec<f64> = (0..1000).map(|k| 0.01 * f64::from(k)).collect();
+/// let omega = 4.0 * std::f64::consts::PI;
+/// let step = |t: &f64| 50.0 - 50.0 * (-0.03 * omega * t).exp() * (omega * t).cos();
+/// let values: Vec<f64> = times.iter().map(step).collect();
+/// let view =
+///     View { from: 0.0, settled: 8.0, step: 0.01, cut: None, share: 0.1, band: [0.5, 5.0], floor: 0.1 };
+/// let found = response(&times, &values, &view)?;
+/// assert!((found.mean - 50.0).abs() < 0.5 && found.peak.value > 90.0);
+/// assert!((found.decay.expect("an oscillation").ratio - 0.03).abs() < 1e-3);
+/// # Ok::<(), practice::Error>(())
+/// ```
+pub fn response(times: &[f64], values: &[f64], view: &View) -> Result<Response, Error> {
+    let settled = within(Argument::Time, view.settled, view.from, 1e30)?;
+    let mean = mean(times, values, settled)?;
+    let even = resample(times, values, view.from, view.step)?;
+    let even = match view.cut {
+        Some(cut) => low_pass(&even, view.step, cut)?,
+        None => even,
+    };
+    let best = |better: fn(f64, f64) -> bool| {
+        let sample = (0..even.len()).fold(0, |best, k| if better(even[k], even[best]) { k } else { best });
+        Mark { time: view.from + sample as f64 * view.step, value: even[sample] }
+    };
+    Ok(Response {
+        mean,
+        peak: best(|value, found| value > found),
+        least: best(|value, found| value < found),
+        excursions: excursions(&even, mean, view.share)?,
+        tone: dominant(&even, view.step, view.band)?,
+        decay: decay(&even, view.step, view.floor)?,
+    })
+}

@@ -1,0 +1,92 @@
+//! The dominant frequency of a history.
+
+use std::f64::consts::PI;
+
+use realfft::RealFftPlanner;
+use realfft::num_complex::Complex;
+
+use crate::Error;
+use crate::error::{Argument, check_samples, non_negative, positive, within};
+
+/// Smallest number of samples of a spectrum.
+const LEAST: usize = 8;
+
+/// Amplitudes below this fraction of the largest value are rounding.
+pub(crate) const NOISE: f64 = 64.0 * f64::EPSILON;
+
+/// A sine component of a history.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tone {
+    /// Frequency, in cycles per unit of time.
+    pub frequency: f64,
+    /// Amplitude, half of the range from trough to crest.
+    pub amplitude: f64,
+}
+
+/// The strongest sine component with a frequency in `band`, given by its lower and upper limit in cycles per
+/// unit of time. `step` is the interval of samples. `None` if the spectrum has no peak in the band.
+///
+/// The mean is subtracted, Hann's window applied and the result transformed. At the highest peak, in bin k,
+/// let a be the ratio of the magnitude of the larger neighbour k +- 1 to that of the peak. The frequency is
+/// that of k +- d with d = (2 a - 1)/(a + 1), and the amplitude 4 |X_k| (1 - d^2) pi d/(n sin(pi d)). This is
+/// exact for a single sine except for the leakage of its negative frequency; for a decaying sine the
+/// amplitude is an average.
+///
+/// # Errors
+/// [`Error::Few`] for fewer than 8 samples; [`Error::Number`] for a sample that is not finite;
+/// [`Error::Range`] for a step that is not positive or limits of the band in the wrong order.
+///
+/// # Source
+/// Grandke, Interpolation algorithms for discrete Fourier transforms of weighted signals, IEEE Trans.
+/// Instrum. Meas. 32, 350-355 (1983).
+///
+/// ```
+/// let sine: Vec<f64> = (0..200).map(|k| 3.0 * (0.13 * f64::from(k)).sin()).collect();
+/// let tone = practice::dominant(&sine, 0.1, [0.05, 5.0])?.expect("a peak");
+/// assert!((tone.frequency - 1.3 / std::f64::consts::TAU).abs() < 1e-3);
+/// assert!((tone.amplitude - 3.0).abs() < 0.05);
+/// # Ok::<(), practice::Error>(())
+/// ```
+pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Tone>, Error> {
+    let step = positive(Argument::Time, step)?;
+    let least = non_negative(Argument::Frequency, band[0])?;
+    let most = within(Argument::Frequency, band[1], least, 1e30)?;
+    check_samples(0, values)?;
+    if values.len() < LEAST {
+        return Err(Error::Few { found: values.len(), least: LEAST });
+    }
+    let n = values.len() as f64;
+    let sizes: Vec<f64> = transform(values).iter().map(|bin| bin.norm()).collect();
+    // The rounding errors of a constant history must not count as a sine.
+    let noise = NOISE * n * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+    let mut peak: Option<(usize, f64)> = None;
+    for k in 1..sizes.len() - 1 {
+        let frequency = k as f64 / (n * step);
+        let inside = frequency >= least && frequency <= most;
+        let top = sizes[k] > noise && sizes[k] > sizes[k - 1] && sizes[k] >= sizes[k + 1];
+        if inside && top && peak.is_none_or(|(_, size)| sizes[k] > size) {
+            peak = Some((k, sizes[k]));
+        }
+    }
+    Ok(peak.map(|(k, size)| {
+        let right = sizes[k + 1] >= sizes[k - 1];
+        let ratio = if right { sizes[k + 1] } else { sizes[k - 1] } / size;
+        let shift = ((2.0 * ratio - 1.0) / (ratio + 1.0)).clamp(0.0, 0.5);
+        let lobe = if shift > 0.0 { (PI * shift).sin() / (PI * shift) } else { 1.0 };
+        let place = k as f64 + if right { shift } else { -shift };
+        Tone { frequency: place / (n * step), amplitude: 4.0 * size * (1.0 - shift * shift) / (n * lobe) }
+    }))
+}
+
+/// The Fourier transform of the history without its mean, under Hann's window.
+fn transform(values: &[f64]) -> Vec<Complex<f64>> {
+    let n = values.len() as f64;
+    let mean = values.iter().map(|value| value / n).sum::<f64>();
+    let window = |k: usize| 0.5 - 0.5 * (2.0 * PI * k as f64 / n).cos();
+    let mut input: Vec<f64> =
+        values.iter().enumerate().map(|(k, value)| (value - mean) * window(k)).collect();
+    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(values.len());
+    let mut output = plan.make_output_vec();
+    plan.process(&mut input, &mut output).expect("lengths are those of the plan");
+    output
+}
