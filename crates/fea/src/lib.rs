@@ -56,7 +56,7 @@ mod modes;
 pub use dof::{Freedom, Freedoms6};
 pub use error::{Error, Fault, Item, Quantity};
 pub use factor::{Certificate, MEMORY};
-pub use influence::{ACCURACY, Effect, Exact, Frame, Grid, Hold, Reactions, grid, nodal, reactions, surface};
+pub use influence::{ACCURACY, Effect, Exact, Frame, Grid, Hold, Reactions, grid, nodal, surface};
 pub use model::{
     Girder, Kind, Link, Mass, Member, Model, Rail, Section, Segment, Spring, Support, Taper, Theory,
 };

@@ -181,11 +181,13 @@ fn gauss_jordan<T: Real>(rows: &mut [[T; 6]]) -> Vec<(usize, usize)> {
         if rest[pivot].double().abs() <= DEPENDENT * before {
             continue;
         }
+        // Solve the row for its pivot; what is only rounding becomes an exact zero, so that the basis keeps zeros.
         let factor = rest[pivot];
         for value in &mut rest {
             let small = value.double().abs() <= DEPENDENT * before;
             *value = if small { T::zero() } else { *value / factor };
         }
+        // Jordan step: earlier rows no longer depend on the new pivot.
         for &(other, _) in &pivots {
             eliminate(&mut rows[other], &rest, pivot);
         }

@@ -23,6 +23,7 @@ impl Combination {
         if value == 0.0 {
             return;
         }
+        // A combination has few terms, so that a linear search suffices.
         if let Some(k) = self.terms.iter().position(|term| term.0 == column) {
             self.terms[k].1 += value;
             self.magnitudes[k] += value.abs();

@@ -100,6 +100,7 @@ impl<T: Real> Element<T> {
         let ends = [place(0), place(1)];
         let along = ends[1] - ends[0];
         let length = norm(&along);
+        // Coordinates are rounded relative to the distance from the origin: so is the length.
         let far = ends.iter().flat_map(|end| end.iter()).fold(0.0_f64, |a, x| a.max(x.double().abs()));
         if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
             return Err(invalid(Fault::NoLength));
@@ -202,6 +203,7 @@ fn axial_only(f: Flexibility) -> Flexibility {
 /// Przemieniecki, Theory of Matrix Structural Analysis (1968), section 5.6.
 fn stiffness<T: Real>(f: &Flexibility, length: T) -> Matrix12<T> {
     let mut k = Matrix12::zeros();
+    // An infinite flexibility leaves exact zeros, by which unstiffened degrees of freedom are recognised.
     for (at, stiffness) in [(0, inverse(f.axial, length)), (3, inverse(f.torsion, length))] {
         k[(at, at)] = stiffness;
         k[(at + 6, at + 6)] = stiffness;

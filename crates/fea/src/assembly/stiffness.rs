@@ -134,6 +134,7 @@ impl<T: Real> Contributions<T> {
 
     fn add_member(&mut self, element: &Element<T>, bodies: &Bodies<T>) {
         let pair = bodies.pair(element.points);
+        // A member within one rigid body has no strain.
         if pair[0] == pair[1] {
             return;
         }
@@ -182,6 +183,7 @@ impl<T: Real> Contributions<T> {
             for i in 0..12 {
                 for j in 0..12 {
                     let value = k[(i, j)];
+                    // The diagonal always: its place exists even if this member adds zero.
                     if value != T::zero() || i == j {
                         add(6 * pair[i / 6] + i % 6, 6 * pair[j / 6] + j % 6, value);
                     }
@@ -226,6 +228,7 @@ impl ScaledStiffness {
                 column.push(6 * body + k);
             }
         }
+        // The scale comes from the doubles also where the stiffness is formed again in double-doubles.
         let scale = column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
         parts.stiffness(Numbering { unknown, column, scale, operations })
     }
@@ -259,6 +262,7 @@ impl<T: Real> ScaledStiffness<T> {
 
 /// The power of two nearest to 1/sqrt(x).
 fn scale_of(x: f64) -> f64 {
+    // A power of two scales without rounding; the clamp keeps the scaled entries finite.
     let exponent = (-0.5 * x.log2()).round().clamp(-500.0, 500.0);
     f64::powi(2.0, exponent as i32)
 }

@@ -51,6 +51,7 @@ impl<T: Real> Factor<T> {
     pub fn new(upper: &CsMat<T>) -> Result<Factor<T>, FactorError> {
         let n = upper.cols();
         let mut params = CholeskySymbolicParams::default();
+        // faer has dense kernels for native numbers only: double-doubles are factored column by column.
         if !T::PANELS {
             params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
         }
@@ -153,6 +154,7 @@ pub(crate) fn analyse<'a, T: Real>(
     let pattern = SymbolicSparseColMatRef::new_checked(n, n, storage, None, upper.indices());
     let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
         .map_err(|_| FactorError::TooLarge(0))?;
+    // The size is known before a number is allocated.
     let size = symbolic.len_val() as u64;
     if size.saturating_mul(size_of::<T>() as u64) > MEMORY {
         return Err(FactorError::TooLarge(size));
@@ -220,6 +222,7 @@ impl<T: Real> Panel<'_, T> {
             let (pivot, rest) = column.split_at(1);
             let value = x[self.start + j].map(|value| value / pivot[0]);
             x[self.start + j] = value;
+            // Columns before the first entry of a load are zero: they change nothing.
             if value == [T::zero(); K] {
                 continue;
             }

@@ -52,6 +52,7 @@ impl<T: Real> Factor<T> {
     /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9; Davis, Direct Methods for Sparse Linear
     /// Systems (2006), chapter 3.
     pub fn forward(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
+        // Unused lanes are computed too: few loads are solved one at a time.
         if loads.len() < COLUMN_LANES {
             self.forward_in_lanes::<1>(loads)
         } else if self.panels == self.len() || loads.len() < PANEL_LANES {
@@ -89,6 +90,7 @@ impl<T: Real> Factor<T> {
             self.panel(k).forward(x, scratch);
         }
         for (lane, load) in loads.iter().enumerate() {
+            // The lanes share the union of their paths; each solution keeps only its own path.
             let own = if K == 1 { &path } else { &self.path(load.iter().map(|&(row, _)| row), seen) };
             let mut solution = ForwardSolution::default();
             for &k in own {
@@ -114,6 +116,7 @@ impl<T: Real> Factor<T> {
             while !seen[k] {
                 seen[k] = true;
                 path.push(k);
+                // The parent of a panel in the elimination tree is that of its first row below the diagonal.
                 match self.panel(k).below.iter().min() {
                     Some(&next) => k = self.panel_of[next],
                     None => break,

@@ -106,6 +106,7 @@ impl Factored {
                     if certificate.error_bound <= FACTOR_FRACTION * accuracy {
                         return Ok(Factored { solver: Solver::Double(factor), certificate, inverse_norm });
                     }
+                    // Double-doubles might meet the accuracy, but would take minutes.
                     if expensive {
                         return Err(ill_conditioned(certificate, accuracy, stiffness, bodies));
                     }
@@ -117,6 +118,7 @@ impl Factored {
                 Err(FactorError::TooLarge(entries)) => return Err(too_large(unknowns, entries, DOUBLE)),
             }
         }
+        // The stiffness must be formed again: its doubles have lost the digits already.
         let extended = ScaledStiffness::<Extended>::in_precision(m, &stiffness.numbering)?;
         let factor = match Factor::new(&extended.upper) {
             Ok(factor) if factor.least_pivot() > LEAST_PIVOT_EXTENDED => factor,

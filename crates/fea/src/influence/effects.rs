@@ -6,7 +6,7 @@ use splines::{Effects, Probe};
 use crate::error::Error;
 use crate::influence::frame::Frame;
 use crate::influence::functional::{Effect, Hold};
-use crate::model::{Model, Rail};
+use crate::model::Model;
 
 /// Reactions per unit load on the rails.
 #[derive(Clone, Debug)]
@@ -18,18 +18,11 @@ pub struct Reactions {
     pub value: DMatrix<f64>,
 }
 
-/// Reactions of supports and springs to unit loads at the probes `at`.
-///
-/// Guarantee: forces and moments of loads and reactions are in equilibrium, up to rounding.
-///
-/// # Errors
-/// As [`Frame::new`] and [`Frame::effects`].
-pub fn reactions(m: &Model, rails: &[Rail], at: &[Probe]) -> Result<Reactions, Error> {
-    Frame::new(m, rails)?.reactions(m, at)
-}
-
 impl Frame {
-    /// [`reactions`] of a frame that is already factored; `m` is the model that the frame was made of.
+    /// Reactions of supports and springs to unit loads at the probes `at`; `m` is the model that the frame was
+    /// made of.
+    ///
+    /// Guarantee: forces and moments of loads and reactions are in equilibrium, up to rounding.
     ///
     /// # Errors
     /// As [`Frame::effects`].
@@ -61,6 +54,7 @@ impl Frame {
                 rows[(e, k)] = state.evaluate(&motions) - functional.direct.dot(state);
             }
         }
+        // A load there is refused: evaluation finds the infinity.
         for k in unstiffened {
             rows.column_mut(k).fill(f64::INFINITY);
         }

@@ -71,6 +71,7 @@ impl Frame {
         let solutions = self.forward(&loads);
         let mut value = self.gram(&solutions);
         places.sort_unstable();
+        // Places on the same member also act on each other between its fixed ends.
         for same in places.chunk_by(|a, b| a.0 == b.0) {
             let probes: Vec<(Probe, usize)> = same.iter().map(|&(_, cell, k)| (at[k], cell)).collect();
             let local = self.clamped(&probes)?;

@@ -102,6 +102,7 @@ impl Builder<'_> {
             return Err(Fault::NoExtent);
         }
         let reversed = order[0] == 1;
+        // Local axes of the member in rail axes; a half turn about y lets it run along the rail.
         let mut local = element.axes * axes.transpose();
         if reversed {
             local.row_mut(0).neg_mut();
@@ -128,6 +129,7 @@ impl Builder<'_> {
     fn tip(&mut self, rail: usize, member: usize, end: usize, axes: &Matrix3<f64>) -> usize {
         let element = &self.elements[member];
         let (point, offset) = (element.points[end], element.offsets[end]);
+        // Adding 0.0 turns -0.0 into 0.0, so that equal offsets have equal bits.
         let key = (rail, point, [offset.x, offset.y, offset.z].map(|x| (x + 0.0).to_bits()));
         let next = self.states.len();
         let state = *self.tips.entry(key).or_insert(next);

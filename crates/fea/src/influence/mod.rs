@@ -19,7 +19,7 @@ mod layout;
 mod rounding;
 mod surface;
 
-pub use effects::{Reactions, reactions};
+pub use effects::Reactions;
 pub use frame::{ACCURACY, Frame};
 pub(crate) use functional::Functional;
 pub use functional::{Effect, Hold};

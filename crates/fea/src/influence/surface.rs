@@ -66,6 +66,7 @@ impl Frame {
     pub fn surface(&self) -> Result<Exact, Error> {
         let line = Arc::clone(self.line()?);
         allow_square(Quantity::Surface, 6 * line.states())?;
+        // States behind the last rail element belong to tips that no element of the line uses.
         let rows: Vec<&Combination> = self.states().iter().flatten().take(6 * line.states()).collect();
         let mut nodal = self.compliance(&rows);
         for (a, b) in self.released_pairs(line.cells()) {
@@ -97,6 +98,7 @@ impl Frame {
     /// Compliance between displacements over the motions of the bodies.
     fn compliance(&self, rows: &[&Combination]) -> DMatrix<f64> {
         let loads: Vec<_> = rows.iter().map(|row| self.scaled(row)).collect();
+        // Rows that nothing stiffens have no load: their products are zero, their own compliance is infinite.
         let unstiffened: Vec<usize> = (0..loads.len()).filter(|&k| loads[k].is_none()).collect();
         let loads: Vec<_> = loads.into_iter().map(Option::unwrap_or_default).collect();
         let mut out = self.gram(&self.forward(&loads));

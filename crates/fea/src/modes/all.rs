@@ -56,6 +56,7 @@ fn spectrum(stiffness: &CsMat<f64>, mass: &CsMat<f64>) -> Option<Vec<(f64, DVect
     let mut matrix = dense(mass);
     let lower = factor.L();
     lower.solve_lower_triangular_in_place(&mut matrix);
+    // L^-1 M L^-T is symmetric: the transpose of L^-1 M takes the second solve.
     let mut matrix = matrix.transpose().to_owned();
     lower.solve_lower_triangular_in_place(&mut matrix);
     let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
@@ -64,6 +65,7 @@ fn spectrum(stiffness: &CsMat<f64>, mass: &CsMat<f64>) -> Option<Vec<(f64, DVect
     let size = vectors.nrows();
     let largest = if size == 0 { 0.0 } else { values[size - 1] };
     let finite = (0..size).rev().filter(|&k| values[k] > MASSLESS * largest);
+    // phi = L^-T y has y^T y = 1 and phi^T M phi = 1/lambda: scale it to modal mass 1.
     Some(
         finite
             .map(|k| {

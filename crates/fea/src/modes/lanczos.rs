@@ -114,6 +114,7 @@ impl<'a> Lanczos<'a> {
         // Size of the basis at which the Ritz pairs are computed next.
         let mut due = self.vectors.len() + 1;
         for _ in 0..(80 + 4 * count) {
+            // No next block: the basis holds the whole range of K^-1 M.
             let full = self.next.is_empty();
             if full || self.vectors.len() >= due {
                 self.update_pairs();
@@ -123,6 +124,7 @@ impl<'a> Lanczos<'a> {
                 }
                 due = (GROWTH * self.vectors.len() as f64) as usize + 1;
             }
+            // Restart before the basis exceeds its limit, with the wanted pairs and a third of the others.
             if self.vectors.len() + BLOCK > limit && limit < self.pencil.len() {
                 self.update_pairs();
                 self.restart(count + (limit - count) / 3);
@@ -170,6 +172,7 @@ impl<'a> Lanczos<'a> {
                 lambda = x.dot(&load) / x.dot(&symmetric_product(self.pencil.mass, x.as_view()));
                 x /= self.norm(&x);
             }
+            // The sign of an eigenvector is arbitrary: fix it.
             let sign = if x[x.iamax()] < 0.0 { -1.0 } else { 1.0 };
             modes.push((lambda, x * sign));
         }
@@ -202,6 +205,7 @@ impl<'a> Lanczos<'a> {
         let coefficients = self.orthogonalise(&mut images);
         projection.columns_mut(old, width).copy_from(&coefficients);
         projection.view_mut((old, 0), (width, old)).copy_from(&coefficients.rows(0, old).transpose());
+        // Rounding leaves the diagonal block of the projection slightly asymmetric.
         for i in old..size {
             for j in old..i {
                 let mean = 0.5 * (projection[(i, j)] + projection[(j, i)]);

@@ -48,6 +48,7 @@ impl Frame {
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
     pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
         let (stiffness, solver) = (self.stiffness(), self.solver());
+        // Inverse iterations need many solves: double-doubles only where doubles would cost digits.
         let double = match solver {
             Solver::Extended(_) if self.certificate().condition * f64::EPSILON < DOUBLES_SUFFICE => {
                 Factor::new(&stiffness.upper).ok().map(Solver::Double)

@@ -135,6 +135,7 @@ impl<'a> MassSum<'a> {
             whole.fixed_view_mut::<6, 6>(6 * k, 0).copy_from(&arm(&reference));
         }
         let whole = b * whole;
+        // Magnitudes show whether a mass that should be zero is only rounding.
         let (own, size) = (b * basis, b.abs() * basis.abs());
         let mass = own.transpose() * all * own;
         let momentum = own.transpose() * all * whole;
