@@ -30,8 +30,8 @@ pub struct Hold {
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
 /// let (model, rail) = girder.frame()?;
 /// let frame = Frame::new(&model, &[rail])?;
-/// // Bending moment at midspan of member 0; a unit load up at midspan gives -L/4.
-/// let moment = Effect::Force { member: 0, place: 0.5, component: Component::Mz };
+/// // Bending moment Mz at midspan of member 0; a unit load up at midspan gives -L/4.
+/// let moment = Effect::Force { member: 0, place: 0.5, component: Component::BendingZ };
 /// let load = Probe { rail: 0, x: 30.0, axis: Axis::Vertical };
 /// let value = frame.effects(&model, &[moment], &[load])?;
 /// assert!((value[(0, 0)] + 15.0).abs() < 1e-9);

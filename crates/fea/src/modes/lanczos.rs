@@ -67,9 +67,9 @@ pub(super) struct Lanczos<'a> {
     vectors: Vec<DVector<f64>>,
     projection: DMatrix<f64>,
     /// The block that the next step takes into the basis.
-    next: Vec<DVector<f64>>,
-    /// Coefficients of the next block in K^-1 M times the last one: the residual of a pair is next * coupling *
-    /// the last part of its coefficients.
+    next_block: Vec<DVector<f64>>,
+    /// Coefficients of the next block in K^-1 M times the last one: the residual of a pair is next_block *
+    /// coupling * the last part of its coefficients.
     coupling: DMatrix<f64>,
     /// Largest 1 / lambda seen so far.
     largest: f64,
@@ -98,13 +98,13 @@ impl<'a> Lanczos<'a> {
             pencil,
             vectors: Vec::new(),
             projection: DMatrix::zeros(0, 0),
-            next: Vec::new(),
+            next_block: Vec::new(),
             coupling: DMatrix::zeros(0, 0),
             largest: 0.0,
             random: 0x6a09_e667_f3bc_c908,
             pairs: RitzPairs::default(),
         };
-        out.fill();
+        out.complete_block();
         out
     }
 
@@ -115,7 +115,7 @@ impl<'a> Lanczos<'a> {
         let mut due = self.vectors.len() + 1;
         for _ in 0..(80 + 4 * count) {
             // No next block: the basis holds the whole range of K^-1 M.
-            let full = self.next.is_empty();
+            let full = self.next_block.is_empty();
             if full || self.vectors.len() >= due {
                 self.update_pairs();
                 self.pairs.exhausted = full;
@@ -136,10 +136,10 @@ impl<'a> Lanczos<'a> {
     }
 
     /// Keeps the converged pairs alone and continues from random vectors orthogonal to them.
-    pub fn refresh(&mut self) {
+    pub fn restart_randomly(&mut self) {
         self.restart(self.pairs.converged);
-        self.next.clear();
-        self.fill();
+        self.next_block.clear();
+        self.complete_block();
     }
 
     /// The converged eigenvalues, lowest first.
@@ -192,7 +192,7 @@ impl<'a> Lanczos<'a> {
     /// Takes the next block into the basis and computes the one after it.
     fn step(&mut self) {
         let old = self.vectors.len();
-        let block = std::mem::take(&mut self.next);
+        let block = std::mem::take(&mut self.next_block);
         let mut images: Vec<DVector<f64>> = block
             .iter()
             .map(|x| self.pencil.solve(symmetric_product(self.pencil.mass, x.as_view())))
@@ -219,14 +219,14 @@ impl<'a> Lanczos<'a> {
         for (j, image) in images.into_iter().enumerate() {
             self.append(image, Some(j));
         }
-        self.fill();
+        self.complete_block();
     }
 
     /// Completes the next block with random vectors, as far as they exist.
-    fn fill(&mut self) {
+    fn complete_block(&mut self) {
         let n = self.pencil.len();
         let mut misses = 0;
-        while self.next.len() < BLOCK && misses < 2 {
+        while self.next_block.len() < BLOCK && misses < 2 {
             let mut x = DVector::from_fn(n, |_, _| self.random_number());
             let before = self.norm(&x);
             self.project_out(&mut x);
@@ -252,7 +252,7 @@ impl<'a> Lanczos<'a> {
         self.orthogonalise(std::slice::from_mut(x));
         for _ in 0..2 {
             let image = symmetric_product(self.pencil.mass, x.as_view());
-            for other in &self.next {
+            for other in &self.next_block {
                 let coefficient = other.dot(&image);
                 x.axpy(-coefficient, other, 1.0);
             }
@@ -266,7 +266,7 @@ impl<'a> Lanczos<'a> {
         let scale = if column.is_some() { self.largest } else { 1.0 };
         for _ in 0..2 {
             let image = symmetric_product(self.pencil.mass, x.as_view());
-            for (i, other) in self.next.iter().enumerate() {
+            for (i, other) in self.next_block.iter().enumerate() {
                 let coefficient = other.dot(&image);
                 x.axpy(-coefficient, other, 1.0);
                 if let Some(column) = column {
@@ -280,7 +280,7 @@ impl<'a> Lanczos<'a> {
             return false;
         }
         if let Some(column) = column {
-            self.coupling[(self.next.len(), column)] = size;
+            self.coupling[(self.next_block.len(), column)] = size;
         }
         x /= size;
         // A vector that was small has lost digits of its orthogonality.
@@ -289,7 +289,7 @@ impl<'a> Lanczos<'a> {
             let size = self.norm(&x);
             x /= size;
         }
-        self.next.push(x);
+        self.next_block.push(x);
         true
     }
 

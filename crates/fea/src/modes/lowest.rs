@@ -94,7 +94,7 @@ fn search(lanczos: &mut Lanczos<'_>, count: usize) -> Result<Cut, Error> {
             Err(()) => return Err(fail(known.len())),
             Ok(Some((cut, below))) if cut.below == below => return Ok(cut),
             Ok(Some((cut, below))) if cut.below > below => {
-                lanczos.refresh();
+                lanczos.restart_randomly();
                 need = known.len() + (cut.below - below);
             }
             Ok(Some(_)) => return Err(fail(known.len())),
