@@ -44,7 +44,7 @@ fn paper_surface(bencher: divan::Bencher) {
     bencher.bench(|| surface(&model, &rails));
 }
 
-/// A runway of ten elements a bay on columns of four, all ends rigid.
+/// A runway with ten members in each bay, on columns of four members, all joints rigid.
 fn runway(bays: usize) -> (Model, Rail) {
     let section = |i: f64| Section {
         e: 4.32e9,

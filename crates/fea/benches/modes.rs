@@ -57,7 +57,7 @@ fn building(sides: [usize; 3]) -> Model {
     model
 }
 
-/// Twenty modes of runways of about 10,000 and 100,000 freedoms, factor not counted.
+/// Twenty modes of runways of about 10,000 and 100,000 degrees of freedom, factor not counted.
 #[divan::bench(args = [440, 4400], sample_count = 5)]
 fn runways(bencher: Bencher, bays: usize) {
     let model = runway(bays);
@@ -65,7 +65,7 @@ fn runways(bencher: Bencher, bays: usize) {
     bencher.bench_local(|| black_box(frame.modes(&model, 20).expect("sound")));
 }
 
-/// Twenty modes of a building of about 10,000 freedoms, factor not counted.
+/// Twenty modes of a building of about 10,000 degrees of freedom, factor not counted.
 #[divan::bench(args = [[12, 12, 12]], sample_count = 5)]
 fn buildings(bencher: Bencher, sides: [usize; 3]) {
     let model = building(sides);

@@ -28,7 +28,7 @@ const LOADS: [usize; 2] = [41, 400];
 /// Repetitions; the least time counts.
 const TIMES: usize = 3;
 
-/// A load on a member, for codes that know no rails.
+/// A load on a member, for programs without rails.
 struct Load {
     member: usize,
     place: f64,
@@ -77,7 +77,7 @@ fn empty() -> Model {
     Model { sections: vec![section(4.0), section(1.5)], up: [0.0, 1.0, 0.0], ..Model::default() }
 }
 
-/// A runway of ten members a bay on columns of four.
+/// A runway with ten members in each bay, on columns of four members.
 fn runway(bays: usize) -> Case {
     let mut model = empty();
     let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };

@@ -1,6 +1,6 @@
 //! The paper's girder, from its numbers to the grid of its unit loads: times and coefficients for a comparison.
 //!
-//! `cargo run --release -p fea --example girder` prints a line of least, median and most milliseconds that the thread worked,
+//! `cargo run --release -p fea --example girder` prints a line with the least, median and largest milliseconds of thread time,
 //! then 61 lines of 61 coefficients, ft/lb: row of the displacement, column of the load, both at -15, -13.5, ..., 75 ft.
 //! `fea/bench_peers.py` calls it.
 
@@ -35,7 +35,7 @@ fn main() -> Result<(), fea::Error> {
     Ok(())
 }
 
-/// Milliseconds that this thread has worked: other jobs of the machine do not count.
+/// Time of this thread in milliseconds: other jobs of the machine do not count.
 fn clock() -> f64 {
     let now = clock_gettime(ClockId::ThreadCPUTime);
     1e3 * now.tv_sec as f64 + 1e-6 * now.tv_nsec as f64

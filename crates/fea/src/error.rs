@@ -1,13 +1,23 @@
-//! What can be wrong with a frame.
+//! What can be wrong with a frame, by index; no error knows a model.
 
 use std::fmt;
 
-use crate::Freedom;
+use crate::dof::Freedom;
 
-/// Errors of this crate: ids and numbers; the caller knows the names and files.
+/// Errors of this crate. Entries are reported by index; the caller knows their names and files.
+///
+/// # Example
+/// ```
+/// use fea::{Error, Girder, Item};
+///
+/// let girder = Girder { spans: vec![60.0, -5.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
+/// let Err(error) = girder.frame() else { panic!("a span is negative") };
+/// assert!(matches!(error, Error::Invalid { item: Item::Span(1), .. }));
+/// assert_eq!(error.to_string(), "span 1: length must be positive, got -5");
+/// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// An entry of the model or of a rail that cannot be used.
+    /// An entry of the model or of a rail cannot be used.
     #[error("{item}: {fault}")]
     Invalid {
         /// Which entry.
@@ -15,60 +25,60 @@ pub enum Error {
         /// What is wrong with it.
         fault: Fault,
     },
-    /// Releases of one member that let a part of it move freely.
+    /// The releases of one member let a part of it move without strain.
     #[error("releases of member {member} leave a mechanism in it: {freedom} at its end {end}")]
     Released {
         /// Index of the member.
         member: usize,
         /// 0 at its first point, 1 at its second.
         end: usize,
-        /// Local freedom that nothing holds any more.
+        /// Local degree of freedom that has no stiffness left.
         freedom: Freedom,
     },
     /// The structure can move without strain.
     #[error("mechanism: nothing holds point {point} in {freedom}")]
     Mechanism {
-        /// Point that moves most, stiffness considered.
+        /// Point that moves most, weighted by stiffness.
         point: usize,
-        /// Its freedom that moves most.
+        /// Degree of freedom of the point that moves most.
         freedom: Freedom,
     },
-    /// Rounding may have eaten more digits than asked.
+    /// The error bound that rounding allows is larger than the accuracy asked for.
     #[error(
         "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {freedom}"
     )]
     Ill {
-        /// Estimate of the condition of the scaled stiffness.
+        /// Estimate of the condition number of the scaled stiffness.
         condition: f64,
-        /// Relative bound that can be given, infinite where there is none.
+        /// Relative error bound that can be given; infinite if there is none.
         bound: f64,
-        /// Relative bound asked.
+        /// Relative error bound asked for.
         asked: f64,
-        /// Point that moves most in the weakest pattern.
+        /// Point that moves most in the weakest motion.
         point: usize,
-        /// Its freedom that moves most.
+        /// Degree of freedom of the point that moves most.
         freedom: Freedom,
     },
-    /// A structure without any stiffened freedom, or too large for the factor.
-    #[error("the stiffness of {unknowns} freedoms cannot be factored")]
+    /// The stiffness is not finite, or its factor exceeds the indices or the memory.
+    #[error("the stiffness of {unknowns} degrees of freedom cannot be factored")]
     Factor {
-        /// Number of unknown freedoms.
+        /// Number of unknown degrees of freedom.
         unknowns: usize,
     },
-    /// More memory than is allowed, before any of it is taken.
+    /// More memory is needed than is allowed. Nothing has been allocated.
     #[error("the {quantity} would take {bytes} bytes, more than {most}")]
     Memory {
-        /// What it is for.
+        /// What the memory is for.
         quantity: Quantity,
-        /// How much it would be.
+        /// How much is needed.
         bytes: u64,
-        /// How much it may be.
+        /// How much is allowed.
         most: u64,
     },
-    /// Modes of a structure without mass.
-    #[error("no mass is on a freedom that can move")]
+    /// Modes were asked for, but the structure has no mass that can move.
+    #[error("no degree of freedom that can move has mass")]
     NoMass,
-    /// Modes that could not all be found, or not shown to be all.
+    /// The modes could not all be found, or could not be shown to be the lowest.
     #[error("{found} of {asked} modes were found, but not shown to be the lowest")]
     Modes {
         /// How many were asked for.
@@ -76,15 +86,15 @@ pub enum Error {
         /// How many were found.
         found: usize,
     },
-    /// All modes of a frame that has too many.
+    /// All modes were asked for, of a frame with too many unknowns.
     #[error("all modes of {unknowns} unknowns: at most {most} can be found together")]
     TooManyModes {
-        /// Unknown freedoms.
+        /// Number of unknown degrees of freedom.
         unknowns: usize,
-        /// Most of them.
+        /// Largest number allowed.
         most: usize,
     },
-    /// A rail was asked for where none was given.
+    /// A rail was asked for, but none was given.
     #[error("no rail was given")]
     NoRails,
     /// A place or direction that the rails do not offer.
@@ -95,7 +105,7 @@ pub enum Error {
 /// An entry, by its index in the model's or rail's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Item {
-    /// The direction up.
+    /// The global direction up.
     Up,
     /// A point.
     Point(usize),
@@ -126,7 +136,7 @@ pub enum Item {
         /// Which of its segments.
         segment: usize,
     },
-    /// An effect asked for, by its place in the list.
+    /// An effect asked for, by its index in the list.
     Effect(usize),
     /// A station of a rail.
     Station {
@@ -140,26 +150,26 @@ pub enum Item {
 /// What is wrong with an entry.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Fault {
-    /// Infinite or not a number.
+    /// The number is infinite or not a number.
     #[error("{quantity} is not finite")]
     NotFinite {
         /// Which number of the entry.
         quantity: Quantity,
     },
-    /// Must be above zero.
+    /// The number must be positive.
     #[error("{quantity} must be positive, got {value}")]
     NotPositive {
         /// Which number of the entry.
         quantity: Quantity,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
-    /// Must not be below zero.
+    /// The number must not be negative.
     #[error("{quantity} must not be negative, got {value}")]
     Negative {
         /// Which number of the entry.
         quantity: Quantity,
-        /// What was given.
+        /// The value given.
         value: f64,
     },
     /// A shear area without a shear modulus.
@@ -189,18 +199,18 @@ pub enum Fault {
         /// The place given.
         place: f64,
     },
-    /// A freedom of a point without a reaction of its own.
+    /// A degree of freedom of a point without a reaction of its own.
     #[error("point {point} has no reaction of its own in {freedom}")]
     NoHold {
         /// The point given.
         point: usize,
-        /// The freedom given.
+        /// The degree of freedom given.
         freedom: Freedom,
     },
-    /// A flexible part without length.
+    /// The flexible part of a member has no length.
     #[error("the flexible part has no length")]
     NoLength,
-    /// An orientation that does not fix the local axes.
+    /// An orientation that does not determine the local axes.
     #[error("the orientation is parallel to the member, or zero")]
     Orientation,
     /// An empty list.
@@ -212,10 +222,10 @@ pub enum Fault {
     /// A rail axis without length, or along `up`.
     #[error("the axis is zero or parallel to up")]
     Axis,
-    /// A segment at right angles to the rail.
+    /// A segment whose member is at right angles to the rail.
     #[error("the member has no extent along the rail")]
     NoExtent,
-    /// Two segments over one stretch of rail.
+    /// Two segments that cover the same stretch of rail.
     #[error("overlaps segment {segment} at x = {x}")]
     Overlap {
         /// The other segment.
@@ -223,7 +233,7 @@ pub enum Fault {
         /// Where the overlap begins.
         x: f64,
     },
-    /// A station that is not beyond the one before it.
+    /// A station that is not larger than the one before it.
     #[error("stations must increase, got {value}")]
     Unsorted {
         /// The station.
@@ -280,7 +290,7 @@ pub enum Quantity {
     Factor,
     /// Influence coefficients of a list of probes.
     Grid,
-    /// Compliance of the ends of all cells.
+    /// Compliance of the ends of all rail elements.
     Surface,
 }
 
@@ -332,4 +342,21 @@ impl fmt::Display for Quantity {
             Quantity::Surface => "surface",
         })
     }
+}
+
+/// Checks that all numbers are finite.
+pub(crate) fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Fault> {
+    if values.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Fault::NotFinite { quantity }) }
+}
+
+/// Checks that a number is finite and positive.
+pub(crate) fn positive(quantity: Quantity, value: f64) -> Result<(), Fault> {
+    finite(quantity, &[value])?;
+    if value > 0.0 { Ok(()) } else { Err(Fault::NotPositive { quantity, value }) }
+}
+
+/// Checks that a number is finite and not negative.
+pub(crate) fn not_negative(quantity: Quantity, value: f64) -> Result<(), Fault> {
+    finite(quantity, &[value])?;
+    if value >= 0.0 { Ok(()) } else { Err(Fault::Negative { quantity, value }) }
 }

@@ -23,7 +23,7 @@ fn chain(cuts: &[f64]) -> (Model, Rail) {
     )
 }
 
-/// True relative error at 31 ft and the bound; `None` where the frame is refused.
+/// True relative error at 31 ft and its bound; `None` if the frame is refused.
 fn check(cuts: &[f64]) -> Option<(f64, f64)> {
     let (model, rail) = chain(cuts);
     let frame = match Frame::new(&model, &[rail]) {

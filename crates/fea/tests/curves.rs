@@ -8,7 +8,7 @@ use fea::{Freedom, Member, Model, Section, Spring, Support, nodal};
 
 const ALL: [bool; 6] = [true; 6];
 
-/// Chords of a curve given by t in 0..=1, with orientations.
+/// Chords of a curve with the parameter t from 0 to 1, with orientations.
 fn chain(
     count: usize,
     at: impl Fn(f64) -> [f64; 3],
@@ -25,7 +25,7 @@ fn chain(
     }
 }
 
-fn give(model: &Model, point: usize, a: Freedom, b: Freedom) -> f64 {
+fn compliance(model: &Model, point: usize, a: Freedom, b: Freedom) -> f64 {
     let (c, _) = nodal(model, &[point]).expect("it stands");
     c[(a as usize, b as usize)]
 }
@@ -58,7 +58,7 @@ fn quarter_circle_in_its_plane_follows_castigliano() {
     assert!((wanted / 0.08734 - 1.0).abs() < 0.02);
     let section = Section { e, g: 4e6, area, iy: i, iz: i, j: i, ..Section::default() };
     converges(wanted, [20, 40], 2.0, 5e-4, |count| {
-        give(&quarter(count, r, section), count, Freedom::Ux, Freedom::Ux)
+        compliance(&quarter(count, r, section), count, Freedom::Ux, Freedom::Ux)
     });
 }
 
@@ -71,7 +71,7 @@ fn quarter_circle_out_of_its_plane_bends_and_twists() {
     assert!((wanted / 0.5022 - 1.0).abs() < 0.01, "{wanted}");
     let section = Section { e, g, area: 0.02, iy: i, iz: i, j, ..Section::default() };
     converges(wanted, [20, 40], 2.0, 5e-4, |count| {
-        give(&quarter(count, r, section), count, Freedom::Uz, Freedom::Uz)
+        compliance(&quarter(count, r, section), count, Freedom::Uz, Freedom::Uz)
     });
 }
 
@@ -79,7 +79,7 @@ fn quarter_circle_out_of_its_plane_bends_and_twists() {
 fn ring_between_two_forces_flattens_and_widens() {
     // Timoshenko, Strength of Materials II: (pi/4 - 2/pi) and (2/pi - 1/2) of P R^3/EI; a quarter, by symmetry.
     let (r, e, i) = (2.0_f64, 2e11, 1e-6);
-    // Axially rigid but for 1e-9 of the bending.
+    // Axially rigid, except for 1e-9 of the bending.
     let section = Section { e, g: 8e10, area: 1e3, iy: i, iz: i, j: i, ..Section::default() };
     let build = |count: usize| {
         let mut model = chain(
@@ -92,10 +92,10 @@ fn ring_between_two_forces_flattens_and_widens() {
         model.supports.push(Support { point: count, fix: [false, true, true, true, true, true] });
         model
     };
-    // Half the force acts on the quarter, which moves half the flattening.
+    // Half the force acts on the quarter, and its end moves by half the flattening.
     let unit = r.powi(3) / (e * i);
     converges((0.25 * PI - 2.0 / PI) * unit, [20, 40], 2.0, 1e-2, |count| {
-        give(&build(count), 0, Freedom::Uy, Freedom::Uy)
+        compliance(&build(count), 0, Freedom::Uy, Freedom::Uy)
     });
     converges((2.0 / PI - 0.5) * unit, [20, 40], 2.0, 1e-2, |count| {
         let model = build(count);
@@ -129,7 +129,7 @@ fn twisted_strip_follows_the_rotating_axes() {
     {
         let wanted = l.powi(3) / e * (cos / near + sin / far);
         assert!((wanted / published - 1.0).abs() < 0.01, "{wanted} for {published}");
-        converges(wanted, [24, 48], 2.0, 1e-2, |count| give(&build(count), count, freedom, freedom));
+        converges(wanted, [24, 48], 2.0, 1e-2, |count| compliance(&build(count), count, freedom, freedom));
     }
 }
 
@@ -149,13 +149,14 @@ fn bedded_rail_sinks_as_hetenyi_says() {
             let stiffness = share * u * length / count as f64;
             model.springs.push(Spring { point, freedom: Freedom::Uy, stiffness });
         }
-        give(&model, count / 2, Freedom::Uy, Freedom::Uy)
+        compliance(&model, count / 2, Freedom::Uy, Freedom::Uy)
     };
     // Lumped springs: the error of the lattice sum falls with the fourth power.
     converges(wanted, [96, 192], 4.0, 1e-5, found);
 }
 
-/// A rail of EI 1.47e7 lb ft^2 on a pad of 3000 psi, springs 3 in apart, feet: what wheels beside it and the girder see.
+/// A rail of EI 1.47e7 lb ft^2 on a pad of 3000 psi, springs 3 in apart, feet: the compliance under a wheel and at
+/// wheels beside it.
 #[test]
 fn a_rail_on_its_pad_gives_more_than_the_girder_and_spreads() {
     let (ei, u) = (1.47e7, 3000.0 * 144.0);
@@ -168,7 +169,7 @@ fn a_rail_on_its_pad_gives_more_than_the_girder_and_spreads() {
         model.springs.push(Spring { point, freedom: Freedom::Uy, stiffness: share * u * a });
     }
     let middle = count / 2;
-    // 32 in are 10.67 springs: between the places before and after it
+    // 32 in are 10.67 springs: the mean of the values at the springs before and after
     let (c, _) = nodal(&model, &[middle, middle + 10, middle + 11, 0]).expect("it stands");
     let at = |i: usize| c[(1, 6 * i + 1)];
     let figure = |what: &str, known: f64| claims::figure("1 Readings of tables", what, "prototype", known);
@@ -177,14 +178,14 @@ fn a_rail_on_its_pad_gives_more_than_the_girder_and_spreads() {
         .met(at(0) / (60.0_f64.powi(3) / (48.0 * 9.528 * 4.32e9)), 0.05);
     let beside = at(1) + (at(2) - at(1)) * (32.0 / 12.0 / a - 10.0);
     figure("32 in beside it, by that", 0.65).met(beside / at(0), 5e-3);
-    // of an endless rail, by Hetenyi
+    // Hetenyi, for an endless rail.
     figure("at a free end of the rail, by that", 4.0).met(c[(19, 19)] / at(0), 0.05);
 }
 
 #[test]
 fn pinned_semicircle_pushes_outward_by_one_over_pi() {
     // Timoshenko, Strength of Materials II: thrust P/pi of a two-hinged semicircular arch under a load at its
-    // crown; here by reciprocity: crown displacement per outward push over that of the foot.
+    // crown; here by reciprocity: displacement of the crown per outward force over that of the foot.
     let (r, e, i) = (10.0_f64, 2e11, 1e-4);
     let section = Section { e, g: 8e10, area: 1e5, iy: i, iz: i, j: i, ..Section::default() };
     let found = |count: usize| {

@@ -22,7 +22,7 @@ fn probe(axis: Axis, x: f64) -> Probe {
     Probe { rail: 0, x, axis }
 }
 
-/// A girder of one member a span, without overhangs, and what it answers.
+/// A girder of one member a span, without overhangs, and its factored frame.
 fn girder(spans: &[f64], theory: Theory) -> (Model, Frame) {
     let given = Girder {
         spans: spans.to_vec(),
@@ -38,7 +38,7 @@ fn girder(spans: &[f64], theory: Theory) -> (Model, Frame) {
     (model, frame)
 }
 
-/// Largest difference of an influence line from its closed form, of `scale`.
+/// Largest difference of an influence line from its closed form, relative to `scale`.
 fn worst(
     (model, frame): &(Model, Frame),
     effect: Effect,
@@ -145,7 +145,7 @@ fn three_span_support_moment_and_shear_follow_the_three_moment_equation() {
     let moment = force(1, 0.0, Component::BendingZ);
     let error = worst(&beam, moment, Axis::Vertical, &x, SPAN, at_b);
     assert!(error < 1e-13, "{error:e}");
-    // In the first span the shear is that of a simple beam and the end moment's.
+    // In the first span the shear is that of a simple beam plus that of the end moment.
     let shear = |z: f64| {
         let own = if z < SPAN { (SPAN - z) / SPAN - f64::from(u8::from(z < 24.0)) } else { 0.0 };
         own - at_b(z) / SPAN + if z == 24.0 { -0.5 } else { 0.0 }
@@ -161,7 +161,7 @@ fn overhangs_act_as_cantilevers_and_lift_the_span() {
     let frame = Frame::new(&model, &[rail]).expect("solvable");
     let beam = (model, frame);
     let x: Vec<f64> = (-15..=75).map(f64::from).collect();
-    // Members: overhang, span, overhang. Just inside the second overhang's root.
+    // Members: overhang, span, overhang. The section is just inside the root of the second overhang.
     let root = force(2, 0.0, Component::BendingZ);
     let error = worst(&beam, root, Axis::Vertical, &x, SPAN, |z| (z - SPAN).max(0.0));
     assert!(error < 1e-13, "{error:e}");
@@ -176,7 +176,7 @@ fn overhangs_act_as_cantilevers_and_lift_the_span() {
     assert!(error < 1e-13, "{error:e}");
 }
 
-/// Source: statics; twist is held at both supports, so a torque at z is shared by the lever rule.
+/// Source: statics; both supports fix the twist, so that they carry a torque at z by the lever rule.
 #[test]
 fn lateral_load_above_the_axis_twists_the_girder() {
     let beam = girder(&[SPAN], Theory::Timoshenko);
@@ -191,7 +191,7 @@ fn lateral_load_above_the_axis_twists_the_girder() {
     assert!(error < 1e-13, "{error:e}");
 }
 
-/// Source: statics; the first support alone holds the length, the load acts at the rail's height.
+/// Source: statics; only the first support fixes the displacement along x; the load acts at the height of the rail.
 #[test]
 fn longitudinal_load_pulls_and_bends() {
     let beam = girder(&[SPAN], Theory::EulerBernoulli);
@@ -222,7 +222,7 @@ fn all_components(sections: &[(usize, f64)]) -> Vec<Effect> {
 
 #[test]
 fn sections_are_in_equilibrium_from_both_sides() {
-    // The same members listed from their other ends: forces come from the other part of the member.
+    // The same members listed from their other ends: the forces are those of the other part of the member.
     let (model, rail, at, sections) = mill_cases();
     let mut turned = model.clone();
     for member in &mut turned.members {
@@ -237,7 +237,7 @@ fn sections_are_in_equilibrium_from_both_sides() {
     let two = Frame::new(&turned, &rails).expect("solvable");
     let a = one.effects(&model, &all_components(&sections), &at).expect("on the rail");
     let b = two.effects(&turned, &all_components(&mirrored), &at).expect("on the rail");
-    // Half a turn about local y, and the other part's face.
+    // Half a turn about local y, and the face of the other part.
     let sign = [1.0, -1.0, 1.0, 1.0, -1.0, 1.0];
     for (i, row) in a.row_iter().enumerate() {
         for (j, found) in row.iter().enumerate() {
@@ -274,7 +274,7 @@ fn moments_are_the_integrals_of_shears() {
 
 #[test]
 fn forces_under_loads_inside_members_equal_those_with_nodes_there() {
-    // Arms, a hinge, shear; loads before, behind and beside the section, all three directions.
+    // Rigid offsets, a hinge, shear; loads before, behind and beside the section, in all three directions.
     let (mut model, rail) = mill(Theory::Timoshenko);
     model.members[29].releases[0] = [false, false, false, true, true, true];
     let member = 29;
@@ -353,12 +353,12 @@ fn effects_of_what_does_not_exist_are_refused() {
     };
     refused(force(1, 0.5, Component::Axial), Fault::NoMember { member: 1 });
     refused(force(0, 1.5, Component::Axial), Fault::NoPlace { place: 1.5 });
-    let hold = |point, freedom| Effect::Reaction(Hold { point, freedom, spring: None });
-    refused(hold(1, Freedom::Ux), Fault::NoHold { point: 1, freedom: Freedom::Ux });
-    refused(hold(7, Freedom::Uy), Fault::NoHold { point: 7, freedom: Freedom::Uy });
+    let restraint = |point, freedom| Effect::Reaction(Hold { point, freedom, spring: None });
+    refused(restraint(1, Freedom::Ux), Fault::NoHold { point: 1, freedom: Freedom::Ux });
+    refused(restraint(7, Freedom::Uy), Fault::NoHold { point: 7, freedom: Freedom::Uy });
 }
 
-/// Forces are differences of displacements times stiffness; short members take digits from them.
+/// Forces are differences of displacements times stiffness: short members cost them digits.
 #[test]
 fn forces_keep_ten_digits_at_300_members_a_span() {
     let (model, rail) =

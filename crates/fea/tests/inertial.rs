@@ -53,13 +53,13 @@ fn weight_of_two_spans_rests_on_supports_as_the_three_moment_theorem_says() {
         cut(1.0, Component::ShearY),
     ]);
     let found = frame.inertial(&model, &effects, &[]).expect("effects of the weight").rigid;
-    // the load M a of a = 1 upwards; weight is the opposite
+    // The load M a for a = 1 upwards; weight is the opposite.
     let w = LINE_MASS;
     for (row, expected) in [
         (0, -3.0 / 8.0 * w * SPAN),
         (1, -10.0 / 8.0 * w * SPAN),
         (2, -3.0 / 8.0 * w * SPAN),
-        // hogs under an upward load: the largest span moment, 9/128 w L^2, where shear is nil
+        // The beam hogs under an upward load: the largest span moment is 9/128 w L^2, where the shear is zero.
         (3, -9.0 / 128.0 * w * SPAN * SPAN),
         (5, w * SPAN * SPAN / 8.0),
         (6, -5.0 / 8.0 * w * SPAN),
@@ -109,7 +109,7 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
     let all = frame.inertial(&model, &effects, &[]).expect("effects of the weight").rigid;
     for (k, place) in places.into_iter().enumerate() {
         let beyond = SPAN * (1.0 - place);
-        // of the part beyond on the face: for a load upwards, Mz and Vy up, Mx of the arm of the mass
+        // Forces of the part beyond on the face, for a load upwards: Mz, Vy, and Mx by the arm of the mass.
         let moment = all[(3 * k, 1)] - 111.0 * beyond * beyond / 2.0 - 50.0 * beyond;
         assert!(moment.abs() < 1e-11 * 111.0 * SPAN * SPAN, "{moment:e} at {place}");
         close(all[(3 * k + 1, 1)], 111.0 * beyond + 50.0, 1e-11);
@@ -133,7 +133,7 @@ fn the_first_mode_bends_midspan_by_m_over_pi_squared() {
         let found = frame.inertial(&refined.model, &effects, &refined.modes.modes).expect("effects");
         let mode = refined.modes.modes.iter().position(|mode| mode.coupling[1].abs() > 1.0);
         let mode = mode.expect("the first symmetric mode in the vertical plane");
-        // rotary inertia changes the shape's size, and adds nothing at midspan but through it
+        // Rotary inertia acts at midspan only through the size of the shape, which it changes.
         let size = refined.modes.modes[mode].coupling[1] * PI / (2.0 * LINE_MASS * SPAN);
         let tolerance = if theory == Theory::EulerBernoulli { 1e-6 } else { 1e-2 };
         let load = LINE_MASS * size;

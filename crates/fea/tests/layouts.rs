@@ -1,4 +1,4 @@
-//! Random layouts of wheels on three structures: influence matrices that contact can always be solved with.
+//! Random layouts of wheels on three structures: their influence matrices always allow the contact to be solved.
 
 mod common;
 
@@ -7,7 +7,7 @@ use fea::{Girder, Theory, surface};
 use nalgebra::{Cholesky, DMatrix};
 use splines::{Axis, Compliance, Influence, Probe, Surface};
 
-/// Lengths of the ends of one rail, and the axes in which its wheels press.
+/// Coordinates of the ends of one rail, and the axes in which its wheels press.
 struct Case {
     name: &'static str,
     surface: Surface,
@@ -65,7 +65,7 @@ fn layout(case: &Case, random: &mut Stream) -> Vec<Probe> {
         .collect()
 }
 
-/// Least eigenvalue met, of the largest of its matrix.
+/// Smallest eigenvalue found, relative to the largest of its matrix.
 fn check(case: &Case, layouts: usize, seed: u64) -> f64 {
     let mut random = Stream(seed);
     let mut worst = f64::INFINITY;

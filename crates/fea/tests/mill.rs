@@ -62,7 +62,7 @@ fn surface_and_grid_are_the_same_function() {
     let (model, rail) = mill(Theory::Timoshenko);
     let rails = [rail];
     let exact = surface(&model, &rails).expect("solvable");
-    // Inside members, at their ends, in the gaps over columns.
+    // Places inside members, at their ends, and in the gaps over columns.
     let places = [0.75, 3.3, 39.25, 39.7, 40.0, 40.4, 41.0, 169.5, 170.0, 170.5, 171.0, 324.25];
     let at: Vec<Probe> = Axis::ALL.iter().flat_map(|&axis| probes(axis, &places)).collect();
     let value = grid(&model, &rails, &at).expect("solvable").value;

@@ -1,4 +1,4 @@
-//! What a frame may be made of, each against a closed form (analytic).
+//! Everything that a frame can be made of, each against a closed form (analytic).
 
 mod common;
 
@@ -76,7 +76,7 @@ fn beam_on_springs_sinks_with_them_by_the_lever_rule() {
     near(found.expect("on the rail")[(0, 0)], -0.25, 1e-13);
 }
 
-/// Source: cantilever with a root that turns, L^3/3EI + L^2/k.
+/// Source: cantilever with a root that rotates, L^3/3EI + L^2/k.
 #[test]
 fn rotational_spring_holds_a_cantilever() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
@@ -118,12 +118,12 @@ fn two_bar_truss_sinks_as_published() {
     model.supports = vec![support(0, "ux uy uz"), support(1, "ux uy uz"), support(2, "uz")];
     let (found, _) = nodal(&model, &[2]).expect("solvable");
     near(found[(1, 1)] / (5.0 / (2.0 * EA * 0.64)), 1.0, 1e-13);
-    // Bars turn nobody: rotations are not stiffened.
+    // Bars transmit no moment: nothing stiffens the rotations.
     assert!(found[(5, 5)] == f64::INFINITY);
 }
 
-/// Source: statics and the unit-load theorem. The right end stands on a strut at 45 degrees, which pushes
-/// along the beam as much as it carries.
+/// Source: statics and the unit-load theorem. The right end stands on a strut at 45 degrees, whose thrust along
+/// the beam equals the force that it carries.
 #[test]
 fn inclined_support_by_a_strut_pulls_the_beam() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
@@ -146,14 +146,14 @@ fn inclined_support_by_a_strut_pulls_the_beam() {
     }
 }
 
-/// Source: geometry. A rigid lever at 45 degrees, held where it ends: the beam's end can move across it alone,
-/// as on a roller on an inclined plane, while the lever turns.
+/// Source: geometry. A rigid lever at 45 degrees with a fixed far end: the end of the beam can move only across
+/// it, as on a roller on an inclined plane, while the lever rotates.
 #[test]
 fn inclined_support_by_a_rigid_link_guides_across_the_link() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.points.extend([[SPAN, 0.0, 0.0], [SPAN + 2.0, -2.0, 0.0]]);
     model.links = vec![Link { from: 2, to: 3 }];
-    // A short stiff joint with a hinge, so that the lever turns apart from the beam.
+    // A short stiff joint with a hinge, so that the lever can rotate relative to the beam.
     model.members[0] = Member { points: [0, 2], ..model.members[0] };
     model.members[0].releases[1][5] = true;
     model.points[1] = [SPAN, 5.0, 0.0];
@@ -162,7 +162,7 @@ fn inclined_support_by_a_rigid_link_guides_across_the_link() {
     let (moved, _) = nodal(&model, &[2]).expect("solvable");
     // Displacements at the joint lie along (1, 1)/sqrt 2.
     for k in 0..6 {
-        assert!((moved[(0, k)] - moved[(1, k)]).abs() <= 1e-12 * moved.amax(), "freedom {k}");
+        assert!((moved[(0, k)] - moved[(1, k)]).abs() <= 1e-12 * moved.amax(), "degree of freedom {k}");
     }
     // Cantilever bending 3EI/L^3 and stretch EA/L resist the motion s along it, each by s/sqrt 2.
     let stiffness = 0.5 * (3.0 * EI / SPAN.powi(3) + EA / SPAN);

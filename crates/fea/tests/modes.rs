@@ -13,7 +13,7 @@ mod common;
 const L: f64 = 7.3;
 const FIXED: Freedoms6 = [true; 6];
 
-/// A steel box: every number matters.
+/// A steel box with all stiffnesses and mass.
 fn section() -> Section {
     Section {
         e: 2.1e11,
@@ -32,7 +32,7 @@ fn beam(points: [usize; 2]) -> Member {
     Member::beam(points, 0, [0.0, 1.0, 0.0])
 }
 
-/// A straight chain of equal members along x; ends held as given.
+/// A straight chain of equal members along x; `ends` are the fixed degrees of freedom of its ends.
 fn chain(count: usize, theory: Theory, ends: [Freedoms6; 2]) -> Model {
     let mut model = Model { up: [0.0, 1.0, 0.0], theory, ..Model::default() };
     model.sections.push(section());
@@ -48,7 +48,7 @@ fn chain(count: usize, theory: Theory, ends: [Freedoms6; 2]) -> Model {
     model
 }
 
-/// A chain that bends in its x-y plane alone.
+/// A chain that can bend only in its x-y plane.
 fn plane(count: usize, theory: Theory, ends: [Freedoms6; 2]) -> Model {
     let mut model = chain(count, theory, ends);
     let fix = [true, false, true, true, true, false];
@@ -80,7 +80,7 @@ fn root(f: impl Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
     0.5 * (a + b)
 }
 
-/// omega = k^2 sqrt(EI/m) of an Euler-Bernoulli beam whose k L is given.
+/// omega = k^2 sqrt(EI/m) of an Euler-Bernoulli beam, by its k L.
 fn bending(kl: f64) -> f64 {
     let s = section();
     (kl / L).powi(2) * (s.e * s.iz / s.mass).sqrt()
@@ -141,8 +141,8 @@ fn sheared(mode: usize) -> f64 {
     (2.0 * c / (b + (b * b - 4.0 * a * c).sqrt())).sqrt()
 }
 
-/// The shape of an unloaded member has constant shear; inertia makes it linear. What is missed of the
-/// compliance is m h^2 / (12 GAs) of 1 / omega^2, so omega errs by omega^2 m h^2 / (24 GAs).
+/// The shape of an unloaded member has constant shear; inertia makes it linear. The compliance is too small by
+/// m h^2 / (12 GAs) of 1 / omega^2, so the relative error of omega is omega^2 m h^2 / (24 GAs).
 #[test]
 fn frequencies_of_sheared_beams_err_by_the_shear_within_elements() {
     let s = section();
@@ -204,7 +204,8 @@ fn a_mass_at_the_tip_of_a_cantilever_has_its_transcendental_roots() {
     }
 }
 
-/// A mass M at midspan of a pinned beam is slower than on a massless one by 1/2 m / M, m = 17/35 of the beam's.
+/// The frequency of a mass M at midspan of a pinned beam is lower than on a massless one by 1/2 m / M, where m
+/// is 17/35 of the mass of the beam.
 ///
 /// Source: Rayleigh, The Theory of Sound (1877), section 182: the static shape.
 #[test]
@@ -262,7 +263,7 @@ fn a_mass_on_springs_has_the_modes_of_two_by_two() {
     assert!((solved.total[1][5] / (mass * 2.7) - 1.0).abs() < 1e-14);
 }
 
-/// A portal with a bracket, turned in space; `arms`: the bracket by rigid arms, else by linked points.
+/// A portal with a bracket, rotated in space. With `arms` the bracket is rigid offsets, otherwise linked points.
 fn bracket(arms: bool, turn: bool) -> Model {
     let mut model = Model { up: [0.0, 1.0, 0.0], theory: Theory::Timoshenko, ..Model::default() };
     model.sections.push(section());
@@ -307,7 +308,7 @@ fn rigid_arms_are_rigid_links_and_directions_do_not_matter() {
         assert!((links.modes[k].omega / mode.omega - 1.0).abs() < 1e-11, "mode {k}");
         assert!((turned.modes[k].omega / mode.omega - 1.0).abs() < 1e-11, "mode {k}");
     }
-    // The beam is shorter by nothing: both ends of the arms are the linked points.
+    // The beam is as long as before: the ends of the rigid offsets are the linked points.
     assert!((links.total[0][0] / arms.total[0][0] - 1.0).abs() < 1e-14);
 }
 
@@ -354,14 +355,14 @@ fn shapes_along_the_rail_are_sines_and_effective_masses_theirs() {
 
 #[test]
 fn effective_masses_of_all_modes_add_up_to_what_can_move() {
-    // A cantilever with nothing on its clamped node but half an element.
+    // A cantilever whose clamped node carries half an element and nothing else.
     let model = chain(20, Theory::Timoshenko, [FIXED, FREE]);
     let solved = solve(&model, 120);
     assert_eq!((solved.modes.len(), solved.next), (120, None));
     let mass = section().mass * L;
     for axis in 0..3 {
         let sum: f64 = solved.modes.iter().map(|mode| mode.coupling[axis].powi(2)).sum();
-        // Shapes that vanish at the clamp miss a part of the rigid motion of the first element.
+        // Shapes that are zero at the clamp lack a part of the rigid motion of the first element.
         assert!(sum < mass && sum > 0.98 * mass, "{axis}: {sum} of {mass}");
     }
 }

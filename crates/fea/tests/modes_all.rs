@@ -1,4 +1,4 @@
-//! All modes of a mesh: against the search for the lowest, and what they must add up to.
+//! All modes of a mesh: against the search for the lowest, and against the static compliance that they add up to.
 
 mod common;
 
@@ -6,7 +6,7 @@ use common::{mill, paper, probes};
 use fea::{Error, Frame, Theory, full_modes, modes};
 use splines::Axis;
 
-/// Two algorithms that share the matrices alone: dense eigenvalues, block Lanczos with a count.
+/// Two algorithms that share only the matrices: dense eigenvalues, and block Lanczos with a count.
 #[test]
 fn lowest_of_all_modes_are_those_that_the_search_finds() {
     let (mut model, rail) = mill(Theory::Timoshenko);
@@ -28,7 +28,8 @@ fn lowest_of_all_modes_are_those_that_the_search_finds() {
     }
 }
 
-/// Statics: what all modes leave of the influence surface is the clamped cells' own give, exactly zero at nodes.
+/// Statics: without the part of all modes the influence surface is that of rail elements between fixed ends, which
+/// is zero at nodes.
 #[test]
 fn all_modes_carry_every_load_at_the_nodes() {
     let mut girder = paper();
@@ -42,10 +43,10 @@ fn all_modes_carry_every_load_at_the_nodes() {
     let at = probes(Axis::Vertical, &[7.5, 15.0, 30.0, 45.0]);
     let mut influence = splines::Influence::zeros(at.len());
     splines::Compliance::fill(&rest, &at, &mut influence).expect("on the rail");
-    // 7.5 ft is a node of eight elements over 60 ft, as the others are
-    let give = influence.value.amax();
-    println!("{} modes leave {give:.1e} of {largest:.1e}", refined.modes.modes.len());
-    assert!(give < 1e-9 * largest);
+    // All places are nodes of eight elements over 60 ft.
+    let left = influence.value.amax();
+    println!("{} modes leave {left:.1e} of {largest:.1e}", refined.modes.modes.len());
+    assert!(left < 1e-9 * largest);
 }
 
 #[test]

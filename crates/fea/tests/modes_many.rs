@@ -1,4 +1,4 @@
-//! Natural modes of frames with many alike: none missed, none twice.
+//! Natural modes of frames with many equal frequencies: none is missing, none is found twice.
 
 use fea::{Mass, Member, Model, Modes, Section, Support, Theory, modes};
 
@@ -93,7 +93,7 @@ fn every_copy_of_a_multiple_frequency_is_found() {
 fn a_part_of_a_cluster_is_given_with_the_count_of_all_or_of_those_before() {
     let copies = 60;
     let one = solve(&towers(1), 3);
-    // Within the first cluster, all of which fits; and within the second of a frame whose does not.
+    // A count within the first cluster, which is small enough to be found whole, and within one that is not.
     let few = solve(&towers(copies), 10);
     assert_eq!((few.modes.len(), few.below), (10, copies));
     let copies = 80;
@@ -115,7 +115,7 @@ fn hundreds_of_nearly_equal_modes_of_braces_are_all_found() {
     let near = omegas.windows(2).filter(|pair| pair[1] < 1.001 * pair[0]).count();
     println!("{near} of 199 neighbours within 0.1 %");
     assert!(near > 100, "not much of a cluster: {near}");
-    // A search for fewer finds the same.
+    // A search for fewer modes finds the same ones.
     for count in [1, 17, 60] {
         let fewer = solve(&model, count);
         assert_eq!(fewer.modes.len(), count);

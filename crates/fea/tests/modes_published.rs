@@ -66,8 +66,8 @@ fn nafems_fv2_double_cross() {
         11.336, 17.709, 17.709, 17.709, 17.709, 17.709, 17.709, 17.709, 45.345, 57.390, 57.390, 57.390,
         57.390, 57.390, 57.390, 57.390,
     ];
-    // The targets are those of inextensible arms: where the centre moves (modes 2, 3, 10, 11) their stretch
-    // takes off 1.6e-3 and 5.5e-3. Four cubic members an arm add up to 6.2e-3, sixteen 3e-5.
+    // The targets are those of inextensible arms: where the centre moves (modes 2, 3, 10, 11) the extension of
+    // the arms lowers them by 1.6e-3 and 5.5e-3. Four cubic members an arm add up to 6.2e-3, sixteen 3e-5.
     let coarse = hertz(&solve(&double_cross(4), 16));
     let fine = hertz(&solve(&double_cross(16), 16));
     println!("coarse {coarse:.3?}\nfine {fine:.3?}");
@@ -97,7 +97,7 @@ fn nafems_fv4_cantilever_with_masses_off_its_axis() {
 }
 
 /// Source: NAFEMS, Selected Benchmarks for Natural Frequency Analysis (1987), test FV5: 2 m square, five members.
-/// The closed forms, and what its "exact beam element" gives on the mesh of five.
+/// The closed forms, and the results of its "exact beam element" on the mesh of five.
 #[test]
 fn nafems_fv5_deep_beam() {
     let side = 2.0_f64;

@@ -29,7 +29,7 @@ fn solve(model: &Model, points: &[usize], load: [f64; 6]) -> DVector<f64> {
 
 fn compare(found: &DVector<f64>, expected: &[f64]) {
     for (k, (a, b)) in found.iter().zip(expected).enumerate() {
-        assert!((a - b).abs() < 1e-12, "freedom {k}: {a} {b}");
+        assert!((a - b).abs() < 1e-12, "degree of freedom {k}: {a} {b}");
     }
 }
 

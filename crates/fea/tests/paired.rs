@@ -1,4 +1,4 @@
-//! Several rails on one member, against nodes and arms at the loads (analytic).
+//! Several rails on one member, against nodes and rigid offsets at the loads (analytic).
 
 mod common;
 
@@ -7,7 +7,7 @@ use fea::{Component, Effect, Frame, Model, Rail, Segment, Support, nodal};
 use nalgebra::{Matrix3, Vector3};
 use splines::{Axis, Compliance, Influence, Probe};
 
-/// Two inclined members with arms, hinges and shear; both ends built in.
+/// Two inclined members with rigid offsets, hinges and shear; both ends clamped.
 fn model() -> Model {
     let (mut model, _) = common::two_spans().frame().expect("sound");
     model.points = vec![[0.0, 0.0, 0.0], [18.0, 5.0, 3.0], [40.0, 1.0, -2.0]];
@@ -17,7 +17,7 @@ fn model() -> Model {
     model
 }
 
-/// Above; below and read backwards; beside, along another direction.
+/// Three rails: above the members; below them, with the opposite direction; beside them, in another direction.
 fn rails() -> [Rail; 3] {
     let rail = |origin, axis, offset| Rail {
         origin,
@@ -166,7 +166,7 @@ fn forces_under_loads_on_paired_rails_equal_those_with_nodes_there() {
     };
     let whole = Frame::new(&model, &rails).expect("solvable");
     let parts = Frame::new(&cut, &pieces).expect("solvable");
-    // One solve a load, and one solve an effect.
+    // With one solve for each load, and with one solve for each effect.
     for count in [3, at.len()] {
         let effects = all(sections);
         let step = if count == at.len() { 2 } else { 1 };

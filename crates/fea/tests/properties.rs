@@ -1,4 +1,4 @@
-//! What holds for every frame: symmetry, sign, equilibrium, invariance (analytic).
+//! Properties of every frame: symmetry, sign, equilibrium, invariance (analytic).
 
 mod common;
 
@@ -120,7 +120,7 @@ fn flipped_members_give_the_same_grid() {
 
 #[test]
 fn rotated_frames_give_the_same_grid() {
-    // Every support of this one holds all of a point's displacements or rotations, so that it can turn.
+    // All supports fix all degrees of freedom, so that the frame can be rotated.
     let turn = Rotation3::from_euler_angles(0.4, -1.1, 2.3);
     let (mut model, rail) = mill(Theory::Timoshenko);
     for support in &mut model.supports {
@@ -223,8 +223,8 @@ fn links_and_offsets_are_exact_rigid_arms() {
 
 #[test]
 fn supports_on_linked_points_hold_the_body() {
-    // Two supported points 2 apart on a rigid body: displacement along them is held once, the body turns
-    // about the line between them alone, like a single point held in all but one rotation (analytic).
+    // Two supported points 2 apart on a rigid body: the displacement along the line between them is fixed twice,
+    // and the body can only rotate about this line, like a single point with one free rotation (analytic).
     let mut linked = cantilever(1, Theory::Timoshenko);
     linked.points.extend([[5.0, 0.0, 1.0], [5.0, 0.0, -1.0]]);
     linked.links = vec![Link { from: 2, to: 1 }, Link { from: 3, to: 2 }];
@@ -255,7 +255,7 @@ fn hinged_girder_acts_as_two_simple_spans() {
 
 #[test]
 fn rail_on_a_girder_held_at_both_ends_is_its_clamped_form() {
-    // Nothing is left to solve for: l^3/192EI at midspan (analytic).
+    // There are no unknowns: l^3/192EI at midspan (analytic).
     let mut model = cantilever(1, Theory::EulerBernoulli);
     model.supports.push(Support { point: 1, fix: [true; 6] });
     let segments = vec![Segment { member: 0, offset: [0.0; 3] }];

@@ -7,7 +7,7 @@ use fea::{Frame, Rail, Support, Theory, grid, nodal};
 use nalgebra::{Matrix6, SMatrix, Vector3};
 use splines::{Axis, Probe};
 
-/// Displacement at a place rigidly tied to a point at r, by the point's six freedoms.
+/// Displacement of a place rigidly attached to a point at r, by the six degrees of freedom of the point.
 fn arm(r: Vector3<f64>) -> Matrix6<f64> {
     let mut a = Matrix6::identity();
     a.fixed_view_mut::<3, 3>(0, 3).copy_from(&-r.cross_matrix());
@@ -37,7 +37,7 @@ fn rail_in_a_gap_moves_rigidly_with_the_column() {
 
 #[test]
 fn two_rails_of_one_structure_are_coupled_through_it() {
-    // One rail read as two, the second with its own origin.
+    // One rail given as two, the second with an origin of its own.
     let (model, rail) = mill(Theory::Timoshenko);
     let part = |segments: &[usize], origin: [f64; 3]| Rail {
         origin,

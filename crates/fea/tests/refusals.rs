@@ -1,4 +1,4 @@
-//! What is refused, and by which name.
+//! Models and loads that are refused, with the name of the entry.
 
 mod common;
 
@@ -58,7 +58,7 @@ fn hinge_that_makes_a_span_fold_is_a_mechanism_at_that_point() {
 
 #[test]
 fn mechanism_in_a_large_structure_is_found() {
-    // The far end of a roof tie, let go: the truss swings there.
+    // The far end of a roof tie without its support: the truss can swing there.
     let (mut model, _) = mill(Theory::Timoshenko);
     model.supports.retain(|support| support.point != 41);
     model.springs.retain(|spring| spring.point != 41);
@@ -134,7 +134,7 @@ fn freedoms_that_nothing_stiffens_are_infinite_in_nodal() {
     let (model, _) = girder.frame().expect("sound");
     let (value, _) = nodal(&model, &[0]).expect("solvable");
     for k in 0..6 {
-        assert_eq!(value[(k, k)].is_finite(), k == 1 || k == 5, "freedom {k}");
+        assert_eq!(value[(k, k)].is_finite(), k == 1 || k == 5, "degree of freedom {k}");
     }
 }
 

@@ -20,7 +20,7 @@ struct Truth {
 }
 
 impl Truth {
-    /// Displacement at x under a unit load at z, on the first and last support alone.
+    /// Displacement at x under a unit load at z, with only the first and the last support.
     fn simple(&self, x: Wide, z: Wide) -> Wide {
         let (first, last) = (self.supports[0], self.supports[self.supports.len() - 1]);
         let l = last - first;
@@ -54,7 +54,7 @@ impl Truth {
     }
 }
 
-/// Solves for the columns behind the square part of `rows`, by Gauss-Jordan.
+/// Gauss-Jordan elimination: solves for the columns beyond the square part of `rows`.
 fn eliminate(rows: &mut [Vec<Wide>]) {
     for k in 0..rows.len() {
         let pivot = rows[k][k];
@@ -127,7 +127,7 @@ fn girder(stream: &mut Stream) -> (Model, Rail, Truth) {
     (Model { members, ..model }, rail, truth)
 }
 
-/// Largest |error of G_ij| / sqrt(G_ii G_jj), and the bound; `None` where the frame is refused.
+/// Largest |error of G_ij| / sqrt(G_ii G_jj), and its bound; `None` if the frame is refused.
 fn compare(stream: &mut Stream) -> Option<(f64, f64)> {
     let (model, rail, truth) = girder(stream);
     let (first, last) = (model.points[0][0], model.points[model.points.len() - 1][0]);

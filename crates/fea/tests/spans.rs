@@ -8,7 +8,7 @@ use fea::{Girder, Theory, grid, surface};
 use nalgebra::DMatrix;
 use splines::{Axis, Compliance, Influence};
 
-/// A girder as the force method sees it.
+/// A girder in the form that the force method uses.
 struct Primary {
     supports: Vec<f64>,
     bending: f64,

@@ -12,7 +12,7 @@ use splines::Axis;
 const LENGTH: f64 = 12.0;
 const RATIO: f64 = 0.3;
 
-/// A cantilever along x whose every stiffness falls linearly to `RATIO` of it at the tip, in `parts`.
+/// A cantilever along x, in `parts`, all of whose stiffnesses fall linearly to `RATIO` of their value at the tip.
 fn cantilever(parts: usize, theory: Theory) -> (Model, Rail) {
     let root = Section {
         e: 2e8,
@@ -56,7 +56,7 @@ fn cantilever(parts: usize, theory: Theory) -> (Model, Rail) {
     (model, Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: Vec::new() })
 }
 
-/// Integral of (L - x)^2/(1 - (1 - r) x/L) over the length, of L^3: u = 1 - (1 - r) t gives
+/// Integral of (L - x)^2/(1 - (1 - r) x/L) over the length, divided by L^3: u = 1 - (1 - r) t gives
 /// ((u - r)/(1 - r))^2/u, a polynomial and a logarithm.
 fn bending() -> f64 {
     let r = RATIO;

@@ -27,14 +27,14 @@ fn hold(model: &mut Model, point: usize, fix: [bool; 6]) {
     model.supports.push(Support { point, fix });
 }
 
-/// Displacement of freedom `a` of `point` per unit load on freedom `b` of `at`.
-fn give(model: &Model, (point, a): (usize, Freedom), (at, b): (usize, Freedom)) -> f64 {
+/// Displacement of `point` along degree of freedom `a` per unit load on `at` along degree of freedom `b`.
+fn compliance(model: &Model, (point, a): (usize, Freedom), (at, b): (usize, Freedom)) -> f64 {
     let (c, _) = nodal(model, &[point, at]).expect("it stands");
     c[(a as usize, 6 + b as usize)]
 }
 
 fn own(model: &Model, point: usize, freedom: Freedom) -> f64 {
-    give(model, (point, freedom), (point, freedom))
+    compliance(model, (point, freedom), (point, freedom))
 }
 
 fn near(found: f64, wanted: f64, tolerance: f64) {
@@ -138,7 +138,7 @@ fn inclined_principal_axes_bend_sideways() {
     hold(&mut model, 0, ALL);
     let unit = 27.0 / (3.0 * E);
     near(own(&model, 1, Freedom::Uy), unit * (cos * cos / i1 + sin * sin / i2), 1e-12);
-    let side = give(&model, (1, Freedom::Uz), (1, Freedom::Uy));
+    let side = compliance(&model, (1, Freedom::Uz), (1, Freedom::Uy));
     near(side, unit * sin * cos * (1.0 / i1 - 1.0 / i2), 1e-12);
 }
 
@@ -157,7 +157,7 @@ fn three_bars_carry_by_the_cube_of_the_cosine() {
     near(own(&model, 0, Freedom::Uy), l / (E * area * (1.0 + 2.0 * angle.cos().powi(3))), 1e-12);
 }
 
-/// A portal of height h, width l, its feet clamped or pinned; axially all but rigid.
+/// A portal of height h and width l, with clamped or pinned feet; axially nearly rigid.
 fn portal(h: f64, l: f64, [column, girder]: [f64; 2], clamped: bool) -> Model {
     let points = [[0.0; 3], [0.0, h, 0.0], [l, h, 0.0], [l, 0.0, 0.0]];
     let members = [([0, 1], 0, [1.0, 0.0, 0.0]), ([1, 2], 1, [0.0, 1.0, 0.0]), ([3, 2], 0, [1.0, 0.0, 0.0])];

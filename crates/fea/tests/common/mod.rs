@@ -1,4 +1,4 @@
-//! What several test files share.
+//! Models and helpers that several test files use.
 #![allow(dead_code)]
 
 use fea::{Freedom, Girder, Kind, Link, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
@@ -24,7 +24,7 @@ pub fn paper() -> Girder {
     }
 }
 
-/// Two spans of steel that resist everything, shear too; newtons and metres.
+/// Two spans of steel with all stiffnesses, flexible in shear; newtons and metres.
 pub fn two_spans() -> Girder {
     Girder {
         spans: vec![20.0, 20.0],
@@ -46,7 +46,7 @@ pub fn probes(axis: Axis, at: &[f64]) -> Vec<Probe> {
 }
 
 /// The same model with nodes: members are cut at `places` (member, fraction of its flexible part), and a
-/// point at the rigid offset from each cut is linked to it. Gives the linked points, in the order of `places`.
+/// point at the rigid offset from each cut is linked to it. Returns the linked points, in the order of `places`.
 pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, Vec<usize>) {
     let mut cut = Model { members: Vec::new(), ..model.clone() };
     let mut linked = vec![0; places.len()];
@@ -78,7 +78,7 @@ pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, V
     (cut, linked)
 }
 
-/// A repeatable stream of numbers in 0..1 (splitmix64).
+/// A repeatable sequence of random numbers from 0 to 1 (splitmix64).
 pub struct Stream(pub u64);
 
 impl Stream {

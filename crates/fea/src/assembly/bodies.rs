@@ -1,0 +1,207 @@
+//! Rigid bodies of linked points, and what the supports leave of their motion.
+
+use nalgebra::Vector3;
+
+use crate::assembly::combination::Combination;
+use crate::assembly::element::{Matrix6, vector};
+use crate::assembly::precision::Real;
+use crate::dof::Freedoms6;
+use crate::model::Model;
+
+/// Size of a constraint, relative to what it was, at which it is a combination of the others.
+const DEPENDENT: f64 = 1e-12;
+
+/// Points that move as one, and what the supports leave of their motion.
+#[derive(Clone, Debug)]
+pub(crate) struct Body<T: Real = f64> {
+    /// The point whose motion describes that of the body.
+    pub reference: usize,
+    /// Motion of the reference by the six columns of the body; columns that the supports fix are zero.
+    pub basis: Matrix6<T>,
+    /// Columns that the supports leave free.
+    pub free: Freedoms6,
+    /// The independent constraints that act on the body, as (point, degree of freedom): each has a reaction.
+    pub constraints: Vec<(usize, usize)>,
+}
+
+/// The bodies of a model, and the map from points to them.
+#[derive(Clone, Debug)]
+pub(crate) struct Bodies<T: Real = f64> {
+    /// All bodies, in the order of their lowest points.
+    pub list: Vec<Body<T>>,
+    /// Body of each point.
+    pub of_point: Vec<usize>,
+    /// From the reference of its body to each point, global.
+    pub arms: Vec<Vector3<T>>,
+}
+
+impl<T: Real> Bodies<T> {
+    pub fn new(m: &Model) -> Bodies<T> {
+        let n = m.points.len();
+        let lowest = lowest_linked(m, n);
+        let mut fixed = vec![[false; 6]; n];
+        for support in &m.supports {
+            for (fixed, &given) in fixed[support.point].iter_mut().zip(&support.fix) {
+                *fixed |= given;
+            }
+        }
+        let mut of_point = vec![0; n];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for point in 0..n {
+            if lowest[point] == point {
+                of_point[point] = groups.len();
+                groups.push(vec![point]);
+            } else {
+                of_point[point] = of_point[lowest[point]];
+                groups[of_point[point]].push(point);
+            }
+        }
+        let mut arms = vec![Vector3::zeros(); n];
+        let list = groups.iter().map(|group| Body::new(m, group, &fixed, &mut arms)).collect();
+        Bodies { list, of_point, arms }
+    }
+
+    /// Bodies of a pair of points.
+    pub fn pair(&self, points: [usize; 2]) -> [usize; 2] {
+        points.map(|point| self.of_point[point])
+    }
+
+    /// Motion of a place rigidly attached to `point` at `offset`, by that of the reference of its body.
+    pub fn motion(&self, point: usize, offset: &Vector3<T>) -> Matrix6<T> {
+        arm(&(self.arms[point] + offset))
+    }
+}
+
+impl Bodies {
+    /// Six displacements, given by the motion of the reference of the body of `point`, as combinations.
+    pub fn combinations(&self, point: usize, motion: &Matrix6) -> [Combination; 6] {
+        let columns = 6 * self.of_point[point];
+        std::array::from_fn(|i| {
+            let mut row = Combination::default();
+            (0..6).for_each(|k| row.add(columns + k, motion[(i, k)]));
+            row
+        })
+    }
+
+    /// What the supports leave of a combination of the motions of the references.
+    pub fn supported(&self, row: &Combination) -> Combination {
+        let mut out = Combination::default();
+        for &(column, value) in &row.terms {
+            let basis = &self.list[column / 6].basis;
+            (0..6).for_each(|k| out.add(column - column % 6 + k, value * basis[(column % 6, k)]));
+        }
+        out
+    }
+}
+
+/// Motion of the tip of a rigid arm by that of its root: displacement u + theta cross r, rotation theta.
+pub(crate) fn arm<T: Real>(r: &Vector3<T>) -> Matrix6<T> {
+    let mut a = Matrix6::identity();
+    for (i, j, value) in [(0, 1, r.z), (1, 2, r.x), (2, 0, r.y)] {
+        a[(i, 3 + j)] = value;
+        a[(j, 3 + i)] = -value;
+    }
+    a
+}
+
+/// The lowest point that each point is linked to, directly or through others (union-find).
+fn lowest_linked(m: &Model, n: usize) -> Vec<usize> {
+    fn find(parent: &mut [usize], mut k: usize) -> usize {
+        while parent[k] != k {
+            parent[k] = parent[parent[k]];
+            k = parent[k];
+        }
+        k
+    }
+    let mut parent: Vec<usize> = (0..n).collect();
+    for link in &m.links {
+        let (a, b) = (find(&mut parent, link.from), find(&mut parent, link.to));
+        parent[a.max(b)] = a.min(b);
+    }
+    (0..n).map(|k| find(&mut parent, k)).collect()
+}
+
+impl<T: Real> Body<T> {
+    /// The body of a group of linked points; writes their arms.
+    ///
+    /// The reference is the point with the most fixed degrees of freedom. Every fixed degree of freedom of
+    /// any point is one linear constraint a . u = 0 on the six motions u of the reference. Gauss-Jordan
+    /// elimination solves the constraints for as many of the motions; the others are free.
+    fn new(m: &Model, group: &[usize], fixed: &[Freedoms6], arms: &mut [Vector3<T>]) -> Body<T> {
+        let count = |point: usize| fixed[point].iter().filter(|&&fixed| fixed).count();
+        let reference = group.iter().copied().fold(group[0], |a, b| if count(b) > count(a) { b } else { a });
+        let at = |point: usize| vector::<T>(m.points[point]);
+        let mut size = 0.0_f64;
+        for &point in group {
+            arms[point] = at(point) - at(reference);
+            size = arms[point].iter().fold(size, |a, x| a.max(x.double().abs()));
+        }
+        // Rotations are measured by the displacement of the farthest point: then all motions have one unit.
+        let scale = if size > 0.0 { T::from(size) } else { T::one() };
+        let unit = |k: usize| if k < 3 { T::one() } else { scale };
+        let mut rows: Vec<[T; 6]> = Vec::new();
+        let mut names = Vec::new();
+        let others = group.iter().copied().filter(|&point| point != reference);
+        for point in std::iter::once(reference).chain(others) {
+            let motion: Matrix6<T> = arm(&arms[point]);
+            for (dof, _) in fixed[point].iter().enumerate().filter(|(_, fixed)| **fixed) {
+                rows.push(std::array::from_fn(|k| motion[(dof, k)] / unit(k)));
+                names.push((point, dof));
+            }
+        }
+        let pivots = gauss_jordan(&mut rows);
+        let mut basis = Matrix6::identity();
+        let mut free = [true; 6];
+        for &(row, pivot) in &pivots {
+            free[pivot] = false;
+            for k in 0..6 {
+                basis[(pivot, k)] = -rows[row][k] * (unit(k) / unit(pivot));
+            }
+        }
+        for &(_, pivot) in &pivots {
+            basis.column_mut(pivot).fill(T::zero());
+        }
+        let constraints = pivots.iter().map(|&(row, _)| names[row]).collect();
+        Body { reference, basis, free, constraints }
+    }
+}
+
+/// Gauss-Jordan elimination with the largest pivot of each row: leaves the independent `rows` solved for
+/// their pivots and returns these rows and pivots, in the order of the rows.
+fn gauss_jordan<T: Real>(rows: &mut [[T; 6]]) -> Vec<(usize, usize)> {
+    let mut pivots: Vec<(usize, usize)> = Vec::new();
+    for row in 0..rows.len() {
+        let own = rows[row];
+        let before = own.iter().fold(0.0_f64, |a, x| a.max(x.double().abs()));
+        let mut rest = own;
+        for &(other, pivot) in &pivots {
+            eliminate(&mut rest, &rows[other], pivot);
+        }
+        let pivot = (0..6).fold(0, |a, b| if rest[b].magnitude() > rest[a].magnitude() { b } else { a });
+        if rest[pivot].double().abs() <= DEPENDENT * before {
+            continue;
+        }
+        // Solve the row for its pivot; what is only rounding becomes an exact zero, so that the basis keeps zeros.
+        let factor = rest[pivot];
+        for value in &mut rest {
+            let small = value.double().abs() <= DEPENDENT * before;
+            *value = if small { T::zero() } else { *value / factor };
+        }
+        // Jordan step: earlier rows no longer depend on the new pivot.
+        for &(other, _) in &pivots {
+            eliminate(&mut rows[other], &rest, pivot);
+        }
+        rows[row] = rest;
+        pivots.push((row, pivot));
+    }
+    pivots
+}
+
+/// Subtracts the multiple of `other`, which is 1 at `pivot`, that makes `row` zero there.
+fn eliminate<T: Real>(row: &mut [T; 6], other: &[T; 6], pivot: usize) {
+    let factor = row[pivot];
+    for k in 0..6 {
+        row[k] -= factor * other[k];
+    }
+    row[pivot] = T::zero();
+}

@@ -1,0 +1,65 @@
+//! Sparse linear combinations of the columns of the bodies.
+
+use nalgebra::SVector;
+
+/// Size of a term, in roundings of the magnitudes it was added up from, at which it counts as zero.
+const CANCELLED: f64 = 16.0 * f64::EPSILON;
+
+/// A linear combination sum of value_k * column_k, six columns for each body.
+///
+/// As a row it is a displacement, as a column a load: a unit force along a displacement acts on the bodies
+/// by the same coefficients.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Combination {
+    /// Column and value of each term.
+    pub terms: Vec<(usize, f64)>,
+    /// Sum of the magnitudes that were added up for each term.
+    magnitudes: Vec<f64>,
+}
+
+impl Combination {
+    /// Adds `value` times a column.
+    pub fn add(&mut self, column: usize, value: f64) {
+        if value == 0.0 {
+            return;
+        }
+        // A combination has few terms, so that a linear search suffices.
+        if let Some(k) = self.terms.iter().position(|term| term.0 == column) {
+            self.terms[k].1 += value;
+            self.magnitudes[k] += value.abs();
+        } else {
+            self.terms.push((column, value));
+            self.magnitudes.push(value.abs());
+        }
+    }
+
+    /// Adds `factor` times another combination.
+    pub fn add_scaled(&mut self, other: &Combination, factor: f64) {
+        for &(column, value) in &other.terms {
+            self.add(column, factor * value);
+        }
+    }
+
+    /// Column of each term, and the sum of the magnitudes that were added up for it.
+    pub fn magnitudes(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.terms.iter().zip(&self.magnitudes).map(|(term, &size)| (term.0, size))
+    }
+
+    /// Terms that are more than the rounding of what cancelled.
+    pub fn significant(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let terms = self.terms.iter().zip(&self.magnitudes);
+        terms.filter(|(term, size)| term.1.abs() > CANCELLED * **size).map(|(term, _)| *term)
+    }
+
+    /// Value for given motions of the bodies, or forces on them, six for each body.
+    pub fn evaluate(&self, bodies: &[SVector<f64, 6>]) -> f64 {
+        self.terms.iter().map(|&(column, value)| value * bodies[column / 6][column % 6]).sum()
+    }
+
+    /// Sum of the products of equal terms.
+    pub fn dot(&self, other: &Combination) -> f64 {
+        let factor =
+            |column: usize| other.terms.iter().find(|term| term.0 == column).map_or(0.0, |term| term.1);
+        self.terms.iter().map(|&(column, value)| value * factor(column)).sum()
+    }
+}

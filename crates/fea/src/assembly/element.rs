@@ -1,0 +1,300 @@
+//! The straight uniform member: exact 12 x 12 stiffness, releases, local axes.
+
+use nalgebra::{Matrix3, SMatrix, Vector3};
+use splines::Flexibility;
+
+use crate::assembly::precision::Real;
+use crate::dof::{Freedom, Freedoms6};
+use crate::error::{Error, Fault, Item};
+use crate::model::{Kind, Model};
+
+pub(crate) type Matrix6<T = f64> = SMatrix<T, 6, 6>;
+pub(crate) type Matrix12<T = f64> = SMatrix<T, 12, 12>;
+
+/// Length of a member, relative to its coordinates, at which it counts as zero.
+const NO_LENGTH: f64 = 1e-12;
+/// Pivot, relative to its diagonal entry, at which a released degree of freedom has no stiffness left.
+const LEAST_RELEASE_PIVOT: f64 = 1e-10;
+/// Diagonal entry, in roundings of its value before condensation, at which it counts as zero.
+const CANCELLED: f64 = 450.0;
+/// Sine of the angle between orientation and member at which the local axes are not determined.
+const PARALLEL: f64 = 1e-6;
+
+/// A member with its geometry evaluated, in the precision T.
+#[derive(Clone, Debug)]
+pub(crate) struct Element<T: Real = f64> {
+    /// Indices of its points.
+    pub points: [usize; 2],
+    /// Ends of the flexible part, global.
+    pub ends: [Vector3<T>; 2],
+    /// From the points to the ends, global.
+    pub offsets: [Vector3<T>; 2],
+    /// Rows: local axes.
+    pub axes: Matrix3<T>,
+    /// Length of the flexible part.
+    pub length: T,
+    pub flexibility: Flexibility,
+    /// Local stiffness between the tips of the rigid offsets, releases condensed.
+    pub stiffness: Matrix12<T>,
+    /// Diagonal of the stiffness before releases: the scale of its rounding.
+    pub unreleased_diagonal: [f64; 12],
+    /// Effect of its releases; `None` if it has none.
+    pub released: Option<Box<Released<T>>>,
+}
+
+/// Motion of the flexible ends of a member with releases, local axes.
+#[derive(Clone, Debug)]
+pub(crate) struct Released<T: Real = f64> {
+    /// Whether each end has a release.
+    pub ends: [bool; 2],
+    /// Displacements of the flexible ends by those of the tips of the rigid offsets, without load.
+    pub recovery: Matrix12<T>,
+    /// K_rr^-1: displacements of the flexible ends per load on them while the tips are fixed. It is zero
+    /// except between released degrees of freedom.
+    pub compliance: Matrix12<T>,
+}
+
+/// One of the two planes in which a member bends: local x-y or x-z.
+pub(crate) struct BendingPlane {
+    /// Index of the deflection among the six degrees of freedom of an end.
+    pub deflection: usize,
+    /// Index of the rotation.
+    pub rotation: usize,
+    /// Sign of the rotation that a positive slope of the deflection is.
+    pub sign: f64,
+    /// 1/EI.
+    pub bending: f64,
+    /// 1/GAs.
+    pub shear: f64,
+}
+
+impl BendingPlane {
+    /// phi = 12 EI / (G As L^2), the ratio of shear to bending flexibility, for a plane with finite 1/EI.
+    pub fn shear_ratio(&self, length: f64) -> f64 {
+        12.0 * self.shear / (self.bending * length * length)
+    }
+}
+
+/// The local x-y plane, in which Iz bends, then the x-z plane, in which Iy bends.
+pub(crate) fn bending_planes(f: &Flexibility) -> [BendingPlane; 2] {
+    [
+        BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: f.bending_z, shear: f.shear_y },
+        BendingPlane { deflection: 2, rotation: 4, sign: -1.0, bending: f.bending_y, shear: f.shear_z },
+    ]
+}
+
+impl<T: Real> Element<T> {
+    /// The elements of all members of a checked model.
+    ///
+    /// # Errors
+    /// A member without length or local axes; releases that leave a mechanism in a member.
+    pub fn all(m: &Model) -> Result<Vec<Element<T>>, Error> {
+        (0..m.members.len()).map(|index| Element::new(m, index)).collect()
+    }
+
+    fn new(m: &Model, index: usize) -> Result<Element<T>, Error> {
+        let member = &m.members[index];
+        let invalid = |fault| Error::Invalid { item: Item::Member(index), fault };
+        let offsets = member.offsets.map(vector);
+        let place = |k: usize| vector::<T>(m.points[member.points[k]]) + offsets[k];
+        let ends = [place(0), place(1)];
+        let along = ends[1] - ends[0];
+        let length = norm(&along);
+        // Coordinates are rounded relative to the distance from the origin: so is the length.
+        let far = ends.iter().flat_map(|end| end.iter()).fold(0.0_f64, |a, x| a.max(x.double().abs()));
+        if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
+            return Err(invalid(Fault::NoLength));
+        }
+        let axes = local_axes(along / length, vector(member.orientation), member.kind)
+            .ok_or(invalid(Fault::Orientation))?;
+        let mut flexibility = m.sections[member.section].flexibility(m.theory);
+        if member.kind == Kind::Truss {
+            flexibility = axial_only(flexibility);
+        }
+        let mut stiffness: Matrix12<T> = stiffness(&flexibility, length);
+        let unreleased_diagonal = std::array::from_fn(|k| stiffness[(k, k)].double());
+        let released = release(&mut stiffness, &member.releases).map_err(|k| Error::Released {
+            member: index,
+            end: k / 6,
+            freedom: Freedom::ALL[k % 6],
+        })?;
+        let points = member.points;
+        Ok(Element {
+            points,
+            ends,
+            offsets,
+            axes,
+            length,
+            flexibility,
+            stiffness,
+            unreleased_diagonal,
+            released,
+        })
+    }
+
+    /// Rotation of a displacement and a rotation from global into local axes.
+    pub fn rotation(&self) -> Matrix6<T> {
+        diagonal_blocks(&self.axes)
+    }
+}
+
+impl Element {
+    /// Displacements of the flexible ends by those of the tips of the rigid offsets, without load.
+    pub fn recovery(&self) -> Matrix12 {
+        self.released.as_ref().map_or(Matrix12::identity(), |released| released.recovery)
+    }
+}
+
+/// Doubles in the precision T.
+pub(super) fn vector<T: Real>(v: [f64; 3]) -> Vector3<T> {
+    Vector3::from(v.map(T::from))
+}
+
+fn norm<T: Real>(v: &Vector3<T>) -> T {
+    v.dot(v).root()
+}
+
+/// The same 3 x 3 matrix for the displacement and for the rotation.
+pub(crate) fn diagonal_blocks<T: Real>(q: &Matrix3<T>) -> Matrix6<T> {
+    let mut b = Matrix6::zeros();
+    b.fixed_view_mut::<3, 3>(0, 0).copy_from(q);
+    b.fixed_view_mut::<3, 3>(3, 3).copy_from(q);
+    b
+}
+
+/// Right-handed axes as rows: the unit vector `x`, the part of `y` normal to it, their cross product.
+///
+/// Components that are only rounding are set to zero, so that exact zeros of the stiffness stay. `None` if
+/// `y` is zero, not finite, or parallel to `x`.
+pub(crate) fn triad<T: Real>(x: Vector3<T>, y: Vector3<T>) -> Option<Matrix3<T>> {
+    let clean = |v: Vector3<T>| v.map(|a| if a.double().abs() <= 4.0 * T::ROUNDING { T::zero() } else { a });
+    let x = clean(x);
+    let size = norm(&y);
+    let normal = y - x * x.dot(&y);
+    let least = norm(&normal);
+    if !(size > T::zero() && size.double().is_finite() && least.double() > PARALLEL * size.double()) {
+        return None;
+    }
+    let y = clean(normal / least);
+    let z = clean(x.cross(&y));
+    Some(Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]))
+}
+
+/// Local axes of a member. A truss does not use its y axis: without an orientation any normal will do.
+fn local_axes<T: Real>(x: Vector3<T>, orientation: Vector3<T>, kind: Kind) -> Option<Matrix3<T>> {
+    let least = (0..3).fold(0, |a, b| if x[b].magnitude() < x[a].magnitude() { b } else { a });
+    let any = || triad(x, Matrix3::identity().column(least).into());
+    triad(x, orientation).or_else(|| if kind == Kind::Truss { any() } else { None })
+}
+
+/// The flexibility of a truss: it resists its change of length alone.
+fn axial_only(f: Flexibility) -> Flexibility {
+    let none = f64::INFINITY;
+    Flexibility { axial: f.axial, torsion: none, bending_y: none, bending_z: none, ..Flexibility::default() }
+}
+
+/// Exact stiffness of a uniform member in local axes, degrees of freedom ux uy uz rx ry rz at each end.
+///
+/// Change of length and twist: EA/L and GJ/L. In each plane of bending, with phi = 12 EI / (G As L^2) and
+/// r = EI / (L^3 (1 + phi)), the entries are 12 r, 6 L r, (4 + phi) L^2 r and (2 - phi) L^2 r. The matrix is
+/// the inverse of the end flexibilities and does not lock.
+///
+/// # Source
+/// Przemieniecki, Theory of Matrix Structural Analysis (1968), section 5.6.
+fn stiffness<T: Real>(f: &Flexibility, length: T) -> Matrix12<T> {
+    let mut k = Matrix12::zeros();
+    // An infinite flexibility leaves exact zeros, by which unstiffened degrees of freedom are recognised.
+    for (at, stiffness) in [(0, inverse(f.axial, length)), (3, inverse(f.torsion, length))] {
+        k[(at, at)] = stiffness;
+        k[(at + 6, at + 6)] = stiffness;
+        k[(at, at + 6)] = -stiffness;
+        k[(at + 6, at)] = -stiffness;
+    }
+    for plane in bending_planes(f) {
+        let at = [plane.deflection, plane.rotation, plane.deflection + 6, plane.rotation + 6];
+        for (i, row) in bending_stiffness(&plane, length).iter().enumerate() {
+            for (j, &value) in row.iter().enumerate() {
+                k[(at[i], at[j])] = value;
+            }
+        }
+    }
+    k
+}
+
+/// 4 x 4 stiffness of one plane: deflection and rotation of the first end, then of the second.
+fn bending_stiffness<T: Real>(plane: &BendingPlane, length: T) -> [[T; 4]; 4] {
+    let number = T::from;
+    let square = length * length;
+    let ei = inverse(plane.bending, T::one());
+    let phi = number(12.0) * ei * number(plane.shear) / square;
+    let r = ei / (square * length * (T::one() + phi));
+    let (a, b) = (number(12.0) * r, number(plane.sign * 6.0) * length * r);
+    let (c, d) = ((number(4.0) + phi) * square * r, (number(2.0) - phi) * square * r);
+    [[a, b, -a, b], [b, c, -b, d], [-a, -b, a, -b], [b, d, -b, c]]
+}
+
+/// 1/(flexibility factor), 0 for an infinite flexibility.
+fn inverse<T: Real>(flexibility: f64, factor: T) -> T {
+    if flexibility.is_finite() { T::one() / (T::from(flexibility) * factor) } else { T::zero() }
+}
+
+/// Condenses the releases of a member out of its stiffness; fails with the index of a degree of freedom that
+/// the other releases have left without stiffness.
+fn release<T: Real>(
+    stiffness: &mut Matrix12<T>,
+    releases: &[Freedoms6; 2],
+) -> Result<Option<Box<Released<T>>>, usize> {
+    let ends = releases.map(|set| set.contains(&true));
+    if !ends.contains(&true) {
+        return Ok(None);
+    }
+    let (recovery, compliance) = condense(stiffness, releases)?;
+    Ok(Some(Box::new(Released { ends, recovery, compliance })))
+}
+
+/// Static condensation of the released degrees of freedom r of a member, one after the other:
+///
+/// K' = K_oo - K_or K_rr^-1 K_ro,   u_r = -K_rr^-1 K_ro u_o + K_rr^-1 f_r
+///
+/// Replaces `k` by K'. Returns the recovery matrix (all displacements of the flexible ends by those of the
+/// tips of the rigid offsets) and K_rr^-1. A released degree of freedom for which the section has no
+/// stiffness stays at rest.
+fn condense<T: Real>(
+    k: &mut Matrix12<T>,
+    releases: &[Freedoms6; 2],
+) -> Result<(Matrix12<T>, Matrix12<T>), usize> {
+    let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)].double());
+    let mut recovery = Matrix12::identity();
+    let mut compliance = Matrix12::zeros();
+    for r in (0..12).filter(|&r| releases[r / 6][r % 6]) {
+        let pivot = k[(r, r)];
+        if before[r] == 0.0 {
+            recovery.row_mut(r).fill(T::zero());
+            continue;
+        }
+        if pivot.double() <= LEAST_RELEASE_PIVOT * before[r] {
+            return Err(r);
+        }
+        let mut row = -k.row(r) / pivot;
+        row[r] = T::zero();
+        let column = k.column(r).into_owned();
+        *k += column * row;
+        k.row_mut(r).fill(T::zero());
+        k.column_mut(r).fill(T::zero());
+        // Degrees of freedom released before depend on this one: substitute its own dependence.
+        let dependence = recovery.column(r).into_owned();
+        compliance += dependence * dependence.transpose() / pivot;
+        recovery.column_mut(r).fill(T::zero());
+        recovery += dependence * row;
+    }
+    // A diagonal entry that is only rounding is an exact zero: the releases have removed the stiffness.
+    for i in 0..12 {
+        if k[(i, i)].double() <= CANCELLED * T::ROUNDING * before[i] {
+            k.row_mut(i).fill(T::zero());
+            k.column_mut(i).fill(T::zero());
+        }
+    }
+    // Symmetric to the last bit, whatever the order of the products above.
+    *k = (*k + k.transpose()) * T::from(0.5);
+    Ok((recovery, compliance))
+}

@@ -1,0 +1,26 @@
+//! From a model to the scaled stiffness of its unknowns.
+//!
+//! Points joined by links form rigid *bodies*. The motion of a body is that of its reference point, six
+//! *columns*, less what the supports fix. Each member becomes an *element*: its exact 12 x 12 stiffness with
+//! releases condensed, and the transformation B from the motions of two bodies to its end displacements. The
+//! columns that remain and that something stiffens are the *unknowns*; they are numbered in elimination
+//! order and scaled by powers of two, and K = sum of B^T K' B + springs is added up in them.
+//!
+//! All of it is written for one number type, so that it can be repeated in double-doubles.
+//!
+//! Order of the files: `precision`, `sparse`, `ordering`, `element`, `combination`, `bodies`, `stiffness`.
+
+mod bodies;
+mod combination;
+mod element;
+mod ordering;
+mod precision;
+mod sparse;
+mod stiffness;
+
+pub(crate) use bodies::{Bodies, arm};
+pub(crate) use combination::Combination;
+pub(crate) use element::{BendingPlane, Element, Matrix6, Matrix12, bending_planes, diagonal_blocks, triad};
+pub(crate) use precision::{Extended, Real};
+pub(crate) use sparse::{column_norm, irregular_vector, symmetric_product};
+pub(crate) use stiffness::{Numbering, ScaledStiffness, transformation};

@@ -1,0 +1,93 @@
+//! Number types in which the stiffness is formed and factored: doubles and double-doubles.
+
+use std::ops::{AddAssign, Div, DivAssign, MulAssign, Neg, SubAssign};
+
+use nalgebra::Scalar;
+use num_traits::{One, Zero};
+
+/// Double-double: an unevaluated sum of two doubles, 104 bits.
+///
+/// The error of a sum is 2^-104 of its terms, not of the sum itself; the error analysis of a Cholesky factor
+/// needs no more.
+///
+/// # Source
+/// Dekker (1971), Numer. Math. 18; Joldes, Muller and Popescu (2017), ACM Trans. Math. Softw. 44.
+pub(crate) type Extended = faer::fx128;
+
+/// A real number type: `f64` or [`Extended`].
+pub(crate) trait Real:
+    Scalar
+    + Copy
+    + PartialOrd
+    + From<f64>
+    + Zero
+    + One
+    + AddAssign
+    + SubAssign
+    + MulAssign
+    + DivAssign
+    + std::ops::Sub<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+    + faer::traits::ComplexField<Real = Self>
+    + faer::traits::RealField
+{
+    /// Twice the largest relative rounding error of one operation.
+    const ROUNDING: f64;
+
+    /// Whether dense kernels exist for panels of columns: faer has them only for native numbers.
+    const PANELS: bool;
+
+    /// The nearest double.
+    fn double(self) -> f64;
+
+    /// Square root.
+    fn root(self) -> Self;
+
+    /// Absolute value.
+    fn magnitude(self) -> Self {
+        if self < Self::zero() { -self } else { self }
+    }
+}
+
+impl Real for f64 {
+    const ROUNDING: f64 = f64::EPSILON;
+    const PANELS: bool = true;
+
+    fn double(self) -> f64 {
+        self
+    }
+
+    fn root(self) -> f64 {
+        self.sqrt()
+    }
+}
+
+impl Real for Extended {
+    // The error of sums and products of this implementation is a few units of 2^-104.
+    const ROUNDING: f64 = 4.0 * f64::EPSILON * f64::EPSILON;
+    const PANELS: bool = false;
+
+    fn double(self) -> f64 {
+        self.0 + self.1
+    }
+
+    fn root(self) -> Extended {
+        self.sqrt()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Extended, Real};
+
+    #[test]
+    fn extended_numbers_keep_what_doubles_lose() {
+        let tiny = f64::powi(2.0, -90);
+        let [one, two, three, tiny_too]: [Extended; 4] = [1.0, 2.0, 3.0, tiny].map(From::from);
+        assert_eq!((one + tiny_too - one).double(), tiny);
+        assert!((one / three * three - one).double().abs() <= Extended::ROUNDING);
+        let root = two.root();
+        assert!((root * root - two).double().abs() <= 2.0 * Extended::ROUNDING);
+    }
+}

@@ -1,0 +1,268 @@
+//! Stiffness of a whole frame, scaled, in elimination order.
+
+use nalgebra::{SMatrix, Vector3};
+use sprs::CsMat;
+
+use crate::assembly::bodies::Bodies;
+use crate::assembly::element::{Element, Matrix12};
+use crate::assembly::ordering::{Graph, order};
+use crate::assembly::precision::Real;
+use crate::assembly::sparse::{Triplets, column_norm};
+use crate::error::Error;
+use crate::model::{Model, Spring};
+
+/// Size of an entry of a transformation, in roundings of the magnitudes behind it, at which it counts as zero.
+const CANCELLED: f64 = 8.0;
+
+/// The scaled stiffness S K S of the unknowns; S is diagonal, its entries are powers of two.
+#[derive(Debug)]
+pub(crate) struct ScaledStiffness<T: Real = f64> {
+    /// Upper triangle.
+    pub upper: CsMat<T>,
+    pub numbering: Numbering,
+    /// Largest ratio of the magnitudes that were added up for a diagonal entry to the entry itself.
+    pub cancellation: f64,
+}
+
+/// The unknowns of a frame.
+#[derive(Clone, Debug)]
+pub(crate) struct Numbering {
+    /// Unknown of each column of each body; `None` if supports fix it or nothing stiffens it.
+    pub unknown: Vec<Option<usize>>,
+    /// Column of each unknown.
+    pub column: Vec<usize>,
+    /// Diagonal of S, by unknown.
+    pub scale: Vec<f64>,
+    /// Predicted operations of the factor, at most.
+    pub operations: f64,
+}
+
+/// B, 12 x 12: local end displacements of a member (tips of its rigid offsets) by the motions of the
+/// references of its two bodies.
+pub(crate) fn transformation<T: Real>(element: &Element<T>, bodies: &Bodies<T>) -> Matrix12<T> {
+    transformation_and_size(element, bodies).0
+}
+
+/// The same, with the sum of the magnitudes behind each entry. Entries that are only rounding are zero.
+fn transformation_and_size<T: Real>(element: &Element<T>, bodies: &Bodies<T>) -> (Matrix12<T>, Matrix12) {
+    let mut out = Matrix12::zeros();
+    let mut size = Matrix12::zeros();
+    let rotation = element.rotation();
+    let magnitudes = |m: SMatrix<T, 6, 6>| m.map(|x| x.double().abs());
+    for end in 0..2 {
+        let motion = bodies.motion(element.points[end], &element.offsets[end]);
+        let value = product(&rotation, &motion);
+        let bulk = magnitudes(rotation) * magnitudes(motion);
+        let clean =
+            value.zip_map(
+                &bulk,
+                |v, b| {
+                    if v.double().abs() <= CANCELLED * T::ROUNDING * b { T::zero() } else { v }
+                },
+            );
+        out.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(&clean);
+        size.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(&bulk);
+    }
+    (out, size)
+}
+
+/// A B, N x N; skips the zeros, which are most entries of both.
+fn product<T: Real, const N: usize>(a: &SMatrix<T, N, N>, b: &SMatrix<T, N, N>) -> SMatrix<T, N, N> {
+    let zero = T::zero();
+    let mut out = SMatrix::<T, N, N>::zeros();
+    for j in 0..N {
+        for l in (0..N).filter(|&l| b[(l, j)] != zero) {
+            for i in (0..N).filter(|&i| a[(i, l)] != zero) {
+                out[(i, j)] += a[(i, l)] * b[(l, j)];
+            }
+        }
+    }
+    out
+}
+
+/// B^T K B for a symmetric K, symmetric to the last bit.
+fn congruence<T: Real>(k: &Matrix12<T>, b: &Matrix12<T>) -> Matrix12<T> {
+    let zero = T::zero();
+    let kb = product(k, b);
+    let mut out = Matrix12::<T>::zeros();
+    for i in 0..12 {
+        for l in (0..12).filter(|&l| b[(l, i)] != zero) {
+            for j in (i..12).filter(|&j| kb[(l, j)] != zero) {
+                out[(i, j)] += b[(l, i)] * kb[(l, j)];
+            }
+        }
+        for j in i + 1..12 {
+            out[(j, i)] = out[(i, j)];
+        }
+    }
+    out
+}
+
+/// What the supports leave of the motions of two bodies.
+fn bases<T: Real>(pair: [usize; 2], bodies: &Bodies<T>) -> Matrix12<T> {
+    let mut out = Matrix12::zeros();
+    out.fixed_view_mut::<6, 6>(0, 0).copy_from(&bodies.list[pair[0]].basis);
+    out.fixed_view_mut::<6, 6>(6, 6).copy_from(&bodies.list[pair[1]].basis);
+    out
+}
+
+/// Stiffness of each member and spring over the columns of the bodies that it joins.
+struct Contributions<T: Real> {
+    /// Two different bodies, and the stiffness over their twelve columns.
+    members: Vec<([usize; 2], Matrix12<T>)>,
+    /// Body, displacement of the spring by its six columns, stiffness.
+    springs: Vec<(usize, [T; 6], T)>,
+    /// Diagonal of the sum, by column.
+    diagonal: Vec<f64>,
+    /// Magnitudes that each diagonal entry was formed from.
+    bulk: Vec<f64>,
+}
+
+impl<T: Real> Contributions<T> {
+    fn new(m: &Model, elements: &[Element<T>], bodies: &Bodies<T>) -> Contributions<T> {
+        let columns = 6 * bodies.list.len();
+        let mut out = Contributions {
+            members: Vec::with_capacity(elements.len()),
+            springs: Vec::with_capacity(m.springs.len()),
+            diagonal: vec![0.0; columns],
+            bulk: vec![0.0; columns],
+        };
+        elements.iter().for_each(|element| out.add_member(element, bodies));
+        m.springs.iter().for_each(|spring| out.add_spring(spring, bodies));
+        out
+    }
+
+    fn add_member(&mut self, element: &Element<T>, bodies: &Bodies<T>) {
+        let pair = bodies.pair(element.points);
+        // A member within one rigid body has no strain.
+        if pair[0] == pair[1] {
+            return;
+        }
+        let (b, size) = transformation_and_size(element, bodies);
+        let basis = bases(pair, bodies);
+        let (b, size) = (product(&b, &basis), size * basis.map(|x| x.double().abs()));
+        let k = congruence(&element.stiffness, &b);
+        // |K_ij| <= sqrt(K_ii K_jj) bounds what the congruence adds up for a diagonal entry.
+        let roots = SMatrix::<f64, 1, 12>::from_fn(|_, i| element.unreleased_diagonal[i].sqrt());
+        let most = roots * size;
+        for i in 0..12 {
+            let column = 6 * pair[i / 6] + i % 6;
+            self.diagonal[column] += k[(i, i)].double();
+            self.bulk[column] += most[i] * most[i];
+        }
+        self.members.push((pair, k));
+    }
+
+    fn add_spring(&mut self, spring: &Spring, bodies: &Bodies<T>) {
+        let body = bodies.of_point[spring.point];
+        let motion = bodies.motion(spring.point, &Vector3::zeros());
+        let motion = product(&motion, &bodies.list[body].basis);
+        let row: [T; 6] = std::array::from_fn(|k| motion[(spring.freedom as usize, k)]);
+        let stiffness = T::from(spring.stiffness);
+        for (k, &displacement) in row.iter().enumerate() {
+            let part = (stiffness * displacement * displacement).double();
+            self.diagonal[6 * body + k] += part;
+            self.bulk[6 * body + k] += part;
+        }
+        self.springs.push((body, row, stiffness));
+    }
+
+    /// Adds up the upper triangle of S K S.
+    fn sum(&self, numbering: &Numbering) -> CsMat<T> {
+        let Numbering { unknown, scale, .. } = numbering;
+        let n = scale.len();
+        let mut triplets = Triplets::new(n, 78 * self.members.len() + 36 * self.springs.len());
+        let mut add = |a: usize, b: usize, value: T| {
+            if let (Some(i), Some(j)) = (unknown[a], unknown[b])
+                && i <= j
+            {
+                triplets.add(i, j, T::from(scale[i]) * value * T::from(scale[j]));
+            }
+        };
+        for (pair, k) in &self.members {
+            for i in 0..12 {
+                for j in 0..12 {
+                    let value = k[(i, j)];
+                    // The diagonal always: its place exists even if this member adds zero.
+                    if value != T::zero() || i == j {
+                        add(6 * pair[i / 6] + i % 6, 6 * pair[j / 6] + j % 6, value);
+                    }
+                }
+            }
+        }
+        for &(body, row, stiffness) in &self.springs {
+            for i in 0..6 {
+                for j in 0..6 {
+                    if row[i] != T::zero() && row[j] != T::zero() {
+                        add(6 * body + i, 6 * body + j, stiffness * row[i] * row[j]);
+                    }
+                }
+            }
+        }
+        triplets.sum()
+    }
+
+    fn cancellation(&self, numbering: &Numbering) -> f64 {
+        numbering.column.iter().map(|&c| self.bulk[c] / self.diagonal[c]).fold(1.0, f64::max)
+    }
+
+    fn stiffness(&self, numbering: Numbering) -> ScaledStiffness<T> {
+        let cancellation = self.cancellation(&numbering);
+        ScaledStiffness { upper: self.sum(&numbering), numbering, cancellation }
+    }
+}
+
+impl ScaledStiffness {
+    /// Numbers the unknowns and adds up their stiffness. A column with a diagonal of exactly zero is left
+    /// out: nothing stiffens it.
+    pub fn new(m: &Model, elements: &[Element], bodies: &Bodies) -> ScaledStiffness {
+        let parts = Contributions::new(m, elements, bodies);
+        let edges: Vec<[usize; 2]> = parts.members.iter().map(|part| part.0).collect();
+        let at: Vec<[f64; 3]> = bodies.list.iter().map(|body| m.points[body.reference]).collect();
+        let mut unknown = vec![None; parts.diagonal.len()];
+        let mut column = Vec::new();
+        let (order, operations) = order(&Graph::new(at.len(), &edges), &at);
+        for body in order {
+            for k in (0..6).filter(|&k| bodies.list[body].free[k] && parts.diagonal[6 * body + k] > 0.0) {
+                unknown[6 * body + k] = Some(column.len());
+                column.push(6 * body + k);
+            }
+        }
+        // The scale comes from the doubles also where the stiffness is formed again in double-doubles.
+        let scale = column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
+        parts.stiffness(Numbering { unknown, column, scale, operations })
+    }
+
+    /// Upper triangle of S K S + shift * identity.
+    pub fn shifted(&self, shift: f64) -> CsMat<f64> {
+        &self.upper + &CsMat::eye_csc(self.len()).map(|one: &f64| one * shift)
+    }
+}
+
+impl<T: Real> ScaledStiffness<T> {
+    /// Stiffness of unknowns that are numbered already, formed from the model again in the precision T.
+    ///
+    /// # Errors
+    /// As [`Element::all`].
+    pub fn in_precision(m: &Model, numbering: &Numbering) -> Result<ScaledStiffness<T>, Error> {
+        let parts = Contributions::new(m, &Element::all(m)?, &Bodies::new(m));
+        Ok(parts.stiffness(numbering.clone()))
+    }
+
+    /// Number of unknowns.
+    pub fn len(&self) -> usize {
+        self.numbering.column.len()
+    }
+
+    /// 1-norm of S K S.
+    pub fn norm(&self) -> f64 {
+        column_norm(&self.upper)
+    }
+}
+
+/// The power of two nearest to 1/sqrt(x).
+fn scale_of(x: f64) -> f64 {
+    // A power of two scales without rounding; the clamp keeps the scaled entries finite.
+    let exponent = (-0.5 * x.log2()).round().clamp(-500.0, 500.0);
+    f64::powi(2.0, exponent as i32)
+}

@@ -1,0 +1,277 @@
+//! Sparse Cholesky factor in panels of adjoining columns.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::matmul::matmul;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
+use faer::{Accum, MatMut, MatRef, Par, Side};
+use sprs::CsMat;
+
+use crate::assembly::Real;
+use crate::factor::memory::MEMORY;
+
+/// Width of a panel from which a dense matrix product pays.
+const DENSE_WIDTH: usize = 4;
+
+/// Why a matrix has no factor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FactorError {
+    /// A pivot is not positive.
+    Indefinite,
+    /// The factor exceeds the memory or the indices; its number of entries, 0 if unknown.
+    TooLarge(u64),
+}
+
+/// L with L L^T = K, K symmetric positive definite, in panels of adjoining columns.
+#[derive(Debug)]
+pub(crate) struct Factor<T: Real = f64> {
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<T>,
+    /// Panel of each column.
+    pub(super) panel_of: Vec<usize>,
+    pub(super) panels: usize,
+}
+
+/// Columns `start..start + width` of L: `values` is a dense column-major block whose first `width` rows
+/// are the triangle and whose other rows are those of `below`.
+pub(super) struct Panel<'a, T> {
+    pub start: usize,
+    pub width: usize,
+    pub below: &'a [usize],
+    values: &'a [T],
+}
+
+impl<T: Real> Factor<T> {
+    /// Factors the matrix whose upper triangle is given, in the order given, on one thread.
+    pub fn new(upper: &CsMat<T>) -> Result<Factor<T>, FactorError> {
+        let n = upper.cols();
+        let mut params = CholeskySymbolicParams::default();
+        // faer has dense kernels for native numbers only: double-doubles are factored column by column.
+        if !T::PANELS {
+            params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
+        }
+        let Analysis { pattern, symbolic, mut values } = analyse(upper, params)?;
+        let request = symbolic.factorize_numeric_llt_scratch::<T>(Par::Seq, Default::default());
+        let mut memory = MemBuffer::try_new(request).map_err(|_| FactorError::TooLarge(0))?;
+        symbolic
+            .factorize_numeric_llt(
+                &mut values,
+                SparseColMatRef::new(pattern, upper.data()),
+                Side::Upper,
+                LltRegularization::default(),
+                Par::Seq,
+                MemStack::new(&mut memory),
+                Default::default(),
+            )
+            .map_err(|_| FactorError::Indefinite)?;
+        let (panel_of, panels) = match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(_) => ((0..n).collect(), n),
+            SymbolicCholeskyRaw::Supernodal(s) => {
+                let spans = s.supernode_begin().iter().zip(s.supernode_end());
+                let all = spans.enumerate().flat_map(|(k, (a, b))| std::iter::repeat_n(k, b - a)).collect();
+                (all, s.n_supernodes())
+            }
+        };
+        Ok(Factor { symbolic, values, panel_of, panels })
+    }
+
+    /// Number of rows and columns.
+    pub fn len(&self) -> usize {
+        self.panel_of.len()
+    }
+
+    pub(super) fn panel(&self, k: usize) -> Panel<'_, T> {
+        Panel::of(&self.symbolic, &self.values, k)
+    }
+
+    /// Bytes of its entries.
+    pub fn bytes(&self) -> u64 {
+        (self.values.len() * size_of::<T>()) as u64
+    }
+
+    /// Smallest pivot L_kk^2.
+    pub fn least_pivot(&self) -> f64 {
+        let mut least = f64::INFINITY;
+        for k in 0..self.panels {
+            let panel = self.panel(k);
+            let rows = panel.width + panel.below.len();
+            for j in 0..panel.width {
+                let pivot = panel.values[j * rows + j].double();
+                least = least.min(pivot * pivot);
+            }
+        }
+        least
+    }
+
+    /// Solves K x = x in place.
+    pub fn solve(&self, x: &mut [T]) {
+        let (single, _) = x.as_chunks_mut::<1>();
+        let mut scratch = Vec::new();
+        for k in 0..self.panels {
+            self.panel(k).forward(single, &mut scratch);
+        }
+        for k in (0..self.panels).rev() {
+            self.panel(k).backward(x);
+        }
+    }
+
+    /// Largest row sum of |L| |L^T|, and the largest number of entries in a row of L.
+    pub fn growth(&self) -> (f64, usize) {
+        let n = self.len();
+        let mut columns = vec![0.0_f64; n];
+        for_each_entry(&self.symbolic, &self.values, |_, column, value| {
+            columns[column] += value.double().abs();
+        });
+        let (mut rows, mut lengths) = (vec![0.0_f64; n], vec![0_usize; n]);
+        for_each_entry(&self.symbolic, &self.values, |row, column, value| {
+            rows[row] += value.double().abs() * columns[column];
+            lengths[row] += 1;
+        });
+        (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
+    }
+}
+
+/// A matrix ready to be factored.
+pub(crate) struct Analysis<'a, T> {
+    pub pattern: SymbolicSparseColMatRef<'a, usize>,
+    pub symbolic: SymbolicCholesky<usize>,
+    /// Zeros, as many as the factor has entries.
+    pub values: Vec<T>,
+}
+
+/// Symbolic analysis of the matrix whose upper triangle is given, in the order given.
+pub(crate) fn analyse<'a, T: Real>(
+    upper: &'a CsMat<T>,
+    params: CholeskySymbolicParams<'_>,
+) -> Result<Analysis<'a, T>, FactorError> {
+    let n = upper.cols();
+    let storage = upper.indptr().into_raw_storage();
+    let pattern = SymbolicSparseColMatRef::new_checked(n, n, storage, None, upper.indices());
+    let symbolic = factorize_symbolic_cholesky(pattern, Side::Upper, SymmetricOrdering::Identity, params)
+        .map_err(|_| FactorError::TooLarge(0))?;
+    // The size is known before a number is allocated.
+    let size = symbolic.len_val() as u64;
+    if size.saturating_mul(size_of::<T>() as u64) > MEMORY {
+        return Err(FactorError::TooLarge(size));
+    }
+    let mut values = Vec::new();
+    values.try_reserve_exact(symbolic.len_val()).map_err(|_| FactorError::TooLarge(size))?;
+    values.resize(symbolic.len_val(), T::zero());
+    Ok(Analysis { pattern, symbolic, values })
+}
+
+/// Calls `each` with row, column and value of every entry of a factor.
+pub(crate) fn for_each_entry<T: Copy>(
+    symbolic: &SymbolicCholesky<usize>,
+    values: &[T],
+    mut each: impl FnMut(usize, usize, T),
+) {
+    let panels = match symbolic.raw() {
+        SymbolicCholeskyRaw::Simplicial(_) => symbolic.nrows(),
+        SymbolicCholeskyRaw::Supernodal(s) => s.n_supernodes(),
+    };
+    for k in 0..panels {
+        let panel = Panel::of(symbolic, values, k);
+        let height = panel.width + panel.below.len();
+        for j in 0..panel.width {
+            for i in j..height {
+                let row = if i < panel.width { panel.start + i } else { panel.below[i - panel.width] };
+                each(row, panel.start + j, panel.values[j * height + i]);
+            }
+        }
+    }
+}
+
+/// target -= l * value, in K lanes.
+#[inline]
+fn subtract_scaled<T: Real, const K: usize>(target: &mut [T; K], l: T, value: &[T; K]) {
+    for (target, value) in target.iter_mut().zip(value) {
+        *target -= l * *value;
+    }
+}
+
+impl<'a, T> Panel<'a, T> {
+    fn of(symbolic: &'a SymbolicCholesky<usize>, values: &'a [T], k: usize) -> Panel<'a, T> {
+        match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(s) => {
+                let (from, to) = (s.col_ptr()[k], s.col_ptr()[k + 1]);
+                Panel { start: k, width: 1, below: &s.row_idx()[from + 1..to], values: &values[from..to] }
+            }
+            SymbolicCholeskyRaw::Supernodal(s) => {
+                let (start, end) = (s.supernode_begin()[k], s.supernode_end()[k]);
+                let values = &values[s.col_ptr_for_val()[k]..s.col_ptr_for_val()[k + 1]];
+                Panel { start, width: end - start, below: s.supernode(k).pattern(), values }
+            }
+        }
+    }
+}
+
+impl<T: Real> Panel<'_, T> {
+    /// One panel of x := L^-1 x for K vectors: divides by the pivots, subtracts the panel from the rows
+    /// below it, in a dense product if the panel is wide enough.
+    pub fn forward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
+        let height = self.width + self.below.len();
+        let dense = T::PANELS && K > 1 && self.width >= DENSE_WIDTH;
+        for j in 0..self.width {
+            let column = &self.values[j * height + j..(j + 1) * height];
+            let (pivot, rest) = column.split_at(1);
+            let value = x[self.start + j].map(|value| value / pivot[0]);
+            x[self.start + j] = value;
+            // Columns before the first entry of a load are zero: they change nothing.
+            if value == [T::zero(); K] {
+                continue;
+            }
+            let (triangle, below) = rest.split_at(self.width - 1 - j);
+            for (l, target) in triangle.iter().zip(&mut x[self.start + j + 1..]) {
+                subtract_scaled(target, *l, &value);
+            }
+            if !dense {
+                for (l, &row) in below.iter().zip(self.below) {
+                    subtract_scaled(&mut x[row], *l, &value);
+                }
+            }
+        }
+        if dense && !self.below.is_empty() {
+            // (L21 x)^T = x^T L21^T: a row of x is a column of its transpose, in one piece.
+            scratch.clear();
+            scratch.resize(self.below.len(), [T::zero(); K]);
+            let own = x[self.start..self.start + self.width].as_flattened();
+            let lower = MatRef::from_column_major_slice_with_stride(
+                &self.values[self.width..],
+                self.below.len(),
+                self.width,
+                height,
+            );
+            let product =
+                MatMut::from_column_major_slice_mut(scratch.as_flattened_mut(), K, self.below.len());
+            let own = MatRef::from_column_major_slice(own, K, self.width);
+            matmul(product, Accum::Replace, own, lower.transpose(), T::one(), Par::Seq);
+            for (&row, product) in self.below.iter().zip(scratch.iter()) {
+                subtract_scaled(&mut x[row], T::one(), product);
+            }
+        }
+    }
+
+    /// One panel of x := L^-T x.
+    fn backward(&self, x: &mut [T]) {
+        let height = self.width + self.below.len();
+        for j in (0..self.width).rev() {
+            let column = &self.values[j * height + j..(j + 1) * height];
+            let (pivot, rest) = column.split_at(1);
+            let (triangle, below) = rest.split_at(self.width - 1 - j);
+            let mut value = x[self.start + j];
+            for (l, &known) in triangle.iter().zip(&x[self.start + j + 1..]) {
+                value -= *l * known;
+            }
+            for (l, &row) in below.iter().zip(self.below) {
+                value -= *l * x[row];
+            }
+            x[self.start + j] = value / pivot[0];
+        }
+    }
+}

@@ -1,0 +1,22 @@
+//! The factor of the scaled stiffness, and how far it can be trusted.
+//!
+//! S K S = L L^T is a sparse Cholesky factor. A solve for influence coefficients stops half way: w = L^-1 p
+//! on the path of the elimination tree from the entries of p to the root, since p_i^T K^-1 p_j = w_i . w_j.
+//! The certificate bounds what rounding in stiffness and factor can have changed. Where doubles do not meet
+//! the accuracy asked for, stiffness and factor are formed again in double-doubles; where that does not help
+//! either, the frame is refused with the name of its weakest degree of freedom.
+//!
+//! Order of the files: `memory`, `cholesky`, `forward`, `certificate`, `solver`.
+
+mod certificate;
+mod cholesky;
+mod forward;
+mod memory;
+mod solver;
+
+pub use certificate::Certificate;
+pub(crate) use cholesky::{Analysis, Factor, FactorError, analyse, for_each_entry};
+pub(crate) use forward::{ForwardSolution, SparseLoad, dot_products};
+pub use memory::MEMORY;
+pub(crate) use memory::allow_square;
+pub(crate) use solver::{Factored, Solver, ill_conditioned};

@@ -1,0 +1,248 @@
+//! A frame with its rails, factored once.
+
+use std::sync::Arc;
+
+use nalgebra::{SVector, Vector3};
+use splines::{Axis, Line, Probe};
+
+use crate::assembly::{Bodies, Combination, Element, ScaledStiffness};
+use crate::error::{Error, Fault, Item};
+use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
+use crate::influence::layout::Layout;
+use crate::model::{Model, Rail};
+
+/// Accuracy of [`Frame::new`]: largest relative error bound of a compliance.
+pub const ACCURACY: f64 = 1e-6;
+
+/// A model and its rails, numbered, assembled and factored: answers any number of questions.
+///
+/// # Example
+/// ```
+/// use fea::{Frame, Girder};
+/// use splines::{Axis, Probe};
+///
+/// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
+/// let (model, rail) = girder.frame()?;
+/// let frame = Frame::new(&model, &[rail])?;
+/// // One factor serves grids, surfaces, reactions and internal forces.
+/// let probe = Probe { rail: 0, x: 15.0, axis: Axis::Vertical };
+/// let grid = frame.grid(&[probe])?;
+/// let reactions = frame.reactions(&model, &[probe])?;
+/// assert!((reactions.value.sum() + 1.0).abs() < 1e-12, "the supports carry the load");
+/// # assert!(grid.value[(0, 0)] > 0.0);
+/// # Ok::<(), fea::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Frame {
+    pub(crate) elements: Vec<Element>,
+    pub(crate) bodies: Bodies,
+    stiffness: ScaledStiffness,
+    factored: Factored,
+    /// Largest relative error bound allowed.
+    accuracy: f64,
+    line: Option<Arc<Line>>,
+    states: Vec<[Combination; 6]>,
+}
+
+impl Frame {
+    /// Checks, assembles and factors a model, with the accuracy [`ACCURACY`].
+    ///
+    /// Degrees of freedom that nothing stiffens are left out: a load on them is refused.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an entry that cannot be used; [`Error::Mechanism`] or [`Error::Released`] for
+    /// a structure that can move without strain; [`Error::Ill`] for a stiffness so badly conditioned that
+    /// the accuracy cannot be met; [`Error::Memory`] or [`Error::Factor`] for one that is too large.
+    pub fn new(m: &Model, rails: &[Rail]) -> Result<Frame, Error> {
+        Frame::accurate(m, rails, ACCURACY)
+    }
+
+    /// [`Frame::new`] with a given accuracy: the largest relative error bound of its compliances.
+    ///
+    /// The factor is in doubles where their bound suffices. Otherwise stiffness and factor are formed again
+    /// in double-doubles from the doubles of the model.
+    ///
+    /// # Errors
+    /// As [`Frame::new`].
+    pub fn accurate(m: &Model, rails: &[Rail], accuracy: f64) -> Result<Frame, Error> {
+        m.check()?;
+        let elements = Element::all(m)?;
+        let bodies = Bodies::new(m);
+        let layout = if rails.is_empty() { None } else { Some(Layout::new(m, rails, &elements, &bodies)?) };
+        if let Some(layout) = &layout {
+            check_coverage(&layout.line, rails)?;
+        }
+        let stiffness = ScaledStiffness::new(m, &elements, &bodies);
+        let factored = Factored::new(m, &stiffness, &bodies, accuracy)?;
+        let (line, states) = match layout {
+            Some(layout) => (Some(Arc::new(layout.line)), layout.states),
+            None => Default::default(),
+        };
+        Ok(Frame { elements, bodies, stiffness, factored, accuracy, line, states })
+    }
+
+    /// Condition of the stiffness, and bound of the error of compliances.
+    #[must_use]
+    pub fn certificate(&self) -> Certificate {
+        self.factored.certificate
+    }
+
+    /// Bytes of the factor.
+    #[must_use]
+    pub fn bytes(&self) -> u64 {
+        self.factored.solver.bytes()
+    }
+
+    /// Number of unknown degrees of freedom.
+    #[must_use]
+    pub fn unknowns(&self) -> usize {
+        self.factored.solver.len()
+    }
+
+    /// The rail elements of the rails; state k of the line is state k of the surface.
+    ///
+    /// # Errors
+    /// [`Error::NoRails`].
+    pub fn line(&self) -> Result<&Arc<Line>, Error> {
+        self.line.as_ref().ok_or(Error::NoRails)
+    }
+
+    /// Whether the structure resists forces along `axis` at three places of every rail element of `rail`.
+    #[must_use]
+    pub fn available(&self, rail: usize, axis: Axis) -> bool {
+        let Some(line) = &self.line else { return false };
+        let mut cells = line.cells().iter().filter(|cell| cell.rail == rail).peekable();
+        cells.peek().is_some()
+            && cells.all(|cell| {
+                let [a, b] = cell.x;
+                [a + 0.25 * (b - a), 0.5 * (a + b), b - 0.25 * (b - a)]
+                    .into_iter()
+                    .all(|x| self.load(Probe { rail, x, axis }).is_ok())
+            })
+    }
+
+    /// Displacements and rotations of all states over the motions of the bodies.
+    pub(crate) fn states(&self) -> &[[Combination; 6]] {
+        &self.states
+    }
+
+    /// The scaled stiffness.
+    pub(crate) fn stiffness(&self) -> &ScaledStiffness {
+        &self.stiffness
+    }
+
+    /// Its factor.
+    pub(crate) fn solver(&self) -> &Solver {
+        &self.factored.solver
+    }
+
+    /// Bound of |(S K S)^-1| in the 1-norm.
+    pub(crate) fn inverse_norm(&self) -> f64 {
+        self.factored.inverse_norm
+    }
+
+    /// Largest relative error bound allowed.
+    pub(crate) fn accuracy(&self) -> f64 {
+        self.accuracy
+    }
+
+    /// Displacement at a probe over the motions of the bodies, and the rail element of the probe.
+    pub(crate) fn row(&self, probe: Probe) -> Result<(Combination, usize), Error> {
+        let row = self.line()?.row(probe)?;
+        let mut sum = Combination::default();
+        for (&index, &value) in row.indices().iter().zip(row.values()) {
+            sum.add_scaled(&self.states[index / 6][index % 6], value);
+        }
+        Ok((sum, row.cell))
+    }
+
+    /// Scaled load of a unit force at a probe, and the rail element of the probe.
+    pub(crate) fn load(&self, probe: Probe) -> Result<(SparseLoad, usize), Error> {
+        let (row, cell) = self.row(probe)?;
+        let Probe { rail, x, axis } = probe;
+        let load = self.scaled(&row).ok_or(splines::Error::Unstiffened { rail, x, axis })?;
+        Ok((load, cell))
+    }
+
+    /// A combination as a load on the scaled unknowns; `None` if it acts on a degree of freedom that nothing
+    /// stiffens.
+    pub(crate) fn scaled(&self, row: &Combination) -> Option<SparseLoad> {
+        let mut load = Vec::with_capacity(row.terms.len());
+        for (column, value) in self.bodies.supported(row).significant() {
+            let k = self.unknown(column)?;
+            load.push((k, value * self.scale(k)));
+        }
+        Some(load)
+    }
+
+    /// A combination as a load on the scaled unknowns, without what acts on degrees of freedom that nothing
+    /// stiffens.
+    pub(crate) fn scaled_where_stiffened(&self, row: &Combination) -> SparseLoad {
+        let supported = self.bodies.supported(row);
+        let terms = supported.significant().filter_map(|(column, value)| {
+            let k = self.unknown(column)?;
+            Some((k, value * self.scale(k)))
+        });
+        terms.collect()
+    }
+
+    /// Motion of the references of all bodies under a scaled load.
+    pub(crate) fn motions(&self, load: &[(usize, f64)]) -> Vec<SVector<f64, 6>> {
+        let mut x = vec![0.0; self.unknowns()];
+        load.iter().for_each(|&(k, value)| x[k] += value);
+        self.solver().solve(&mut x);
+        self.body_motions(&x)
+    }
+
+    /// Motion of the references of all bodies by the scaled unknowns.
+    pub(crate) fn body_motions(&self, x: &[f64]) -> Vec<SVector<f64, 6>> {
+        let numbering = &self.stiffness.numbering;
+        let mut motions = vec![SVector::<f64, 6>::zeros(); self.bodies.list.len()];
+        for ((&value, &column), &scale) in x.iter().zip(&numbering.column).zip(&numbering.scale) {
+            motions[column / 6][column % 6] = value * scale;
+        }
+        motions.iter().zip(&self.bodies.list).map(|(motion, body)| body.basis * motion).collect()
+    }
+
+    /// Refuses a certificate that does not meet the accuracy.
+    pub(crate) fn require(&self, certificate: Certificate) -> Result<Certificate, Error> {
+        if certificate.error_bound <= self.accuracy {
+            return Ok(certificate);
+        }
+        Err(ill_conditioned(certificate, self.accuracy, &self.stiffness, &self.bodies))
+    }
+
+    /// Unknown of a column of the bodies, if it is one.
+    pub(crate) fn unknown(&self, column: usize) -> Option<usize> {
+        self.stiffness.numbering.unknown[column]
+    }
+
+    /// Scale of an unknown.
+    pub(crate) fn scale(&self, unknown: usize) -> f64 {
+        self.stiffness.numbering.scale[unknown]
+    }
+
+    /// w = L^-1 p of scaled loads.
+    pub(crate) fn forward(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
+        self.solver().forward(loads)
+    }
+
+    /// The six displacements and rotations of a point.
+    pub(crate) fn point(&self, point: usize) -> [Combination; 6] {
+        self.bodies.combinations(point, &self.bodies.motion(point, &Vector3::zeros()))
+    }
+}
+
+/// Refuses a station that no segment covers.
+fn check_coverage(line: &Line, rails: &[Rail]) -> Result<(), Error> {
+    for (rail, given) in rails.iter().enumerate() {
+        for (station, &x) in given.stations.iter().enumerate() {
+            let probe = Probe { rail, x, axis: Axis::Vertical };
+            if let Err(splines::Error::OffRail { .. }) = line.row(probe) {
+                let item = Item::Station { rail, station };
+                return Err(Error::Invalid { item, fault: Fault::Uncovered { x } });
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,27 @@
+//! Answers of a factored frame: influence coefficients, reactions and internal forces of loads on rails.
+//!
+//! A rail is laid over the members that carry it as a line of rail elements between *states*, the motions of
+//! its element ends, each a sparse row over the motions of the bodies. A unit force at a place x of a rail is
+//! the load p = N(x)^T through these rows, so that no node is ever placed under a load:
+//!
+//! G(x, z) = p_x^T K^-1 p_z + \[same member\] b(x, z)
+//!
+//! with the Green's function b of the member between fixed ends. `grid` evaluates it at chosen places,
+//! `surface` keeps the compliance of all states, `effects` does the same for reactions and internal forces.
+//!
+//! Order of the files: `layout`, `frame`, `rounding`, `grid`, `surface`, `functional`, `effects`.
+
+mod effects;
+mod frame;
+mod functional;
+mod grid;
+mod layout;
+mod rounding;
+mod surface;
+
+pub use effects::Reactions;
+pub use frame::{ACCURACY, Frame};
+pub(crate) use functional::Functional;
+pub use functional::{Effect, Hold};
+pub use grid::{Grid, grid};
+pub use surface::{Exact, nodal, surface};

@@ -1,0 +1,199 @@
+//! A frame as given: points, members, supports, springs, links and masses.
+
+use crate::dof::{Freedom, Freedoms6};
+use crate::error::{Error, Fault, Item, Quantity, finite, not_negative};
+use crate::model::section::{Section, Theory};
+
+/// Which deformations a member resists.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// All deformations for which its section has a stiffness.
+    #[default]
+    Beam,
+    /// Its change of length alone; its ends transmit no moment.
+    Truss,
+}
+
+/// A straight uniform member between two points, with rigid offsets and releases.
+///
+/// The flexible part of the member runs from end 0, at its first point plus `offsets[0]`, to end 1. Local x
+/// runs from end 0 to end 1; local y is the part of `orientation` normal to local x; local z = x cross y.
+///
+/// # Example
+/// ```
+/// use fea::{Freedom, Member};
+///
+/// // From point 0 to point 1 with section 0, local y upwards, hinged about local z at its second end.
+/// let mut member = Member::beam([0, 1], 0, [0.0, 1.0, 0.0]);
+/// member.releases[1][Freedom::Rz as usize] = true;
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Member {
+    /// Indices of its two points.
+    pub points: [usize; 2],
+    /// Which deformations it resists.
+    pub kind: Kind,
+    /// Index of its section.
+    pub section: usize,
+    /// Any global vector in the half plane of local x and +y. A truss may leave it zero.
+    pub orientation: [f64; 3],
+    /// Rigid offsets: global vectors from the points to the ends of the flexible part, length.
+    pub offsets: [[f64; 3]; 2],
+    /// Local degrees of freedom released at each end, between the rigid offset and the flexible part.
+    pub releases: [Freedoms6; 2],
+}
+
+impl Member {
+    /// A beam between two points without offsets and releases.
+    #[must_use]
+    pub const fn beam(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Self {
+        Member {
+            points,
+            kind: Kind::Beam,
+            section,
+            orientation,
+            offsets: [[0.0; 3]; 2],
+            releases: [[false; 6]; 2],
+        }
+    }
+}
+
+/// Global degrees of freedom of a point that are fixed to the ground.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Support {
+    /// Index of the point.
+    pub point: usize,
+    /// Which degrees of freedom are fixed.
+    pub fix: Freedoms6,
+}
+
+/// A spring to ground, along or about a global axis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spring {
+    /// Index of the point.
+    pub point: usize,
+    /// Which degree of freedom it acts on.
+    pub freedom: Freedom,
+    /// Force per length, or moment per radian; not negative.
+    pub stiffness: f64,
+}
+
+/// A rigid connection of two points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// Index of one point.
+    pub from: usize,
+    /// Index of the other.
+    pub to: usize,
+}
+
+/// A rigid mass at a point. Statics does not use it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Mass {
+    /// Index of the point.
+    pub point: usize,
+    /// Mass, force time^2/length.
+    pub mass: f64,
+    /// Principal moments of inertia about the global axes through the centre of mass, force length time^2.
+    pub inertia: [f64; 3],
+    /// Global vector from the point to the centre of mass, length.
+    pub offset: [f64; 3],
+}
+
+/// A frame in space: points, and what connects and supports them. Units are consistent; the crate knows none.
+///
+/// # Example
+/// ```
+/// use fea::{Member, Model, Section, Support, nodal};
+///
+/// // A cantilever of 2 m along x; newtons and metres.
+/// let section = Section { e: 2.1e11, g: 8.1e10, area: 5e-3, iy: 2e-5, iz: 8e-5, j: 3e-7, ..Section::default() };
+/// let model = Model {
+///     points: vec![[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+///     sections: vec![section],
+///     members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0])],
+///     supports: vec![Support { point: 0, fix: [true; 6] }],
+///     up: [0.0, 1.0, 0.0],
+///     ..Model::default()
+/// };
+/// let (compliance, _) = nodal(&model, &[1])?;
+/// let deflection = 2.0_f64.powi(3) / (3.0 * section.e * section.iz);
+/// assert!((compliance[(1, 1)] / deflection - 1.0).abs() < 1e-12);
+/// # Ok::<(), fea::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Model {
+    /// Global coordinates, length.
+    pub points: Vec<[f64; 3]>,
+    /// Cross sections.
+    pub sections: Vec<Section>,
+    /// Members.
+    pub members: Vec<Member>,
+    /// Rigid supports.
+    pub supports: Vec<Support>,
+    /// Springs to ground; they add to the supports.
+    pub springs: Vec<Spring>,
+    /// Rigid links.
+    pub links: Vec<Link>,
+    /// Rigid masses; statics does not use them.
+    pub masses: Vec<Mass>,
+    /// The global direction up, any length. Only rails use it.
+    pub up: [f64; 3],
+    /// Beam theory of all members.
+    pub theory: Theory,
+}
+
+impl Model {
+    /// Checks every number and index that needs no geometry.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] with the first entry that cannot be used, and why.
+    pub fn check(&self) -> Result<(), Error> {
+        let at = |item: Item| move |fault: Fault| Error::Invalid { item, fault };
+        let known = |point: usize| {
+            if point < self.points.len() { Ok(()) } else { Err(Fault::NoPoint { point }) }
+        };
+        finite(Quantity::Coordinate, &self.up).map_err(at(Item::Up))?;
+        for (k, point) in self.points.iter().enumerate() {
+            finite(Quantity::Coordinate, point).map_err(at(Item::Point(k)))?;
+        }
+        for (k, section) in self.sections.iter().enumerate() {
+            section.check(self.theory).map_err(at(Item::Section(k)))?;
+        }
+        for (k, member) in self.members.iter().enumerate() {
+            self.check_member(member).map_err(at(Item::Member(k)))?;
+        }
+        for (k, support) in self.supports.iter().enumerate() {
+            known(support.point).map_err(at(Item::Support(k)))?;
+        }
+        for (k, spring) in self.springs.iter().enumerate() {
+            known(spring.point)
+                .and_then(|()| not_negative(Quantity::Stiffness, spring.stiffness))
+                .map_err(at(Item::Spring(k)))?;
+        }
+        for (k, link) in self.links.iter().enumerate() {
+            known(link.from).and_then(|()| known(link.to)).map_err(at(Item::Link(k)))?;
+        }
+        for (k, mass) in self.masses.iter().enumerate() {
+            known(mass.point)
+                .and_then(|()| not_negative(Quantity::Mass, mass.mass))
+                .and_then(|()| finite(Quantity::Offset, &mass.offset))
+                .and_then(|()| mass.inertia.iter().try_for_each(|&i| not_negative(Quantity::Inertia, i)))
+                .map_err(at(Item::Mass(k)))?;
+        }
+        Ok(())
+    }
+
+    fn check_member(&self, member: &Member) -> Result<(), Fault> {
+        for point in member.points {
+            if point >= self.points.len() {
+                return Err(Fault::NoPoint { point });
+            }
+        }
+        if member.section >= self.sections.len() {
+            return Err(Fault::NoSection { section: member.section });
+        }
+        finite(Quantity::Orientation, &member.orientation)?;
+        member.offsets.iter().try_for_each(|offset| finite(Quantity::Offset, offset))
+    }
+}

@@ -1,0 +1,240 @@
+//! Reactions and internal forces of forces on the mass: of weight, and of inertia in motion.
+
+use nalgebra::{DMatrix, SVector, Vector3};
+
+use crate::assembly::{BendingPlane, Element, Matrix12, arm, bending_planes, transformation};
+use crate::error::Error;
+use crate::influence::{Effect, Frame, Functional};
+use crate::model::{Kind, Mass, Model, Section, Theory};
+use crate::modes::mass::{Cubic, bending_shapes, release_shapes, unreleased_mass};
+use crate::modes::mode::Mode;
+
+type Vector6 = SVector<f64, 6>;
+type Vector12 = SVector<f64, 12>;
+
+/// Places and weights of Gauss quadrature on -1 to 1, exact to degree five.
+const GAUSS: [[f64; 2]; 3] =
+    [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
+
+/// Effects of the forces M a, for accelerations a of the whole structure.
+///
+/// A structure that moves with a feels the opposite forces, -M a. The weight under gravity g along -y has the
+/// effects -g `rigid` of y. A structure whose natural modes move with accelerations q'' under rail loads F has
+/// the effects
+///
+/// E = A F - `modes` q''
+///
+/// where A are the static effects of the loads. Forces of damping are internal: they act like its stiffness.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inertial {
+    /// Effects x 6: a is a rigid motion with the supports, three translations along the global axes, three
+    /// rotations about the global origin.
+    pub rigid: DMatrix<f64>,
+    /// Effects x modes: a is the shape of a mode.
+    pub modes: DMatrix<f64>,
+}
+
+/// Forces M a on the references of the bodies, and the acceleration of the flexible ends of each member, local.
+struct InertiaForces {
+    on_bodies: Vec<Vector6>,
+    end_accelerations: Vec<Vector12>,
+}
+
+impl Frame {
+    /// Effects of M a, M the consistent mass of the members and the rigid masses, supports included. One solve
+    /// for each effect.
+    ///
+    /// `m` is the model that the frame was made of; `modes` are modes of the same frame.
+    ///
+    /// Guarantee: forces M a and reactions are in equilibrium to the rounding of the factor, whatever the
+    /// residuals of the modes. The reactions to the shape of a mode along a global axis add up to minus its
+    /// [`Mode::coupling`] with that axis.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an effect of a member or restraint that does not exist, or a place outside 0 to 1.
+    ///
+    /// # Source
+    /// Mode acceleration: Cook, Malkus, Plesha and Witt, Concepts and Applications of Finite Element Analysis
+    /// (2002), section 11.8; reciprocity as in [`Frame::influence_lines`].
+    pub fn inertial(&self, m: &Model, effects: &[Effect], modes: &[Mode]) -> Result<Inertial, Error> {
+        let functionals = self.functionals(m, effects)?;
+        let reference = |body: usize| self.bodies.list[body].reference;
+        let rigid = self.inertia_forces(m, &[0, 1, 2, 3, 4, 5], |&k, body| {
+            arm(&Vector3::from(m.points[reference(body)])).column(k).into_owned()
+        });
+        let shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
+        let mut out = Inertial {
+            rigid: DMatrix::zeros(effects.len(), 6),
+            modes: DMatrix::zeros(effects.len(), modes.len()),
+        };
+        for (e, functional) in functionals.iter().enumerate() {
+            let motions = self.motions(&self.scaled_where_stiffened(&functional.strain));
+            for (k, forces) in rigid.iter().enumerate() {
+                out.rigid[(e, k)] = self.effect_of(m, functional, &motions, forces);
+            }
+            for (k, forces) in shapes.iter().enumerate() {
+                out.modes[(e, k)] = self.effect_of(m, functional, &motions, forces);
+            }
+        }
+        Ok(out)
+    }
+
+    /// The forces M a for each of `all`; `motion` gives the acceleration of the reference of a body.
+    fn inertia_forces<T>(
+        &self,
+        m: &Model,
+        all: &[T],
+        motion: impl Fn(&T, usize) -> Vector6,
+    ) -> Vec<InertiaForces> {
+        let bodies = self.bodies.list.len();
+        let motions: Vec<Vec<Vector6>> =
+            all.iter().map(|one| (0..bodies).map(|body| motion(one, body)).collect()).collect();
+        let zero = || InertiaForces {
+            on_bodies: vec![SVector::zeros(); bodies],
+            end_accelerations: vec![Vector12::zeros(); self.elements.len()],
+        };
+        let mut out: Vec<InertiaForces> = all.iter().map(|_| zero()).collect();
+        for (index, (element, member)) in self.elements.iter().zip(&m.members).enumerate() {
+            let section = &m.sections[member.section];
+            if section.mass == 0.0 {
+                continue;
+            }
+            let pair = self.bodies.pair(element.points);
+            let b = transformation(element, &self.bodies);
+            let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
+            let mass = ends.transpose() * unreleased_mass(element, section, m.theory, member.kind);
+            for (forces, motions) in out.iter_mut().zip(&motions) {
+                forces.add_member(index, pair, &ends, &mass, motions);
+            }
+        }
+        for mass in &m.masses {
+            self.add_rigid_mass(mass, &motions, &mut out);
+        }
+        out
+    }
+
+    fn add_rigid_mass(&self, mass: &Mass, motions: &[Vec<Vector6>], out: &mut [InertiaForces]) {
+        let body = self.bodies.of_point[mass.point];
+        let motion = self.bodies.motion(mass.point, &Vector3::from(mass.offset));
+        for (forces, motions) in out.iter_mut().zip(motions) {
+            let mut own = motion * motions[body];
+            for k in 0..3 {
+                own[k] *= mass.mass;
+                own[k + 3] *= mass.inertia[k];
+            }
+            forces.on_bodies[body] += motion.transpose() * own;
+        }
+    }
+
+    /// An effect of forces M a: the motions of its adjoint solution times the forces, less what acts on it
+    /// directly, plus what the mass of its own member adds between the fixed ends.
+    fn effect_of(
+        &self,
+        m: &Model,
+        functional: &Functional,
+        motions: &[Vector6],
+        forces: &InertiaForces,
+    ) -> f64 {
+        let elastic: f64 = motions.iter().zip(&forces.on_bodies).map(|(u, f)| u.dot(f)).sum();
+        let own = functional
+            .section
+            .as_ref()
+            .map_or(0.0, |section| self.own_member(m, section, &forces.end_accelerations[section.member]));
+        elastic - functional.direct.evaluate(&forces.on_bodies) + own
+    }
+
+    /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
+    /// integral of m N a over the part before the section.
+    fn own_member(&self, m: &Model, section: &splines::Section, ends: &Vector12) -> f64 {
+        let (element, member) = (&self.elements[section.member], &m.members[section.member]);
+        let pair = self.bodies.pair(element.points);
+        let cross_section = &m.sections[member.section];
+        if pair[0] == pair[1] || cross_section.mass == 0.0 {
+            return 0.0;
+        }
+        let distributed =
+            DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
+        let fixed = unreleased_mass(element, cross_section, m.theory, member.kind) * ends;
+        let end_forces: f64 = section.ends.iter().zip(fixed.iter()).map(|(a, b)| a * b).sum();
+        let to = section.place * element.length;
+        end_forces
+            + GAUSS
+                .iter()
+                .map(|[place, weight]| {
+                    let z = 0.5 * to * (1.0 + place);
+                    let load = distributed.force(ends, z / element.length);
+                    let balance = section.component.balance(to - z);
+                    0.5 * to * weight * balance.iter().zip(load).map(|(a, b)| a * b).sum::<f64>()
+                })
+                .sum::<f64>()
+    }
+}
+
+impl InertiaForces {
+    /// Adds the forces on the mass of a member whose flexible ends move by `ends` with its two bodies;
+    /// `mass` = ends^T M.
+    fn add_member(
+        &mut self,
+        index: usize,
+        pair: [usize; 2],
+        ends: &Matrix12,
+        mass: &Matrix12,
+        motions: &[Vector6],
+    ) {
+        let both = Vector12::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
+        let local = ends * both;
+        let load = mass * local;
+        for (k, &body) in pair.iter().enumerate() {
+            self.on_bodies[body] += load.fixed_rows::<6>(6 * k);
+        }
+        self.end_accelerations[index] = local;
+    }
+}
+
+/// The mass along a member.
+struct DistributedMass<'a> {
+    element: &'a Element,
+    section: &'a Section,
+    theory: Theory,
+    kind: Kind,
+}
+
+impl DistributedMass<'_> {
+    /// Force and moment per length, local, at the fraction `at` of the length, for accelerations `ends` of the
+    /// flexible ends.
+    fn force(&self, ends: &Vector12, at: f64) -> [f64; 6] {
+        let section = self.section;
+        let linear = |k: usize| section.mass * ((1.0 - at) * ends[k] + at * ends[k + 6]);
+        let mut out = [0.0; 6];
+        out[0] = linear(0);
+        if self.kind != Kind::Truss {
+            out[3] = linear(3) * section.gyration_squared(section.iy + section.iz);
+        }
+        for (plane, second) in bending_planes(&self.element.flexibility).iter().zip([section.iz, section.iy])
+        {
+            if plane.bending.is_infinite() {
+                out[plane.deflection] = linear(plane.deflection);
+                continue;
+            }
+            let [deflection, rotation] = self.bending(plane, ends, at);
+            out[plane.deflection] = section.mass * deflection;
+            if self.theory == Theory::Timoshenko {
+                out[plane.rotation] = plane.sign * section.mass * section.gyration_squared(second) * rotation;
+            }
+        }
+        out
+    }
+
+    /// Accelerations of deflection and rotation of the section at the fraction `at` of the length.
+    fn bending(&self, plane: &BendingPlane, ends: &Vector12, at: f64) -> [f64; 2] {
+        let length = self.element.length;
+        let shapes = bending_shapes(plane.shear_ratio(length), length);
+        let (v, turn, sign) = (plane.deflection, plane.rotation, plane.sign);
+        let moved = [ends[v], sign * ends[turn], ends[v + 6], sign * ends[turn + 6]];
+        let value = |cubic: &Cubic| cubic.iter().rev().fold(0.0, |sum, c| sum * at + c);
+        let sum = |pick: fn(&(Cubic, Cubic)) -> &Cubic| -> f64 {
+            shapes.iter().zip(moved).map(|(pair, moved)| value(pick(pair)) * moved).sum()
+        };
+        [sum(|pair| &pair.0), sum(|pair| &pair.1)]
+    }
+}

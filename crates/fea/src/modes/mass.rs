@@ -1,0 +1,296 @@
+//! Consistent mass of members and rigid masses, over the unknowns of the stiffness.
+
+use nalgebra::{SMatrix, Vector3};
+use sprs::{CsMat, TriMat};
+
+use crate::assembly::{
+    BendingPlane, Bodies, Element, Matrix6, Matrix12, Numbering, ScaledStiffness, arm, bending_planes,
+    transformation,
+};
+use crate::dof::Freedom;
+use crate::error::Error;
+use crate::model::{Kind, Mass, Model, Section, Theory};
+
+/// Mass of a degree of freedom that nothing stiffens, relative to what was added up, that is only rounding.
+const ROUNDING: f64 = 1e-24;
+
+/// The mass of a frame: S M S of the unknowns, S the scale of the stiffness, and that of the whole.
+#[derive(Debug)]
+pub(crate) struct ScaledMass {
+    /// Upper triangle of S M S.
+    pub upper: CsMat<f64>,
+    /// S M r of the unknowns for six rigid motions r of the whole structure, supports included: three
+    /// translations along the global axes, three rotations about the global origin.
+    pub rigid: [Vec<f64>; 6],
+    /// r^T M r.
+    pub total: Matrix6,
+}
+
+/// Mass of a member between the tips of its rigid offsets, local axes.
+#[derive(Debug)]
+struct MemberMass {
+    /// In the directions that the member resists; that of a truss in all directions.
+    resisted: Matrix12,
+    /// In the directions that a beam does not resist.
+    unresisted: Matrix12,
+}
+
+impl ScaledMass {
+    /// Assembles the mass in the order and scale of the stiffness.
+    ///
+    /// A degree of freedom that nothing stiffens is left out if all its mass is that of beams without
+    /// stiffness along it: such a model is plane, or straight, by intent.
+    ///
+    /// # Errors
+    /// [`Error::Mechanism`] for a degree of freedom that nothing stiffens and that has any other mass.
+    pub fn new(
+        m: &Model,
+        elements: &[Element],
+        bodies: &Bodies,
+        stiffness: &ScaledStiffness,
+    ) -> Result<ScaledMass, Error> {
+        MassSum::new(m, elements, bodies, &stiffness.numbering).finish()
+    }
+}
+
+/// Mass of a whole structure that moves as one with its supports: r^T M r, 6 x 6, symmetric, for three
+/// translations along the global axes and three rotations about the global origin.
+///
+/// # Errors
+/// [`Error::Invalid`] for an entry of the model that cannot be used.
+pub fn rigid_mass(m: &Model) -> Result<[[f64; 6]; 6], Error> {
+    m.check()?;
+    let elements = Element::all(m)?;
+    let bodies = Bodies::new(m);
+    let stiffness = ScaledStiffness::new(m, &elements, &bodies);
+    Ok(rows(&MassSum::new(m, &elements, &bodies, &stiffness.numbering).symmetric_total()))
+}
+
+/// A 6 x 6 matrix by rows.
+pub(super) fn rows(matrix: &Matrix6) -> [[f64; 6]; 6] {
+    std::array::from_fn(|i| std::array::from_fn(|j| matrix[(i, j)]))
+}
+
+struct MassSum<'a> {
+    bodies: &'a Bodies,
+    numbering: &'a Numbering,
+    triplets: TriMat<f64>,
+    rigid: [Vec<f64>; 6],
+    total: Matrix6,
+    /// For each column that nothing stiffens: its mass, and the magnitudes behind it.
+    unstiffened: Vec<[f64; 2]>,
+}
+
+impl<'a> MassSum<'a> {
+    fn new(m: &Model, elements: &[Element], bodies: &'a Bodies, numbering: &'a Numbering) -> MassSum<'a> {
+        let n = numbering.column.len();
+        let mut sum = MassSum {
+            bodies,
+            numbering,
+            triplets: TriMat::with_capacity((n, n), 78 * elements.len() + 21 * m.masses.len()),
+            rigid: std::array::from_fn(|_| vec![0.0; n]),
+            total: Matrix6::zeros(),
+            unstiffened: vec![[0.0; 2]; numbering.unknown.len()],
+        };
+        for (element, member) in elements.iter().zip(&m.members) {
+            let section = &m.sections[member.section];
+            if section.mass == 0.0 {
+                continue;
+            }
+            let MemberMass { resisted, unresisted } =
+                mass_between_tips(element, section, m.theory, member.kind);
+            let b = transformation(element, bodies);
+            sum.add(m, bodies.pair(element.points), &b, &resisted, &(resisted + unresisted));
+        }
+        m.masses.iter().for_each(|mass| sum.add_rigid(m, mass));
+        sum
+    }
+
+    fn add_rigid(&mut self, m: &Model, mass: &Mass) {
+        let body = self.bodies.of_point[mass.point];
+        let mut own = Matrix12::zeros();
+        for k in 0..3 {
+            own[(k, k)] = mass.mass;
+            own[(k + 3, k + 3)] = mass.inertia[k];
+        }
+        let mut b = Matrix12::zeros();
+        let motion = self.bodies.motion(mass.point, &Vector3::from(mass.offset));
+        b.fixed_view_mut::<6, 6>(0, 0).copy_from(&motion);
+        self.add(m, [body, body], &b, &own, &own);
+    }
+
+    fn symmetric_total(&self) -> Matrix6 {
+        (self.total + self.total.transpose()) * 0.5
+    }
+
+    /// Adds the mass `all` of a part that moves by `b` with two bodies (or twice the same one); the part
+    /// `resisted` of it needs something that stiffens it.
+    fn add(&mut self, m: &Model, pair: [usize; 2], b: &Matrix12, resisted: &Matrix12, all: &Matrix12) {
+        let mut basis = Matrix12::zeros();
+        let mut whole = SMatrix::<f64, 12, 6>::zeros();
+        for (k, &body) in pair.iter().enumerate() {
+            let body = &self.bodies.list[body];
+            basis.fixed_view_mut::<6, 6>(6 * k, 6 * k).copy_from(&body.basis);
+            let reference = Vector3::from(m.points[body.reference]);
+            whole.fixed_view_mut::<6, 6>(6 * k, 0).copy_from(&arm(&reference));
+        }
+        let whole = b * whole;
+        // Magnitudes show whether a mass that should be zero is only rounding.
+        let (own, size) = (b * basis, b.abs() * basis.abs());
+        let mass = own.transpose() * all * own;
+        let momentum = own.transpose() * all * whole;
+        self.total += whole.transpose() * all * whole;
+        let resisted_mass = own.transpose() * resisted * own;
+        let bulk = size.transpose() * resisted.abs() * size;
+        let Numbering { unknown, scale, .. } = self.numbering;
+        let column = |i: usize| 6 * pair[i / 6] + i % 6;
+        for i in 0..12 {
+            let Some(row) = unknown[column(i)] else {
+                self.unstiffened[column(i)][0] += resisted_mass[(i, i)];
+                self.unstiffened[column(i)][1] += bulk[(i, i)];
+                continue;
+            };
+            for (k, rigid) in self.rigid.iter_mut().enumerate() {
+                rigid[row] += scale[row] * momentum[(i, k)];
+            }
+            for j in 0..12 {
+                let value = 0.5 * (mass[(i, j)] + mass[(j, i)]);
+                if let Some(other) = unknown[column(j)].filter(|&other| row <= other && value != 0.0) {
+                    self.triplets.add_triplet(row, other, scale[row] * value * scale[other]);
+                }
+            }
+        }
+    }
+
+    fn finish(self) -> Result<ScaledMass, Error> {
+        let total = self.symmetric_total();
+        for (column, [own, bulk]) in self.unstiffened.into_iter().enumerate() {
+            let body = &self.bodies.list[column / 6];
+            if body.free[column % 6] && own > ROUNDING * bulk {
+                let freedom = Freedom::ALL[column % 6];
+                return Err(Error::Mechanism { point: body.reference, freedom });
+            }
+        }
+        Ok(ScaledMass { upper: self.triplets.to_csc(), rigid: self.rigid, total })
+    }
+}
+
+/// A cubic in the fraction of the length: the coefficient of each power.
+pub(super) type Cubic = [f64; 4];
+
+/// Integral of a product of two cubics over 0 to 1.
+fn integral_of_product(a: &Cubic, b: &Cubic) -> f64 {
+    let mut sum = 0.0;
+    for (p, x) in a.iter().enumerate() {
+        for (q, y) in b.iter().enumerate() {
+            sum += x * y / (p + q + 1) as f64;
+        }
+    }
+    sum
+}
+
+/// Consistent mass between the tips of the rigid offsets, releases included:
+///
+/// M = integral of m N^T N + (m I / A) N'^T N' with the shapes N of the member without load.
+///
+/// The shapes are cubic in bending, with the part of shear under Timoshenko's theory, and linear otherwise.
+/// The rotation of sections in bending has inertia under Timoshenko's theory alone; that of twist,
+/// m (Iy + Iz) / A, always. A released degree of freedom moves as without load.
+///
+/// # Source
+/// Archer (1965), AIAA J. 3; Przemieniecki, Theory of Matrix Structural Analysis (1968), section 11.4.
+fn mass_between_tips(element: &Element, section: &Section, theory: Theory, kind: Kind) -> MemberMass {
+    let MemberMass { mut resisted, mut unresisted } = member_mass(element, section, theory, kind);
+    if let Some(shape) = release_shapes(element) {
+        resisted = shape.transpose() * resisted * shape;
+        unresisted = shape.transpose() * unresisted * shape;
+    }
+    MemberMass { resisted, unresisted }
+}
+
+/// Consistent mass between the flexible ends of a member, local axes, without its releases.
+pub(super) fn unreleased_mass(element: &Element, section: &Section, theory: Theory, kind: Kind) -> Matrix12 {
+    let MemberMass { resisted, unresisted } = member_mass(element, section, theory, kind);
+    resisted + unresisted
+}
+
+/// Motion of the flexible ends by that of the tips of the rigid offsets; `None` without releases.
+pub(super) fn release_shapes(element: &Element) -> Option<Matrix12> {
+    let mut shape = element.released.as_ref()?.recovery;
+    // A release where the section has no stiffness changes nothing.
+    for k in (0..12).filter(|&k| element.unreleased_diagonal[k] == 0.0) {
+        shape.row_mut(k).fill(0.0);
+        shape[(k, k)] = 1.0;
+    }
+    Some(shape)
+}
+
+fn member_mass(element: &Element, section: &Section, theory: Theory, kind: Kind) -> MemberMass {
+    let (mass, length) = (section.mass, element.length);
+    let mut out = MemberMass { resisted: Matrix12::zeros(), unresisted: Matrix12::zeros() };
+    let f = &element.flexibility;
+    let truss = kind == Kind::Truss;
+    out.add_linear(0, mass, length, truss || f.axial.is_finite());
+    if !truss {
+        let polar = section.gyration_squared(section.iy + section.iz);
+        out.add_linear(3, mass * polar, length, f.torsion.is_finite());
+    }
+    let planes = bending_planes(f);
+    for plane in planes.iter().filter(|plane| plane.bending.is_infinite()) {
+        out.add_linear(plane.deflection, mass, length, truss);
+    }
+    for (plane, second) in planes.iter().zip([section.iz, section.iy]) {
+        if plane.bending.is_infinite() {
+            continue;
+        }
+        let rotary = if theory == Theory::Timoshenko { mass * section.gyration_squared(second) } else { 0.0 };
+        out.add_bending(plane, mass, rotary, length);
+    }
+    out
+}
+
+impl MemberMass {
+    /// Adds `density` moving along straight lines between the ends, in degree of freedom `at`.
+    fn add_linear(&mut self, at: usize, density: f64, length: f64, resists: bool) {
+        let shapes = [[1.0, -1.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
+        let target = if resists { &mut self.resisted } else { &mut self.unresisted };
+        for (i, a) in shapes.iter().enumerate() {
+            for (j, b) in shapes.iter().enumerate() {
+                target[(at + 6 * i, at + 6 * j)] += density * length * integral_of_product(a, b);
+            }
+        }
+    }
+
+    /// Adds bending in one plane: `mass` per length moves with the deflection, `rotary` with the rotation.
+    fn add_bending(&mut self, plane: &BendingPlane, mass: f64, rotary: f64, length: f64) {
+        let shapes = bending_shapes(plane.shear_ratio(length), length);
+        let at = [
+            (plane.deflection, 1.0),
+            (plane.rotation, plane.sign),
+            (plane.deflection + 6, 1.0),
+            (plane.rotation + 6, plane.sign),
+        ];
+        for (i, (a, turn_a)) in shapes.iter().enumerate() {
+            for (j, (b, turn_b)) in shapes.iter().enumerate() {
+                let value = mass * integral_of_product(a, b) + rotary * integral_of_product(turn_a, turn_b);
+                self.resisted[(at[i].0, at[j].0)] += at[i].1 * at[j].1 * length * value;
+            }
+        }
+    }
+}
+
+/// Deflection and rotation of the member without load, for a unit deflection and a unit rotation of its first
+/// end, then of its last; phi = 12 EI / (G As L^2).
+pub(super) fn bending_shapes(phi: f64, length: f64) -> [(Cubic, Cubic); 4] {
+    let (d, h) = (1.0 / (1.0 + phi), length);
+    let scaled = |factor: f64, cubic: Cubic| cubic.map(|x| factor * x);
+    [
+        (scaled(d, [1.0 + phi, -phi, -3.0, 2.0]), scaled(d / h, [0.0, -6.0, 6.0, 0.0])),
+        (
+            scaled(d * h, [0.0, 1.0 + 0.5 * phi, -2.0 - 0.5 * phi, 1.0]),
+            scaled(d, [1.0 + phi, -4.0 - phi, 3.0, 0.0]),
+        ),
+        (scaled(d, [0.0, phi, 3.0, -2.0]), scaled(d / h, [0.0, 6.0, -6.0, 0.0])),
+        (scaled(d * h, [0.0, -0.5 * phi, 0.5 * phi - 1.0, 1.0]), scaled(d, [0.0, phi - 2.0, 3.0, 0.0])),
+    ]
+}

@@ -1,0 +1,24 @@
+//! Natural modes of a frame, K phi = omega^2 M phi, and the effects of its inertia.
+//!
+//! M is the consistent mass of the members plus the rigid masses, assembled in the unknowns of the
+//! stiffness. Block Lanczos with the factor of K finds the lowest modes; the number of negative pivots of
+//! K - sigma^2 M proves that none is missing. `refined` cuts members until the mesh no longer shows in the
+//! frequencies; `inertial` gives reactions and internal forces of weight and inertia.
+//!
+//! Order of the files: `mass`, `count`, `lanczos`, `mode`, `lowest`, `all`, `refined`, `inertial`.
+
+mod all;
+mod count;
+mod inertial;
+mod lanczos;
+mod lowest;
+mod mass;
+mod mode;
+mod refined;
+
+pub use all::MOST_DENSE_UNKNOWNS;
+pub use inertial::Inertial;
+pub use lowest::modes;
+pub use mass::rigid_mass;
+pub use mode::{Mode, Modes};
+pub use refined::{Refined, full_modes, refined_modes};

@@ -1,0 +1,175 @@
+//! Natural modes and what can be asked of them.
+
+use std::sync::Arc;
+
+use nalgebra::{DVector, DVectorView, Vector3};
+use splines::{Axis, Line, Probe, Surface};
+
+use crate::assembly::{Combination, column_norm, symmetric_product};
+use crate::error::Error;
+use crate::influence::Frame;
+use crate::modes::mass::{ScaledMass, rows};
+
+/// A natural mode with modal mass 1: phi^T M phi = 1, K phi = omega^2 M phi.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mode {
+    /// Circular frequency, radian/time.
+    pub omega: f64,
+    /// For each state of the rails its three displacements and three rotations, in the axes of its rail.
+    /// Along a rail element the shape is that of the member without load ([`Modes::at`]).
+    pub states: Vec<[f64; 6]>,
+    /// For each point its three displacements and three rotations, global.
+    pub points: Vec<[f64; 6]>,
+    /// phi^T M r for six rigid motions r of the whole structure with its supports: three translations along
+    /// the global axes, three rotations about the global origin. Its squares are the effective modal masses.
+    pub coupling: [f64; 6],
+    /// |K phi - omega^2 M phi| / ((|K| + omega^2 |M|) |phi|), of the scaled matrices in the 1-norm.
+    pub residual: f64,
+}
+
+/// Natural modes of a frame.
+///
+/// # Example
+/// ```
+/// use fea::{Girder, modes};
+/// use splines::{Axis, Probe};
+///
+/// let girder = Girder {
+///     spans: vec![15.0; 4],
+///     e: 4.32e9,
+///     i_vertical: 9.528,
+///     mass_per_length: Some(26.4),
+///     ..Girder::default()
+/// };
+/// let (mut model, rail) = girder.frame()?;
+/// // Four members, one span of 60 ft.
+/// model.supports.retain(|support| support.point % 4 == 0);
+/// let found = modes(&model, &[rail], 1)?;
+/// let exact = (std::f64::consts::PI / 60.0).powi(2) * (4.32e9 * 9.528 / 26.4_f64).sqrt();
+/// assert!((found.modes[0].omega / exact - 1.0).abs() < 1e-3);
+/// let [shape, slope] = found.at(Probe { rail: 0, x: 30.0, axis: Axis::Vertical })?[0];
+/// assert!(shape.abs() > 0.0 && slope.abs() < 1e-9);
+/// # Ok::<(), fea::Error>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Modes {
+    /// The modes, lowest first.
+    pub modes: Vec<Mode>,
+    /// Circular frequency sigma of the shift sigma^2 below which the modes were counted, radian/time.
+    pub shift: f64,
+    /// Number of eigenvalues below the shift, by the signs of the pivots of K - sigma^2 M; all of them were
+    /// found. If it is less than the number of modes, the others lie within 1e-6 of each other.
+    pub below: usize,
+    /// Circular frequency of the mode after these, radian/time; `None` if there is no other or it is unknown.
+    pub next: Option<f64>,
+    /// r^T M r of the whole structure with its supports, r as in [`Mode::coupling`]: masses, then moments and
+    /// moments of inertia about the global origin.
+    pub total: [[f64; 6]; 6],
+    line: Option<Arc<Line>>,
+}
+
+/// What shows that the modes are the lowest: a shift, the number of modes below it, and the next frequency.
+pub(super) struct Count {
+    pub shift: f64,
+    pub below: usize,
+    pub next: Option<f64>,
+}
+
+impl Frame {
+    /// 1-norms of the scaled stiffness and mass.
+    ///
+    /// # Errors
+    /// [`Error::NoMass`].
+    pub(super) fn norms(&self, mass: &ScaledMass) -> Result<[f64; 2], Error> {
+        let norms = [self.stiffness().norm(), column_norm(&mass.upper)];
+        if norms[1] == 0.0 { Err(Error::NoMass) } else { Ok(norms) }
+    }
+
+    /// The modes of a frame with mass `mass`.
+    pub(super) fn collect_modes(&self, modes: Vec<Mode>, count: Count, mass: &ScaledMass) -> Modes {
+        let Count { shift, below, next } = count;
+        Modes { modes, shift, below, next, total: rows(&mass.total), line: self.line().ok().cloned() }
+    }
+
+    /// A mode from its eigenvalue and its scaled unknowns with modal mass 1.
+    pub(super) fn mode(&self, mass: &ScaledMass, norms: [f64; 2], lambda: f64, phi: &DVector<f64>) -> Mode {
+        let stiffness = &self.stiffness().upper;
+        let force = symmetric_product(stiffness, phi.as_view());
+        let momentum = symmetric_product(&mass.upper, phi.as_view());
+        let size = (norms[0] + lambda * norms[1]) * phi.norm();
+        let residual = (force - momentum * lambda).norm() / size;
+        let coupling =
+            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(phi));
+        let motions = self.body_motions(phi.as_slice());
+        let value = |row: &Combination| row.evaluate(&motions);
+        let states = self.states().iter().map(|state| state.each_ref().map(value)).collect();
+        let points = (0..self.bodies.of_point.len()).map(|point| {
+            let motion = self.bodies.motion(point, &Vector3::zeros());
+            (motion * motions[self.bodies.of_point[point]]).into()
+        });
+        Mode { omega: lambda.sqrt(), states, points: points.collect(), coupling, residual }
+    }
+}
+
+impl Modes {
+    fn line(&self) -> Result<&Arc<Line>, Error> {
+        self.line.as_ref().ok_or(Error::NoRails)
+    }
+
+    /// Displacement of every mode at a probe, along its axis, and its derivative with respect to the rail
+    /// coordinate.
+    ///
+    /// # Errors
+    /// [`Error::NoRails`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that nothing resists.
+    pub fn at(&self, probe: Probe) -> Result<Vec<[f64; 2]>, Error> {
+        let row = self.line()?.row(probe)?;
+        let sum = |mode: &Mode, weights: &[f64]| -> f64 {
+            let terms = row.indices().iter().zip(weights);
+            terms.map(|(&index, weight)| weight * mode.states[index / 6][index % 6]).sum()
+        };
+        Ok(self.modes.iter().map(|mode| [sum(mode, row.values()), sum(mode, row.slopes())]).collect())
+    }
+
+    /// Rotation of every mode about the rail at x, linear along a rail element: exact if the element runs
+    /// along the rail.
+    ///
+    /// # Errors
+    /// [`Error::NoRails`]; [`Error::Rail`] for a place beyond the rail.
+    pub fn twist(&self, rail: usize, x: f64) -> Result<Vec<f64>, Error> {
+        let line = self.line()?;
+        let row = |axis| line.row(Probe { rail, x, axis });
+        // The directions may differ in what resists them; any of them names the rail element.
+        let row = row(Axis::Vertical).or_else(|_| row(Axis::Lateral)).or_else(|_| row(Axis::Longitudinal))?;
+        let cell = &line.cells()[row.cell];
+        let r = ((x - cell.x[0]) / (cell.x[1] - cell.x[0])).clamp(0.0, 1.0);
+        let [a, b] = cell.ends;
+        Ok(self.modes.iter().map(|mode| (1.0 - r) * mode.states[a][3] + r * mode.states[b][3]).collect())
+    }
+
+    /// Residual flexibility: an influence surface of the same frame without the part of these modes,
+    ///
+    /// G_res = G - sum phi_r phi_r^T / omega_r^2
+    ///
+    /// Guarantee: positive semi-definite up to the rounding of G, whatever the number of modes.
+    ///
+    /// # Errors
+    /// [`Error::NoRails`]; [`Error::Rail`] for a surface of another frame, by its number of states.
+    pub fn residual(&self, surface: &Surface) -> Result<Surface, Error> {
+        let line = self.line()?;
+        let mut nodal = surface.nodal().clone();
+        let expected = 6 * line.states();
+        if nodal.nrows() != expected {
+            let (rows, columns) = nodal.shape();
+            return Err(splines::Error::NodalShape { rows, columns, expected }.into());
+        }
+        for mode in &self.modes {
+            let phi = DVector::from_fn(expected, |k, _| mode.states[k / 6][k % 6] / mode.omega);
+            for j in (0..expected).filter(|&j| phi[j] != 0.0) {
+                for i in 0..expected {
+                    nodal[(i, j)] -= phi[i] * phi[j];
+                }
+            }
+        }
+        Ok(Surface::new(Arc::clone(surface.line()), nodal)?)
+    }
+}
