@@ -24,6 +24,11 @@ class Scene:
         self.seconds = 1.0
         self.auto = False
 
+    def effects(self, name):
+        """Whether a structure's spec names sections for internal forces."""
+        entry = self.json["structures"][name]
+        return bool(self.files.get(entry.get("spec"), {}).get("effects"))
+
     def tag(self, *tags):
         self.tags.update(tags)
 
@@ -267,7 +272,8 @@ def suits_collocation(scene):
         "friction" not in kind and "lateral" not in kind and kind["vertical"].get("law") != "impact" for kind in scene.wheels.values()
     )
     carriers = {entry.get("foundation") for entry in scene.json["structures"].values()}
-    return plain and scene.prescribed and carriers <= {"influence", "modal", "rigid", "ties"} and not scene.json.get("stops")
+    uneven = any("irregularities" in entry for entry in scene.json["structures"].values())
+    return plain and not uneven and scene.prescribed and carriers <= {"influence", "modal", "rigid", "ties"} and not scene.json.get("stops")
 
 
 def closing(scene, options=True):
@@ -279,10 +285,10 @@ def closing(scene, options=True):
     accuracy = draw.choice([None, 1e-3, 1e-4, 1e-4, 1e-5])
     if accuracy:
         scene_json["accuracy"] = accuracy
-    if options and draw.yes(0.25):
+    if options and draw.yes(0.6 if suits_collocation(scene) else 0.2):
         stepper = draw.choice(["sdirk4", "auto"])
         if suits_collocation(scene) or draw.yes(0.1):
-            stepper = draw.choice(["sdirk4", "radau", "auto", "gauss2", "gauss3", "series"])
+            stepper = draw.weighted(radau=3, gauss2=2, gauss3=2, series=3, auto=1, sdirk4=1)
             if stepper in ("gauss2", "gauss3", "series"):
                 for kind in scene.wheels.values():
                     kind["vertical"].pop("c", None)
@@ -301,6 +307,10 @@ def outputs(scene, structures, stressed):
     if draw.yes(0.3):
         out["reactions"] = draw.choice([True, False, structures[:1]])
         scene.tag("output: reactions")
+    if draw.yes(0.15):
+        named = [name for name in structures if scene.effects(name)]
+        out["sections"] = draw.choice([False, named[-1:]])
+        scene.tag("output: sections")
     if draw.yes(0.2):
         out["dead_load"] = True
         scene.tag("output: dead_load")
@@ -426,9 +436,18 @@ def trucks(draw):
             elif brake:
                 scene.listed("events", {"when": f"time >= {significant(scene.seconds * 0.4, 2)}", "do": {"brake": body}})
                 scene.tag("event: brake")
-        if draw.yes(0.15) and not quasi:
-            freedom = draw.choice([f for f in freedoms if f != "x"])
-            value = units.force(mass * 0.1) if freedom in ("y", "z") else units.moment(mass * 0.05)
+            if brake and "brake" in given and draw.yes(0.5):
+                late = significant(given["brake"] + 0.3 * (scene.seconds - given["brake"]), 4)
+                scene.listed("events", {"name": f"{body} goes on", "when": f"time >= {late}", "do": {"release_brake": body}})
+                scene.tag("event: release_brake")
+            if how == "drive" and draw.yes(0.4):
+                when = f"time > {significant(scene.seconds * 0.3, 2)}"
+                do = draw.choice([{"drive_off": body}, {"drive": {"body": body, "speed": units.length(0.5)}}])
+                scene.listed("events", {"name": f"{body} driver", "when": when, "do": do})
+                scene.tag(f"event: {next(iter(do))}")
+        if draw.yes(0.2) and not quasi:
+            freedom = draw.choice([f for f in freedoms if f != "x" or how in ("free", "drive")])
+            value = units.moment(mass * 0.05) if freedom == "pitch" else units.force(mass * 0.1)
             scene.listed("loads", {"body": body, "dof": freedom, "value": [[0, 0], [scene.seconds / 3, value], [scene.seconds, -value]]})
             scene.tag(f"load: {freedom}")
     if flanged or any_friction:
