@@ -19,7 +19,7 @@ class Case:
     commands: list
     tags: set = field(default_factory=set)
     folder: str = ""
-    timeout: float = 60.0
+    timeout: float = 120.0
 
 
 class Draw(random.Random):
