@@ -21,6 +21,10 @@ Difference = namedtuple("Difference", "kind place text")
 SENTENCES = {"reason", "what", "why", "warnings", "notes", "text", "expected", "hint", "found", "message", "description", "title"}
 NUMBER = re.compile(r"(?<![\w.])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w])")
 LOCATION = re.compile(r"^(?:(?:error|warning): )?([^\s:]+(?::\d+){1,2}):")
+# with a tolerance: numbers in messages, which are printed with a few digits
+PRINTED = 1e-3
+# with a tolerance: a column that is smaller than this part of the largest of its unit is measured by that
+SMALL = 1e-4
 FLANGE = re.compile(r"\.wheel\d+\.lateral$")
 
 
@@ -106,7 +110,7 @@ def of_kind(kind, a, b, rules, name, old, new):
             return summaries_nearly(json.loads(a), json.loads(b), rules, old, new, name)
         return values(json.loads(a), json.loads(b), rules)
     if kind == "history" and rules.tolerance is not None:
-        return histories_nearly(a.decode(), b.decode(), rules.tolerance)
+        return histories_nearly(a.decode(), b.decode(), rules.tolerance, units_of(old / name))
     if kind == "cycles" and rules.tolerance is not None:
         strike = struck(old / str(name).replace("cycles", "history", 1))
         return None if strike else numbers_nearly(a.decode(), b.decode(), rules.tolerance)
@@ -145,9 +149,24 @@ def clip(value, most=90):
     return text if len(text) <= most else text[:most] + "..."
 
 
+class Digits(str):
+    """A number as it is written."""
+
+
 def digits(content):
     """JSON with numbers as they are written, so that every digit counts."""
-    return json.loads(content, parse_float=lambda s: ("number", s), parse_int=lambda s: ("number", s))
+    return json.loads(content, parse_float=Digits, parse_int=Digits)
+
+
+def numberless(value):
+    """JSON with its numbers left out, also those in texts."""
+    if isinstance(value, dict):
+        return {key: numberless(below) for key, below in value.items()}
+    if isinstance(value, list):
+        return [numberless(below) for below in value]
+    if isinstance(value, Digits) or isinstance(value, (int, float)) and not isinstance(value, bool):
+        return "#"
+    return NUMBER.sub("#", value) if isinstance(value, str) else value
 
 
 def stages(content):
@@ -206,6 +225,8 @@ def values(a, b, rules, path=()):
         return None
     if isinstance(a, bool) or isinstance(b, bool) or type(a) is not type(b) and not {type(a), type(b)} <= {int, float}:
         return None if a is b else f"{place}: {clip(a)} became {clip(b)}"
+    if isinstance(a, Digits):
+        return None if a == b else f"{place}: {a} became {b}"
     if isinstance(a, str):
         key = next((k for k in reversed(path) if isinstance(k, str)), "")
         if rules.messages_may_differ and key in SENTENCES and (key in ("description", "title") or sentence(a) == sentence(b)):
@@ -219,19 +240,29 @@ def messages(a, b, rules):
     if a == b:
         return None
     try:
-        return values(digits(a), digits(b), rules)
+        read = (lambda text: numberless(json.loads(text))) if rules.tolerance is not None else digits
+        return values(read(a), read(b), rules)
     except ValueError:
         pass
-    if rules.tolerance is not None:
-        return numbers_nearly(a, b, 1e-3)
     if rules.messages_may_differ:
-        marks = lambda text: [((found := LOCATION.match(line)) and found.group(1), sentence(line)) for line in text.splitlines()]
-        left, right = marks(a), marks(b)
-        if left != right:
-            number = next((i for i, (x, y) in enumerate(zip(left, right)) if x != y), min(len(left), len(right)))
-            return f"line {number + 1}: places or numbers differ: {clip((a.splitlines() + [''])[number])!r} became {clip((b.splitlines() + [''])[number])!r}"
-        return None
+        return placed(a, b, 0.0 if rules.tolerance is None else PRINTED)
+    if rules.tolerance is not None:
+        return numbers_nearly(a, b, PRINTED)
     return texts(a, b)
+
+
+def placed(a, b, tolerance):
+    """Messages of any wording with the same places and numbers, line by line."""
+    lines = [a.splitlines(), b.splitlines()]
+    if len(lines[0]) != len(lines[1]):
+        return f"{len(lines[0])} lines became {len(lines[1])}"
+    place = lambda line: (found := LOCATION.match(line)) and found.group(1)
+    for number, (left, right) in enumerate(zip(*lines), 1):
+        x, y = (sorted(map(float, sentence(line))) for line in (left, right))
+        near = len(x) == len(y) and all(abs(p - q) <= tolerance * max(abs(p), abs(q)) for p, q in zip(x, y))
+        if place(left) != place(right) or not near:
+            return f"line {number}: other place or numbers: {clip(left)!r} became {clip(right)!r}"
+    return None
 
 
 def numbers_nearly(a, b, tolerance):
@@ -271,15 +302,38 @@ def struck(file):
     return first_strike(header, rows) < len(rows)
 
 
-def histories_nearly(a, b, tolerance):
-    """Histories within `tolerance` of the largest value of each column, until a flange strikes in one of them."""
+def units_of(history):
+    """Unit of each column of a history, from the summary beside it."""
+    file = history.parent / "summary.json"
+    summary = json.loads(file.read_text()) if file.exists() else {}
+    label = history.stem.removeprefix("history").removeprefix("-")
+    run = summary.get("compare", {}).get(label, {}) if label else summary
+    return run.get("units") or summary.get("units", {})
+
+
+def sizes(columns, units):
+    """What each column is measured by: its largest value, or a part of the largest of its unit where that is more.
+
+    Columns that would be zero without rounding hold numbers which mean nothing.
+    """
+    nothing = 1e-25 * max(columns.values(), default=0.0)
+    of_unit = {}
+    for name, size in columns.items():
+        unit = units.get(name, name)
+        of_unit[unit] = max(of_unit.get(unit, 0.0), size)
+    return {name: max(size, nothing, SMALL * of_unit[units.get(name, name)]) for name, size in columns.items()}
+
+
+def histories_nearly(a, b, tolerance, units):
+    """Histories within `tolerance` of the size of each column, until a flange strikes in one of them."""
     (head_a, rows_a), (head_b, rows_b) = table(a), table(b)
     if head_a != head_b:
         return "other columns"
     last = min(first_strike(head_a, rows_a), first_strike(head_b, rows_b))
     if last == min(len(rows_a), len(rows_b)) and len(rows_a) != len(rows_b):
         return f"{len(rows_a)} rows became {len(rows_b)}"
-    largest = [max((abs(row[i]) for row in rows_a if row[i] is not None), default=0.0) for i in range(len(head_a))]
+    columns = {name: max((abs(row[i]) for row in rows_a if row[i] is not None), default=0.0) for i, name in enumerate(head_a)}
+    largest = list(sizes(columns, units).values())
     for k in range(last):
         for i, (x, y) in enumerate(zip(rows_a[k], rows_b[k])):
             if (x is None) != (y is None) or x is not None and abs(x - y) > tolerance * largest[i]:
@@ -328,9 +382,9 @@ def summaries_nearly(a, b, rules, old, new, name):
 
 
 def peaks(summary, label):
-    """Largest absolute value of each column of a run."""
+    """What the peaks of each column of a run are measured by."""
     run = summary.get("compare", {}).get(label, {}) if label else summary
-    sizes = {}
+    columns = {}
     for column, ends in run.get("peaks", {}).items():
-        sizes[column] = max((abs(end["value"]) for end in ends.values() if isinstance(end, dict)), default=0.0)
-    return sizes
+        columns[column] = max((abs(end["value"]) for end in ends.values() if isinstance(end, dict)), default=0.0)
+    return sizes(columns, run.get("units") or summary.get("units", {}))
