@@ -1,5 +1,6 @@
 """Random cases: which files and which commands, drawn by number so that a case stays the same in longer runs."""
 
+import cranes
 import damage
 import models
 import scenes
@@ -125,7 +126,7 @@ def malformed(draw):
     return case
 
 
-SCENES = [scenes.trucks, scenes.trucks, scenes.trucks, scenes.crane, scenes.crane, scenes.single_wheel, scenes.ties, scenes.wagon]
+SCENES = [scenes.trucks, scenes.trucks, scenes.trucks, cranes.crane, cranes.crane, scenes.single_wheel, scenes.ties, scenes.wagon]
 
 
 def random_case(seed, number):
