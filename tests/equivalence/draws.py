@@ -45,7 +45,7 @@ def form(draw):
 def of_tables(draw):
     """A scene that reads tables which an earlier command wrote."""
     scene = scenes.trucks(draw)
-    name, entry = next(iter(scene.json["structures"].items()))
+    entry = next(iter(scene.json["structures"].values()))
     spec = entry["spec"]
     ending = draw.choice(ENDINGS)
     structure = scene.structure

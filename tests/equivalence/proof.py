@@ -5,9 +5,6 @@ A few inputs are run by PROGRAM and by PROGRAM with one file altered after each 
 those that the rules allow must not.
 """
 
-import json
-import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
