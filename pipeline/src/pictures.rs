@@ -2,7 +2,7 @@
 
 use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
 
-use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot};
+use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot, Svg};
 use crate::crosscheck::Quantity;
 use crate::link::Solved;
 use crate::motion::{Cast, CastWheel};
@@ -32,7 +32,7 @@ impl Plate {
         Plate { name: name.into(), caption: caption.into(), picture: chart.into() }
     }
 
-    fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: String) -> Plate {
+    fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: Svg) -> Plate {
         Plate { name: name.into(), caption: caption.into(), picture: svg.into() }
     }
 
@@ -40,7 +40,7 @@ impl Plate {
     ///
     /// # Errors
     /// What the chart cannot draw.
-    pub fn svg(&self) -> Result<String, chart::Error> {
+    pub fn svg(&self) -> Result<Svg, chart::Error> {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),

@@ -8,7 +8,7 @@ use super::manner::Manner;
 use super::readings::{map, strip};
 use super::subject::Subject;
 use super::text::short;
-use crate::chart::{self, Axis, Chart, Series, Style, SurfacePlot};
+use crate::chart::{self, Axis, Chart, Series, Style, SurfacePlot, Svg};
 use crate::report::{self, Picture, Report, Section};
 use crate::units::Dimension;
 
@@ -30,7 +30,7 @@ impl Plate {
     ///
     /// # Errors
     /// What a chart cannot draw.
-    pub fn svg(&self) -> Result<String, chart::Error> {
+    pub fn svg(&self) -> Result<Svg, chart::Error> {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),

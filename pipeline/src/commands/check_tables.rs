@@ -82,7 +82,7 @@ fn drawing(subject: &Subject, all: &[Findings]) -> Result<String, Failure> {
             .hint("check the grid file of these tables")
             .into());
     }
-    Ok(stack(&pictures))
+    Ok(stack(&pictures).file())
 }
 
 /// A surface that has no answer within a table.

@@ -177,7 +177,7 @@ fn fill(folder: &mut Folder, result: &Comparison, spec: &Spec) -> Result<(), Fai
                 format!("plots/difference-{name}.svg")
             };
             let svg = chart.svg().map_err(|error| Failure::Untrusted(error.to_string()))?;
-            folder.add(&file, svg);
+            folder.add(&file, svg.file());
         }
     }
     Ok(())
