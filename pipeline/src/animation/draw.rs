@@ -144,7 +144,8 @@ impl Drawing {
 
     /// The picture, and its tracks.
     pub fn finish(self, width: f64, height: f64) -> (Svg, Vec<(usize, Track)>) {
-        let svg = Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));
+        let svg =
+            Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));
         (svg, self.tracks)
     }
 }

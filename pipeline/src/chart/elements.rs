@@ -123,7 +123,8 @@ impl<C> Symbol<C> {
         }
         parts.push(Part::Line([(-140, ground), (140, ground)], GREY.stroke_width(12)));
         parts.extend(
-            [-100, -40, 20, 80, 140].map(|x| Part::Line([(x, ground), (x - 50, ground + 50)], GREY.stroke_width(9))),
+            [-100, -40, 20, 80, 140]
+                .map(|x| Part::Line([(x, ground), (x - 50, ground + 50)], GREY.stroke_width(9))),
         );
         Symbol { at, parts }
     }
@@ -145,7 +146,12 @@ impl<'a, C: 'a> PointCollection<'a, C> for &'a Symbol<C> {
 }
 
 impl<C, B: DrawingBackend> Drawable<B> for Symbol<C> {
-    fn draw<I: Iterator<Item = BackendCoord>>(&self, mut places: I, backend: &mut B, _: (u32, u32)) -> Drawn<B> {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        mut places: I,
+        backend: &mut B,
+        _: (u32, u32),
+    ) -> Drawn<B> {
         let Some((x, y)) = places.next() else { return Ok(()) };
         let at = |(dx, dy): BackendCoord| (x + dx, y + dy);
         self.parts.iter().try_for_each(|part| match part {

@@ -103,11 +103,13 @@ impl Frame {
     }
 
     /// plotters' chart with this frame as plotting area, and room for labels left and below.
-    pub(super) fn plot<'s>(&self, area: &Area<'s>, [x, y]: &[Ticks; 2]) -> Result<Plot<'s>, Error> {
-        let coordinate = |scale, ticks: &Ticks, is_reversed| Coordinate { scale, ticks: ticks.clone(), is_reversed };
-        let axes =
-            [coordinate(self.x, x, self.is_reversed[0]), coordinate(self.y, y, self.is_reversed[1])];
-        plot(area, self.around(0.0), [0.0, LABELS, self.left - EDGE, 0.0], axes)
+    pub(super) fn plot<'s>(&self, area: &Area<'s>, [x, y]: [Ticks; 2]) -> Result<Plot<'s>, Error> {
+        let coordinates = [
+            Coordinate { scale: self.x, ticks: x, is_reversed: self.is_reversed[0] },
+            Coordinate { scale: self.y, ticks: y, is_reversed: self.is_reversed[1] },
+        ];
+        let labels = [0.0, LABELS, self.left - EDGE, 0.0];
+        plot(area, self.around(0.0), labels, coordinates)
     }
 }
 
@@ -171,6 +173,11 @@ pub(super) fn border(plot: &Plot<'_>) -> Result<(), Error> {
     let (x, y) = (plot.x_range(), plot.y_range());
     let border = Rectangle::new([(x.start, y.start), (x.end, y.end)], stroke(INK, 1.0));
     Ok(plot.plotting_area().draw(&border)?)
+}
+
+/// Points as plotters takes them.
+pub(super) fn pairs(points: &[[f64; 2]]) -> impl Iterator<Item = (f64, f64)> {
+    points.iter().map(|[x, y]| (*x, *y))
 }
 
 /// Width of the widest label.

@@ -3,9 +3,10 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
+use super::coordinate::Coordinate;
 use super::elements::Symbol;
 use super::error::Error;
-use super::frame::{Frame, Plot};
+use super::frame::{Frame, Plot, pairs, plot};
 use super::label::short;
 use super::legend::{Legend, dashes};
 use super::palette::{GREY, INK, colour};
@@ -114,8 +115,8 @@ impl GirderPlot {
         let note = wrap(&self.note, WIDTH - 2.0 * MARGIN, SMALL);
         let end = frame.bottom();
         sheet::picture(WIDTH, end + 42.0 + NOTE_LINE * note.len() as f64, |area| {
-            let none = Ticks { values: Vec::new(), labels: Vec::new(), exponent: 0 };
-            let mut view = frame.plot(area, &[none.clone(), none])?;
+            let plain = |scale| Coordinate { scale, ticks: Ticks::none(), is_reversed: false };
+            let mut view = plot(area, frame.around(0.0), [0.0; 4], [plain(frame.x), plain(frame.y)])?;
             group(area, "class=\"structure\" stroke-linecap=\"round\"", || {
                 for member in &self.members {
                     view.draw_series(LineSeries::new(pairs(member), stroke(colour(0), 4.0)))?;
@@ -123,7 +124,9 @@ impl GirderPlot {
                 if let Some(index) = rail {
                     view.draw_series(LineSeries::new(pairs(&self.rail), stroke(colour(index), 2.4)))?;
                 }
-                view.draw_series(self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.holds_length)))?;
+                view.draw_series(
+                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.holds_length)),
+                )?;
                 Ok(())
             })?;
             if let (Some(index), Some((_, path))) = (deflected, &shape) {
@@ -243,8 +246,4 @@ impl GirderPlot {
             sheet::line(area, &[[x - 4.0, row + 4.0], [x + 4.0, row - 4.0]], stroke(GREY, 1.2))
         })
     }
-}
-
-fn pairs(points: &[[f64; 2]]) -> impl Iterator<Item = (f64, f64)> {
-    points.iter().map(|[x, y]| (*x, *y))
 }

@@ -68,9 +68,7 @@ impl Legend {
             }
             if self.with_symbols || one.has_symbols() {
                 let middle = place([x + 0.5 * SWATCH, *y]);
-                group(area, &class, || {
-                    Ok(area.draw(&Symbol::of_series(index, middle, RADIUS * FINE))?)
-                })?;
+                group(area, &class, || Ok(area.draw(&Symbol::of_series(index, middle, RADIUS * FINE))?))?;
             }
         }
         Ok(())

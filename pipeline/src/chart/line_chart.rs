@@ -11,7 +11,9 @@ use super::legend::{Legend, RADIUS, dashes};
 use super::palette::{GREY, colour, line_colour};
 use super::scale::Scale;
 use super::series::{Marker, Series, Style};
-use super::sheet::{self, Area, NOTE_LINE, SMALL, TITLE, TITLE_LINE, WIDTH, clipped, font, group, stroke, units};
+use super::sheet::{
+    self, Area, NOTE_LINE, SMALL, TITLE, TITLE_LINE, WIDTH, clipped, font, group, stroke, units,
+};
 use super::svg::{FINE, Svg};
 use super::text::{text_width, wrap};
 use super::thinning::thin;
@@ -139,11 +141,12 @@ impl Chart {
     /// Draws the chart on a sheet; returns the points drawn for each series.
     fn draw_on(&self, area: &Area<'_>, layout: &Layout) -> Result<Vec<Vec<[f64; 2]>>, Error> {
         let frame = &layout.frame;
-        let mut plot = frame.plot(area, &layout.ticks)?;
+        let mut plot = frame.plot(area, layout.ticks.clone())?;
         group(area, "class=\"grid\"", || frame::grid(&mut plot))?;
         group(area, "class=\"markers\" stroke-dasharray=\"30 30\"", || {
             let (low, high) = (frame.y.low, frame.y.high);
-            let lines = self.inside(frame).map(|m| PathElement::new([(m.x, low), (m.x, high)], stroke(GREY, 1.0)));
+            let lines =
+                self.inside(frame).map(|m| PathElement::new([(m.x, low), (m.x, high)], stroke(GREY, 1.0)));
             plot.draw_series(lines)?;
             Ok(())
         })?;

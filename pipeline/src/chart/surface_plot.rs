@@ -8,7 +8,7 @@ use super::contour::region;
 use super::coordinate::Coordinate;
 use super::elements::OnePath;
 use super::error::Error;
-use super::frame::{self, BELOW, Frame, plot};
+use super::frame::{self, BELOW, Frame, pairs, plot};
 use super::label::{fixed, short, with_unit};
 use super::line_chart::Chart;
 use super::palette::{GREY, INK, shade};
@@ -143,7 +143,10 @@ impl SurfacePlot {
     fn heading(&self, area: &Area<'_>, power: i32) -> Result<(), Error> {
         group(area, "class=\"title\"", || {
             let below = sheet::title(area, std::slice::from_ref(&self.title))?;
-            below.titled(&with_unit(&self.label, power, &self.unit), font(LABEL, INK, HPos::Center, VPos::Top))?;
+            below.titled(
+                &with_unit(&self.label, power, &self.unit),
+                font(LABEL, INK, HPos::Center, VPos::Top),
+            )?;
             Ok(())
         })
     }
@@ -167,13 +170,19 @@ impl SurfacePlot {
                 Coordinate { scale, ticks: Ticks { values, labels, exponent: 0 }, is_reversed }
             };
             let rectangle = [left, top, width * columns, height * rows];
-            let mut cells =
-                plot(area, rectangle, [37.0, 0.0, 72.0, 0.0], [head(&self.loads, false), head(&self.at, true)])?;
+            let mut cells = plot(
+                area,
+                rectangle,
+                [37.0, 0.0, 72.0, 0.0],
+                [head(&self.loads, false), head(&self.at, true)],
+            )?;
             group(area, "class=\"cells\"", || {
                 let share = |value: f64| if limit > 0.0 { value / limit } else { 0.0 };
                 let all = || {
                     let rows = self.values.iter().enumerate();
-                    rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, v)| (j as f64, i as f64, *v)))
+                    rows.flat_map(|(i, row)| {
+                        row.iter().enumerate().map(move |(j, v)| (j as f64, i as f64, *v))
+                    })
                 };
                 cells.draw_series(all().map(|(x, y, value)| {
                     let corners = [(x, y), (x + 1.0, y + 1.0)];
@@ -218,28 +227,35 @@ impl SurfacePlot {
         let frame = Frame { left: LEFT, top: BELOW_HEADING[1], width: SIDE, height: SIDE, x, y, is_reversed };
         let levels = levels(low, high);
         let is_dashed = levels.iter().any(|v| *v < -1e-9 * limit);
-        let note =
-            if is_dashed { format!("{} Contours below zero are dashed.", self.note) } else { self.note.clone() };
+        let note = if is_dashed {
+            format!("{} Contours below zero are dashed.", self.note)
+        } else {
+            self.note.clone()
+        };
         let note = wrap(&note, WIDTH - LEFT - RIGHT, SMALL);
         let end = frame.bottom() + BELOW;
         sheet::picture(WIDTH, end + 12.0 + NOTE_LINE * note.len() as f64, |area| {
             self.heading(area, power)?;
-            let mut map = frame.plot(area, &[frame.x_ticks(), Ticks::new(&y, 10.0)])?;
+            let mut map = frame.plot(area, [frame.x_ticks(), Ticks::new(&y, 10.0)])?;
             let colours = band_colours(&levels, low, high, limit);
             group(area, "class=\"bands\" stroke-linecap=\"round\"", || {
                 let whole = [(x.low, y.low), (x.high, y.high)];
                 map.plotting_area().draw(&Rectangle::new(whole, colours[0].filled()))?;
                 // Rounding must not decide on which side of zero a support lies.
                 let snap = |v: &f64| if v.abs() < 1e-12 * limit { 0.0 } else { *v };
-                let values: Vec<Vec<f64>> = self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
+                let values: Vec<Vec<f64>> =
+                    self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
                 for (level, colour) in levels.iter().zip(&colours[1..]) {
                     let found = region(&self.loads, &self.at, &values, *level);
                     let is_zero = level.abs() < 1e-9 * limit;
                     let lines = if *level < 0.0 && !is_zero { found.dashes } else { found.chords };
                     let style = if is_zero { stroke(INK, 1.6) } else { stroke(GREY, 0.7) };
                     map.draw_series([
-                        OnePath { pieces: found.polygons.iter().map(|p| pairs(p)).collect(), style: colour.filled() },
-                        OnePath { pieces: lines.iter().map(|line| pairs(line)).collect(), style },
+                        OnePath {
+                            pieces: found.polygons.iter().map(|p| pairs(p).collect()).collect(),
+                            style: colour.filled(),
+                        },
+                        OnePath { pieces: lines.iter().map(|line| pairs(line).collect()).collect(), style },
                     ])?;
                 }
                 Ok(())
@@ -258,10 +274,6 @@ impl SurfacePlot {
     }
 }
 
-fn pairs(points: &[[f64; 2]]) -> Vec<(f64, f64)> {
-    points.iter().map(|[x, y]| (*x, *y)).collect()
-}
-
 /// Colours of the bands below, between and above the levels.
 fn band_colours(levels: &[f64], low: f64, high: f64, limit: f64) -> Vec<RGBColor> {
     let middle = |k: usize| {
@@ -273,7 +285,13 @@ fn band_colours(levels: &[f64], low: f64, high: f64, limit: f64) -> Vec<RGBColor
 }
 
 /// Colour bar right of the map: a chart over the indices of the bands, with the levels as ticks between them.
-fn bar(area: &Area<'_>, frame: &Frame, levels: &[f64], colours: &[RGBColor], power: i32) -> Result<(), Error> {
+fn bar(
+    area: &Area<'_>,
+    frame: &Frame,
+    levels: &[f64],
+    colours: &[RGBColor],
+    power: i32,
+) -> Result<(), Error> {
     let apart = if levels.len() > 1 { levels[1] - levels[0] } else { 1.0 };
     let decimals = (-(apart / 10f64.powi(power)).log10().floor()).clamp(0.0, 12.0) as usize;
     let coordinate = |high: f64, ticks| Coordinate {
@@ -281,16 +299,18 @@ fn bar(area: &Area<'_>, frame: &Frame, levels: &[f64], colours: &[RGBColor], pow
         ticks,
         is_reversed: false,
     };
-    let none = Ticks { values: Vec::new(), labels: Vec::new(), exponent: 0 };
     let values = (1..=levels.len()).map(|k| k as f64).collect();
     let labels = levels.iter().map(|level| fixed(*level, power, decimals)).collect();
     let ticks = Ticks { values, labels, exponent: power };
     let rectangle = [frame.left + frame.width + 36.0, frame.top, 26.0, frame.height];
-    let axes = [coordinate(1.0, none), coordinate(colours.len() as f64, ticks)];
+    let axes = [coordinate(1.0, Ticks::none()), coordinate(colours.len() as f64, ticks)];
     let mut bar = plot(area, rectangle, [0.0, 0.0, 0.0, 80.0], axes)?;
-    bar.draw_series(colours.iter().enumerate().map(|(k, colour)| {
-        Rectangle::new([(0.0, k as f64), (1.0, k as f64 + 1.0)], colour.filled())
-    }))?;
+    bar.draw_series(
+        colours
+            .iter()
+            .enumerate()
+            .map(|(k, colour)| Rectangle::new([(0.0, k as f64), (1.0, k as f64 + 1.0)], colour.filled())),
+    )?;
     bar.configure_mesh()
         .bold_line_style(stroke(GREY, 0.8))
         .axis_style(stroke(GREY, 0.8))

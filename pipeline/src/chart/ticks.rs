@@ -18,6 +18,11 @@ pub(super) struct Ticks {
 }
 
 impl Ticks {
+    /// No ticks.
+    pub fn none() -> Ticks {
+        Ticks { values: Vec::new(), labels: Vec::new(), exponent: 0 }
+    }
+
     /// Ticks of a scale, about `target` of them.
     pub fn new(scale: &Scale, target: f64) -> Ticks {
         if !scale.log {

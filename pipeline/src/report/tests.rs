@@ -229,12 +229,7 @@ fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
     let svg = crate::chart::Svg::new(8.0, 4.0, "<g data-m=\"0\" transform=\"translate(1 2)\"></g>");
     let film = |x: f64| {
         let places = vec![[1.0, 2.0], [x, 2.0]];
-        Film {
-            svg: svg.clone(),
-            still: 0.5,
-            times: vec![0.5, 1.0],
-            tracks: vec![(0, Track::Move(places))],
-        }
+        Film { svg: svg.clone(), still: 0.5, times: vec![0.5, 1.0], tracks: vec![(0, Track::Move(places))] }
     };
     let with = |film: Film| {
         let mut report = report();
