@@ -2,7 +2,8 @@
 //!
 //! plotters' own SVG backend repeats fonts, opacities and empty strokes on every element, has no groups, and
 //! writes a header with every picture. This one writes what differs from the picture's root element, joins
-//! polygons that touch into one path, and opens and closes groups, by which a page switches series on and off.
+//! polygons that touch into one path, and opens and closes groups, by which a page switches series on and
+//! off.
 
 use std::convert::Infallible;
 
@@ -194,8 +195,8 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Path data of an open polyline: absolute to the first corner, relative from there on, level and upright steps
-/// by one number.
+/// Path data of an open polyline: absolute to the first corner, relative from there on, with one number for each
+/// horizontal or vertical step.
 fn path_data(corners: impl IntoIterator<Item = BackendCoord>) -> String {
     let mut corners = corners.into_iter();
     let Some(first) = corners.next() else { return String::new() };
@@ -244,14 +245,14 @@ mod tests {
     }
 
     #[test]
-    fn an_outline_says_level_and_upright_steps_by_one_number() {
+    fn a_path_has_one_number_for_a_horizontal_or_vertical_step() {
         let points = [(10, 20), (30, 20), (30, 15), (30, 10), (20, 5), (10, 7), (10, 7)];
         assert_eq!(path_data(points), "M10 20h20v-5-5l-10-5-10 2h0");
         assert_eq!(path_data([]), "");
     }
 
     #[test]
-    fn elements_say_only_what_differs_from_their_root() {
+    fn elements_have_only_attributes_that_differ_from_their_root() {
         let line = ShapeStyle::from(RGBColor(0x22, 0x22, 0x22)).stroke_width(8);
         assert_eq!(
             drawn(|backend| backend.draw_line((1, 2), (3, 4), &line)),

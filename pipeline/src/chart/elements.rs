@@ -1,7 +1,7 @@
-//! Elements of our own that plotters draws: tags around groups, symbols, and polygons or lines joined in one path.
+//! Our own elements for plotters: tags around groups, symbols, and polygons or lines joined in one path.
 //!
-//! An element tells plotters where its points lie in the coordinates of a chart, and draws itself once plotters
-//! has placed them.
+//! An element gives plotters its points in the coordinates of a chart, and draws itself once plotters has placed
+//! them.
 
 use std::iter::{Empty, Flatten, Once, empty, once};
 use std::slice::Iter;
@@ -91,7 +91,8 @@ pub(super) struct Symbol<C> {
 }
 
 impl<C> Symbol<C> {
-    /// Symbol of the series with that index, in its colour: disc, square, triangle, ring, diamond or open square.
+    /// Symbol of the series with that index, in its colour: disc, square, triangle, ring, diamond or open
+    /// square.
     /// `size` is the radius of the disc in drawing units.
     pub fn of_series(series: usize, at: C, size: f64) -> Symbol<C> {
         let ink = colour(series);

@@ -24,7 +24,7 @@ pub(super) const BELOW: f64 = 52.0;
 const EDGE: f64 = 9.4;
 /// Height of tick labels and caption below the frame.
 const LABELS: f64 = 43.5;
-/// Length of the marks at ticks. plotters sets labels off by twice of it.
+/// Length of the marks at ticks. The distance of labels from the frame is twice this length.
 const TICK: f64 = 5.0;
 
 /// A chart of plotters with axes of ours.
@@ -113,8 +113,8 @@ impl Frame {
     }
 }
 
-/// plotters' chart whose plotting area is a rectangle (left, top, width, height in pixels), with room for labels of
-/// the sizes given above, below, left and right of it.
+/// plotters' chart whose plotting area is a rectangle (left, top, width, height in pixels), with room for labels
+/// of the sizes given above, below, left and right of it.
 pub(super) fn plot<'s>(
     area: &Area<'s>,
     [left, top, width, height]: [f64; 4],

@@ -19,7 +19,7 @@ use super::ticks::Ticks;
 
 /// Room left and right of the girder, in pixels.
 const MARGIN: f64 = 46.0;
-/// The largest deflection is drawn about as large as this fraction of the girder's length where no factor is given.
+/// Size of the largest deflection on the picture as a fraction of the girder's length, where no factor is given.
 const SAG: f64 = 0.07;
 /// Tallest picture, in pixels.
 const TALLEST: f64 = 4000.0;
