@@ -47,8 +47,8 @@ pub enum Error {
         /// Why.
         source: crate::chart::Error,
     },
-    /// A picture is not an SVG file.
-    #[error("figure {figure} of section {section} is not an SVG file")]
+    /// A number of a moving picture is not finite.
+    #[error("figure {figure} of section {section} moves by a number that is not finite")]
     Picture {
         /// Index of the section.
         section: usize,

@@ -17,7 +17,7 @@ pub fn number(value: f64, digits: usize) -> Option<String> {
     let power: i32 = power.parse().ok()?;
     let sign = if value < 0.0 { "\u{2212}" } else { "" };
     if !(-4..7).contains(&power) {
-        let raised = crate::chart::axis::with_power(power, "");
+        let raised = crate::chart::label::with_power(power, "");
         return Some(match trimmed(mantissa) {
             "1" => format!("{sign}{raised}"),
             mantissa => format!("{sign}{mantissa} \u{d7} {raised}"),

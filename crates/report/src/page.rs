@@ -170,15 +170,10 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
             (drawing.svg, "picture chart", Some(data))
         }
     };
-    // An SVG element inside HTML needs no name space.
-    let svg = svg.replacen(" xmlns=\"http://www.w3.org/2000/svg\"", " role=\"img\"", 1);
-    if !(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>")) {
-        return Err(Error::Picture { section, figure: index });
-    }
     Ok(html! {
         figure {
             div class=(class) {
-                (PreEscaped(svg))
+                (PreEscaped(svg.inline()))
                 @if let Some(data) = data {
                     script type="application/json" data-still=[still] { (PreEscaped(data)) }
                 }

@@ -3,7 +3,7 @@
 use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
 
 use crate::Picture;
-use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot};
+use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot, Svg};
 use formats::block::GridBlock;
 use formats::motion::{Cast, CastWheel};
 use formats::scene::{Body, Scene};
@@ -33,7 +33,7 @@ impl Plate {
         Plate { name: name.into(), caption: caption.into(), picture: chart.into() }
     }
 
-    fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: String) -> Plate {
+    fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: Svg) -> Plate {
         Plate { name: name.into(), caption: caption.into(), picture: svg.into() }
     }
 
@@ -41,7 +41,7 @@ impl Plate {
     ///
     /// # Errors
     /// What the chart cannot draw.
-    pub fn svg(&self) -> Result<String, chart::Error> {
+    pub fn svg(&self) -> Result<Svg, chart::Error> {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),

@@ -1,7 +1,7 @@
 //! Parts of a report.
 
 use crate::animation::Film;
-use crate::chart::Chart;
+use crate::chart::{Chart, Svg};
 
 /// A chapter of a report: shown in this order, empty parts left out.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -128,8 +128,8 @@ pub struct Table {
 pub enum Picture {
     /// A chart, with read-out where scripts run.
     Chart(Box<Chart>),
-    /// A finished SVG file; it is trusted and taken in as it is.
-    Svg(String),
+    /// A finished picture; it is trusted and taken in as it is.
+    Svg(Svg),
     /// A picture that moves where scripts run.
     Film(Box<Film>),
 }
@@ -140,8 +140,8 @@ impl From<Chart> for Picture {
     }
 }
 
-impl From<String> for Picture {
-    fn from(svg: String) -> Self {
+impl From<Svg> for Picture {
+    fn from(svg: Svg) -> Self {
         Picture::Svg(svg)
     }
 }

@@ -86,7 +86,7 @@ fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failur
             .hint("check the grid file of these tables")
             .into());
     }
-    Ok(stack(&pictures))
+    Ok(stack(&pictures).file())
 }
 
 /// A surface that has no answer within a table.

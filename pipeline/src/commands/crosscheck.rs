@@ -179,7 +179,7 @@ fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Resu
                 format!("plots/difference-{name}.svg")
             };
             let svg = chart.svg().map_err(|error| Failure::Untrusted(error.to_string()))?;
-            folder.add(&file, svg);
+            folder.add(&file, svg.file());
         }
     }
     Ok(())

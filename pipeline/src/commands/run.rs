@@ -81,7 +81,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let plates = plates(scene, &document, &outcomes, &known, &comparison)?;
     let drawn = parallel_map(&plates, global.threads, |_, plate| plate.svg());
     for (plate, svg) in plates.iter().zip(drawn) {
-        folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?);
+        folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?.file());
     }
     clock.lap("plots");
     let solved: Vec<Option<&Solution>> =

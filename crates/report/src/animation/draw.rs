@@ -1,6 +1,7 @@
 //! A picture under construction, in pixels, with elements that move.
 
 use super::film::Track;
+use crate::chart::Svg;
 
 /// Width of the picture.
 pub(super) const WIDTH: f64 = 860.0;
@@ -141,13 +142,10 @@ impl Drawing {
         ));
     }
 
-    /// The picture as an SVG file, and its tracks.
-    pub fn finish(self, width: f64, height: f64) -> (String, Vec<(usize, Track)>) {
-        let svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" \
-             font-family=\"Arial, Helvetica, sans-serif\">\n<rect width=\"100%\" height=\"100%\" fill=\"#FFFFFF\"/>\n{}</svg>\n",
-            self.body
-        );
+    /// The picture, and its tracks.
+    pub fn finish(self, width: f64, height: f64) -> (Svg, Vec<(usize, Track)>) {
+        let svg =
+            Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));
         (svg, self.tracks)
     }
 }

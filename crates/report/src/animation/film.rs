@@ -1,36 +1,47 @@
-//! A picture, and what changes in it over time.
+//! An animated picture: a picture, and what changes in it over time.
 
 use serde_json::json;
 
+use crate::chart::Svg;
 use crate::coded;
 
-/// What an element of the picture does, frame by frame.
+/// What changes at an element of the picture, with one value for each frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Track {
-    /// Is moved by these pixels.
+    /// Its displacement (x, y) in pixels.
     Move(Vec<[f64; 2]>),
-    /// Has these values of an attribute.
+    /// An attribute with its values.
     Set(&'static str, Vec<f64>),
-    /// Says these numbers with so many digits after the point.
+    /// The number that it shows, with so many digits after the point.
     Say(usize, Vec<f64>),
 }
 
-/// A picture that moves; it is drawn as at one frame.
+/// An animated picture; it is drawn as at one frame.
+///
+/// ```
+/// use girderway::animation::{Film, Track};
+/// use girderway::chart::Svg;
+///
+/// let picture = Svg::new(100.0, 20.0, "<circle data-m=\"0\" cy=\"100\" r=\"50\"/>");
+/// let places = vec![[0.0, 0.0], [80.0, 0.0]];
+/// let film = Film { svg: picture, still: 0.0, times: vec![0.0, 1.0], tracks: vec![(0, Track::Move(places))] };
+/// assert!(film.data().is_some_and(|data| data.contains("transform")));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// The picture, a finished SVG file. Element `i` of the tracks has the attribute `data-m="i"`.
-    pub svg: String,
-    /// Time of the frame that it is drawn at.
+    /// The picture at that frame. Element `i` of the tracks has the attribute `data-m="i"`.
+    pub svg: Svg,
+    /// Time of the frame as which the picture is drawn, in seconds.
     pub still: f64,
-    /// Times of the frames.
+    /// Times of the frames in seconds, increasing.
     pub times: Vec<f64>,
-    /// Element and track.
+    /// Elements with their tracks.
     pub tracks: Vec<(usize, Track)>,
 }
 
-/// Power of ten of a hundredth: a pixel has no finer parts.
+/// Power of ten to which places are kept: a hundredth of a pixel is not seen.
 const PIXEL: i32 = -2;
-/// Power of ten of a millionth of a second.
+/// Power of ten to which times are kept, in seconds.
 const INSTANT: i32 = -6;
 
 impl Film {

@@ -1,9 +1,13 @@
-//! A crane that moves: plan, and the view along the runway, as one picture and what changes in it over time.
+//! The animation of a crane: its plan and the view along the runway, as one picture and what changes in it over time.
+//!
+//! Files in their order, each of which imports from earlier ones only: `film`, `draw`, `view`, then `plan` and
+//! `section`.
 
 mod draw;
 mod film;
 mod plan;
 mod section;
+mod view;
 
 pub use film::{Film, Track};
 
@@ -11,77 +15,18 @@ use crate::pictures::{Labelled, Plate};
 use crate::{Picture, number};
 use draw::{Drawing, WIDTH};
 use formats::motion::Cast;
-use formats::scene::Scene;
 use formats::units::Dimension;
 use foundations::Error;
 use results::layout::ScenePositions;
+use view::{BAR, View};
 
-/// Most frames.
+/// Largest number of frames.
 const FRAMES: usize = 400;
-/// Length of the longest bar, in pixels.
-const BAR: f64 = 48.0;
 
-/// What both views need of one run.
-struct View<'v> {
-    scene: &'v Scene,
-    cast: &'v Cast,
-    layout: ScenePositions<'v>,
-    run: &'v Labelled<'v>,
-    /// Rows of the record that are frames.
-    rows: Vec<usize>,
-    /// Index among them of the frame that stands still.
-    still: usize,
-    /// Pixels a force.
-    force: f64,
-}
-
-impl View<'_> {
-    /// A quantity of a wheel at the frames.
-    fn wheel(&self, wheel: usize, part: &str) -> Vec<f64> {
-        let values = self.run.record.part(&self.cast.wheels[wheel].name, part);
-        self.rows.iter().map(|row| values.get(*row).copied().unwrap_or_default()).collect()
-    }
-
-    /// Origins of a body at the frames.
-    fn origins(&self, body: usize) -> Vec<[f64; 3]> {
-        self.rows.iter().map(|row| self.layout.origin(self.run.record, body, *row)).collect()
-    }
-
-    /// Bodies in the order in which they are drawn: what is carried over what carries it.
-    fn order(&self) -> Vec<usize> {
-        let bodies = &self.scene.bodies;
-        let mut order: Vec<usize> = (0..bodies.len()).collect();
-        order.sort_by_key(|body| (bodies[*body].in_space, self.layout.track(*body).is_some(), *body));
-        order
-    }
-
-    /// Rails on the ground, and where the wheels of bodies on them are across.
-    fn rails(&self) -> Vec<(usize, f64)> {
-        let mut rails: Vec<(usize, f64)> = Vec::new();
-        for truck in &self.scene.trucks {
-            let is_known = rails.iter().any(|(rail, _)| *rail == truck.rail);
-            let is_grounded = self.layout.axle(truck.rail).is_none();
-            if !is_known && is_grounded && self.scene.bodies[truck.body].pinned.is_none() {
-                rails.push((truck.rail, truck.at[2]));
-            }
-        }
-        rails
-    }
-
-    /// Wheels of the simulator's order under each truck.
-    fn trucks(&self) -> Vec<std::ops::Range<usize>> {
-        let mut next = 0;
-        let counts = self.scene.trucks.iter().map(|truck| truck.wheel_offsets().len());
-        counts
-            .map(|count| {
-                next += count;
-                next - count..next
-            })
-            .collect()
-    }
-}
-
-/// The moving picture of a run in which structures ride on bodies or bodies hang in space; `None` for others.
+/// The animation of a run in which bodies carry structures or hang in space; `None` for other runs.
+///
+/// The first of every so many rows of the record are its frames, at most 400. It is drawn as at the frame in which a
+/// wheel of the runway has the largest vertical force.
 ///
 /// # Errors
 /// A spec that no model can be made of.

@@ -1,7 +1,7 @@
 //! The plan: x to the right, what lies to the right of the rails downwards.
 
 use super::draw::{BLUE, DARK, Drawing, GREY, INK, ORANGE, SIDE, STEEL, WIDTH};
-use super::{BAR, View};
+use super::view::{BAR, View};
 
 /// Most pixels across.
 const ACROSS: f64 = 300.0;

@@ -1,7 +1,7 @@
 //! The view along the runway: what lies to the right of the rails to the right, up is up; and numbers beside it.
 
 use super::draw::{DARK, Drawing, GREY, INK, ORANGE, STEEL, WIDTH};
-use super::{BAR, View};
+use super::view::{BAR, View};
 use formats::units::Dimension;
 
 /// Room for the view; the numbers stand right of it.

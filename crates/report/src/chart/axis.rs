@@ -1,6 +1,15 @@
 //! Axes: label, unit, range and direction.
 
+use super::label::with_unit;
+
 /// One axis of a chart, as data.
+///
+/// ```
+/// use girderway::chart::Axis;
+///
+/// let axis = Axis::new("error", "ft").log().range(1e-6, 1e-2);
+/// assert_eq!((axis.log, axis.range), (true, Some([1e-6, 1e-2])));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Axis {
     /// What is measured, without the unit.
@@ -38,40 +47,6 @@ impl Axis {
 
     /// Label with unit and the power of ten taken out of the tick labels.
     pub(super) fn caption(&self, exponent: i32) -> String {
-        let unit = with_power(exponent, &self.unit);
-        if unit.is_empty() { self.label.clone() } else { format!("{} ({unit})", self.label) }
-    }
-}
-
-/// Unit preceded by a power of ten: `10^6 lbf` with a raised exponent, `lbf` where the exponent is 0.
-pub(crate) fn with_power(exponent: i32, unit: &str) -> String {
-    if exponent == 0 {
-        return unit.to_owned();
-    }
-    const RAISED: [char; 10] = [
-        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}', '\u{2078}',
-        '\u{2079}',
-    ];
-    let mut text = String::from("10");
-    if exponent < 0 {
-        text.push('\u{207b}');
-    }
-    for digit in exponent.unsigned_abs().to_string().bytes() {
-        text.push(RAISED[usize::from(digit - b'0')]);
-    }
-    if !unit.is_empty() {
-        text.push(' ');
-        text.push_str(unit);
-    }
-    text
-}
-
-/// `value / 10^exponent` with that many decimals, a true minus sign and no negative zero.
-pub(super) fn fixed(value: f64, exponent: i32, decimals: usize) -> String {
-    let text = format!("{:.*}", decimals, value / 10f64.powi(exponent));
-    match text.strip_prefix('-') {
-        Some(rest) if rest.bytes().all(|b| matches!(b, b'0' | b'.')) => rest.to_owned(),
-        Some(rest) => format!("\u{2212}{rest}"),
-        None => text,
+        with_unit(&self.label, exponent, &self.unit)
     }
 }

@@ -13,7 +13,8 @@ pub(super) struct Region {
 
 /// Region where the values, linear along the edges of the grid's cells, are at least `level`.
 ///
-/// `x` are the places of the columns, `y` of the rows, `values[row][column]`. Neighbouring cells of a row that
+/// `x` are the coordinates of the columns, `y` those of the rows, and `values[row][column]` the values there.
+/// Each cell is clipped to the part at or above the level (marching squares). Neighbouring cells of a row that
 /// lie wholly inside are joined. A cell that only touches the level from below is left out.
 pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> Region {
     let mut found = Region::default();

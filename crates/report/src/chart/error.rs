@@ -1,5 +1,7 @@
 //! What a picture refuses.
 
+use plotters::drawing::DrawingAreaErrorKind;
+
 /// Why a picture was not drawn.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
@@ -51,4 +53,10 @@ pub enum Error {
     /// The drawing backend failed.
     #[error("the drawing backend failed")]
     Drawing,
+}
+
+impl<E: std::error::Error + Send + Sync> From<DrawingAreaErrorKind<E>> for Error {
+    fn from(_: DrawingAreaErrorKind<E>) -> Self {
+        Error::Drawing
+    }
 }

@@ -1,21 +1,46 @@
-//! The frame of a chart: where data go on the picture, grid lines, ticks and captions.
+//! The frame of a chart: where its data lie on the picture, and plotters' chart with its grid and axes.
+
+use plotters::coord::cartesian::Cartesian2d;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
+use super::backend::SvgBackend;
+use super::coordinate::Coordinate;
 use super::error::Error;
-use super::scale::{Scale, Ticks};
-use super::svg::{Anchor, FAINT, GREY, INK, LABEL, Pen, SMALL};
+use super::palette::{FAINT, GREY, INK};
+use super::scale::Scale;
+use super::sheet::{Area, LABEL, SMALL, WIDTH, font, stroke, units};
 use super::text::text_width;
+use super::ticks::Ticks;
 
-/// Width of a picture in pixels.
-pub(super) const WIDTH: f64 = 860.0;
 /// Room left of the frame beside its tick labels, for the caption.
 const CAPTION: f64 = 44.0;
 /// Room right of the frame.
 pub(super) const RIGHT: f64 = 30.0;
 /// Room below the frame for tick labels and caption.
 pub(super) const BELOW: f64 = 52.0;
+/// Room left of the caption of the y axis.
+const EDGE: f64 = 9.4;
+/// Height of tick labels and caption below the frame.
+const LABELS: f64 = 43.5;
+/// Length of the marks at ticks. The distance of labels from the frame is twice this length.
+const TICK: f64 = 5.0;
+
+/// A chart of plotters with axes of ours.
+pub(super) type Plot<'s> = ChartContext<'s, SvgBackend<'s>, Cartesian2d<Coordinate, Coordinate>>;
 
 /// Placement of data on a picture, in pixels.
+///
+/// ```
+/// use girderway::chart::{Axis, Chart, Series, Style};
+///
+/// let line = Series::new("line", Style::Line, vec![[0.0, 0.0], [2.0, 1.0]]);
+/// let frame = Chart::new("", Axis::new("x", "m"), Axis::new("y", "m")).with(line).draw()?.frame;
+/// assert_eq!(frame.ranges(), [[0.0, 2.0], [0.0, 1.0]]);
+/// assert_eq!(frame.place([2.0, 1.0]), [frame.left + frame.width, frame.top]);
+/// # Ok::<(), girderway::chart::Error>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Frame {
     /// Left edge.
@@ -28,29 +53,29 @@ pub struct Frame {
     pub height: f64,
     pub(super) x: Scale,
     pub(super) y: Scale,
-    pub(super) flip: [bool; 2],
+    /// Values of x grow to the left, those of y downwards.
+    pub(super) is_reversed: [bool; 2],
 }
 
 impl Frame {
-    /// A frame as wide as the picture allows beside the y axis' labels, with its ticks.
-    pub(super) fn new(x: (&Axis, Scale), y: (&Axis, Scale), top: f64, height: f64) -> (Self, Ticks, Ticks) {
-        let down = y.1.ticks((height / 55.0).clamp(3.0, 10.0));
-        let widest = down.labels.iter().map(|l| text_width(l, SMALL)).fold(0.0, f64::max);
-        let left = CAPTION + widest;
+    /// A frame as wide as the picture allows beside the labels of the y axis, with the ticks of both axes.
+    pub(super) fn new(x: (&Axis, Scale), y: (&Axis, Scale), top: f64, height: f64) -> (Self, [Ticks; 2]) {
+        let y_ticks = Ticks::new(&y.1, (height / 55.0).clamp(3.0, 10.0));
+        let left = CAPTION + widest(&y_ticks);
         let width = WIDTH - left - RIGHT;
-        let frame = Frame { left, top, width, height, x: x.1, y: y.1, flip: [x.0.downwards, y.0.downwards] };
-        (frame, frame.fitting(), down)
+        let is_reversed = [x.0.downwards, y.0.downwards];
+        let frame = Frame { left, top, width, height, x: x.1, y: y.1, is_reversed };
+        (frame, [frame.x_ticks(), y_ticks])
     }
 
     /// Ticks of the x axis, as many as their labels leave room for.
-    pub(super) fn fitting(&self) -> Ticks {
-        let mut ticks = self.x.ticks(10.0);
+    pub(super) fn x_ticks(&self) -> Ticks {
+        let mut ticks = Ticks::new(&self.x, 10.0);
         for target in [8.0, 6.0, 4.0, 3.0] {
-            let widest = ticks.labels.iter().map(|l| text_width(l, SMALL)).fold(0.0, f64::max);
-            if (widest + 14.0) * ticks.labels.len() as f64 <= self.width {
+            if (widest(&ticks) + 14.0) * ticks.labels.len() as f64 <= self.width {
                 break;
             }
-            ticks = self.x.ticks(target);
+            ticks = Ticks::new(&self.x, target);
         }
         ticks
     }
@@ -58,8 +83,8 @@ impl Frame {
     /// Place of a point on the picture.
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let (u, v) = (self.x.unit(x), self.y.unit(y));
-        let u = if self.flip[0] { 1.0 - u } else { u };
-        let v = if self.flip[1] { v } else { 1.0 - v };
+        let u = if self.is_reversed[0] { 1.0 - u } else { u };
+        let v = if self.is_reversed[1] { v } else { 1.0 - v };
         [self.left + u * self.width, self.top + v * self.height]
     }
 
@@ -77,46 +102,85 @@ impl Frame {
         self.top + self.height
     }
 
-    /// Grid lines at the ticks, the zero line darker.
-    pub(super) fn grid(&self, pen: &Pen<'_>, x: &Ticks, y: &Ticks) -> Result<(), Error> {
-        let (right, bottom) = (self.left + self.width, self.bottom());
-        for value in &x.values {
-            let at = self.place([*value, self.y.low])[0];
-            pen.line(&[[at, self.top], [at, bottom]], FAINT, 0.8)?;
-        }
-        for value in &y.values {
-            let at = self.place([self.x.low, *value])[1];
-            let zero = *value == 0.0;
-            pen.line(&[[self.left, at], [right, at]], if zero { GREY } else { FAINT }, 0.8)?;
-        }
-        Ok(())
-    }
-
-    /// Border, tick labels and captions.
-    pub(super) fn scales(&self, pen: &Pen<'_>, x: (&Axis, &Ticks), y: (&Axis, &Ticks)) -> Result<(), Error> {
-        let (right, bottom) = (self.left + self.width, self.bottom());
-        let corners = [
-            [self.left, self.top],
-            [right, self.top],
-            [right, bottom],
-            [self.left, bottom],
-            [self.left, self.top],
+    /// plotters' chart with this frame as plotting area, and room for labels left and below.
+    pub(super) fn plot<'s>(&self, area: &Area<'s>, [x, y]: [Ticks; 2]) -> Result<Plot<'s>, Error> {
+        let coordinates = [
+            Coordinate { scale: self.x, ticks: x, is_reversed: self.is_reversed[0] },
+            Coordinate { scale: self.y, ticks: y, is_reversed: self.is_reversed[1] },
         ];
-        pen.line(&corners, INK, 1.0)?;
-        for (value, label) in x.1.values.iter().zip(&x.1.labels) {
-            let at = self.place([*value, self.y.low])[0];
-            pen.line(&[[at, bottom], [at, bottom + 5.0]], INK, 1.0)?;
-            pen.text(label, [at, bottom + 15.0], Anchor::Middle, SMALL, false, INK)?;
-        }
-        for (value, label) in y.1.values.iter().zip(&y.1.labels) {
-            let at = self.place([self.x.low, *value])[1];
-            pen.line(&[[self.left - 5.0, at], [self.left, at]], INK, 1.0)?;
-            pen.text(label, [self.left - 9.0, at], Anchor::Right, SMALL, false, INK)?;
-        }
-        let middle = [self.left + 0.5 * self.width, self.top + 0.5 * self.height];
-        let caption = x.0.caption(x.1.exponent);
-        pen.text(&caption, [middle[0], bottom + 37.0], Anchor::Middle, LABEL, false, INK)?;
-        let caption = y.0.caption(y.1.exponent);
-        pen.text(&caption, [16.0, middle[1]], Anchor::Upwards, LABEL, false, INK)
+        let labels = [0.0, LABELS, self.left - EDGE, 0.0];
+        plot(area, self.around(0.0), labels, coordinates)
     }
+}
+
+/// plotters' chart whose plotting area is a rectangle (left, top, width, height in pixels), with room for labels
+/// of the sizes given above, below, left and right of it.
+pub(super) fn plot<'s>(
+    area: &Area<'s>,
+    [left, top, width, height]: [f64; 4],
+    labels: [f64; 4],
+    [x, y]: [Coordinate; 2],
+) -> Result<Plot<'s>, Error> {
+    let (all_width, all_height) = area.dim_in_pixel();
+    let [above, below, before, behind] = labels.map(units);
+    // plotters' last drawing unit of an area lies one before its end.
+    let (right, bottom) = (units(left + width) + 1, units(top + height) + 1);
+    let chart = ChartBuilder::on(area)
+        .margin_left(units(left) - before)
+        .margin_top(units(top) - above)
+        .margin_right(all_width as i32 - right - behind)
+        .margin_bottom(all_height as i32 - bottom - below)
+        .set_label_area_size(LabelAreaPosition::Top, above)
+        .set_label_area_size(LabelAreaPosition::Bottom, below)
+        .set_label_area_size(LabelAreaPosition::Left, before)
+        .set_label_area_size(LabelAreaPosition::Right, behind)
+        .build_cartesian_2d(x, y)?;
+    Ok(chart)
+}
+
+/// Draws grid lines at the ticks, the zero line of y darker.
+pub(super) fn grid(plot: &mut Plot<'_>) -> Result<(), Error> {
+    plot.configure_mesh().disable_axes().bold_line_style(stroke(FAINT, 0.8)).draw()?;
+    let (x, zero) = (plot.x_range(), 0.0);
+    if plot.as_coord_spec().y_spec().ticks.values.contains(&zero) {
+        let line = PathElement::new([(x.start, zero), (x.end, zero)], stroke(GREY, 0.8));
+        plot.plotting_area().draw(&line)?;
+    }
+    Ok(())
+}
+
+/// Draws the border, ticks with their labels, and captions.
+pub(super) fn axes(plot: &mut Plot<'_>, [x, y]: [&Axis; 2]) -> Result<(), Error> {
+    let exponents = {
+        let both = plot.as_coord_spec();
+        [both.x_spec().ticks.exponent, both.y_spec().ticks.exponent]
+    };
+    border(plot)?;
+    plot.configure_mesh()
+        .disable_mesh()
+        .axis_style(stroke(INK, 1.0))
+        .set_all_tick_mark_size(units(TICK))
+        .label_style(font(SMALL, INK, HPos::Center, VPos::Center))
+        .axis_desc_style(font(LABEL, INK, HPos::Center, VPos::Center))
+        .x_desc(x.caption(exponents[0]))
+        .y_desc(y.caption(exponents[1]))
+        .draw()?;
+    Ok(())
+}
+
+/// Draws the border of the plotting area.
+pub(super) fn border(plot: &Plot<'_>) -> Result<(), Error> {
+    let (x, y) = (plot.x_range(), plot.y_range());
+    let border = Rectangle::new([(x.start, y.start), (x.end, y.end)], stroke(INK, 1.0));
+    Ok(plot.plotting_area().draw(&border)?)
+}
+
+/// Points as plotters takes them.
+pub(super) fn pairs(points: &[[f64; 2]]) -> impl Iterator<Item = (f64, f64)> {
+    points.iter().map(|[x, y]| (*x, *y))
+}
+
+/// Width of the widest label.
+fn widest(ticks: &Ticks) -> f64 {
+    ticks.labels.iter().map(|label| text_width(label, SMALL)).fold(0.0, f64::max)
 }

@@ -1,24 +1,37 @@
 //! Side view of a girder: members, rail, supports, stations, loads and the deflected shape.
 
-use super::error::Error;
-use super::frame::WIDTH;
-use super::legend::Legend;
-use super::scale::{extent, step};
-use super::series::{Series, Style};
-use super::surface_plot::short;
-use super::svg::{Anchor, GREY, INK, Pen, SMALL, Sheet, TITLE, colour};
-use super::text::{text_width, wrap};
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
 
+use super::coordinate::Coordinate;
+use super::elements::Symbol;
+use super::error::Error;
+use super::frame::{Frame, Plot, pairs, plot};
+use super::label::short;
+use super::legend::{Legend, dashes};
+use super::palette::{GREY, INK, colour};
+use super::scale::{Scale, extent, step};
+use super::series::{Series, Style};
+use super::sheet::{self, Area, NOTE_LINE, SMALL, TITLE, TITLE_LINE, WIDTH, font, group, stroke};
+use super::svg::{FINE, Svg};
+use super::text::{text_width, wrap};
+use super::ticks::Ticks;
+
+/// Room left and right of the girder, in pixels.
 const MARGIN: f64 = 46.0;
-/// The largest deflection is drawn about this share of the girder's length where no factor is given.
+/// Size of the largest deflection on the picture as a fraction of the girder's length, where no factor is given.
 const SAG: f64 = 0.07;
+/// Tallest picture, in pixels.
+const TALLEST: f64 = 4000.0;
+/// Radius of the symbols of stations, in pixels.
+const RADIUS: f64 = 3.4;
 
 /// A support of the side view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Support {
     /// (x, y) of the supported point.
     pub at: [f64; 2],
-    /// The support holds the length too; otherwise it is drawn as a roller.
+    /// The support restrains the longitudinal direction too; otherwise it is drawn as a roller.
     pub holds_length: bool,
 }
 
@@ -31,11 +44,28 @@ pub struct Deflected {
     pub at: Vec<[f64; 2]>,
     /// Displacement of each point, in the same unit, y positive upwards.
     pub by: Vec<[f64; 2]>,
-    /// Factor of exaggeration; chosen where absent.
+    /// Factor by which displacements are exaggerated; chosen where absent.
     pub factor: Option<f64>,
 }
 
 /// Side view of a girder, drawn to one scale.
+///
+/// ```
+/// use girderway::chart::{GirderPlot, Support};
+///
+/// let girder = GirderPlot {
+///     title: "Girder".into(),
+///     length_unit: "m".into(),
+///     members: vec![vec![[0.0, 0.0], [12.0, 0.0]]],
+///     supports: vec![
+///         Support { at: [0.0, 0.0], holds_length: true },
+///         Support { at: [12.0, 0.0], holds_length: false },
+///     ],
+///     ..GirderPlot::default()
+/// };
+/// assert!(girder.svg()?.file().contains("12 m"));
+/// # Ok::<(), girderway::chart::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GirderPlot {
     /// Heading.
@@ -58,34 +88,18 @@ pub struct GirderPlot {
     pub note: String,
 }
 
-/// Placement of the structure on the sheet, with one scale for both directions.
-struct View {
-    scale: f64,
-    left: f64,
-    right: f64,
-    /// Pixel row of y = 0.
-    base: f64,
-    origin: f64,
-}
-
-impl View {
-    fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [MARGIN + (x - self.origin) * self.scale, self.base - y * self.scale]
-    }
-}
-
 impl GirderPlot {
-    /// The side view as an SVG file; the factor of the deflected shape stands in the legend.
+    /// The side view as a picture; the factor of the deflected shape stands in the legend.
     ///
     /// # Errors
     /// [`Error::NoData`] without members, [`Error::NotFinite`] (series counts members, then rail, supports,
     /// stations, loads, deflected points) and [`Error::Range`] where all points lie at one x.
-    pub fn svg(&self) -> Result<String, Error> {
+    pub fn svg(&self) -> Result<Svg, Error> {
         self.check()?;
         let shape = self.shape();
         let mut entries = vec![Series::new("elastic axis", Style::Line, Vec::new())];
-        let mut add = |present: bool, label: String, style| {
-            present.then(|| {
+        let mut add = |is_present: bool, label: String, style| {
+            is_present.then(|| {
                 entries.push(Series::new(label, style, Vec::new()));
                 entries.len() - 1
             })
@@ -95,42 +109,43 @@ impl GirderPlot {
         let deflected = shape.as_ref().and_then(|(label, _)| add(true, label.clone(), Style::Dashed));
 
         let title = wrap(&self.title, WIDTH - 40.0, TITLE);
-        let top = 14.0 + 22.0 * title.len() as f64;
+        let top = 14.0 + TITLE_LINE * title.len() as f64;
         let legend = Legend::new(&entries, MARGIN, WIDTH - MARGIN, top, false);
-        let (view, end) = self.view(top + legend.height, shape.as_ref().map(|s| s.1.as_slice()))?;
+        let frame = self.frame(top + legend.height, shape.as_ref().map(|s| s.1.as_slice()))?;
         let note = wrap(&self.note, WIDTH - 2.0 * MARGIN, SMALL);
-        let mut sheet = Sheet::new(WIDTH, end + 42.0 + 16.0 * note.len() as f64);
-        sheet.group("class=\"structure\" stroke-linecap=\"round\"", |pen| {
-            for member in &self.members {
-                let path: Vec<_> = member.iter().map(|p| view.place(*p)).collect();
-                pen.line(&path, colour(0), 4.0)?;
+        let end = frame.bottom();
+        sheet::picture(WIDTH, end + 42.0 + NOTE_LINE * note.len() as f64, |area| {
+            let plain = |scale| Coordinate { scale, ticks: Ticks::none(), is_reversed: false };
+            let mut view = plot(area, frame.around(0.0), [0.0; 4], [plain(frame.x), plain(frame.y)])?;
+            group(area, "class=\"structure\" stroke-linecap=\"round\"", || {
+                for member in &self.members {
+                    view.draw_series(LineSeries::new(pairs(member), stroke(colour(0), 4.0)))?;
+                }
+                if let Some(index) = rail {
+                    view.draw_series(LineSeries::new(pairs(&self.rail), stroke(colour(index), 2.4)))?;
+                }
+                view.draw_series(
+                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.holds_length)),
+                )?;
+                Ok(())
+            })?;
+            if let (Some(index), Some((_, path))) = (deflected, &shape) {
+                group(area, dashes(Style::Dashed).trim_start(), || {
+                    view.draw_series(LineSeries::new(pairs(path), stroke(colour(index), 2.0)))?;
+                    Ok(())
+                })?;
             }
-            if let Some(index) = rail {
-                let path: Vec<_> = self.rail.iter().map(|p| view.place(*p)).collect();
-                pen.line(&path, colour(index), 2.4)?;
-            }
-            self.supports.iter().try_for_each(|s| support(pen, view.place(s.at), s.holds_length))
-        })?;
-        if let (Some(index), Some((_, path))) = (deflected, &shape) {
-            let path: Vec<_> = path.iter().map(|p| view.place(*p)).collect();
-            sheet.group("stroke-dasharray=\"80 50\"", |pen| pen.line(&path, colour(index), 2.0))?;
-        }
-        sheet.group("class=\"labels\"", |pen| {
-            if let Some(index) = stations {
-                self.mark_stations(pen, &view, index)?;
-            }
-            self.loads.iter().try_for_each(|at| arrow(pen, view.place(*at)))?;
-            self.dimensions(pen, &view, end + 12.0)?;
-            for (i, line) in title.iter().enumerate() {
-                pen.text(line, [0.5 * WIDTH, 17.0 + 22.0 * i as f64], Anchor::Middle, TITLE, true, INK)?;
-            }
-            note.iter().enumerate().try_for_each(|(i, line)| {
-                let at = [MARGIN, end + 42.0 + 16.0 * i as f64];
-                pen.text(line, at, Anchor::Left, SMALL, false, GREY)
-            })
-        })?;
-        legend.draw(&mut sheet, &entries)?;
-        Ok(sheet.finish())
+            group(area, "class=\"labels\"", || {
+                if let Some(index) = stations {
+                    self.mark_stations(area, &mut view, &frame, index)?;
+                }
+                view.draw_series(pairs(&self.loads).map(Symbol::load))?;
+                self.dimensions(area, &frame)?;
+                sheet::title(area, &title)?;
+                sheet::note(area, &note, [MARGIN, end + 42.0])
+            })?;
+            legend.draw(area, &entries)
+        })
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -166,8 +181,8 @@ impl GirderPlot {
         Some((format!("{}, displacements x {factor}", shape.label), points))
     }
 
-    /// Scale of the picture, and the pixel row below all that is drawn to scale.
-    fn view(&self, top: f64, shape: Option<&[[f64; 2]]>) -> Result<(View, f64), Error> {
+    /// Frame with one scale for both directions, from below the legend to below all that is drawn to scale.
+    fn frame(&self, top: f64, shape: Option<&[[f64; 2]]>) -> Result<Frame, Error> {
         let (left, right) = self.ends();
         let scale = (WIDTH - 2.0 * MARGIN) / (right - left);
         if !(scale.is_finite() && scale > 0.0) {
@@ -177,68 +192,58 @@ impl GirderPlot {
         let all = all.chain(shape.unwrap_or(&[])).chain(self.supports.iter().map(|s| &s.at));
         let (low, high) = extent(all.map(|p| p[1]));
         let above = if self.loads.is_empty() { 30.0 } else { 56.0 };
-        let base = top + above + high * scale;
-        let end = base - low * scale + 34.0;
-        if !(end.is_finite() && end < 4000.0) {
+        let below = 34.0;
+        let height = above + (high - low) * scale + below;
+        if !(height.is_finite() && top + height < TALLEST) {
             return Err(Error::Range { low, high });
         }
-        Ok((View { scale, left, right, base, origin: left }, end))
+        let x = Scale { low: left, high: right, log: false };
+        let y = Scale { low: low - below / scale, high: high + above / scale, log: false };
+        Ok(Frame { left: MARGIN, top, width: WIDTH - 2.0 * MARGIN, height, x, y, is_reversed: [false; 2] })
     }
 
     /// Symbols on the rail, and coordinates above it as far as there is room.
-    fn mark_stations(&self, pen: &Pen<'_>, view: &View, index: usize) -> Result<(), Error> {
+    fn mark_stations(
+        &self,
+        area: &Area<'_>,
+        view: &mut Plot<'_>,
+        frame: &Frame,
+        index: usize,
+    ) -> Result<(), Error> {
+        view.draw_series(pairs(&self.stations).map(|at| Symbol::of_series(index, at, RADIUS * FINE)))?;
+        let style = font(SMALL, INK, HPos::Center, VPos::Center);
         let mut free = f64::NEG_INFINITY;
         for station in &self.stations {
-            let at = view.place(*station);
-            super::legend::symbol(pen, index, at, 3.4)?;
+            let [x, y] = frame.place(*station);
             let text = short(station[0]);
             let half = 0.5 * text_width(&text, SMALL);
-            if at[0] - half > free {
-                pen.text(&text, [at[0], at[1] - 15.0], Anchor::Middle, SMALL, false, INK)?;
-                free = at[0] + half + 6.0;
+            if x - half > free {
+                sheet::text(area, &text, [x, y - 15.0], &style)?;
+                free = x + half + 6.0;
             }
         }
         Ok(())
     }
 
-    /// Chain of dimensions from end to end over the supports.
-    fn dimensions(&self, pen: &Pen<'_>, view: &View, row: f64) -> Result<(), Error> {
-        let mut stops: Vec<f64> =
-            self.supports.iter().map(|s| s.at[0]).chain([view.left, view.right]).collect();
+    /// Chain of dimensions below the frame, from end to end over the supports.
+    fn dimensions(&self, area: &Area<'_>, frame: &Frame) -> Result<(), Error> {
+        let (left, right) = self.ends();
+        let mut stops: Vec<f64> = self.supports.iter().map(|s| s.at[0]).chain([left, right]).collect();
         stops.sort_by(f64::total_cmp);
-        let tiny = 1e-9 * (view.right - view.left);
+        let tiny = 1e-9 * (right - left);
         stops.dedup_by(|a, b| (*a - *b).abs() <= tiny);
-        let places: Vec<f64> = stops.iter().map(|x| view.place([*x, 0.0])[0]).collect();
+        let row = frame.bottom() + 12.0;
+        let style = font(SMALL, GREY, HPos::Center, VPos::Center);
+        let places: Vec<f64> = stops.iter().map(|x| frame.place([*x, 0.0])[0]).collect();
         for (pair, from) in places.windows(2).zip(stops.windows(2)) {
-            pen.line(&[[pair[0], row], [pair[1], row]], GREY, 0.9)?;
+            sheet::line(area, &[[pair[0], row], [pair[1], row]], stroke(GREY, 0.9))?;
             let text = format!("{} {}", short(from[1] - from[0]), self.length_unit);
             if text_width(&text, SMALL) < pair[1] - pair[0] {
-                pen.text(&text, [0.5 * (pair[0] + pair[1]), row + 11.0], Anchor::Middle, SMALL, false, GREY)?;
+                sheet::text(area, &text, [0.5 * (pair[0] + pair[1]), row + 11.0], &style)?;
             }
         }
-        places.iter().try_for_each(|x| pen.line(&[[x - 4.0, row + 4.0], [x + 4.0, row - 4.0]], GREY, 1.2))
+        places.iter().try_for_each(|x| {
+            sheet::line(area, &[[x - 4.0, row + 4.0], [x + 4.0, row - 4.0]], stroke(GREY, 1.2))
+        })
     }
-}
-
-/// Triangle under a supported point: on hatched ground, or on rollers.
-fn support(pen: &Pen<'_>, at: [f64; 2], fixed: bool) -> Result<(), Error> {
-    let foot = at[1] + 16.0;
-    pen.polygon(&[[at[0], at[1] + 2.0], [at[0] - 9.0, foot], [at[0] + 9.0, foot]], GREY)?;
-    let ground = if fixed { foot } else { foot + 6.0 };
-    if !fixed {
-        pen.disc([at[0] - 5.5, foot + 3.0], 2.6, GREY)?;
-        pen.disc([at[0] + 5.5, foot + 3.0], 2.6, GREY)?;
-    }
-    pen.line(&[[at[0] - 14.0, ground], [at[0] + 14.0, ground]], GREY, 1.2)?;
-    (0..5).try_for_each(|i| {
-        let x = at[0] - 10.0 + 6.0 * f64::from(i);
-        pen.line(&[[x, ground], [x - 5.0, ground + 5.0]], GREY, 0.9)
-    })
-}
-
-/// Arrow that ends at the point from above.
-fn arrow(pen: &Pen<'_>, at: [f64; 2]) -> Result<(), Error> {
-    let tip = at[1] - 4.0;
-    pen.line(&[[at[0], tip - 40.0], [at[0], tip - 6.0]], INK, 1.8)?;
-    pen.polygon(&[[at[0], tip], [at[0] - 4.5, tip - 10.0], [at[0] + 4.5, tip - 10.0]], INK)
 }

@@ -1,37 +1,49 @@
-//! Legend and symbols: every series can be told from the others without colour.
+//! The legend: every series can be told from the others without colour.
+//!
+//! plotters' own series labels stand below each other in a box over the data, and all in one element. Here they
+//! flow in rows above the frame, each in groups of its own, by which a page switches its series on and off.
 
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::elements::Symbol;
 use super::error::Error;
+use super::palette::{INK, line_colour};
 use super::series::{Series, Style};
-use super::svg::{Anchor, GREY, INK, Pen, SMALL, Sheet, colour};
+use super::sheet::{Area, SMALL, font, group, line, place, stroke, text};
+use super::svg::FINE;
 use super::text::text_width;
-use plotters::style::{RGBColor, WHITE};
 
 /// Height of a row of the legend.
 const ROW: f64 = 20.0;
 /// Length of the line shown before a name.
 const SWATCH: f64 = 34.0;
+/// Space between a line and its name.
+const BESIDE: f64 = 6.0;
 /// Space between entries.
 const GAP: f64 = 22.0;
+/// Radius of symbols, in pixels.
+pub(super) const RADIUS: f64 = 3.6;
 
-/// Entries flowed into rows between the title and the frame.
+/// Entries in rows between the title and the frame.
 pub(super) struct Legend {
+    /// Left end of the line of each entry.
     places: Vec<[f64; 2]>,
-    symbols: bool,
+    /// Symbols stand on the lines of all series.
+    with_symbols: bool,
     /// Height of all rows.
     pub height: f64,
 }
 
 impl Legend {
-    /// Flows the entries from `left` on, no further than `right`, below `top`. A single series has none.
-    /// `symbols` puts the symbols of the series on their lines.
-    pub fn new(series: &[Series], left: f64, right: f64, top: f64, symbols: bool) -> Self {
+    /// Entries from `left` on, no further than `right`, below `top`. A single series has none.
+    pub fn new(series: &[Series], left: f64, right: f64, top: f64, with_symbols: bool) -> Self {
         if series.len() < 2 {
-            return Legend { places: Vec::new(), symbols, height: 0.0 };
+            return Legend { places: Vec::new(), with_symbols, height: 0.0 };
         }
         let (mut at, mut row) = (left, 0.0);
         let mut places = Vec::new();
         for one in series {
-            let width = SWATCH + 6.0 + text_width(&one.label, SMALL);
+            let width = SWATCH + BESIDE + text_width(&one.label, SMALL);
             if at > left && at + width > right {
                 at = left;
                 row += 1.0;
@@ -39,67 +51,31 @@ impl Legend {
             places.push([at, top + (row + 0.5) * ROW]);
             at += width + GAP;
         }
-        Legend { places, symbols, height: (row + 1.0) * ROW + 4.0 }
+        Legend { places, with_symbols, height: (row + 1.0) * ROW + 4.0 }
     }
 
-    /// Draws one group a series.
-    pub fn draw(&self, sheet: &mut Sheet, series: &[Series]) -> Result<(), Error> {
-        for (index, (at, one)) in self.places.iter().zip(series).enumerate() {
-            let line = [*at, [at[0] + SWATCH, at[1]]];
-            sheet.group(&format!("class=\"key\" data-series=\"{index}\""), |pen| {
-                let name = [at[0] + SWATCH + 6.0, at[1]];
-                pen.text(&one.label, name, Anchor::Left, SMALL, false, INK)
-            })?;
-            let attributes = format!("class=\"key\" data-series=\"{index}\"{}", dashes(one.style));
-            sheet.group(&attributes, |pen| match one.style {
-                Style::Points => Ok(()),
-                style => pen.line(&line, ink(style, index), 2.0),
-            })?;
-            if self.symbols || one.has_symbols() {
-                sheet.group(&format!("class=\"key\" data-series=\"{index}\""), |pen| {
-                    symbol(pen, index, [at[0] + 0.5 * SWATCH, at[1]], 3.6)
+    /// Draws the groups of each entry.
+    pub fn draw(&self, area: &Area<'_>, series: &[Series]) -> Result<(), Error> {
+        let style = font(SMALL, INK, HPos::Left, VPos::Center);
+        for (index, ([x, y], one)) in self.places.iter().zip(series).enumerate() {
+            let class = format!("class=\"key\" data-series=\"{index}\"");
+            group(area, &class, || text(area, &one.label, [x + SWATCH + BESIDE, *y], &style))?;
+            if one.style != Style::Points {
+                let colour = line_colour(one.style, index);
+                group(area, &format!("{class}{}", dashes(one.style)), || {
+                    line(area, &[[*x, *y], [x + SWATCH, *y]], stroke(colour, 2.0))
                 })?;
+            }
+            if self.with_symbols || one.has_symbols() {
+                let middle = place([x + 0.5 * SWATCH, *y]);
+                group(area, &class, || Ok(area.draw(&Symbol::of_series(index, middle, RADIUS * FINE))?))?;
             }
         }
         Ok(())
     }
 }
 
-/// Colour of the lines of a series.
-pub(super) fn ink(style: Style, index: usize) -> RGBColor {
-    if style == Style::Limit { GREY } else { colour(index) }
-}
-
 /// Attribute that draws the lines of a group in that style.
 pub(super) fn dashes(style: Style) -> &'static str {
     if matches!(style, Style::Dashed | Style::Limit) { " stroke-dasharray=\"80 50\"" } else { "" }
-}
-
-/// Symbol of the series with that index, in its colour: disc, square, triangle, ring, diamond, open square.
-pub(super) fn symbol(pen: &Pen<'_>, series: usize, at: [f64; 2], size: f64) -> Result<(), Error> {
-    let ink: RGBColor = colour(series);
-    let square = |r: f64| [at[0] - r, at[1] - r, 2.0 * r, 2.0 * r];
-    match series % 6 {
-        0 => pen.disc(at, size, ink),
-        1 => pen.rectangle(square(0.9 * size), ink),
-        2 => {
-            let (w, h) = (1.15 * size, size);
-            pen.polygon(&[[at[0] - w, at[1] + h], [at[0] + w, at[1] + h], [at[0], at[1] - 1.1 * h]], ink)
-        }
-        3 => {
-            pen.disc(at, size, ink)?;
-            pen.disc(at, 0.5 * size, WHITE)
-        }
-        4 => {
-            let r = 1.35 * size;
-            pen.polygon(
-                &[[at[0] - r, at[1]], [at[0], at[1] - r], [at[0] + r, at[1]], [at[0], at[1] + r]],
-                ink,
-            )
-        }
-        _ => {
-            pen.rectangle(square(size), ink)?;
-            pen.rectangle(square(0.5 * size), WHITE)
-        }
-    }
 }

@@ -1,33 +1,55 @@
 //! Charts as plain data, drawn to SVG with plotters.
 //!
-//! One [`Chart`] serves both the SVG file and the report. [`SurfacePlot`] draws an influence grid,
-//! [`GirderPlot`] the girder with its rail. Pictures are drawn in tenths of a pixel under a viewBox, so that
-//! curves are smooth although plotters places everything on whole numbers.
+//! [`Chart`] holds curves over two axes and serves both the SVG file and the report, [`SurfacePlot`] an influence
+//! grid, [`GirderPlot`] the side view of a girder. plotters draws them: its chart builder places the frame, its
+//! coordinates place the data, its mesh draws grid, ticks and labels, its series and elements the rest.
+//! What is ours extends it where it is made to be extended: a drawing backend that writes small SVG with groups,
+//! a coordinate with our ticks, and a few elements.
+//!
+//! Files in their order, each of which imports from earlier ones only: `error`, `label`, `text`, `svg`; `backend`,
+//! `series`, `palette`, `elements`, `sheet`; `axis`, `scale`, `ticks`, `coordinate`, `frame`, `legend`; `thinning`,
+//! `contour`; `line_chart`, `surface_plot`, `girder_plot`.
+//!
+//! ```
+//! use girderway::chart::{Axis, Chart, Series, Style};
+//!
+//! let points = (0..100).map(|i| [f64::from(i), f64::from(i * i)]).collect();
+//! let chart = Chart::new("Squares", Axis::new("number", ""), Axis::new("square", ""))
+//!     .with(Series::new("squares", Style::Line, points));
+//! let svg = chart.svg()?.file();
+//! assert!(svg.starts_with("<svg ") && svg.contains("Squares"));
+//! # Ok::<(), girderway::chart::Error>(())
+//! ```
 
-pub mod axis;
-#[allow(clippy::module_inception)]
-pub mod chart;
-pub mod contour;
-pub mod error;
-pub mod frame;
-pub mod girder_plot;
-pub mod legend;
-pub mod path;
-pub mod scale;
-pub mod series;
-pub mod stack;
-pub mod surface_plot;
-pub mod svg;
-pub mod text;
+mod axis;
+mod backend;
+mod contour;
+mod coordinate;
+mod elements;
+mod error;
+mod frame;
+mod girder_plot;
+pub(crate) mod label;
+mod legend;
+mod line_chart;
+mod palette;
+mod scale;
+mod series;
+mod sheet;
+mod surface_plot;
+mod svg;
+mod text;
+mod thinning;
+mod ticks;
 
 pub use axis::Axis;
-pub use chart::{Chart, Drawing};
 pub use error::Error;
 pub use frame::Frame;
 pub use girder_plot::{Deflected, GirderPlot, Support};
+pub use line_chart::{Chart, Drawing};
 pub use series::{Marker, Series, Style};
-pub use stack::stack;
 pub use surface_plot::SurfacePlot;
+pub use svg::{Svg, stack};
 
 #[cfg(test)]
 mod tests;

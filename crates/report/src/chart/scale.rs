@@ -1,24 +1,10 @@
-//! Scales: data to the unit interval, and ticks at 1, 2, 5 times a power of ten.
+//! Scales: data to the unit interval, over ranges that end at 1, 2 or 5 times a power of ten.
 
-use super::axis::{Axis, fixed, with_power};
+use super::axis::Axis;
 use super::error::Error;
 
 /// Ranges shorter than this count as a single value: powers of ten below it lose digits.
 const TINY: f64 = 1e-280;
-
-/// Labels that a logarithmic axis must have to be read.
-const FEWEST: usize = 3;
-
-/// Placed values with their labels.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Ticks {
-    /// Values in increasing order, all inside the range.
-    pub values: Vec<f64>,
-    /// One label a value, in units of 10^exponent; empty where a label would crowd.
-    pub labels: Vec<String>,
-    /// Power of ten taken out of the labels, a multiple of 3.
-    pub exponent: i32,
-}
 
 /// Scale of one axis: data to the unit interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -90,69 +76,6 @@ impl Scale {
             self
         }
     }
-
-    /// Ticks, about `target` of them.
-    pub fn ticks(&self, target: f64) -> Ticks {
-        if !self.log {
-            return self.linear_ticks(target);
-        }
-        let ticks = self.log_ticks();
-        // a part of a decade may hold one of them, or none
-        if ticks.labels.iter().filter(|label| !label.is_empty()).count() < FEWEST {
-            self.linear_ticks(target)
-        } else {
-            ticks
-        }
-    }
-
-    fn linear_ticks(&self, target: f64) -> Ticks {
-        let step = step(self.low, self.high, target);
-        let exponent = exponent(self.low.abs().max(self.high.abs()));
-        let slack = 1e-9 * (self.high - self.low);
-        let first = ((self.low - slack) / step).ceil();
-        let mut values = Vec::new();
-        for i in 0..64 {
-            let value = (first + f64::from(i)) * step;
-            if value > self.high + slack {
-                break;
-            }
-            values.push(if value.abs() < 0.5 * slack { 0.0 } else { value });
-        }
-        let decimals = decimals(step, exponent);
-        let labels = values.iter().map(|v| fixed(*v, exponent, decimals)).collect();
-        Ticks { values, labels, exponent }
-    }
-
-    fn log_ticks(&self) -> Ticks {
-        let decades = (self.high / self.low).log10();
-        let factors: &[f64] = if decades <= 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
-        let skip = (decades / 8.0).ceil().max(1.0) as i32;
-        let (from, to) = (self.low.log10().floor() as i32, self.high.log10().ceil() as i32);
-        let plain = self.low >= 1e-3 && self.high <= 1e4;
-        let (mut values, mut labels) = (Vec::new(), Vec::new());
-        for power in from..=to {
-            for factor in factors {
-                let value = factor * 10f64.powi(power);
-                if value < self.low * (1.0 - 1e-9) || value > self.high * (1.0 + 1e-9) {
-                    continue;
-                }
-                values.push(value);
-                labels.push(match (plain, *factor == 1.0) {
-                    (true, _) => fixed(value, 0, usize::try_from(-power).unwrap_or(0)),
-                    (false, true) if power.rem_euclid(skip) == 0 => {
-                        if power == 0 {
-                            "1".into()
-                        } else {
-                            with_power(power, "")
-                        }
-                    }
-                    (false, true) => String::new(),
-                    (false, false) => format!("{factor}\u{b7}{}", with_power(power, "")),
-                });
-            }
-        }
-        Ticks { values, labels, exponent: 0 }
-    }
 }
 
 /// Largest of 1, 2, 5 times a power of ten that divides `low..high` into about `target` parts.
@@ -168,20 +91,4 @@ pub(super) fn step(low: f64, high: f64, target: f64) -> f64 {
             m if m < 7.5 => 5.0,
             _ => 10.0,
         }
-}
-
-/// Multiple of 3 to take out of labels whose largest size is `largest`; 0 from 0.01 up to 10,000.
-pub(super) fn exponent(largest: f64) -> i32 {
-    if largest == 0.0 || (0.01..1e4).contains(&largest) {
-        return 0;
-    }
-    let power = (largest * (1.0 + 1e-12)).log10().floor() as i32;
-    power.div_euclid(3) * 3
-}
-
-/// Decimals that tell ticks of the given step apart.
-fn decimals(step: f64, exponent: i32) -> usize {
-    let scaled = step / 10f64.powi(exponent);
-    let power = (scaled * (1.0 + 1e-9)).log10().floor() as i32;
-    usize::try_from(-power).unwrap_or(0).min(12)
 }

@@ -19,6 +19,14 @@ pub enum Style {
 }
 
 /// Points of one curve.
+///
+/// ```
+/// use girderway::chart::{Series, Style};
+///
+/// let steps = Series::new("command", Style::Step, vec![[0.0, 2.0], [4.0, 3.0]]);
+/// let errors = Series::new("largest error", Style::Marked, vec![[1e-3, 0.2]]).spread(vec![[8e-4, 2e-3]]);
+/// assert_eq!((steps.points.len(), errors.spread[0]), (2, [8e-4, 2e-3]));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
     /// Name in the legend.
@@ -27,12 +35,12 @@ pub struct Series {
     pub style: Style,
     /// (x, y), in the units of the axes, in the order in which they are joined.
     pub points: Vec<[f64; 2]>,
-    /// From where to where each point spreads along x, in the units of the axis; empty: no spread is drawn.
+    /// Range along x of each point, lower end first, in the units of the axis; empty: no ranges are drawn.
     pub spread: Vec<[f64; 2]>,
 }
 
 impl Style {
-    /// Full and dashed lines in turn.
+    /// Full lines for even indices, dashed lines for odd ones.
     #[must_use]
     pub fn in_turn(index: usize) -> Style {
         if index.is_multiple_of(2) { Style::Line } else { Style::Dashed }
@@ -45,7 +53,7 @@ impl Series {
         Series { label: label.into(), style, points, spread: Vec::new() }
     }
 
-    /// The same with the spread of each point along x.
+    /// The same series with the range of each point along x.
     pub fn spread(self, spread: Vec<[f64; 2]>) -> Self {
         Series { spread, ..self }
     }

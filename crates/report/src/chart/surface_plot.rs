@@ -1,23 +1,58 @@
 //! An influence grid as a picture: a map with contours, or a table with shaded cells.
 
-use super::axis::{Axis, fixed, with_power};
-use super::chart::Chart;
+use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::axis::Axis;
 use super::contour::region;
+use super::coordinate::Coordinate;
+use super::elements::OnePath;
 use super::error::Error;
-use super::frame::{BELOW, Frame, WIDTH};
-use super::scale::{Scale, exponent, extent, step};
+use super::frame::{self, BELOW, Frame, pairs, plot};
+use super::label::{fixed, short, with_unit};
+use super::line_chart::Chart;
+use super::palette::{GREY, INK, shade};
+use super::scale::{Scale, extent, step};
 use super::series::{Series, Style};
-use super::svg::{Anchor, GREY, INK, LABEL, Pen, SMALL, Sheet, TITLE};
+use super::sheet::{self, Area, LABEL, NOTE_LINE, SMALL, WIDTH, bold, font, group, stroke, units};
+use super::svg::Svg;
 use super::text::wrap;
-use plotters::style::{RGBColor, WHITE};
+use super::ticks::{Ticks, exponent};
 
 /// Grids with at most this many rows and columns are shown as tables.
 const TABLE: usize = 12;
 /// Side of the map in pixels.
 const SIDE: f64 = 560.0;
+/// Room left of the map and of notes, in pixels.
 const LEFT: f64 = 92.0;
+/// Room right of tables and notes, in pixels.
+const RIGHT: f64 = 30.0;
+/// Greatest width, and height, of a cell of a table in pixels.
+const CELL: [f64; 2] = [104.0, 34.0];
+/// White to the right of and below a cell of a table, in pixels.
+const GAP: f64 = 1.5;
+/// Upper edges of tables and maps, below their heading, in pixels.
+const BELOW_HEADING: [f64; 2] = [92.0, 62.0];
 
 /// Influence coefficients over rows (where the deflection is) and columns (where the load is).
+///
+/// ```
+/// use girderway::chart::SurfacePlot;
+///
+/// let grid = SurfacePlot {
+///     title: "Influence coefficients".into(),
+///     label: "deflection per unit load".into(),
+///     unit: "mm/kN".into(),
+///     length_unit: "m".into(),
+///     at: vec![2.0, 4.0],
+///     loads: vec![2.0, 4.0],
+///     values: vec![vec![0.3, 0.2], vec![0.2, 0.3]],
+///     ..SurfacePlot::default()
+/// };
+/// assert!(grid.svg()?.file().contains("load at (m)"));
+/// assert_eq!(grid.lines()?.series[1].points, [[2.0, 0.2], [4.0, 0.3]]);
+/// # Ok::<(), girderway::chart::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfacePlot {
     /// Heading.
@@ -41,14 +76,14 @@ pub struct SurfacePlot {
 }
 
 impl SurfacePlot {
-    /// The grid as an SVG file: a table with shaded cells up to 12 x 12, a map with contours beyond.
+    /// The grid as a picture: a table with shaded cells up to 12 x 12, a map with contours beyond.
     ///
     /// Between the stations the map is linear along the edges of the grid's cells.
     ///
     /// # Errors
     /// [`Error::NoData`], [`Error::Shape`], [`Error::Stations`] or [`Error::NotFinite`] for a grid that is
     /// not one; the indices of the last are row and column.
-    pub fn svg(&self) -> Result<String, Error> {
+    pub fn svg(&self) -> Result<Svg, Error> {
         self.check()?;
         if self.at.len() <= TABLE && self.loads.len() <= TABLE { self.table() } else { self.map() }
     }
@@ -104,132 +139,185 @@ impl SurfacePlot {
         extent(self.values.iter().flatten().copied())
     }
 
-    fn heading(&self, sheet: &mut Sheet, power: i32) -> Result<(), Error> {
-        let unit = with_power(power, &self.unit);
-        sheet.group("class=\"title\"", |pen| {
-            pen.text(&self.title, [0.5 * WIDTH, 17.0], Anchor::Middle, TITLE, true, INK)?;
-            let text = if unit.is_empty() { self.label.clone() } else { format!("{} ({unit})", self.label) };
-            pen.text(&text, [0.5 * WIDTH, 40.0], Anchor::Middle, LABEL, false, INK)
+    /// Draws title and label; `power` is the power of ten taken out of the values.
+    fn heading(&self, area: &Area<'_>, power: i32) -> Result<(), Error> {
+        group(area, "class=\"title\"", || {
+            let below = sheet::title(area, std::slice::from_ref(&self.title))?;
+            below.titled(
+                &with_unit(&self.label, power, &self.unit),
+                font(LABEL, INK, HPos::Center, VPos::Top),
+            )?;
+            Ok(())
         })
     }
 
-    fn footnote(&self, sheet: &mut Sheet, top: f64, lines: &[String]) -> Result<(), Error> {
-        sheet.group("class=\"note\"", |pen| {
-            lines.iter().enumerate().try_for_each(|(i, line)| {
-                pen.text(line, [LEFT, top + 16.0 * i as f64], Anchor::Left, SMALL, false, GREY)
-            })
-        })
-    }
-
-    fn table(&self) -> Result<String, Error> {
+    /// Values as a table: a chart over the indices of columns and rows, the stations as labels of its ticks.
+    fn table(&self) -> Result<Svg, Error> {
         let (rows, columns) = (self.at.len() as f64, self.loads.len() as f64);
         let (low, high) = self.extent();
         let limit = low.abs().max(high.abs());
         let power = exponent(limit);
-        let (cell, top) = ([((WIDTH - LEFT - 30.0) / columns).min(104.0), 34.0], 92.0);
-        let left = LEFT + 0.5 * (WIDTH - LEFT - 30.0 - cell[0] * columns);
-        let lines = wrap(&self.note, WIDTH - LEFT - 30.0, SMALL);
-        let end = top + cell[1] * rows;
-        let mut sheet = Sheet::new(WIDTH, end + 24.0 + 16.0 * lines.len() as f64);
-        self.heading(&mut sheet, power)?;
-        sheet.group("class=\"cells\"", |pen| {
-            for (i, row) in self.values.iter().enumerate() {
-                for (j, value) in row.iter().enumerate() {
-                    let at = [left + cell[0] * j as f64, top + cell[1] * i as f64];
-                    let share = if limit > 0.0 { value / limit } else { 0.0 };
-                    pen.rectangle([at[0], at[1], cell[0] - 1.5, cell[1] - 1.5], shade(share))?;
-                    let middle = [at[0] + 0.5 * cell[0], at[1] + 0.5 * cell[1]];
-                    let ink = if share.abs() > 0.62 { WHITE } else { INK };
-                    pen.text(&fixed(*value, power, 2), middle, Anchor::Middle, SMALL, false, ink)?;
-                }
-            }
-            for (j, load) in self.loads.iter().enumerate() {
-                let at = [left + cell[0] * (j as f64 + 0.5), top - 12.0];
-                pen.text(&short(*load), at, Anchor::Middle, SMALL, true, INK)?;
-            }
-            for (i, station) in self.at.iter().enumerate() {
-                let at = [left - 10.0, top + cell[1] * (i as f64 + 0.5)];
-                pen.text(&short(*station), at, Anchor::Right, SMALL, true, INK)?;
-            }
-            let caption = format!("load at ({})", self.length_unit);
-            let middle = [left + 0.5 * cell[0] * columns, top - 31.0];
-            pen.text(&caption, middle, Anchor::Middle, SMALL, false, INK)?;
-            let caption = format!("deflection at ({})", self.length_unit);
-            pen.text(&caption, [left - 66.0, top + 0.5 * cell[1] * rows], Anchor::Upwards, SMALL, false, INK)
-        })?;
-        self.footnote(&mut sheet, end + 14.0, &lines)?;
-        Ok(sheet.finish())
+        let [width, height] = [((WIDTH - LEFT - RIGHT) / columns).min(CELL[0]), CELL[1]];
+        let (left, top) = (LEFT + 0.5 * (WIDTH - LEFT - RIGHT - width * columns), BELOW_HEADING[0]);
+        let note = wrap(&self.note, WIDTH - LEFT - RIGHT, SMALL);
+        let end = top + height * rows;
+        sheet::picture(WIDTH, end + 24.0 + NOTE_LINE * note.len() as f64, |area| {
+            self.heading(area, power)?;
+            let head = |stations: &[f64], is_reversed| {
+                let values = (0..stations.len()).map(|i| i as f64 + 0.5).collect();
+                let labels = stations.iter().map(|station| short(*station)).collect();
+                let scale = Scale { low: 0.0, high: stations.len() as f64, log: false };
+                Coordinate { scale, ticks: Ticks { values, labels, exponent: 0 }, is_reversed }
+            };
+            let rectangle = [left, top, width * columns, height * rows];
+            let mut cells = plot(
+                area,
+                rectangle,
+                [37.0, 0.0, 72.0, 0.0],
+                [head(&self.loads, false), head(&self.at, true)],
+            )?;
+            group(area, "class=\"cells\"", || {
+                let share = |value: f64| if limit > 0.0 { value / limit } else { 0.0 };
+                let all = || {
+                    let rows = self.values.iter().enumerate();
+                    rows.flat_map(|(i, row)| {
+                        row.iter().enumerate().map(move |(j, v)| (j as f64, i as f64, *v))
+                    })
+                };
+                cells.draw_series(all().map(|(x, y, value)| {
+                    let corners = [(x, y), (x + 1.0, y + 1.0)];
+                    let mut cell = Rectangle::new(corners, shade(share(value)).filled());
+                    let gap = units(GAP).unsigned_abs();
+                    cell.set_margin(0, gap, 0, gap);
+                    cell
+                }))?;
+                cells.draw_series(all().map(|(x, y, value)| {
+                    let ink = if share(value).abs() > 0.62 { WHITE } else { INK };
+                    let style = font(SMALL, ink, HPos::Center, VPos::Center);
+                    Text::new(fixed(value, power, 2), (x + 0.5, y + 0.5), style)
+                }))?;
+                let head = font(SMALL, INK, HPos::Center, VPos::Center);
+                let unit = &self.length_unit;
+                cells
+                    .configure_mesh()
+                    .disable_mesh()
+                    .axis_style(TRANSPARENT)
+                    .set_tick_mark_size(LabelAreaPosition::Top, units(3.0))
+                    .set_tick_mark_size(LabelAreaPosition::Left, units(5.0))
+                    .label_style(bold(head.clone()))
+                    .axis_desc_style(head)
+                    .x_desc(format!("load at ({unit})"))
+                    .y_desc(format!("deflection at ({unit})"))
+                    .draw()?;
+                Ok(())
+            })?;
+            group(area, "class=\"note\"", || sheet::note(area, &note, [LEFT, end + 14.0]))
+        })
     }
 
-    fn map(&self) -> Result<String, Error> {
+    /// Values as bands of colour between contours.
+    fn map(&self) -> Result<Svg, Error> {
         let (low, high) = self.extent();
         let limit = low.abs().max(high.abs());
         let power = exponent(limit);
         let axes = [Axis::new("load at", &self.length_unit), Axis::new("deflection at", &self.length_unit)];
         let x = Scale::new(&axes[0], self.loads.iter().copied(), false)?;
         let y = Scale::new(&axes[1], self.at.iter().copied(), false)?;
-        let frame = Frame { left: LEFT, top: 62.0, width: SIDE, height: SIDE, x, y, flip: [false; 2] };
+        let is_reversed = [false; 2];
+        let frame = Frame { left: LEFT, top: BELOW_HEADING[1], width: SIDE, height: SIDE, x, y, is_reversed };
         let levels = levels(low, high);
-        let dashed = levels.iter().any(|v| *v < -1e-9 * limit);
-        let note =
-            if dashed { format!("{} Contours below zero are dashed.", self.note) } else { self.note.clone() };
-        let lines = wrap(&note, WIDTH - LEFT - 30.0, SMALL);
+        let is_dashed = levels.iter().any(|v| *v < -1e-9 * limit);
+        let note = if is_dashed {
+            format!("{} Contours below zero are dashed.", self.note)
+        } else {
+            self.note.clone()
+        };
+        let note = wrap(&note, WIDTH - LEFT - RIGHT, SMALL);
         let end = frame.bottom() + BELOW;
-        let mut sheet = Sheet::new(WIDTH, end + 12.0 + 16.0 * lines.len() as f64);
-        self.heading(&mut sheet, power)?;
-
-        let columns: Vec<f64> = self.loads.iter().map(|v| frame.place([*v, y.low])[0]).collect();
-        let rows: Vec<f64> = self.at.iter().map(|v| frame.place([x.low, *v])[1]).collect();
-        let colours: Vec<RGBColor> = (0..=levels.len())
-            .map(|k| {
-                let from = if k == 0 { low } else { levels[k - 1] };
-                let to = levels.get(k).copied().unwrap_or(high);
-                shade(if limit > 0.0 { 0.5 * (from + to) / limit } else { 0.0 })
-            })
-            .collect();
-        // Rounding must not decide on which side of zero a support lies.
-        let snap = |v: &f64| if v.abs() < 1e-12 * limit { 0.0 } else { *v };
-        let values: Vec<Vec<f64>> = self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
-        sheet.group("class=\"bands\"", |pen| pen.rectangle(frame.around(0.0), colours[0]))?;
-        for (level, colour) in levels.iter().zip(&colours[1..]) {
-            let found = region(&columns, &rows, &values, *level);
-            sheet.area(&found.polygons, *colour);
-            let zero = level.abs() < 1e-9 * limit;
-            let line = if *level < 0.0 && !zero { &found.dashes } else { &found.chords };
-            sheet.strokes(line, if zero { INK } else { GREY }, if zero { 1.6 } else { 0.7 });
-        }
-        sheet.group("class=\"scales\"", |pen| {
-            for support in self.supports.iter().filter(|s| (x.low..=x.high).contains(s)) {
-                let at = frame.place([*support, *support]);
-                pen.line(&[[at[0], frame.top], [at[0], frame.bottom()]], GREY, 1.0)?;
-                pen.line(&[[frame.left, at[1]], [frame.left + SIDE, at[1]]], GREY, 1.0)?;
-            }
-            let (across, up) = (frame.fitting(), y.ticks(10.0));
-            frame.scales(pen, (&axes[0], &across), (&axes[1], &up))?;
-            bar(pen, &frame, &levels, &colours, power)
-        })?;
-        self.footnote(&mut sheet, end + 6.0, &lines)?;
-        Ok(sheet.finish())
+        sheet::picture(WIDTH, end + 12.0 + NOTE_LINE * note.len() as f64, |area| {
+            self.heading(area, power)?;
+            let mut map = frame.plot(area, [frame.x_ticks(), Ticks::new(&y, 10.0)])?;
+            let colours = band_colours(&levels, low, high, limit);
+            group(area, "class=\"bands\" stroke-linecap=\"round\"", || {
+                let whole = [(x.low, y.low), (x.high, y.high)];
+                map.plotting_area().draw(&Rectangle::new(whole, colours[0].filled()))?;
+                // Rounding must not decide on which side of zero a support lies.
+                let snap = |v: &f64| if v.abs() < 1e-12 * limit { 0.0 } else { *v };
+                let values: Vec<Vec<f64>> =
+                    self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
+                for (level, colour) in levels.iter().zip(&colours[1..]) {
+                    let found = region(&self.loads, &self.at, &values, *level);
+                    let is_zero = level.abs() < 1e-9 * limit;
+                    let lines = if *level < 0.0 && !is_zero { found.dashes } else { found.chords };
+                    let style = if is_zero { stroke(INK, 1.6) } else { stroke(GREY, 0.7) };
+                    map.draw_series([
+                        OnePath {
+                            pieces: found.polygons.iter().map(|p| pairs(p).collect()).collect(),
+                            style: colour.filled(),
+                        },
+                        OnePath { pieces: lines.iter().map(|line| pairs(line).collect()).collect(), style },
+                    ])?;
+                }
+                Ok(())
+            })?;
+            group(area, "class=\"scales\"", || {
+                let inside = self.supports.iter().filter(|s| (x.low..=x.high).contains(s));
+                map.draw_series(inside.flat_map(|s| {
+                    let (across, up) = ([(*s, y.low), (*s, y.high)], [(x.low, *s), (x.high, *s)]);
+                    [across, up].map(|ends| PathElement::new(ends, stroke(GREY, 1.0)))
+                }))?;
+                frame::axes(&mut map, [&axes[0], &axes[1]])?;
+                bar(area, &frame, &levels, &colours, power)
+            })?;
+            group(area, "class=\"note\"", || sheet::note(area, &note, [LEFT, end + 6.0]))
+        })
     }
 }
 
-/// Colour bar right of the map: one box a band, the levels between them.
-fn bar(pen: &Pen<'_>, frame: &Frame, levels: &[f64], colours: &[RGBColor], power: i32) -> Result<(), Error> {
-    let left = frame.left + frame.width + 36.0;
-    let height = frame.height / colours.len() as f64;
+/// Colours of the bands below, between and above the levels.
+fn band_colours(levels: &[f64], low: f64, high: f64, limit: f64) -> Vec<RGBColor> {
+    let middle = |k: usize| {
+        let from = if k == 0 { low } else { levels[k - 1] };
+        let to = levels.get(k).copied().unwrap_or(high);
+        if limit > 0.0 { 0.5 * (from + to) / limit } else { 0.0 }
+    };
+    (0..=levels.len()).map(|k| shade(middle(k))).collect()
+}
+
+/// Colour bar right of the map: a chart over the indices of the bands, with the levels as ticks between them.
+fn bar(
+    area: &Area<'_>,
+    frame: &Frame,
+    levels: &[f64],
+    colours: &[RGBColor],
+    power: i32,
+) -> Result<(), Error> {
     let apart = if levels.len() > 1 { levels[1] - levels[0] } else { 1.0 };
     let decimals = (-(apart / 10f64.powi(power)).log10().floor()).clamp(0.0, 12.0) as usize;
-    for (k, colour) in colours.iter().enumerate() {
-        let top = frame.bottom() - height * (k as f64 + 1.0);
-        pen.rectangle([left, top, 26.0, height], *colour)?;
-        if let Some(level) = levels.get(k) {
-            pen.line(&[[left, top], [left + 31.0, top]], GREY, 0.8)?;
-            let text = fixed(*level, power, decimals);
-            pen.text(&text, [left + 36.0, top], Anchor::Left, SMALL, false, INK)?;
-        }
-    }
-    let (a, b, c, d) = (left, left + 26.0, frame.top, frame.bottom());
-    pen.line(&[[a, c], [b, c], [b, d], [a, d], [a, c]], INK, 1.0)
+    let coordinate = |high: f64, ticks| Coordinate {
+        scale: Scale { low: 0.0, high, log: false },
+        ticks,
+        is_reversed: false,
+    };
+    let values = (1..=levels.len()).map(|k| k as f64).collect();
+    let labels = levels.iter().map(|level| fixed(*level, power, decimals)).collect();
+    let ticks = Ticks { values, labels, exponent: power };
+    let rectangle = [frame.left + frame.width + 36.0, frame.top, 26.0, frame.height];
+    let axes = [coordinate(1.0, Ticks::none()), coordinate(colours.len() as f64, ticks)];
+    let mut bar = plot(area, rectangle, [0.0, 0.0, 0.0, 80.0], axes)?;
+    bar.draw_series(
+        colours
+            .iter()
+            .enumerate()
+            .map(|(k, colour)| Rectangle::new([(0.0, k as f64), (1.0, k as f64 + 1.0)], colour.filled())),
+    )?;
+    bar.configure_mesh()
+        .bold_line_style(stroke(GREY, 0.8))
+        .axis_style(stroke(GREY, 0.8))
+        .set_all_tick_mark_size(units(5.0))
+        .label_style(font(SMALL, INK, HPos::Left, VPos::Center))
+        .draw()?;
+    frame::border(&bar)
 }
 
 /// Contour levels strictly between the ends, about a dozen.
@@ -241,23 +329,4 @@ fn levels(low: f64, high: f64) -> Vec<f64> {
     let first = (low / step + 1e-9).floor() + 1.0;
     let value = |i: i32| if first + f64::from(i) == 0.0 { 0.0 } else { (first + f64::from(i)) * step };
     (0..40).map(value).take_while(|v| *v < high - 1e-9 * step).collect()
-}
-
-/// Colour of a value between -1 (blue) and 1 (red); 0 is white, and the grey darkens with the size.
-fn shade(share: f64) -> RGBColor {
-    let full = if share < 0.0 { [0x1b, 0x4f, 0x9c] } else { [0x9e, 0x1b, 0x2e] };
-    let t = share.abs().min(1.0).powf(0.85);
-    let [r, g, b] = full.map(|c: u8| (255.0 + t * (f64::from(c) - 255.0)).round() as u8);
-    RGBColor(r, g, b)
-}
-
-/// A station's coordinate in at most six digits.
-pub(super) fn short(value: f64) -> String {
-    let text = format!("{value:.3}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    match text.strip_prefix('-') {
-        Some("0") => "0".to_owned(),
-        Some(rest) => format!("\u{2212}{rest}"),
-        None => text.to_owned(),
-    }
 }

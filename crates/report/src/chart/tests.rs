@@ -41,13 +41,14 @@ fn surface(count: usize, loads: usize) -> SurfacePlot {
 }
 
 /// Parses the picture, and writes it to the folder named by `GIRDERWAY_CHARTS` so that it can be looked at.
-fn show(name: &str, svg: &str) -> String {
+fn show(name: &str, picture: &Svg) -> String {
+    let svg = picture.file();
     if let Some(folder) = std::env::var_os("GIRDERWAY_CHARTS").map(std::path::PathBuf::from) {
         std::fs::create_dir_all(&folder).expect("the folder can be made");
-        std::fs::write(folder.join(format!("{name}.svg")), svg).expect("the folder can be written");
+        std::fs::write(folder.join(format!("{name}.svg")), &svg).expect("the folder can be written");
     }
-    roxmltree::Document::parse(svg).expect("an SVG file is XML");
-    svg.to_owned()
+    roxmltree::Document::parse(&svg).expect("an SVG file is XML");
+    svg
 }
 
 fn crossing(label: &str, style: Style, scale: f64) -> Series {
@@ -153,7 +154,7 @@ fn girder_is_drawn() {
 #[test]
 fn logarithmic_axes_can_be_read() {
     for (low, high) in [(1.3, 2.2), (5.6e3, 2.4e4), (0.9, 1.1), (2e-9, 3e-4), (0.5, 60.0), (2.1e-3, 0.62)] {
-        let ticks = scale::Scale { low, high, log: true }.ticks(6.0);
+        let ticks = ticks::Ticks::new(&scale::Scale { low, high, log: true }, 6.0);
         let labels = ticks.labels.iter().filter(|label| !label.is_empty()).count();
         assert!(labels >= 3, "{low} to {high}: {:?}", ticks.labels);
         assert!(ticks.values.windows(2).all(|pair| pair[0] < pair[1]));
@@ -222,7 +223,7 @@ fn degenerate_data_are_still_drawn() {
         vec![[0.0, 1e9], [1.0, 1e9 + 1e-3]],
         vec![[-1e-320, 0.0], [0.0, 0.0]],
     ] {
-        let svg = plain(points.clone()).svg().expect("finite data over a usable range");
+        let svg = plain(points.clone()).svg().expect("finite data over a usable range").file();
         roxmltree::Document::parse(&svg).expect("an SVG file is XML");
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{points:?}");
     }
@@ -249,7 +250,7 @@ fn ticks_are_1_2_5_and_never_negative_zero() {
     {
         let axis = Axis::new("x", "").range(low, high);
         let scale = scale::Scale::new(&axis, std::iter::empty(), true).expect("a usable range");
-        let ticks = scale.ticks(8.0);
+        let ticks = ticks::Ticks::new(&scale, 8.0);
         let apart = (ticks.values[1] - ticks.values[0]) / 10f64.powi(ticks.exponent);
         let mantissa = apart / 10f64.powf(apart.log10().floor() + 1e-12);
         assert!(
@@ -283,7 +284,7 @@ fn downward_axis_puts_larger_values_lower() {
 fn text_is_escaped() {
     let mut chart = plain(vec![[0.0, 0.0], [1.0, 1.0]]).mark(0.5, "<a href='x'>&");
     chart.title = "<script>alert(\"1\")</script>".into();
-    let svg = chart.svg().expect("data are finite");
+    let svg = chart.svg().expect("data are finite").file();
     let parsed = roxmltree::Document::parse(&svg).expect("an SVG file is XML");
     assert!(parsed.descendants().all(|n| !n.has_tag_name("script") && !n.has_tag_name("a")));
     assert!(parsed.descendants().any(|n| n.text().is_some_and(|t| t.trim() == chart.title)));

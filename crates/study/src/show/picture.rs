@@ -72,7 +72,7 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
             }
         }
         if !charts.is_empty() {
-            let svg = stack(&charts);
+            let svg = stack(&charts).file();
             out.push(StudyPicture { name: file.to_owned(), svg, varies: cost == Cost::Time });
         }
     }

@@ -62,5 +62,5 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
             charts.push(chart.svg()?);
         }
     }
-    Ok(charts.chunks(A_PICTURE).map(stack).collect())
+    Ok(charts.chunks(A_PICTURE).map(|few| stack(few).file()).collect())
 }

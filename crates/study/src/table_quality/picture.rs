@@ -9,7 +9,7 @@ use super::reading_method::TableReadingMethod;
 use super::readings::{map, strip};
 use super::subject::TableSource;
 use formats::units::Dimension;
-use report::chart::{self, Axis, Chart, Series, Style, SurfacePlot};
+use report::chart::{self, Axis, Chart, Series, Style, SurfacePlot, Svg};
 use report::{self, Picture, Report, Section};
 
 /// Places along the rail on a picture.
@@ -30,7 +30,7 @@ impl TableFigure {
     ///
     /// # Errors
     /// What a chart cannot draw.
-    pub fn svg(&self) -> Result<String, chart::Error> {
+    pub fn svg(&self) -> Result<Svg, chart::Error> {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),

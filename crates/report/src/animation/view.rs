@@ -1,0 +1,69 @@
+//! One run as both views of the animation need it.
+
+use crate::pictures::Labelled;
+use formats::motion::Cast;
+use formats::scene::Scene;
+use results::layout::ScenePositions;
+
+/// Length of the longest bar of a force, in pixels.
+pub(super) const BAR: f64 = 48.0;
+
+/// What both views need of one run.
+pub(super) struct View<'v> {
+    pub scene: &'v Scene,
+    pub cast: &'v Cast,
+    pub layout: ScenePositions<'v>,
+    pub run: &'v Labelled<'v>,
+    /// Rows of the record that are drawn as frames.
+    pub rows: Vec<usize>,
+    /// Index among them of the frame that is drawn where scripts do not run.
+    pub still: usize,
+    /// Pixels for each unit of force.
+    pub force: f64,
+}
+
+impl View<'_> {
+    /// A quantity of a wheel in each frame.
+    pub fn wheel(&self, wheel: usize, part: &str) -> Vec<f64> {
+        let values = self.run.record.part(&self.cast.wheels[wheel].name, part);
+        self.rows.iter().map(|row| values.get(*row).copied().unwrap_or_default()).collect()
+    }
+
+    /// Origin of a body in each frame.
+    pub fn origins(&self, body: usize) -> Vec<[f64; 3]> {
+        self.rows.iter().map(|row| self.layout.origin(self.run.record, body, *row)).collect()
+    }
+
+    /// Bodies in the order in which they are drawn: carried bodies after those that carry them.
+    pub fn order(&self) -> Vec<usize> {
+        let bodies = &self.scene.bodies;
+        let mut order: Vec<usize> = (0..bodies.len()).collect();
+        order.sort_by_key(|body| (bodies[*body].in_space, self.layout.track(*body).is_some(), *body));
+        order
+    }
+
+    /// Rails on the ground, each with the lateral coordinate of the wheels on it.
+    pub fn rails(&self) -> Vec<(usize, f64)> {
+        let mut rails: Vec<(usize, f64)> = Vec::new();
+        for truck in &self.scene.trucks {
+            let is_known = rails.iter().any(|(rail, _)| *rail == truck.rail);
+            let is_grounded = self.layout.axle(truck.rail).is_none();
+            if !is_known && is_grounded && self.scene.bodies[truck.body].pinned.is_none() {
+                rails.push((truck.rail, truck.at[2]));
+            }
+        }
+        rails
+    }
+
+    /// Indices of the wheels under each truck, in the order of the simulator.
+    pub fn trucks(&self) -> Vec<std::ops::Range<usize>> {
+        let mut next = 0;
+        let counts = self.scene.trucks.iter().map(|truck| truck.wheel_offsets().len());
+        counts
+            .map(|count| {
+                next += count;
+                next - count..next
+            })
+            .collect()
+    }
+}
