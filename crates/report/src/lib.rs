@@ -1,30 +1,21 @@
 //! What people look at: charts, pictures, the moving crane, and the page of a report.
 //!
-//! [`chart`] draws plain data; [`pictures`] and its siblings choose what to draw of a run; [`story`] tells of it; [`Report`]
-//! is one self-contained page of HTML.
+//! [`chart`] draws plain data; [`figures`] chooses what to draw of a run, [`text`] what to say of it; [`Report`] is one
+//! self-contained page of HTML.
+//!
+//! Wings, lowest first: error, chart, document, figures, text
 
-pub mod animation;
 pub mod chart;
-mod code;
-mod codes_story;
+pub mod document;
 pub mod error;
-mod fatigue_story;
-pub mod number;
-pub mod page;
-pub mod pictures;
-mod rail_picture;
-mod response_picture;
-mod response_story;
-pub mod section;
-pub mod story;
+pub mod figures;
+pub mod text;
 
-pub(crate) use code::coded;
+pub(crate) use document::code::coded;
+pub use document::number::number;
+pub use document::page::Report;
+pub use document::section::{Cell, Column, Fact, Figure, Picture, Section, Table};
 pub use error::Error;
-pub use number::number;
-pub use page::Report;
-pub use rail_picture::rails;
-pub use response_picture::pictures as responses;
-pub use section::{Cell, Column, Fact, Figure, Picture, Section, Table};
 
 #[cfg(test)]
 mod tests;

@@ -1,8 +1,8 @@
 //! Pages are parsed, not searched.
 
-use super::code::tests::decoded;
 use super::*;
 use crate::chart::{Axis, Chart, Series, Style};
+use crate::document::code::tests::decoded;
 use html5gum::{DefaultEmitter, Token, Tokenizer};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -225,7 +225,7 @@ fn numbers_read_well() {
 
 #[test]
 fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
-    use crate::animation::{Film, Track};
+    use crate::document::film::{Film, Track};
     let svg = crate::chart::Svg::new(8.0, 4.0, "<g data-m=\"0\" transform=\"translate(1 2)\"></g>");
     let film = |x: f64| {
         let places = vec![[1.0, 2.0], [x, 2.0]];

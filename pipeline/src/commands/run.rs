@@ -10,15 +10,16 @@ use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
 use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
-use formats::scene::{Document, Scene};
+use formats::scene::Document;
 use formats::{grid_file, tables};
 use foundations::{Solution, SolvedStructure, distinct_specs, solution_of, solve_specs};
-use report::pictures::{self, Labelled, Plate};
-use report::{animation, story};
+use report::figures::error::FigureError;
+use report::figures::run::figures;
+use report::text::story;
 use results::cases::simulate;
 use results::outcome::CaseResult;
 use results::record::peak;
-use results::response::{Response, RunComparison};
+use results::response::RunComparison;
 use results::threads::parallel_map;
 use results::{fatigue, run_error, summary, warning};
 
@@ -78,7 +79,10 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
-    let plates = plates(scene, &document, &outcomes, &known, &comparison)?;
+    let plates = figures(&document, &outcomes, &known, &comparison).map_err(|error| match error {
+        FigureError::Positions(error) => Failure::untrusted(error),
+        other => trouble(other),
+    })?;
     let drawn = parallel_map(&plates, global.threads, |_, plate| plate.svg());
     for (plate, svg) in plates.iter().zip(drawn) {
         folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?.file());
@@ -137,47 +141,6 @@ fn finish(
 fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
     let _stage = progress.stage("solving the structures");
     Ok(solve_specs(document, &distinct_specs(document))?)
-}
-
-fn plates(
-    scene: &Scene,
-    document: &Document,
-    outcomes: &[CaseResult],
-    known: &[SolvedStructure],
-    comparison: &RunComparison,
-) -> Result<Vec<Plate>, Failure> {
-    let labelled: Vec<Labelled> = document
-        .cases
-        .iter()
-        .zip(outcomes)
-        .map(|(case, outcome)| Labelled {
-            label: outcome.label.clone(),
-            scene: &case.scene,
-            record: &outcome.columns,
-        })
-        .collect();
-    let fired: Vec<(f64, &str)> = outcomes[0]
-        .run
-        .fired
-        .iter()
-        .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
-        .collect();
-    let mut plates: Vec<Plate> = animation::plate(&labelled[0], &outcomes[0].input)?.into_iter().collect();
-    plates.extend(pictures::travel(&labelled[0], &fired));
-    plates.extend(report::rails(&labelled, comparison));
-    plates.extend(pictures::paths(&labelled));
-    plates.extend(pictures::wheels(&labelled[0], &outcomes[0].input));
-    let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
-    plates.extend(report::responses(&labelled, &responses, &outcomes[0].lines));
-    for (index, structure) in scene.structures.iter().enumerate() {
-        let Some(solved) = solution_of(known, &structure.origin) else { continue };
-        plates.extend(
-            pictures::girder(&structure.name, index, &labelled[0], &outcomes[0].input, solved)
-                .map_err(trouble)?,
-        );
-        plates.extend(pictures::structure(&structure.name, scene.units, solved).map_err(trouble)?);
-    }
-    Ok(plates)
 }
 
 /// Something that should not happen to checked input, told instead of hidden.

@@ -5,7 +5,7 @@ use super::label::with_unit;
 /// One axis of a chart, as data.
 ///
 /// ```
-/// use girderway::chart::Axis;
+/// use report::chart::Axis;
 ///
 /// let axis = Axis::new("error", "ft").log().range(1e-6, 1e-2);
 /// assert_eq!((axis.log, axis.range), (true, Some([1e-6, 1e-2])));

@@ -51,7 +51,7 @@ pub struct Deflected {
 /// Side view of a girder, drawn to one scale.
 ///
 /// ```
-/// use girderway::chart::{GirderPlot, Support};
+/// use report::chart::{GirderPlot, Support};
 ///
 /// let girder = GirderPlot {
 ///     title: "Girder".into(),
@@ -64,7 +64,7 @@ pub struct Deflected {
 ///     ..GirderPlot::default()
 /// };
 /// assert!(girder.svg()?.file().contains("12 m"));
-/// # Ok::<(), girderway::chart::Error>(())
+/// # Ok::<(), report::chart::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GirderPlot {

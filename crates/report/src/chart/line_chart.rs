@@ -37,7 +37,7 @@ const MARKER_ROW: f64 = 16.0;
 /// A chart: curves over two axes.
 ///
 /// ```
-/// use girderway::chart::{Axis, Chart, Series, Style};
+/// use report::chart::{Axis, Chart, Series, Style};
 ///
 /// let deflection = (0..=60).map(|x| [f64::from(x), 0.5 * (f64::from(x) / 60.0 * 3.14).sin()]).collect();
 /// let chart = Chart::new("Path of the trunnion", Axis::new("place", "ft"), Axis::new("deflection", "ft").downwards())
@@ -46,7 +46,7 @@ const MARKER_ROW: f64 = 16.0;
 ///     .mark(30.0, "midspan");
 /// let svg = chart.svg()?.file();
 /// assert!(svg.contains("Path of the trunnion") && svg.contains("rigid rail"));
-/// # Ok::<(), girderway::chart::Error>(())
+/// # Ok::<(), report::chart::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Chart {

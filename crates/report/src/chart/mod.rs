@@ -11,14 +11,14 @@
 //! `contour`; `line_chart`, `surface_plot`, `girder_plot`.
 //!
 //! ```
-//! use girderway::chart::{Axis, Chart, Series, Style};
+//! use report::chart::{Axis, Chart, Series, Style};
 //!
 //! let points = (0..100).map(|i| [f64::from(i), f64::from(i * i)]).collect();
 //! let chart = Chart::new("Squares", Axis::new("number", ""), Axis::new("square", ""))
 //!     .with(Series::new("squares", Style::Line, points));
 //! let svg = chart.svg()?.file();
 //! assert!(svg.starts_with("<svg ") && svg.contains("Squares"));
-//! # Ok::<(), girderway::chart::Error>(())
+//! # Ok::<(), report::chart::Error>(())
 //! ```
 
 mod axis;

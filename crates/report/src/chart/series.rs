@@ -21,7 +21,7 @@ pub enum Style {
 /// Points of one curve.
 ///
 /// ```
-/// use girderway::chart::{Series, Style};
+/// use report::chart::{Series, Style};
 ///
 /// let steps = Series::new("command", Style::Step, vec![[0.0, 2.0], [4.0, 3.0]]);
 /// let errors = Series::new("largest error", Style::Marked, vec![[1e-3, 0.2]]).spread(vec![[8e-4, 2e-3]]);

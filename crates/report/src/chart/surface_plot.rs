@@ -37,7 +37,7 @@ const BELOW_HEADING: [f64; 2] = [92.0, 62.0];
 /// Influence coefficients over rows (where the deflection is) and columns (where the load is).
 ///
 /// ```
-/// use girderway::chart::SurfacePlot;
+/// use report::chart::SurfacePlot;
 ///
 /// let grid = SurfacePlot {
 ///     title: "Influence coefficients".into(),
@@ -51,7 +51,7 @@ const BELOW_HEADING: [f64; 2] = [92.0, 62.0];
 /// };
 /// assert!(grid.svg()?.file().contains("load at (m)"));
 /// assert_eq!(grid.lines()?.series[1].points, [[2.0, 0.2], [4.0, 0.3]]);
-/// # Ok::<(), girderway::chart::Error>(())
+/// # Ok::<(), report::chart::Error>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SurfacePlot {

@@ -8,7 +8,7 @@ const FONT: &str = "Arial, Helvetica, sans-serif";
 /// A finished picture on white: its size, and SVG elements in tenths of a pixel.
 ///
 /// ```
-/// use girderway::chart::{Svg, stack};
+/// use report::chart::{Svg, stack};
 ///
 /// let dot = Svg::new(20.0, 10.0, "<circle cx=\"100\" cy=\"50\" r=\"40\"/>");
 /// assert!(dot.file().starts_with("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"20\" height=\"10\""));

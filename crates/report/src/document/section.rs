@@ -1,7 +1,7 @@
 //! Parts of a report.
 
-use crate::animation::Film;
 use crate::chart::{Chart, Svg};
+use crate::document::film::Film;
 
 /// A chapter of a report: shown in this order, empty parts left out.
 #[derive(Clone, Debug, Default, PartialEq)]

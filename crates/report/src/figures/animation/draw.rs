@@ -1,7 +1,7 @@
 //! A picture under construction, in pixels, with elements that move.
 
-use super::film::Track;
 use crate::chart::Svg;
+use crate::document::film::Track;
 
 /// Width of the picture.
 pub(super) const WIDTH: f64 = 860.0;

@@ -3,7 +3,7 @@
 use splines::{Axis as Direction, Probe};
 
 use crate::chart::{Axis, Chart, Series, Style};
-use crate::pictures::{Labelled, Plate};
+use crate::figures::pictures::{Labelled, Plate};
 use formats::scene::columns::{Column, Direction as Toward, Kind};
 use formats::scene::{Origin, Scene};
 use formats::units::Dimension;

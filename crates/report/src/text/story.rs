@@ -1,6 +1,6 @@
 //! The report of a run: what was asked, what came out, what to look at.
 
-use crate::pictures::Plate;
+use crate::figures::pictures::Plate;
 use crate::{Cell, Column, Report, Section, Table};
 use formats::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
@@ -36,15 +36,15 @@ pub fn report(
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
-    sections.push(crate::response_story::section(scene, &outcomes[0].label, &outcomes[0].response));
+    sections.push(crate::text::response_story::section(scene, &outcomes[0].label, &outcomes[0].response));
     let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
-    sections.extend(crate::response_story::beside(scene, &labels, &outcomes[0].columns, comparison));
+    sections.extend(crate::text::response_story::beside(scene, &labels, &outcomes[0].columns, comparison));
     let codes: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
-    sections.extend(crate::codes_story::section(scene, &codes));
+    sections.extend(crate::text::codes_story::section(scene, &codes));
     let fatigue: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
-    sections.extend(crate::fatigue_story::section(scene, &fatigue));
+    sections.extend(crate::text::fatigue_story::section(scene, &fatigue));
     sections.push(audit(document, outcomes));
     Report {
         title: scene.name.clone(),

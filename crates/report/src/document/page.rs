@@ -1,10 +1,10 @@
 //! The page: sections to HTML.
 
-use super::code::{coded, exponent, plain};
-use super::error::Error;
-use super::number::number;
-use super::section::{Cell, Figure, Picture, Section, Table};
 use crate::chart::{Chart, Drawing};
+use crate::document::code::{coded, exponent, plain};
+use crate::document::number::number;
+use crate::document::section::{Cell, Figure, Picture, Section, Table};
+use crate::error::Error;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use results::threads::parallel_map;
 use serde_json::json;

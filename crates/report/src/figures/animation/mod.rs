@@ -4,14 +4,13 @@
 //! `section`.
 
 mod draw;
-mod film;
 mod plan;
 mod section;
 mod view;
 
-pub use film::{Film, Track};
+use crate::document::film::Film;
 
-use crate::pictures::{Labelled, Plate};
+use crate::figures::pictures::{Labelled, Plate};
 use crate::{Picture, number};
 use draw::{Drawing, WIDTH};
 use formats::motion::Cast;

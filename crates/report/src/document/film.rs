@@ -19,8 +19,8 @@ pub enum Track {
 /// An animated picture; it is drawn as at one frame.
 ///
 /// ```
-/// use girderway::animation::{Film, Track};
-/// use girderway::chart::Svg;
+/// use report::document::film::{Film, Track};
+/// use report::chart::Svg;
 ///
 /// let picture = Svg::new(100.0, 20.0, "<circle data-m=\"0\" cy=\"100\" r=\"50\"/>");
 /// let places = vec![[0.0, 0.0], [80.0, 0.0]];

@@ -2,6 +2,7 @@
 
 use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
 
+use super::error::FigureError;
 use crate::Picture;
 use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot, Svg};
 use formats::block::GridBlock;
@@ -224,11 +225,7 @@ fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
 ///
 /// # Errors
 /// What cannot be drawn, or evaluated.
-pub fn structure(
-    name: &str,
-    units: Units,
-    solved: &Solution,
-) -> Result<Vec<Plate>, Box<dyn std::error::Error>> {
+pub fn structure(name: &str, units: Units, solved: &Solution) -> Result<Vec<Plate>, FigureError> {
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
     let supports: Vec<f64> =
@@ -293,7 +290,7 @@ pub fn girder(
     run: &Labelled,
     cast: &Cast,
     solved: &Solution,
-) -> Result<Option<Plate>, Box<dyn std::error::Error>> {
+) -> Result<Option<Plate>, FigureError> {
     let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
     let Some([from, to]) = surface.range(0) else { return Ok(None) };
     let on: Vec<&String> = cast

@@ -1,6 +1,6 @@
 //! One run as both views of the animation need it.
 
-use crate::pictures::Labelled;
+use crate::figures::pictures::Labelled;
 use formats::motion::Cast;
 use formats::scene::Scene;
 use results::layout::ScenePositions;

@@ -56,7 +56,7 @@ pub fn plain(values: &[f64]) -> Value {
 }
 
 #[cfg(test)]
-pub(super) mod tests {
+pub(crate) mod tests {
     use super::*;
 
     /// What the scripts make of it.

@@ -1,8 +1,8 @@
 //! Forces of all wheels on a rail, run against run.
 
 use crate::chart::{Axis, Chart, Series, Style};
+use crate::figures::pictures::{Labelled, Plate};
 use crate::number;
-use crate::pictures::{Labelled, Plate};
 use formats::scene::Scene;
 use formats::units::Dimension;
 use results::record::NamedColumns;
