@@ -4,6 +4,8 @@
 //! shape functions or clamped cells.
 #![allow(dead_code)]
 
+#[path = "../../../../tests/near.rs"]
+pub mod near;
 pub mod printed;
 
 use std::sync::Arc;
