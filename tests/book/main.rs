@@ -29,7 +29,8 @@ fn every_path_in_the_architecture_exists() {
 #[test]
 fn documents_are_ascii() {
     let mut folders = vec![root().join("docs"), root().join("examples")];
-    let mut pages = vec![root().join("README.md"), root().join("CONTRIBUTING.md"), root().join("CHANGELOG.md")];
+    let mut pages =
+        vec![root().join("README.md"), root().join("CONTRIBUTING.md"), root().join("CHANGELOG.md")];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();

@@ -21,9 +21,8 @@ fn spans(text: &str) -> Vec<&str> {
 /// Whether `text` has `word` with no letter, digit or underscore beside it.
 fn has_word(text: &str, word: &str) -> bool {
     let is_part = |c: char| c.is_alphanumeric() || c == '_';
-    text.match_indices(word).any(|(at, _)| {
-        !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part)
-    })
+    text.match_indices(word)
+        .any(|(at, _)| !text[..at].ends_with(is_part) && !text[at + word.len()..].starts_with(is_part))
 }
 
 #[test]
@@ -37,7 +36,10 @@ fn every_test_that_verification_names_exists() {
         for span in spans(last) {
             if span.ends_with(".rs") {
                 let text = fs::read_to_string(root().join(span));
-                file = Some((span, text.unwrap_or_else(|_| panic!("the page names {span}, which does not exist"))));
+                file = Some((
+                    span,
+                    text.unwrap_or_else(|_| panic!("the page names {span}, which does not exist")),
+                ));
             } else {
                 let (path, text) = file.as_ref().unwrap_or_else(|| panic!("a file stands before {span}"));
                 assert!(text.contains(&format!("fn {span}()")), "{path} has no test {span}");
@@ -75,7 +77,8 @@ fn read(folder: &Path, out: &mut Vec<(PathBuf, String)>) {
             read(&path, out);
         } else if path.extension().is_some_and(|ending| ending == "rs") {
             let text = fs::read_to_string(&path).expect("text");
-            let code: Vec<&str> = text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
+            let code: Vec<&str> =
+                text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect();
             out.push((path, code.join("\n")));
         }
     }
@@ -118,7 +121,9 @@ fn members(sources: &BTreeMap<String, Vec<(PathBuf, String)>>) -> BTreeMap<Strin
             for (at, _) in text.match_indices(keyword) {
                 // a keyword begins its line, but for what says who may use it
                 let before = text[..at].lines().last().unwrap_or_default();
-                let is_item = text[..at].ends_with('\n') || before.trim_start().starts_with("pub") || before.trim().is_empty();
+                let is_item = text[..at].ends_with('\n')
+                    || before.trim_start().starts_with("pub")
+                    || before.trim().is_empty();
                 let rest = &text[at + keyword.len()..];
                 let Some(head) = rest.find(['{', ';']).filter(|_| is_item) else { continue };
                 let name = if keyword == "impl" {
@@ -126,7 +131,8 @@ fn members(sources: &BTreeMap<String, Vec<(PathBuf, String)>>) -> BTreeMap<Strin
                     let of = head.rsplit(" for ").next().unwrap_or(head);
                     // what stands in angle brackets after the name is no part of it
                     let of = of.trim();
-                    let of = if of.starts_with('<') { of.split_once('>').map_or(of, |(_, own)| own) } else { of };
+                    let of =
+                        if of.starts_with('<') { of.split_once('>').map_or(of, |(_, own)| own) } else { of };
                     last_word(of.trim().split('<').next().unwrap_or_default()).to_owned()
                 } else {
                     first_word(rest).to_owned()
@@ -137,7 +143,10 @@ fn members(sources: &BTreeMap<String, Vec<(PathBuf, String)>>) -> BTreeMap<Strin
                 }
                 let body = &rest[head..head + block(&rest[head..])];
                 for item in ["fn ", "const ", "type "] {
-                    known.extend(body.match_indices(item).map(|(at, _)| first_word(&body[at + item.len()..]).to_owned()));
+                    known.extend(
+                        body.match_indices(item)
+                            .map(|(at, _)| first_word(&body[at + item.len()..]).to_owned()),
+                    );
                 }
                 if keyword != "impl" {
                     known.extend(body.match_indices(':').map(|(at, _)| last_word(&body[..at]).to_owned()));
@@ -184,8 +193,12 @@ fn every_name_in_the_notation_exists() {
                 let own = sources.get(krate).map(Vec::as_slice).unwrap_or_default();
                 let kinds = ["fn", "struct", "enum", "trait", "const", "type", "mod"];
                 let modules = &path[1..path.len() - 1];
-                modules.iter().all(|module| own.iter().any(|(_, text)| has_word(text, &format!("mod {module}"))))
-                    && own.iter().any(|(_, text)| kinds.iter().any(|kind| has_word(text, &format!("{kind} {item}"))))
+                modules
+                    .iter()
+                    .all(|module| own.iter().any(|(_, text)| has_word(text, &format!("mod {module}"))))
+                    && own
+                        .iter()
+                        .any(|(_, text)| kinds.iter().any(|kind| has_word(text, &format!("{kind} {item}"))))
             } else {
                 members.get(owner).is_some_and(|known| known.contains(name))
             };

@@ -140,6 +140,14 @@ fn the_files_of_the_tutorial_run() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     girderway(folder.path(), &["init", "bogie", "mine"]);
     assert_eq!(write(&page, folder.path()), 4);
+    // `cargo run` is not run here: the starter files are those of the example
+    let said = girderway(folder.path(), &["run", "mine/scene.json", "-o", "out/bogie"]);
+    let printed = blocks(&page).into_iter().filter(|block| block.mark == "text");
+    let lines: Vec<&str> = printed.flat_map(|block| block.text.lines()).collect();
+    assert_eq!(lines.len(), 2);
+    for line in lines {
+        assert!(said.lines().any(|own| own == line), "the page has {line:?}, got\n{said}");
+    }
     for scene in ["fast", "compared", "carriage"] {
         let output = format!("out/{scene}");
         girderway(folder.path(), &["run", &format!("mine/{scene}.json"), "-o", &output]);
@@ -178,7 +186,8 @@ fn checked() -> Vec<(String, bool)> {
 /// Whether a command of cargo is one that `.ci/run` runs, its last arguments aside where the script has a variable.
 fn is_checked(words: &[&str]) -> bool {
     let own = plain(words);
-    let same = |(known, is_open): &(String, bool)| own == *known || (*is_open && own.starts_with(known.as_str()));
+    let same =
+        |(known, is_open): &(String, bool)| own == *known || (*is_open && own.starts_with(known.as_str()));
     SLOW.contains(&own.as_str()) || checked().iter().any(same)
 }
 
