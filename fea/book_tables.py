@@ -120,6 +120,8 @@ def read_study(folder):
         if value < 1.0:
             mantissa, power = f"{value:e}".split("e")
             value = f"{float(mantissa):g}e{int(power)}"
+        else:
+            value = f"{value:g}"
         setting["label"] = f"{setting['family']}, {knob} {value}"
         if setting["status"] == "done":
             setting |= next(times, {})
@@ -155,7 +157,8 @@ def studies(folders):
             best = max(error, least)
             text = f"below {scientific(least, 0)}" if error <= least else scientific(error, 1)
             force = own["errors"].get("wheel_force")
-            rows.append((study["title"], own["label"], text, "" if force is None else scientific(force, 1),
+            force = "" if force is None else "that of the reference" if force == 0.0 else scientific(force, 1)
+            rows.append((study["title"], own["label"], text, force,
                          number(1e3 * own["median"], 3),
                          f"{number(1e3 * own['least'], 2)} to {number(1e3 * own['most'], 2)}", own["stages"]))
     table(("scene", "setting", "error of deflection", "wheel force", "median, ms", "least to most",
@@ -174,8 +177,9 @@ def studies(folders):
             # a reference of the scene's own foundations knows nothing of their error
             is_known = reference(study)[0] == "whole" or own["against"] != "whole"
             error = own["errors"].get("deflection") if is_known else None
+            text = "that of the reference" if error == 0.0 else "" if error is None else scientific(error, 1)
             rows.append((study["title"], own["label"], number(1e-3 * (own["memory"].get("foundations") or 0), 3),
-                         number(1e-3 * own["memory"]["run"], 3), "" if error is None else scientific(error, 1)))
+                         number(1e-3 * own["memory"]["run"], 3), text))
     table(("scene", "setting", "foundations, kB", "run, kB", "error of deflection"), rows)
     rows = []
     for study in all_studies:

@@ -1,5 +1,7 @@
 //! The documents speak of what is there: paths, names and commands on pages exist, and pages that can be run are run.
 
+#![allow(clippy::print_stdout, reason = "a test that needs Python says where there is none")]
+
 mod names;
 mod page;
 
@@ -45,5 +47,26 @@ fn documents_are_ascii() {
     for path in pages {
         let text = std::fs::read_to_string(&path).expect("text");
         assert!(text.is_ascii(), "{} is not ASCII", path.display());
+    }
+}
+
+/// Needs `python3`; without one it says so and ends.
+#[test]
+fn tables_beside_other_codes_follow_their_data() {
+    let run = std::process::Command::new("python3")
+        .args(["fea/book_tables.py", "peers", "docs/peers.json"])
+        .current_dir(root())
+        .output();
+    let Ok(run) = run else {
+        println!("no python3: the tables of docs/performance.md are not compared with docs/peers.json");
+        return;
+    };
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let page = std::fs::read_to_string(root().join("docs/performance.md")).expect("the page");
+    let text = String::from_utf8(run.stdout).expect("UTF-8");
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with('|')).collect();
+    assert!(rows.len() > 20, "{} rows", rows.len());
+    for row in rows {
+        assert!(page.lines().any(|line| line == row), "docs/performance.md lacks {row}");
     }
 }

@@ -70,10 +70,9 @@ fn crossings_follow_the_scipy_reference_in_displacement_and_wheel_forces() {
                 past,
                 0.05,
             );
-            // The prototype has 2.2e4: 22,000 ft lb is lost where the force of such a damper goes past the
-            // rail. In the deck it is part of the wheel's force, which the rail carries: then c z' (z' -
-            // w') is lost, and the wheel sinks almost as the rail does; the audit of energy closes to 1e-6
-            // with it.
+            // The prototype has 2.2e4 here too. That is lost where the force of such a damper does not load the rail. In the
+            // deck it is part of the wheel's force, which the rail carries: then c z' (z' - w') is lost, and the wheel sinks
+            // almost as the rail does. The energy audit closes to 1e-6 with this loss.
             assert_near(
                 "the same where the rail carries the dampers' forces, as in the deck, ft lb",
                 "regression",

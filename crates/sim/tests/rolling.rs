@@ -184,9 +184,9 @@ fn largest_force_along_the_rail_of_one_wheel_meets_its_closed_form() {
     let way: Vec<(f64, f64)> = way.map(|(x, drive)| (*x, -drive)).collect();
     let work: f64 = way.windows(2).map(|own| 0.5 * (own[0].1 + own[1].1) * (own[1].0 - own[0].0)).sum();
     let (sunk, all) = (0.5 * common::WEIGHT * sag, 0.5 * common::WEIGHT * 0.54709);
-    // The prototype has 1.31e6: 1.31e6 is 1/2 P times the bogie's 0.547 ft, which contains the 0.024 ft by
-    // which its wheels give everywhere; the girder alone sags by 0.5248 ft under one wheel, and the force
-    // along the rail does that work in a run.
+    // The prototype has 1.31e6. That is 1/2 P times the bogie's 0.547 ft, which contains the 0.024 ft by which its wheels
+    // deflect everywhere. The girder alone sags by 0.5248 ft under one wheel, and the force along the rail does that work in
+    // a run.
     assert_near(
         "work of the weight from support to midspan, 1/2 P sag, ft lb",
         "regression",

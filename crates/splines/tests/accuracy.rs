@@ -97,8 +97,8 @@ fn akispl_and_its_mean_err_by_the_square_of_the_distance() {
 fn akima_along_both_directions_errs_less_but_is_not_symmetric() {
     let found = errors(|table, places, _| both_akima(table, places));
     agree("Akima both ways", &found[..4], &[3.6e-2, 6.4e-3, 1.8e-3, 2.3e-4]);
-    // The prototype has 2.3e-5: the error peaks between the places that the prototype looked at; ours cut
-    // each cell into eight, and finer ones change nothing.
+    // The prototype has 2.3e-5: the error peaks between the places that it examined. Ours divide each cell into eight, and
+    // finer ones change nothing.
     assert_near(
         "Akima both ways, 73 stations: largest error / largest value",
         "regression",

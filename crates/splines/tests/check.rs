@@ -1,4 +1,4 @@
-//! What readings of a table cost, against figures measured on independent prototypes and closed forms.
+//! What readings of a table cost, against values of an independent prototype and closed forms.
 
 mod beam;
 
@@ -65,8 +65,7 @@ fn closed_loop_of_forces_on_the_printed_table_gives_the_measured_work() {
         0.05,
     );
     let stored = 0.5 * strip(&beam).block(&found.at, &found.at).expect("on the rail").sum();
-    // The prototype has 0.024: 2.4 % is by the energy at midspan; the loop is at 15 ft, where the girder
-    // is stiffer.
+    // The prototype has 0.024, relative to the energy at midspan; the loop is at 15 ft, where the girder is stiffer.
     assert_near(
         "that work by the energy they store where they stand",
         "regression",

@@ -57,9 +57,9 @@ fn akispl_loses_a_tenth_of_the_well_on_the_way_across_and_nothing_in_a_slow_cycl
         way[worst + 1],
         across[across.len() - 1]
     );
-    // The prototype has -21_835.0: 21,835 a cycle is no loss that adds up: the printed table is its own
-    // mirror image, and the way back gives all of it again. It is the largest change on the way, in motion
-    // 76,304 ft lb, by the 3.5 cycles of the run; scipy's Akima curves give the same 75,586.
+    // The prototype has -21,835 a cycle. That is no loss that adds up: the printed table is its own mirror image, and the way
+    // back returns all of it. It is the largest change on the way, in motion 76,304 ft lb, divided by the 3.5 cycles of the
+    // run; scipy's Akima curves give the same 75,586.
     assert_near(
         "AKISPL: largest loss in a slow cycle of the bogie from 12 ft, ft lb",
         "regression",
