@@ -1,5 +1,7 @@
 //! Assertions on values known from elsewhere: a closed form, a publication, another code or a prototype of the method.
 
+#![allow(dead_code, reason = "not every test program uses both")]
+
 use std::fmt::Display;
 
 /// Asserts that `found` lies within the fraction `tolerance` of the value `known` from `source`; not a number never does.
