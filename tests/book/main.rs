@@ -1,5 +1,8 @@
-//! The documents speak of what is there.
+//! The documents speak of what is there: paths, names and commands on pages exist, and pages that can be run are run.
 
+#![allow(clippy::print_stdout, reason = "a test that needs Python says where there is none")]
+
+mod names;
 mod page;
 
 use std::path::{Path, PathBuf};
@@ -28,18 +31,42 @@ fn every_path_in_the_architecture_exists() {
 #[test]
 fn documents_are_ascii() {
     let mut folders = vec![root().join("docs"), root().join("examples")];
-    let mut checked = 0;
+    let mut pages =
+        vec![root().join("README.md"), root().join("CONTRIBUTING.md"), root().join("CHANGELOG.md")];
     while let Some(folder) = folders.pop() {
         for entry in std::fs::read_dir(&folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
                 folders.push(path);
             } else if path.extension().is_some_and(|ending| ending == "md") {
-                let text = std::fs::read_to_string(&path).expect("text");
-                assert!(text.is_ascii(), "{} is not ASCII", path.display());
-                checked += 1;
+                pages.push(path);
             }
         }
     }
-    assert!(checked >= 4);
+    assert!(pages.len() >= 7);
+    for path in pages {
+        let text = std::fs::read_to_string(&path).expect("text");
+        assert!(text.is_ascii(), "{} is not ASCII", path.display());
+    }
+}
+
+/// Needs `python3`; without one it says so and ends.
+#[test]
+fn tables_beside_other_codes_follow_their_data() {
+    let run = std::process::Command::new("python3")
+        .args(["fea/book_tables.py", "peers", "docs/peers.json"])
+        .current_dir(root())
+        .output();
+    let Ok(run) = run else {
+        println!("no python3: the tables of docs/performance.md are not compared with docs/peers.json");
+        return;
+    };
+    assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    let page = std::fs::read_to_string(root().join("docs/performance.md")).expect("the page");
+    let text = String::from_utf8(run.stdout).expect("UTF-8");
+    let rows: Vec<&str> = text.lines().filter(|line| line.starts_with('|')).collect();
+    assert!(rows.len() > 20, "{} rows", rows.len());
+    for row in rows {
+        assert!(page.lines().any(|line| line == row), "docs/performance.md lacks {row}");
+    }
 }

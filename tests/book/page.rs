@@ -1,8 +1,11 @@
-//! A page whose files and commands are run as they stand on it.
+//! Pages whose files and commands are run as they stand on them.
 //!
-//! A block marked `json FILE` holds members of that file; a block marked `sh` a command; a block marked `text` what the
-//! last command says, line by line as far as the page has it. A row of a table whose first cell is nothing but a path of
-//! names into the summary has the number that stands there in its second.
+//! A block marked `json FILE` holds members of that file; a block marked `sh` commands, one a line; a block marked `text`
+//! what the last command prints, line by line as far as the page has it. A row of a table whose first cell is nothing but a
+//! path of names into the summary has the number that stands there in its second.
+//!
+//! README and CONTRIBUTING also have commands of cargo. They are not run: they must be commands of `.ci/run`, or of the slow
+//! tier, which is run by hand.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -52,18 +55,26 @@ fn girderway(folder: &Path, arguments: &[&str]) -> String {
     said
 }
 
-/// Runs every command; what it says begins as the page says.
+/// Words of each command of a block, without comments.
+fn commands<'t>(block: &Block<'t>) -> Vec<Vec<&'t str>> {
+    let lines = block.text.lines().map(|line| line.split('#').next().unwrap_or_default());
+    let commands = lines.map(|line| line.split_whitespace().collect::<Vec<_>>());
+    commands.filter(|words| !words.is_empty()).collect()
+}
+
+/// Runs every command; what it prints begins as the page says.
 fn run(page: &str, folder: &Path) -> usize {
     let mut said = String::new();
     let mut count = 0;
     for block in blocks(page) {
         match block.mark {
             "sh" => {
-                let words: Vec<&str> = block.text.split_whitespace().collect();
-                assert_eq!(words.first(), Some(&"girderway"), "{}", block.text);
-                said = girderway(folder, &words[1..]);
-                assert!(!said.contains("warning"), "{}: {said}", block.text);
-                count += 1;
+                for words in commands(&block) {
+                    assert_eq!(words.first(), Some(&"girderway"), "{}", block.text);
+                    said = girderway(folder, &words[1..]);
+                    assert!(!said.contains("warning"), "{}: {said}", block.text);
+                    count += 1;
+                }
             }
             "text" => {
                 for line in block.text.lines() {
@@ -129,6 +140,14 @@ fn the_files_of_the_tutorial_run() {
     let folder = tempfile::tempdir().expect("a temporary folder");
     girderway(folder.path(), &["init", "bogie", "mine"]);
     assert_eq!(write(&page, folder.path()), 4);
+    // `cargo run` is not run here: the starter files are those of the example
+    let said = girderway(folder.path(), &["run", "mine/scene.json", "-o", "out/bogie"]);
+    let printed = blocks(&page).into_iter().filter(|block| block.mark == "text");
+    let lines: Vec<&str> = printed.flat_map(|block| block.text.lines()).collect();
+    assert_eq!(lines.len(), 2);
+    for line in lines {
+        assert!(said.lines().any(|own| own == line), "the page has {line:?}, got\n{said}");
+    }
     for scene in ["fast", "compared", "carriage"] {
         let output = format!("out/{scene}");
         girderway(folder.path(), &["run", &format!("mine/{scene}.json"), "-o", &output]);
@@ -137,4 +156,71 @@ fn the_files_of_the_tutorial_run() {
     girderway(folder.path(), &["fea", "mine/runway.json", "-o", "mine/grid.json"]);
     girderway(folder.path(), &["splines", "mine/grid.json", "-o", "mine/runway.adm"]);
     assert!(page.contains("girderway splines mine/grid.json -o mine/runway.adm"));
+}
+
+/// Commands that are run by hand before an issue is closed.
+const SLOW: [&str; 2] =
+    ["cargo test --release -- --ignored", "cargo test --manifest-path tests/reference/Cargo.toml"];
+
+/// A command of cargo without what does not change its meaning to a reader, up to the first variable of the shell.
+fn plain(words: &[&str]) -> String {
+    let words = words.iter().take_while(|word| !word.starts_with(['"', '|', '>', ')']));
+    let kept: Vec<&str> =
+        words.copied().filter(|word| !["--quiet", "--locked", "--root"].contains(word)).collect();
+    kept.join(" ")
+}
+
+/// Commands of cargo in `.ci/run`, and whether an argument of the shell follows.
+fn checked() -> Vec<(String, bool)> {
+    let script = fs::read_to_string(super::root().join(".ci/run")).expect("the script");
+    let lines = script.lines().map(str::trim).filter(|line| !line.starts_with('#'));
+    let commands = lines.filter_map(|line| line.find("cargo ").map(|at| &line[at..]));
+    commands
+        .map(|line| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            (plain(&words), line.contains("\"$"))
+        })
+        .collect()
+}
+
+/// Whether a command of cargo is one that `.ci/run` runs, its last arguments aside where the script has a variable.
+fn is_checked(words: &[&str]) -> bool {
+    let own = plain(words);
+    let same =
+        |(known, is_open): &(String, bool)| own == *known || (*is_open && own.starts_with(known.as_str()));
+    SLOW.contains(&own.as_str()) || checked().iter().any(same)
+}
+
+#[test]
+fn commands_of_readme_and_contributing_are_those_that_are_checked() {
+    let known = checked();
+    assert!(known.iter().any(|(own, _)| own == "cargo test"), "{known:?}");
+    for name in ["README.md", "CONTRIBUTING.md"] {
+        let page = fs::read_to_string(super::root().join(name)).expect("the page");
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mut count = 0;
+        for words in blocks(&page).iter().filter(|block| block.mark == "sh").flat_map(commands) {
+            match words[0] {
+                "cargo" => assert!(is_checked(&words), "{name}: .ci/run does not run {words:?}"),
+                "girderway" => {
+                    girderway(folder.path(), &words[1..]);
+                }
+                script => assert!(super::root().join(script).exists(), "{name}: {script} does not exist"),
+            }
+            count += 1;
+        }
+        assert!(count > 2, "{name} has commands");
+        // commands within sentences and tables
+        let prose = page.split("```").step_by(2).flat_map(|text| text.split('`').skip(1).step_by(2));
+        for span in prose {
+            let words: Vec<&str> = span.split_whitespace().collect();
+            match words[..] {
+                ["cargo", _, ..] => assert!(is_checked(&words), "{name}: .ci/run does not run {span}"),
+                ["girderway", command, ..] if command.chars().all(|c| c.is_ascii_lowercase()) => {
+                    girderway(folder.path(), &[command, "--help"]);
+                }
+                _ => {}
+            }
+        }
+    }
 }

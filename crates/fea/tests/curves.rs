@@ -2,6 +2,7 @@
 
 mod common;
 
+use common::near::assert_near;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use fea::{Freedom, Member, Model, Section, Spring, Support, nodal};
@@ -172,14 +173,18 @@ fn a_rail_on_its_pad_gives_more_than_the_girder_and_spreads() {
     // 32 in are 10.67 springs: the mean of the values at the springs before and after
     let (c, _) = nodal(&model, &[middle, middle + 10, middle + 11, 0]).expect("it stands");
     let at = |i: usize| c[(1, 6 * i + 1)];
-    let figure = |what: &str, known: f64| claims::figure("1 Readings of tables", what, "prototype", known);
-    figure("rail on its pad: give, 1 / (8 EI b^3), ft/lb", 3.4e-7).met(at(0), 5e-3);
-    figure("by that of the girder at midspan", 3.0)
-        .met(at(0) / (60.0_f64.powi(3) / (48.0 * 9.528 * 4.32e9)), 0.05);
+    assert_near("rail on its pad: give, 1 / (8 EI b^3), ft/lb", "prototype", 3.4e-7, at(0), 5e-3);
+    assert_near(
+        "by that of the girder at midspan",
+        "prototype",
+        3.0,
+        at(0) / (60.0_f64.powi(3) / (48.0 * 9.528 * 4.32e9)),
+        0.05,
+    );
     let beside = at(1) + (at(2) - at(1)) * (32.0 / 12.0 / a - 10.0);
-    figure("32 in beside it, by that", 0.65).met(beside / at(0), 5e-3);
+    assert_near("32 in beside it, by that", "prototype", 0.65, beside / at(0), 5e-3);
     // Hetenyi, for an endless rail.
-    figure("at a free end of the rail, by that", 4.0).met(c[(19, 19)] / at(0), 0.05);
+    assert_near("at a free end of the rail, by that", "prototype", 4.0, c[(19, 19)] / at(0), 0.05);
 }
 
 #[test]

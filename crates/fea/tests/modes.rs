@@ -1,5 +1,6 @@
 //! Natural modes against closed forms.
 
+use common::near::assert_near;
 use std::f64::consts::PI;
 
 use fea::{
@@ -218,8 +219,7 @@ fn a_heavy_mass_at_midspan_moves_half_of_17_35ths_of_the_beam() {
     let shift = 1.0 - omega(&model, 0) / alone;
     let what =
         "mass of 50 beams at midspan: beam's share that moves with it, of 2 M times the shift of frequency";
-    claims::figure("5 Speed, mass and modes", what, "Rayleigh, 17/35", 17.0 / 35.0)
-        .met(2.0 * shift * mass / (s.mass * L), 0.02);
+    assert_near(what, "Rayleigh, 17/35", 17.0 / 35.0, 2.0 * shift * mass / (s.mass * L), 0.02);
 }
 
 /// Source: Meirovitch, Analytical Methods in Vibrations (1967), section 5-10, for one beam and one mass.
@@ -386,7 +386,7 @@ fn residual_flexibility_is_what_the_series_leaves() {
         assert!((share - (1.0 - sum)).abs() < 4e-6, "{count}: {share} {}", 1.0 - sum);
         if count == 1 {
             let what = "give at midspan that one mode leaves, by all";
-            claims::figure("5 Speed, mass and modes", what, "prototype", 0.0145).met(share, 0.01);
+            assert_near(what, "prototype", 0.0145, share, 0.01);
         }
         let probes: Vec<Probe> = (0..40)
             .map(|k| Probe { rail: 0, x: (k as f64 + 0.3) * L / 40.0, axis: Axis::Vertical })

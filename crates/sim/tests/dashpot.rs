@@ -7,10 +7,10 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::kutta::rk4;
+use common::near::assert_near;
 use common::{EI, GRAVITY, SPAN, bogie, girder, single};
 use sim::{Channel, Damper, Given, Profile, Scene, Status};
 
-const SECTION: &str = "3 Contact forces";
 /// Stiffness and damping of the wheel, lb/ft and lb s/ft; its load, lb.
 const K: f64 = 1e8;
 const C: f64 = 1e5;
@@ -99,25 +99,34 @@ fn scene() -> Scene {
 
 #[test]
 fn a_damper_on_the_rail_eliminated_from_steps_errs_by_their_order() {
-    let figure =
-        |what: String, source: &str, known: f64| claims::figure(SECTION, what, source.to_owned(), known);
     let wheel = "damper on the rail, wheel of 2.4e6 lb at 100 ft/s from 15 to 45 ft";
     for (name, theta, wanted) in [("backward Euler", 1.0, 1.0), ("trapezoid", 0.5, 2.0)] {
         let fine: Vec<f64> = (3..7).map(|i| eliminated(theta, steps(1.0) << i)).collect();
         println!("{name}: {fine:?} at 1/8 to 1/64 ms");
-        figure(format!("{wheel}, {name}: order in the steps"), "theory", wanted)
-            .met(order(&fine), 0.05 / wanted);
+        assert_near(
+            format!("{wheel}, {name}: order in the steps"),
+            "theory",
+            wanted,
+            order(&fine),
+            0.05 / wanted,
+        );
     }
     let coarse = [4.0, 2.0, 1.0].map(|step| eliminated(1.0, steps(step)));
     println!("backward Euler: {coarse:?} at 4, 2 and 1 ms");
-    figure(
+    assert_near(
         format!("{wheel}, backward Euler, 4 to 1 ms: largest error of the force by its largest"),
         "prototype",
         1e-4,
-    )
-    .met(coarse.into_iter().fold(0.0, f64::max), 0.1);
-    figure(format!("{wheel}, trapezoid, 1 ms: the same"), "prototype", 2.7e-5)
-        .met(eliminated(0.5, steps(1.0)), 0.1);
+        coarse.into_iter().fold(0.0, f64::max),
+        0.1,
+    );
+    assert_near(
+        format!("{wheel}, trapezoid, 1 ms: the same"),
+        "prototype",
+        2.7e-5,
+        eliminated(0.5, steps(1.0)),
+        0.1,
+    );
     for accuracy in [1e-4, 1e-5, 1e-6] {
         let mut scene = scene();
         scene.accuracy = accuracy;

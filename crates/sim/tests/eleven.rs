@@ -8,6 +8,7 @@ use std::ops::ControlFlow;
 
 use common::crane::{body, mount};
 use common::kutta::Kernel;
+use common::near::{assert_at_most, assert_near};
 use nalgebra::DMatrix;
 use serde_json::Value;
 use sim::{
@@ -262,10 +263,6 @@ fn north(run: &Run) -> Vec<f64> {
     (0..run.history.len()).map(|k| wheels.iter().map(|wheel| wheel[k]).sum()).collect()
 }
 
-fn figure(source: &str, what: &str, known: f64) -> claims::Figure {
-    claims::figure("4 Steps in time", format!("crane of 11 freedoms, {what}"), source, known)
-}
-
 /// External: all freedoms and the wheels' forces, DOP853 at 1e-12 on equations of another make.
 #[test]
 fn the_crane_moves_as_one_written_out_by_hand() {
@@ -299,7 +296,7 @@ fn the_crane_moves_as_one_written_out_by_hand() {
         if accuracy == 1e-6 {
             let of = |what: &str, pick: fn(&[f64]) -> f64| {
                 let what = format!("northern wheels, {what}, lb");
-                figure(program, &what, pick(&wanted)).met(pick(&found), 1e-6);
+                assert_near(what, program, pick(&wanted), pick(&found), 1e-6);
             };
             of("at the start", |force| force[0]);
             of("largest", |force| force.iter().copied().fold(0.0, f64::max));
@@ -308,9 +305,9 @@ fn the_crane_moves_as_one_written_out_by_hand() {
         }
         if accuracy == 1e-5 {
             let what = |of: &str| format!("simulator, accuracy 1e-5: {of}");
-            figure("prototype", &what("error of the northern wheels (Radau 5, 1e-4)"), 5.6e-6).below(error);
+            assert_at_most(what("error of the northern wheels (Radau 5, 1e-4)"), "prototype", 5.6e-6, error);
             let stages = run.counts.stages as f64;
-            figure("prototype", &what("stages (rates of LSODA, 1e-6)"), 28_426.0).below(stages);
+            assert_at_most(what("stages (rates of LSODA, 1e-6)"), "prototype", 28_426.0, stages);
         }
     }
 }
@@ -320,8 +317,9 @@ fn the_crane_moves_as_one_written_out_by_hand() {
 fn other_steppers_ask_for_more() {
     let json: Value = serde_json::from_str(REFERENCE).expect("the file is JSON");
     assert!(json["radau_apart"].as_f64().is_some_and(|apart| apart < 1e-9), "the reference has converged");
-    let why = "the masses, spans and laws of the prototype's scene are told, its inertias, gains, brake times and the trolley's way are \
-               not; they are as written in fea/crane_reference.py, which ran the steppers on it";
+    // First the prototype's error and rates, then ours. The masses, spans and laws of the prototype's scene are published;
+    // its inertias, gains, brake times and the trolley's motion are not. They are those of fea/crane_reference.py, which ran
+    // the steppers.
     for (index, name, known, own) in [
         (0, "Radau 5 of scipy, rtol 1e-4", [5.6e-6, 3959.0], [1.68e-5, 9344.0]),
         (1, "Radau 5 of scipy, rtol 1e-6", [3.8e-8, 13_002.0], [6.91e-8, 26_454.0]),
@@ -333,11 +331,11 @@ fn other_steppers_ask_for_more() {
     ] {
         let found = ["error", "rates"].map(|key| json["steppers"][index][key].as_f64().unwrap_or(f64::NAN));
         for (k, what) in ["error of the northern wheels", "rates asked for"].iter().enumerate() {
-            let figure = figure("prototype", &format!("{name}: {what}"), known[k]);
+            let what = format!("{name}: {what}");
             if (found[k] / known[k] - 1.0).abs() < 0.06 {
-                figure.met(found[k], 0.06);
+                assert_near(what, "prototype", known[k], found[k], 0.06);
             } else {
-                figure.corrected(found[k], own[k], 5e-3, why);
+                assert_near(what, "regression", own[k], found[k], 5e-3);
             }
         }
     }

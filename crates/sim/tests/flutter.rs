@@ -6,6 +6,7 @@ mod printed;
 
 use std::ops::ControlFlow;
 
+use common::near::{assert_at_most, assert_near};
 use common::random::Random;
 use common::{GRAVITY, WEIGHT, bogie, surface};
 use nalgebra::{DMatrix, Matrix2, Matrix4};
@@ -13,7 +14,6 @@ use sim::{Channel, Damper, Foundation, Freedom, Given, Profile, Run};
 use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet};
 
 const K: f64 = 1e8;
-const SECTION: &str = "2 Energy";
 
 /// Place of its middle, half of its base, distance of its centre of mass from the middle, radius of gyration, ft.
 type Bogie = [f64; 4];
@@ -90,29 +90,43 @@ fn grown(run: &Run, omega: f64) -> f64 {
 
 #[test]
 fn akispl_shakes_an_uneven_bogie_and_the_exact_surface_does_not() {
-    let figure = |what: &str, known: f64| claims::figure(SECTION, what, "prototype", known);
     let table = akispl();
     let [growth, omega] = worst(&table, PUBLISHED, 0.0);
-    figure("AKISPL, bogie at 43.5 ft, centre of mass 0.69 ft ahead, gyration 4.95 ft: growth, 1/s", 0.325)
-        .met(growth, 0.01);
-    figure("the same by its frequency: negative damping", 0.0335).met(growth / omega.hypot(growth), 0.01);
-    figure("time in which it doubles, s", 2.1).met(2.0_f64.ln() / growth, 0.02);
+    assert_near(
+        "AKISPL, bogie at 43.5 ft, centre of mass 0.69 ft ahead, gyration 4.95 ft: growth, 1/s",
+        "prototype",
+        0.325,
+        growth,
+        0.01,
+    );
+    assert_near(
+        "the same by its frequency: negative damping",
+        "prototype",
+        0.0335,
+        growth / omega.hypot(growth),
+        0.01,
+    );
+    assert_near("time in which it doubles, s", "prototype", 2.1, 2.0_f64.ln() / growth, 0.02);
     let stops = |damping: f64| worst(&table, PUBLISHED, damping)[0] <= 1e-12;
     let (mut low, mut high) = (0.0, 1e6);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if stops(middle) { high = middle } else { low = middle }
     }
-    figure("damper of each wheel to the ground that stops it, lb s/ft", 1.8e5).met(high, 0.06);
+    assert_near("damper of each wheel to the ground that stops it, lb s/ft", "prototype", 1.8e5, high, 0.06);
     // a run against its eigenvalue: 0.4251 and 0.4254 for a bogie of 10 ft base
     let own = run(Foundation::influence(Box::new(akispl()), 1), PUBLISHED, 14.0);
-    figure("growth seen in a run by that of the eigenvalue (bogie of 10 ft base there)", 0.4251 / 0.4254)
-        .met(grown(&own, omega) / growth, 1e-2);
+    assert_near(
+        "growth seen in a run by that of the eigenvalue (bogie of 10 ft base there)",
+        "prototype",
+        0.4251 / 0.4254,
+        grown(&own, omega) / growth,
+        1e-2,
+    );
     let exact = worst(&surface(), PUBLISHED, 0.0)[0];
-    claims::figure(SECTION, "exact surface: growth, 1/s", "symmetry", 1e-10).below(exact);
+    assert_at_most("exact surface: growth, 1/s", "symmetry", 1e-10, exact);
     let still = run(Foundation::influence(Box::new(surface()), 1), PUBLISHED, 14.0);
-    claims::figure(SECTION, "exact surface: growth seen in a run, 1/s", "symmetry", 1e-3)
-        .below(grown(&still, omega));
+    assert_at_most("exact surface: growth seen in a run, 1/s", "symmetry", 1e-3, grown(&still, omega));
 }
 
 /// Trains of 2 to 6 equal masses, each on its wheel: eigenvalues of (G + I/k)^-1 that are not real and positive. Bogies
@@ -133,13 +147,12 @@ fn even_bogies_and_trains_of_equal_wheels_do_not_shake() {
         found += usize::from(all.iter().any(|own| own.im.abs() > 1e-6 * own.norm() || own.re <= 0.0));
     }
     assert!(tried > 19_900, "{tried}");
-    claims::figure(
-        SECTION,
+    assert_at_most(
         "AKISPL: trains of equal masses on their wheels, of 20,000, that shake or fall",
         "prototype",
         0.0,
-    )
-    .below(found as f64);
+        found as f64,
+    );
     let mut largest = 0.0_f64;
     for _ in 0..20_000 {
         let half = random.between(1.0, 8.0);
@@ -147,11 +160,10 @@ fn even_bogies_and_trains_of_equal_wheels_do_not_shake() {
         let [growth, omega] = worst(&table, own, 0.0);
         largest = largest.max(growth / omega.hypot(growth));
     }
-    claims::figure(
-        SECTION,
+    assert_at_most(
         "AKISPL: largest growth of 20,000 bogies with their mass in the middle, by frequency",
         "prototype",
         1e-9,
-    )
-    .below(largest);
+        largest,
+    );
 }

@@ -8,6 +8,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::modes::{beam, oscillator};
+use common::near::assert_near;
 use common::{EI, SPAN};
 use sim::{Channel, Foundation, Scene, Status};
 
@@ -106,16 +107,10 @@ fn static_give_of_the_other_modes_is_worth_several_modes() {
         (5, true, 4.8e-6, 7.2e-6),
     ] {
         let [found_force, found_middle] = errors(&cross(&scene, beam(modes, rest)), &reference);
-        let figure = |what: &str, known: f64| {
-            figure(format!("mass 0.5 m L, alpha 0.1, {}: error of {what}", named(modes, rest)), known)
-        };
-        figure("the wheel's force", force).met(found_force, 0.1);
-        figure("midspan", middle).met(found_middle, 0.1);
+        let of = |what: &str| format!("mass 0.5 m L, alpha 0.1, {}: error of {what}", named(modes, rest));
+        assert_near(of("the wheel's force"), "prototype", force, found_force, 0.1);
+        assert_near(of("midspan"), "prototype", middle, found_middle, 0.1);
     }
-}
-
-fn figure(what: String, known: f64) -> claims::Figure {
-    claims::figure("5 Speed, mass and modes", what, "prototype", known)
 }
 
 fn named(modes: usize, rest: bool) -> String {
@@ -139,7 +134,7 @@ fn heavy_and_stiff_wheels_need_modes_beyond_their_own_frequency() {
             "mass 5 m L on springs of 3 omega_1, alpha 0.05, {}: error of the wheel's force",
             named(modes, true)
         );
-        figure(what, known).met(found[0], 0.1);
+        assert_near(what, "prototype", known, found[0], 0.1);
     }
     let scene = oscillator(0.5, 3.0, 0.25);
     let reference = cross(&scene, beam(40, true));
@@ -148,8 +143,8 @@ fn heavy_and_stiff_wheels_need_modes_beyond_their_own_frequency() {
         let of = |what: &str| {
             format!("mass 0.5 m L on springs of 3 omega_1, alpha 0.25, {}: error of {what}", named(5, rest))
         };
-        figure(of("the wheel's force"), force).met(found[0], 0.05);
-        figure(of("midspan"), middle).met(found[1], 0.05);
+        assert_near(of("the wheel's force"), "prototype", force, found[0], 0.05);
+        assert_near(of("midspan"), "prototype", middle, found[1], 0.05);
     }
 }
 
@@ -176,11 +171,13 @@ fn two_modes_more_tell_the_error() {
     {
         for (word, known, found) in [("least", known[0], found[0]), ("most", known[1], found[1])] {
             // other runs than the prototype's 24
-            figure(
+            assert_near(
                 format!("error told by two modes more, by the true one, {what}, {word} of 24 runs"),
+                "prototype",
                 known,
-            )
-            .met(found, 0.07);
+                found,
+                0.07,
+            );
         }
     }
 }
@@ -201,8 +198,13 @@ fn a_moving_force_differs_from_rest_by_less_than_alpha_tells() {
         };
         let worst =
             (0..found.middle.len()).fold(0.0_f64, |max, i| max.max((found.middle[i] - rest(i)).abs()));
-        figure(format!("constant force, alpha {alpha}: largest difference from rest at midspan"), known)
-            .met(worst, 1e-3);
+        assert_near(
+            format!("constant force, alpha {alpha}: largest difference from rest at midspan"),
+            "prototype",
+            known,
+            worst,
+            1e-3,
+        );
         assert!(worst < alpha / (1.0 - alpha));
     }
 }
@@ -212,28 +214,43 @@ fn a_moving_force_differs_from_rest_by_less_than_alpha_tells() {
 fn the_papers_girder_has_its_frequencies_and_sag() {
     let mass = 850.0 / 32.174;
     let omega = (std::f64::consts::PI / SPAN).powi(2) * (EI / mass).sqrt();
-    figure("paper's girder, 850 lb/ft: first frequency, Hz".to_owned(), 17.22)
-        .met(omega / (2.0 * std::f64::consts::PI), 1e-3);
+    assert_near(
+        "paper's girder, 850 lb/ft: first frequency, Hz",
+        "prototype",
+        17.22,
+        omega / (2.0 * std::f64::consts::PI),
+        1e-3,
+    );
     let alpha = 5.0 * std::f64::consts::PI / (SPAN * omega);
-    figure("alpha at 5 ft/s".to_owned(), 0.002_42).met(alpha, 2e-3);
+    assert_near("alpha at 5 ft/s", "prototype", 0.002_42, alpha, 2e-3);
     let mut bogie = common::bogie(0.0, 1.0, sim::Damper::Ground);
     bogie.bodies[0].start[0] = 0.5 * SPAN;
     bogie.bodies[0].motion = None;
     let modes =
         sim::natural_modes(&bogie, &[common::girder()], 0.0, &[0.5 * SPAN]).expect("at rest").expect("few");
-    figure("(omega_b / omega_1)^2 of the bogie at midspan".to_owned(), 0.0050)
-        .met((modes[0].omega / omega).powi(2), 0.02);
+    assert_near(
+        "(omega_b / omega_1)^2 of the bogie at midspan",
+        "prototype",
+        0.0050,
+        (modes[0].omega / omega).powi(2),
+        0.02,
+    );
 
     let load = common::WEIGHT;
     let slope = load * common::give(0.0, 0.5 * SPAN).1;
-    figure("slope of the girder's end under 4.8e6 lb at midspan".to_owned(), 0.0262).met(slope, 2e-3);
-    figure("1 - cos of it".to_owned(), 3.4e-4).met(1.0 - slope.cos(), 0.02);
+    assert_near("slope of the girder's end under 4.8e6 lb at midspan", "prototype", 0.0262, slope, 2e-3);
+    assert_near("1 - cos of it", "prototype", 3.4e-4, 1.0 - slope.cos(), 0.02);
     let steps = 6000;
     let h = SPAN / f64::from(steps);
     let along = |i: i32| common::give(h * (f64::from(i) + 0.5), 0.5 * SPAN).1 * load;
     let shortening: f64 = (0..steps).map(|i| 0.5 * along(i).powi(2) * h).sum();
-    figure("how far its ends approach, ft; (pi^2 / 4) sag^2 / L, of a sine".to_owned(), 0.0113)
-        .met(shortening, 0.03);
+    assert_near(
+        "how far its ends approach, ft; (pi^2 / 4) sag^2 / L, of a sine",
+        "prototype",
+        0.0113,
+        shortening,
+        0.03,
+    );
 }
 
 /// Analytic: largest midspan deflection under a constant force, by its static one.

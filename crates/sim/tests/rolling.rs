@@ -7,6 +7,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::hinged::Hinged;
+use common::near::assert_near;
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{
@@ -161,23 +162,37 @@ fn largest_force_along_the_rail_of_one_wheel_meets_its_closed_form() {
     let slope = 2.0 * at * (SPAN - at) * (SPAN - 2.0 * at) / (3.0 * common::EI * SPAN);
     let wanted = 0.5 * common::WEIGHT.powi(2) * slope;
     assert!((drive[downhill] + wanted).abs() < 1.0 && (x[downhill] - at).abs() < 0.01);
-    let figure = |what: &str, known: f64| claims::figure("2 Energy", what, "closed form", known);
-    figure("largest force along the rail of one wheel of 4.8e6 lb, lb", 64_635.0).met(-drive[downhill], 1e-4);
-    figure("where, ft", 12.68).met(x[downhill], 1e-3);
-    figure("that force by the weight", 0.0135).met(-drive[downhill] / common::WEIGHT, 0.005);
+    assert_near(
+        "largest force along the rail of one wheel of 4.8e6 lb, lb",
+        "closed form",
+        64_635.0,
+        -drive[downhill],
+        1e-4,
+    );
+    assert_near("where, ft", "closed form", 12.68, x[downhill], 1e-3);
+    assert_near("that force by the weight", "closed form", 0.0135, -drive[downhill] / common::WEIGHT, 0.005);
     let sag = common::WEIGHT * common::give(30.0, 30.0).0;
-    figure("that share by sag / span", 1.54).met(-drive[downhill] / common::WEIGHT / (sag / SPAN), 0.005);
+    assert_near(
+        "that share by sag / span",
+        "closed form",
+        1.54,
+        -drive[downhill] / common::WEIGHT / (sag / SPAN),
+        0.005,
+    );
     // from the support to midspan, where the drive holds it back
     let way = x.iter().zip(&drive).filter(|(x, _)| **x <= 30.0);
     let way: Vec<(f64, f64)> = way.map(|(x, drive)| (*x, -drive)).collect();
     let work: f64 = way.windows(2).map(|own| 0.5 * (own[0].1 + own[1].1) * (own[1].0 - own[0].0)).sum();
     let (sunk, all) = (0.5 * common::WEIGHT * sag, 0.5 * common::WEIGHT * 0.54709);
-    claims::figure("2 Energy", "work of the weight from support to midspan, 1/2 P sag, ft lb", "prototype", 1.31e6).corrected(
-        work,
+    // The prototype has 1.31e6. That is 1/2 P times the bogie's 0.547 ft, which contains the 0.024 ft by which its wheels
+    // deflect everywhere. The girder alone sags by 0.5248 ft under one wheel, and the force along the rail does that work in
+    // a run.
+    assert_near(
+        "work of the weight from support to midspan, 1/2 P sag, ft lb",
+        "regression",
         sunk,
+        work,
         1e-4,
-        "1.31e6 is 1/2 P times the bogie's 0.547 ft, which contains the 0.024 ft by which its wheels give everywhere; the girder alone \
-         sags by 0.5248 ft under one wheel, and the force along the rail does that work in a run",
     );
     assert!((all / 1.31e6 - 1.0).abs() < 5e-3, "{all}");
 }

@@ -8,6 +8,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use common::modes::{MASS, beam, omega, oscillator};
+use common::near::assert_near;
 use common::{EI, SPAN};
 use sim::{Channel, Method, Scene, Status, Stepping, run_by};
 
@@ -88,7 +89,7 @@ fn places_at_which_the_wheel_leaves_and_lands_converge_with_the_order_of_the_ste
         println!("{method:?}: leaves and lands at {:?} L, orders {found:.2?}", runs[4].0);
         for (what, order) in ["leaves", "lands"].iter().zip(found) {
             let what = format!("place at which a wheel {what}, {method:?}: order in the steps");
-            claims::figure("4 Steps in time", what, "theory", wanted).met(order, 0.15 / wanted);
+            assert_near(what, "theory", wanted, order, 0.15 / wanted);
         }
     }
 }

@@ -5,17 +5,13 @@ mod common;
 #[path = "../../study/src/stability/steppers.rs"]
 mod steppers;
 
+use common::near::{assert_at_most, assert_near};
 use common::{GRAVITY, SPAN, give};
 use nalgebra::{Matrix4, Vector4};
 use steppers::{Oscillator, OscillatorState, STEPPERS, StepMethod, monodromy};
 
-const SECTION: &str = "4 Steps in time";
 /// Excess of a spectral radius that is growth.
 const GROWTH: f64 = 1e-6;
-
-fn figure(what: String, known: f64) -> claims::Figure {
-    claims::figure(SECTION, what, "prototype", known)
-}
 
 /// Radau IIA of two stages, order 3, of z'' + d z' + s z = 0.
 ///
@@ -78,8 +74,13 @@ fn steppers_have_their_limits_at_rest() {
             Some((_, known)) => {
                 for ((zeta, known), found) in zetas.iter().zip(known).zip(found) {
                     let found = found.expect("explicit");
-                    figure(format!("{name}, damping {zeta}: longest stable step x frequency"), *known)
-                        .met(found, 0.01);
+                    assert_near(
+                        format!("{name}, damping {zeta}: longest stable step x frequency"),
+                        "prototype",
+                        *known,
+                        found,
+                        0.01,
+                    );
                 }
             }
             None => assert_eq!(found, [None; 4], "{name}"),
@@ -136,12 +137,12 @@ fn grows(stepper: (usize, StepMethod), speed: f64, known: f64) -> bool {
     crossing.radius(stepper, count) > crossing.physical().max(1.0) + GROWTH
 }
 
-/// Speed, the figure known, and ours where it is another.
+/// Speed, the prototype's value, and ours where it is another.
 type Case = (f64, f64, Option<f64>);
 
 #[test]
 fn steppers_that_are_stable_at_rest_grow_over_spans() {
-    let why = "the prototype did not try every number of steps a span; ours does, and what it gives grows in ours too";
+    // The prototype did not try every number of steps a span; this test does, and what the prototype gives grows here too.
     let cases: [(&str, &[Case]); 7] = [
         ("semi-implicit Euler", &[(300.0, 0.49, Some(0.4308))]),
         ("Dormand-Prince 5", &[(300.0, 0.31, Some(0.2362))]),
@@ -164,13 +165,13 @@ fn steppers_that_are_stable_at_rest_grow_over_spans() {
         let Some((_, own)) = cases.iter().find(|(known, _)| *known == name) else { continue };
         for (speed, known, ours) in *own {
             let found = first((size, step), *speed).expect("it grows somewhere");
-            let figure = figure(format!("{name}, {speed} ft/s: first growing step x frequency"), *known);
+            let what = format!("{name}, {speed} ft/s: first growing step x frequency");
             match ours {
                 Some(ours) => {
                     assert!(grows((size, step), *speed, *known), "{name} {speed}");
-                    figure.corrected(found, *ours, 1e-3, why);
+                    assert_near(what, "regression", *ours, found, 1e-3);
                 }
-                None => figure.met(found, 5e-3),
+                None => assert_near(what, "prototype", *known, found, 5e-3),
             }
         }
     }
@@ -189,15 +190,25 @@ fn steppers_that_are_stable_at_rest_grow_over_spans() {
         for (word, (known, found)) in ["least", "most"].iter().zip(known.iter().zip(found)) {
             let what =
                 format!("{name}, 5 to {} ft/s: first growing step x frequency, {word}", speeds[until - 1]);
-            figure(what, *known).met(found, 0.02);
+            assert_near(what, "prototype", *known, found, 0.02);
         }
     }
     let (_, size, step) = all()[STEPPERS.len()];
     for speed in [10.0, 30.0, 50.0, 80.0, 100.0, 200.0, 300.0] {
         assert_eq!(first((size, step), speed), None, "Radau IIA 3 grows nowhere");
     }
-    figure("growth of the motion itself over a span at 300 ft/s".to_owned(), 2.24)
-        .met(Crossing::at(300.0).physical(), 2e-3);
+    assert_near(
+        "growth of the motion itself over a span at 300 ft/s",
+        "prototype",
+        2.24,
+        Crossing::at(300.0).physical(),
+        2e-3,
+    );
     let calm = [1.0, 5.0, 20.0, 80.0, 200.0].map(|speed| Crossing::at(speed).physical());
-    figure("the same, most from 1 to 200 ft/s".to_owned(), 1.0).below(calm.into_iter().fold(0.0, f64::max));
+    assert_at_most(
+        "the same, most from 1 to 200 ft/s",
+        "prototype",
+        1.0,
+        calm.into_iter().fold(0.0, f64::max),
+    );
 }

@@ -1,6 +1,9 @@
 //! Models and helpers that several test files use.
 #![allow(dead_code)]
 
+#[path = "../../../../tests/near.rs"]
+pub mod near;
+
 use fea::{Freedom, Girder, Kind, Link, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
 use nalgebra::Vector3;
 use serde_json::Value;

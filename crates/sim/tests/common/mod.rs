@@ -7,6 +7,8 @@ pub mod dormand;
 pub mod hinged;
 pub mod kutta;
 pub mod modes;
+#[path = "../../../../tests/near.rs"]
+pub mod near;
 pub mod parts;
 pub mod random;
 pub mod space;

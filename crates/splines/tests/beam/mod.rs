@@ -5,6 +5,8 @@
 //! shape functions or clamped elements.
 #![allow(dead_code)]
 
+#[path = "../../../../tests/near.rs"]
+pub mod near;
 pub mod printed;
 
 use std::sync::Arc;
