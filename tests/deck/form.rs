@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use adams::{DataSet, Model};
+use adams::{AdamsModel, DataSet};
 use deck::DeckForm;
 use formats::units::{Force, Length};
 
@@ -69,7 +69,7 @@ fn identifiers_and_names_are_unique_and_references_resolve() {
                 }
             }
             // markers, variables, splines and states inside expressions
-            Model::new(&DataSet::read(&text).expect("our own text")).expect("every reference resolves");
+            AdamsModel::new(&DataSet::read(&text).expect("our own text")).expect("every reference resolves");
             let mut names: Vec<&str> =
                 text.lines().filter(|line| line.starts_with("!  adams_view_name")).collect();
             let count = names.len();

@@ -128,7 +128,7 @@ fn decks_start_in_the_equilibrium_of_their_first_instant() {
         let loaded = Loaded::new(&path);
         for form in FORMS {
             let set = DataSet::read(&loaded.text(form)).expect("our own text");
-            let model = adams::Model::new(&set).expect("a model");
+            let model = adams::AdamsModel::new(&set).expect("a model");
             let start = model.initial();
             let rest = model.equilibrium(0.0, &start).expect("an equilibrium").state;
             for (part, pose) in &start.parts {

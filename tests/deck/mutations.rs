@@ -1,6 +1,6 @@
 //! Decks that are wrong must be told from the simulator.
 
-use adams::{DataSet, Statement, Value};
+use adams::{ArgumentValue, DataSet, Statement};
 use deck::DeckForm;
 
 use super::{Loaded, example, scene};
@@ -24,7 +24,7 @@ fn changed(
 /// Replaces text in the expressions of a statement.
 fn replace(statement: &mut Statement, from: &str, to: &str) {
     for argument in &mut statement.arguments {
-        if let Value::Function(text) = &mut argument.value {
+        if let ArgumentValue::Function(text) = &mut argument.value {
             *text = text.replace(' ', "").replace(from, to);
         }
     }
@@ -56,7 +56,7 @@ fn wrong_signs_are_caught() {
     {
         let text = changed(&loaded, DeckForm::Factored, "GFORCE", 1, |one| {
             for argument in one.arguments.iter_mut().filter(|argument| argument.name == component) {
-                if let Value::Function(text) = &mut argument.value {
+                if let ArgumentValue::Function(text) = &mut argument.value {
                     *text = text.replace(' ', "").replacen(from, to, 1);
                 }
             }
@@ -114,7 +114,7 @@ fn a_rail_whose_origin_is_shifted_is_caught() {
     let loaded = Loaded::new(&example("bogie"));
     let text = changed(&loaded, DeckForm::Factored, "MARKER", 4, |one| {
         for argument in one.arguments.iter_mut().filter(|argument| argument.name == "QP") {
-            argument.value = Value::Numbers(vec![1e-9, 0.0, 0.0]);
+            argument.value = ArgumentValue::Numbers(vec![1e-9, 0.0, 0.0]);
         }
     });
     caught(&loaded, DeckForm::Factored, &text, "a shift of 1e-9 ft");
@@ -125,7 +125,7 @@ fn masses_in_another_unit_and_other_motions_are_caught_by_the_path() {
     let loaded = Loaded::new(&example("bogie"));
     let heavier = changed(&loaded, DeckForm::Akispl, "PART", 2, |one| {
         for argument in one.arguments.iter_mut().filter(|argument| argument.name == "MASS") {
-            if let Value::Numbers(all) = &mut argument.value {
+            if let ArgumentValue::Numbers(all) = &mut argument.value {
                 all[0] *= 32.174;
             }
         }
@@ -145,7 +145,7 @@ fn a_value_of_a_table_that_is_off_by_a_millionth_is_caught() {
     let text = changed(&loaded, DeckForm::Symmetrised, "SPLINE", 6, |one| {
         let rows = one.arguments.iter_mut().filter(|argument| argument.name == "Y");
         for argument in rows.skip(3).take(1) {
-            if let Value::Numbers(all) = &mut argument.value {
+            if let ArgumentValue::Numbers(all) = &mut argument.value {
                 all[4] *= 1.0 + 1e-6;
             }
         }

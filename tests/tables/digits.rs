@@ -72,8 +72,9 @@ fn all_digits_change_nothing() {
 
 #[test]
 fn what_cannot_be_rounded_is_refused() {
-    let curves =
-        |x: [f64; 4], y: f64| adams::Curves::new(x.to_vec(), Vec::new(), vec![vec![y; 4]]).expect("four");
+    let curves = |x: [f64; 4], y: f64| {
+        adams::SplineValues::new(x.to_vec(), Vec::new(), vec![vec![y; 4]]).expect("four")
+    };
     let mut set = random_set(&mut Dice(23));
     set.tables = vec![table(7, "a", None, curves([0.0, 1.0, 1.01, 2.0], 0.0))];
     assert_eq!(round(&set, 2), Err(Unrounded::Stations { id: 7 }));

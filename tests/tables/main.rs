@@ -14,7 +14,7 @@ mod scene;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-use adams::Curves;
+use adams::SplineValues;
 use formats::block::GridBlock;
 use formats::tables::{Product, Table, TableSet};
 use formats::units::{Force, Length, Units};
@@ -56,14 +56,14 @@ impl Dice {
         list
     }
 
-    fn curves(&mut self, rows: usize, columns: usize) -> Curves {
+    fn curves(&mut self, rows: usize, columns: usize) -> SplineValues {
         let (x, z) = (self.increasing(columns), self.increasing(rows));
         let values = (0..rows.max(1)).map(|_| x.iter().map(|_| self.any()).collect()).collect();
-        Curves::new(x, z, values).expect("increasing")
+        SplineValues::new(x, z, values).expect("increasing")
     }
 }
 
-fn table(id: u32, name: &str, quantity: Option<GridBlock>, curves: Curves) -> Table {
+fn table(id: u32, name: &str, quantity: Option<GridBlock>, curves: SplineValues) -> Table {
     Table { id, name: name.to_owned(), quantity, rails: None, curves }
 }
 
@@ -90,7 +90,7 @@ fn random_factored(dice: &mut Dice) -> TableSet {
     for k in 0..8 {
         let stations = if k < 4 { &x } else { &z };
         let values = stations.iter().map(|_| dice.any()).collect();
-        let curves = Curves::new(stations.clone(), Vec::new(), vec![values]).expect("increasing");
+        let curves = SplineValues::new(stations.clone(), Vec::new(), vec![values]).expect("increasing");
         tables.push(table(101 + 25 * k, &format!("curve_{k}"), None, curves));
     }
     let id = |k: usize| tables[k].id;

@@ -16,7 +16,7 @@ pub enum Error {
         /// Column, from 1, in characters.
         column: usize,
         /// What is wrong there.
-        fault: Fault,
+        fault: AdamsFault,
     },
     /// An identifier is zero or used twice by one kind of statement.
     #[error("{statement} is zero or stands twice")]
@@ -42,7 +42,7 @@ pub enum Error {
         /// Which statement.
         statement: StatementId,
         /// Why not.
-        fault: Box<Fault>,
+        fault: Box<AdamsFault>,
     },
     /// An expression cannot be compiled, or has no value at a state.
     #[error("{statement}, {argument}, after {offset} characters: {fault}")]
@@ -54,7 +54,7 @@ pub enum Error {
         /// Characters of the expression before the place.
         offset: usize,
         /// Why not.
-        fault: Box<Fault>,
+        fault: Box<AdamsFault>,
     },
     /// The state has no entry for one of the parts or differential equations.
     #[error("the state has no {statement}")]
@@ -84,10 +84,10 @@ pub enum Error {
 
 /// What is wrong at a place of a data set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub enum AdamsFault {
     /// The text does not belong there.
     #[error("unexpected text")]
-    Text,
+    UnexpectedText,
     /// The text is not a finite real number.
     #[error("not a number")]
     Number,
@@ -96,7 +96,7 @@ pub enum Fault {
     Id,
     /// The identifier was used before.
     #[error("identifier {id} stands twice")]
-    Twice {
+    DuplicateId {
         /// The identifier.
         id: u32,
     },
@@ -143,7 +143,7 @@ pub enum Fault {
         /// The identifier.
         id: u32,
         /// Why not.
-        source: Box<Fault>,
+        source: Box<AdamsFault>,
     },
     /// There are too few x values.
     #[error("{found} points, at least {least} are needed")]
@@ -187,7 +187,7 @@ pub enum Fault {
     },
     /// Brackets, signs and powers are nested more than 100 deep.
     #[error("nested too deep")]
-    Deep,
+    NestedTooDeep,
     /// The name is no function or constant of the expression language.
     #[error("{name} is not known")]
     Unknown {
@@ -205,10 +205,10 @@ pub enum Fault {
     Derivative,
     /// z is outside a SPLINE without LINEAR_EXTRAPOLATE.
     #[error("z is outside the SPLINE, which has no LINEAR_EXTRAPOLATE")]
-    Beyond,
+    OutsideZ,
     /// The value of an expression is not a finite number.
     #[error("the value is not finite")]
-    Infinite,
+    NotFiniteValue,
     /// The reaction of a joint or motion is read where none is known.
     #[error("reactions are known at equilibrium alone, to requests")]
     Reaction,
@@ -220,13 +220,13 @@ pub enum Fault {
     },
     /// A required argument is missing.
     #[error("{argument} is missing")]
-    Lacks {
+    MissingArgument {
         /// The argument.
         argument: &'static str,
     },
     /// The value of an argument has the wrong form.
     #[error("{argument} is given something else than it takes")]
-    Given {
+    WrongForm {
         /// The argument.
         argument: &'static str,
     },

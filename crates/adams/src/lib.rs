@@ -59,12 +59,15 @@ mod model;
 
 mod solve;
 
-pub use error::{Error, Fault};
+pub use error::{AdamsFault, Error};
 pub use expression::functions;
 pub use expression::{Dual, Expression, Scalar};
 pub use keyword::{Keyword, StatementId};
-pub use kinematics::{Pose, State};
-pub use language::{Argument, DataSet, Force, Length, Mass, Statement, Units, Value};
-pub use model::Model;
-pub use solve::{Equilibrium, Load, Reaction, Solution};
-pub use tables::{Curves, Family, Method, Reading, Spline, Tables};
+pub use kinematics::{ModelState, Pose};
+pub use language::{
+    AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, ArgumentValue, DataSet, Statement,
+    StatementArgument,
+};
+pub use model::AdamsModel;
+pub use solve::{ConstraintReaction, Equilibrium, Load, Solution};
+pub use tables::{Spline, SplineFunction, SplineMethod, SplineReading, SplineValues, Tables};

@@ -1,10 +1,10 @@
 //! Static equilibrium of data sets with known solutions.
 
-use adams::{DataSet, Equilibrium, Error, Fault, Model, StatementId};
+use adams::{AdamsFault, AdamsModel, DataSet, Equilibrium, Error, StatementId};
 
-fn model(text: &str) -> Model {
+fn model(text: &str) -> AdamsModel {
     let set = DataSet::read(text).unwrap_or_else(|error| panic!("{error}"));
-    Model::new(&set).unwrap_or_else(|error| panic!("{error}"))
+    AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn at_rest(text: &str, time: f64) -> Equilibrium {
@@ -33,7 +33,7 @@ fn pendulum_with_a_torsion_spring_turns_far() {
     near(3.0 * theta, -30.0 * theta.cos(), 1e-12);
     assert!(theta < -1.0, "{theta}");
     near(out.reactions[&("JOINT", 1)].force.y, 30.0, 1e-12);
-    assert_eq!(out.undetermined, 0);
+    assert_eq!(out.rank_deficiency, 0);
 }
 
 #[test]
@@ -76,7 +76,8 @@ fn motions_hold_angles_places_and_integrals_of_speeds() {
                 PART/3,MASS=1,CM=3,IP=1,1,1\nMARKER/3,PART=3,ZP=1,0,0\nJOINT/2,TRANSLATIONAL,I=3,J=5\n\
                 MOTION/2,TRANSLATIONAL,JOINT=2,VELOCITY,ICDISP=.5,FUN=STEP(TIME,0,0,2,3)\n\
                 ACCGRAV/JGRAV=-10\nREQUEST/1,F2=JOINT(1,0,3,1)\\,F3=MOTION(2,0,1)\nEND\n";
-    let path = model(text).path(&[0.0, 0.5, 1.0, 2.0, 3.0]).unwrap_or_else(|error| panic!("{error}"));
+    let path =
+        model(text).quasi_static_path(&[0.0, 0.5, 1.0, 2.0, 3.0]).unwrap_or_else(|error| panic!("{error}"));
     for one in &path {
         let turned = 200_f64.to_radians() * one.state.time;
         let heading = heading(one, 2);
@@ -133,7 +134,7 @@ fn constraints_that_say_the_same_share_and_those_that_do_not_are_refused() {
     let out = at_rest(&text.replace("$J", "1"), 0.0);
     near(out.reactions[&("JOINT", 1)].force.y, 10.0, 1e-9);
     near(out.reactions[&("JOINT", 2)].force.y, 10.0, 1e-9);
-    assert_eq!(out.undetermined, 6);
+    assert_eq!(out.rank_deficiency, 6);
     let model = model(&text.replace("$J", "3"));
     let error = model.equilibrium(0.0, &model.initial());
     assert!(matches!(error, Err(Error::Equilibrium { .. })), "{error:?}");
@@ -153,32 +154,35 @@ fn free_body_without_support_has_no_equilibrium() {
 #[test]
 fn references_are_checked_by_statement() {
     let head = "refs\nPART/1,GROUND\nMARKER/1,PART=1\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\nMARKER/9,PART=1,FLOATING\n";
-    let missing = |keyword: &str, id: u32| Fault::Missing { statement: StatementId::new(keyword, id) };
-    let lacks = |argument: &'static str| Fault::Lacks { argument };
+    let missing = |keyword: &str, id: u32| AdamsFault::Missing { statement: StatementId::new(keyword, id) };
+    let lacks = |argument: &'static str| AdamsFault::MissingArgument { argument };
     for (tail, expected) in [
         ("MARKER/3,PART=7", missing("PART", 7)),
         ("JOINT/1,REVOLUTE,I=2,J=8", missing("MARKER", 8)),
         ("JOINT/1,REVOLUTE,I=2", lacks("J")),
-        ("JOINT/1,SCREW,I=2,J=1", Fault::Unsupported),
-        ("JOINT/1,I=2,J=1", Fault::Type),
+        ("JOINT/1,SCREW,I=2,J=1", AdamsFault::Unsupported),
+        ("JOINT/1,I=2,J=1", AdamsFault::Type),
         ("MOTION/1,JOINT=4,FUN=0", missing("JOINT", 4)),
         ("VARIABLE/1,FUN=DX(5,1)", missing("MARKER", 5)),
         ("VARIABLE/1,FUN=AKISPL(0,0,6)", missing("SPLINE", 6)),
         ("VARIABLE/1,FUN=VARVAL(2)", missing("VARIABLE", 2)),
         ("VARIABLE/1,FUN=GFORCE(3,0,1,1)", missing("GFORCE", 3)),
-        ("VARIABLE/1,FUN=USER(1,2)", Fault::Unknown { name: "USER".to_owned() }),
-        ("VARIABLE/1,FUN=STEP(TIME,0,0,1)", Fault::Arguments),
-        ("VARIABLE/1,FUN=DX(2.5,1)", Fault::Id),
+        ("VARIABLE/1,FUN=USER(1,2)", AdamsFault::Unknown { name: "USER".to_owned() }),
+        ("VARIABLE/1,FUN=STEP(TIME,0,0,1)", AdamsFault::Arguments),
+        ("VARIABLE/1,FUN=DX(2.5,1)", AdamsFault::Id),
         ("VARIABLE/1", lacks("FUNCTION")),
-        ("JOINT/1,FIXED,I=2,J=1\nVARIABLE/1,FUN=JOINT(1,0,2,1)", Fault::Reaction),
-        ("GFORCE/1,I=2,JFLOAT=1,RM=1,FX=0", Fault::Floating),
+        ("JOINT/1,FIXED,I=2,J=1\nVARIABLE/1,FUN=JOINT(1,0,2,1)", AdamsFault::Reaction),
+        ("GFORCE/1,I=2,JFLOAT=1,RM=1,FX=0", AdamsFault::Floating),
         ("GFORCE/1,I=2,JFLOAT=9,FX=0", lacks("RM")),
-        ("CONTACT/1,IGEOM=1", Fault::Unsupported),
-        ("SPLINE/6,X=0,1,2,3,Y=0,1,2,3,4,Y=1,1,2,3,4\nVARIABLE/1,FUN=AKISPL(0,0,6,1)", Fault::Derivative),
-        ("MOTION/1,I=2,J=1,X,VELOCITY,FUN=DX(2,1)", Fault::Unsupported),
+        ("CONTACT/1,IGEOM=1", AdamsFault::Unsupported),
+        (
+            "SPLINE/6,X=0,1,2,3,Y=0,1,2,3,4,Y=1,1,2,3,4\nVARIABLE/1,FUN=AKISPL(0,0,6,1)",
+            AdamsFault::Derivative,
+        ),
+        ("MOTION/1,I=2,J=1,X,VELOCITY,FUN=DX(2,1)", AdamsFault::Unsupported),
     ] {
         let set = DataSet::read(&format!("{head}{tail}\nEND\n")).unwrap_or_else(|error| panic!("{error}"));
-        match Model::new(&set) {
+        match AdamsModel::new(&set) {
             Err(Error::Statement { fault, .. } | Error::In { fault, .. }) => {
                 assert_eq!(*fault, expected, "{tail}")
             }
@@ -210,7 +214,7 @@ fn damaged_listing_comes_to_rest_or_is_refused_without_panic() {
         let at = text.len() - 1 - below(text.len() - 500);
         text[at] = letters[below(letters.len())];
         let text: String = text.into_iter().collect();
-        let Ok(model) = DataSet::read(&text).and_then(|set| Model::new(&set)) else { continue };
+        let Ok(model) = DataSet::read(&text).and_then(|set| AdamsModel::new(&set)) else { continue };
         if let Ok(out) = model.equilibrium(0.0, &model.initial()) {
             rested += 1;
             assert!(out.state.parts.values().all(|pose| pose.origin.iter().all(|value| value.is_finite())));

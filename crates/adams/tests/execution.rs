@@ -1,16 +1,16 @@
 //! Data sets that are read, resolved and solved at given states.
 
-use adams::{DataSet, Error, Model, Pose, Solution, State, StatementId};
+use adams::{AdamsModel, DataSet, Error, ModelState, Pose, Solution, StatementId};
 use nalgebra::{Matrix3, Vector3};
 
-fn model(text: &str) -> Model {
+fn model(text: &str) -> AdamsModel {
     let set = DataSet::read(text).unwrap_or_else(|error| panic!("{error}"));
-    Model::new(&set).unwrap_or_else(|error| panic!("{error}"))
+    AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"))
 }
 
 fn solved(text: &str, time: f64) -> Solution {
     let model = model(text);
-    let state = State { time, ..model.initial() };
+    let state = ModelState { time, ..model.initial() };
     model.solve(&state).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -48,7 +48,7 @@ fn newton_closes_the_loop_where_substitution_diverges() {
 
 #[test]
 fn loop_without_a_solution_is_refused_by_name() {
-    let error = model("none\nVARIABLE/7,FUN=VARVAL(7)+1\nEND\n").solve(&State::default());
+    let error = model("none\nVARIABLE/7,FUN=VARVAL(7)+1\nEND\n").solve(&ModelState::default());
     assert!(
         matches!(error, Err(Error::Loop { ref statement, .. }) if *statement == StatementId::new("VARIABLE", 7)),
         "{error:?}"
@@ -91,7 +91,7 @@ fn velocities_are_seen_in_the_fourth_marker() {
         rotation: Matrix3::identity() + theta,
         velocity,
         rate,
-        spin: Vector3::z(),
+        angular_velocity: Vector3::z(),
     };
     state.parts.insert(2, pose);
     let out = model.solve(&state).expect("velocities");
@@ -108,7 +108,7 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
     let mut set = DataSet::read(listing).unwrap_or_else(|error| panic!("{error}"));
     let tables = DataSet::read(tables).unwrap_or_else(|error| panic!("{error}"));
     set.statements.extend(tables.statements.into_iter().filter(|one| one.keyword == "SPLINE"));
-    let model = Model::new(&set).unwrap_or_else(|error| panic!("{error}"));
+    let model = AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"));
     let mut state = model.initial();
     let drop = 0.5;
     for (part, x) in [(2, 30.0), (3, 30.0 - 4.0 / 3.0), (4, 30.0 + 4.0 / 3.0)] {
@@ -128,7 +128,7 @@ fn listing_of_two_wheels_gives_the_forces_of_its_formulas() {
     assert!(
         (model.evaluate(&state, &out, "GFORCE(17,1,3,49)").expect("a value") + force).abs() < 1e-9 * force
     );
-    assert!(out.beyond.is_empty());
+    assert!(out.extrapolated.is_empty());
 }
 
 #[test]

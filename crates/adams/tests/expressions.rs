@@ -1,12 +1,12 @@
 //! Function expressions: grammar, values of functions, exact derivatives.
 
 use adams::functions::Function;
-use adams::{DataSet, Dual, Model, Scalar};
+use adams::{AdamsModel, DataSet, Dual, Scalar};
 
 fn evaluated(text: &str) -> f64 {
     let text = format!("one\nVARIABLE/1,FUN={text}\nEND\n");
     let set = DataSet::read(&text).unwrap_or_else(|error| panic!("{error}"));
-    let model = Model::new(&set).unwrap_or_else(|error| panic!("{error}"));
+    let model = AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"));
     model.solve(&model.initial()).unwrap_or_else(|error| panic!("{error}")).variables[&1]
 }
 
@@ -97,7 +97,7 @@ fn derivatives_are_those_of_the_values() {
             };
             let step = 1e-5;
             let slope = (moved(step) - moved(-step)) / (2.0 * step);
-            assert!((slope - exact.slope(k)).abs() < 1e-8 * (1.0 + slope.abs()), "{name} {k}: {slope}");
+            assert!((slope - exact.derivative(k)).abs() < 1e-8 * (1.0 + slope.abs()), "{name} {k}: {slope}");
         }
         assert_eq!(exact.value(), function.value(at).expect("a value"));
     }
@@ -108,7 +108,7 @@ fn values_that_are_not_finite_are_refused_by_name() {
     for text in ["1/(TIME-TIME)", "SQRT(TIME-1)", "LOG(0*TIME)", "EXP(1E5)", "(-8)**(1/3)", "STEP(0,1,0,1,1)"]
     {
         let set = DataSet::read(&format!("bad\nVARIABLE/31,FUN={text}\nEND\n")).expect("grammar");
-        let model = Model::new(&set).expect("names");
+        let model = AdamsModel::new(&set).expect("names");
         let error = model.solve(&model.initial());
         assert!(
             matches!(error, Err(adams::Error::In { statement: adams::StatementId { id: 31, .. }, .. })),
@@ -143,7 +143,7 @@ fn forces_are_read_on_either_side_and_in_any_frame() {
         ("AZ(2,1)*RTOD", 30.0),
     ] {
         let set = DataSet::read(&format!("{text}VARIABLE/1,FUN={expression}\nEND\n")).expect("grammar");
-        let model = Model::new(&set).unwrap_or_else(|error| panic!("{error}"));
+        let model = AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"));
         let out = model.solve(&model.initial()).unwrap_or_else(|error| panic!("{error}"));
         assert!(
             (out.variables[&1] - value).abs() < 1e-14 * value.abs().max(1.0),
@@ -161,7 +161,7 @@ fn forces_may_read_themselves_and_each_other() {
     // FX = -0.3 FZ; FZ = 10 + 0.5 FZ.
     let text = "self\nPART/1,GROUND\nMARKER/1,PART=1\nMARKER/9,PART=1,FLOATING\nPART/2\nMARKER/2,PART=2\n\
                 GFORCE/1,I=2,JFLOAT=9,RM=1,FX=-0.3*GFORCE(1,0,4,1)\\,FY=0\\,FZ=10+.5*GFORCE(1,0,4,1)\\,TX=0\\,TY=0\\,TZ=0\nEND\n";
-    let model = Model::new(&DataSet::read(text).expect("grammar")).expect("names");
+    let model = AdamsModel::new(&DataSet::read(text).expect("grammar")).expect("names");
     let out = model.solve(&model.initial()).expect("a solution");
     let [x, _, z, ..] = out.loads[&("GFORCE", 1)].components;
     assert!((x + 6.0).abs() < 1e-14 && (z - 20.0).abs() < 1e-14, "{x} {z}");

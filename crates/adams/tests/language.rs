@@ -1,7 +1,7 @@
 //! Data sets of other programs and our own are read, written and read again; wrong ones are refused with
 //! their place.
 
-use adams::{DataSet, Error, Fault, Statement, Value};
+use adams::{AdamsFault, ArgumentValue, DataSet, Error, Statement};
 
 fn read(text: &str) -> DataSet {
     DataSet::read(text).unwrap_or_else(|error| panic!("{error}"))
@@ -36,26 +36,29 @@ fn packed_and_abbreviated_statements_are_read_in_full() {
     let set = read(PACKED);
     assert_eq!(set.title, "Adams View model name: MOD1");
     let part = set.find("PART", 2).expect("a part");
-    assert_eq!(part.get("REULER"), Some(&Value::Degrees(vec![90.0, 0.0, 45.0])));
-    assert_eq!(part.get("MASS"), Some(&Value::Numbers(vec![2.07e5])));
+    assert_eq!(part.get("REULER"), Some(&ArgumentValue::Degrees(vec![90.0, 0.0, 45.0])));
+    assert_eq!(part.get("MASS"), Some(&ArgumentValue::Numbers(vec![2.07e5])));
     assert_eq!(set.find("PART", 1).and_then(|one| one.name.clone()).as_deref(), Some("ground"));
     let marker = set.find("MARKER", 3).expect("a marker");
-    assert_eq!(marker.get("QP"), Some(&Value::Numbers(vec![0.0, 0.0, 1.0])));
-    assert_eq!(set.find("MARKER", 4).and_then(|one| one.get("FLOATING")), Some(&Value::Flag));
+    assert_eq!(marker.get("QP"), Some(&ArgumentValue::Numbers(vec![0.0, 0.0, 1.0])));
+    assert_eq!(set.find("MARKER", 4).and_then(|one| one.get("FLOATING")), Some(&ArgumentValue::Flag));
     let spline = set.find("SPLINE", 6).expect("a table");
-    assert_eq!(spline.get("X"), Some(&Value::Numbers(vec![0.0, 1.0, 2.0, 3.0])));
+    assert_eq!(spline.get("X"), Some(&ArgumentValue::Numbers(vec![0.0, 1.0, 2.0, 3.0])));
     let gap = set.find("VARIABLE", 171).and_then(|one| one.get("FUNCTION"));
     let text = "DY(3,4)-GFORCE(17,0,3,3)*(-1.0)*AKISPL(DZ(3,4),0,6)";
-    assert_eq!(gap, Some(&Value::Function(text.to_owned())));
+    assert_eq!(gap, Some(&ArgumentValue::Function(text.to_owned())));
     let force = set.find("GFORCE", 17).expect("a force");
-    assert_eq!(force.get("FY"), Some(&Value::Function("IF(MODE-5:0,-1E8*(VARVAL(171)-1.25),0)".to_owned())));
-    assert_eq!(force.get("TZ"), Some(&Value::Function("0".to_owned())));
+    assert_eq!(
+        force.get("FY"),
+        Some(&ArgumentValue::Function("IF(MODE-5:0,-1E8*(VARVAL(171)-1.25),0)".to_owned()))
+    );
+    assert_eq!(force.get("TZ"), Some(&ArgumentValue::Function("0".to_owned())));
     let request = set.find("REQUEST", 5).expect("a request");
-    assert_eq!(request.get("CNAMES"), Some(&Value::Word("\"a, b\", \"c!\", \"d;\"".to_owned())));
-    assert_eq!(request.get("F2"), Some(&Value::Function("DX(3,4)*2.0".to_owned())));
+    assert_eq!(request.get("CNAMES"), Some(&ArgumentValue::Word("\"a, b\", \"c!\", \"d;\"".to_owned())));
+    assert_eq!(request.get("F2"), Some(&ArgumentValue::Function("DX(3,4)*2.0".to_owned())));
     let contact = set.find("CONTACT", 9).expect("kept");
-    assert_eq!(contact.get("JGEOM"), Some(&Value::Word("2, 3".to_owned())));
-    assert_eq!(contact.get("IMPACT"), Some(&Value::Flag));
+    assert_eq!(contact.get("JGEOM"), Some(&ArgumentValue::Word("2, 3".to_owned())));
+    assert_eq!(contact.get("IMPACT"), Some(&ArgumentValue::Flag));
     assert_eq!(set.count("INTEGRATOR"), 1);
     assert_eq!(set.statements.last().map(|one| one.keyword.as_str()), Some("ACCGRAV"));
 }
@@ -103,7 +106,7 @@ fn long_lists_and_expressions_are_broken_so_that_they_read_back() {
                 .function("F3", "0"),
             Statement::new("MARKER", 4)
                 .reference("PART", 1)
-                .with("REULER", Value::Degrees(vec![0.1, 0.0, -1e-9])),
+                .with("REULER", ArgumentValue::Degrees(vec![0.1, 0.0, -1e-9])),
         ],
     };
     round_trips(&set);
@@ -112,21 +115,21 @@ fn long_lists_and_expressions_are_broken_so_that_they_read_back() {
 #[test]
 fn faults_have_their_place() {
     for (text, line, column, fault) in [
-        ("t\nMARKER/1, PART=1, QP=0,0,q9\n", 2, 26, Fault::Argument),
-        ("t\nMARKER/1, PART=1, QP=0,0,\n", 2, 0, Fault::Text),
-        ("t\nMARKER/1, PART=1\n, PART=2\n", 3, 3, Fault::Repeated),
-        ("t\nMARKER/, PART=1\n", 2, 8, Fault::Id),
-        ("t\nMARKER/0, PART=1\n", 2, 8, Fault::Id),
-        ("t\nPART/1\nPART/1\n", 3, 1, Fault::Twice { id: 1 }),
-        ("t\nVARIABLE/1, FUNCTION = 1+\n,  (2*/3)\n", 3, 7, Fault::Text),
-        ("t\nVARIABLE/1, FUNCTION = DX(21\n,6,49)\n", 3, 2, Fault::Text),
-        ("t\nVARIABLE/1, FUNCTION = 1.2.3\n", 2, 24, Fault::Number),
-        ("t\nVARIABLE/1, FUNCTION = (1\n", 2, 26, Fault::Text),
-        ("t\nGFORCE/1, I=2.5\n", 2, 13, Fault::Id),
-        ("t\nPART/1, MASS=1E400\n", 2, 14, Fault::Number),
-        ("t\nPART/1, MASS 1\n", 2, 14, Fault::Text),
-        ("t\nPART/1 GROUND\n", 2, 8, Fault::Text),
-        ("t\nPART/1\nGROUND\n", 3, 1, Fault::Text),
+        ("t\nMARKER/1, PART=1, QP=0,0,q9\n", 2, 26, AdamsFault::Argument),
+        ("t\nMARKER/1, PART=1, QP=0,0,\n", 2, 0, AdamsFault::UnexpectedText),
+        ("t\nMARKER/1, PART=1\n, PART=2\n", 3, 3, AdamsFault::Repeated),
+        ("t\nMARKER/, PART=1\n", 2, 8, AdamsFault::Id),
+        ("t\nMARKER/0, PART=1\n", 2, 8, AdamsFault::Id),
+        ("t\nPART/1\nPART/1\n", 3, 1, AdamsFault::DuplicateId { id: 1 }),
+        ("t\nVARIABLE/1, FUNCTION = 1+\n,  (2*/3)\n", 3, 7, AdamsFault::UnexpectedText),
+        ("t\nVARIABLE/1, FUNCTION = DX(21\n,6,49)\n", 3, 2, AdamsFault::UnexpectedText),
+        ("t\nVARIABLE/1, FUNCTION = 1.2.3\n", 2, 24, AdamsFault::Number),
+        ("t\nVARIABLE/1, FUNCTION = (1\n", 2, 26, AdamsFault::UnexpectedText),
+        ("t\nGFORCE/1, I=2.5\n", 2, 13, AdamsFault::Id),
+        ("t\nPART/1, MASS=1E400\n", 2, 14, AdamsFault::Number),
+        ("t\nPART/1, MASS 1\n", 2, 14, AdamsFault::UnexpectedText),
+        ("t\nPART/1 GROUND\n", 2, 8, AdamsFault::UnexpectedText),
+        ("t\nPART/1\nGROUND\n", 3, 1, AdamsFault::UnexpectedText),
     ] {
         // A list that ends with a comma is complete: several commas count as one.
         if column == 0 {
@@ -212,7 +215,7 @@ fn any_pieces_in_any_order_are_read_or_refused_without_panic() {
         let Ok(set) = DataSet::read(&text) else { continue };
         kept += 1;
         // Models of the text do not panic either.
-        if let Ok(model) = adams::Model::new(&set) {
+        if let Ok(model) = adams::AdamsModel::new(&set) {
             let _ = model.solve(&model.initial());
         }
         if let Ok(printed) = set.write() {
@@ -236,7 +239,7 @@ fn listing_with_any_letter_damaged_is_read_or_refused_without_panic() {
         }
         let text: String = text.into_iter().collect();
         let Ok(set) = DataSet::read(&text) else { continue };
-        let Ok(model) = adams::Model::new(&set) else { continue };
+        let Ok(model) = adams::AdamsModel::new(&set) else { continue };
         if let Ok(out) = model.solve(&model.initial()) {
             assert!(out.loads.values().all(|load| load.components.iter().all(|value| value.is_finite())));
         }

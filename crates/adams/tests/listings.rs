@@ -2,7 +2,7 @@
 //! of their weak points. References: exact beam theory, and an independent interpolation of the printed table
 //! by AKISPL and CUBSPL as documented.
 
-use adams::{DataSet, Error, Family, Method, Model, Solution, State, tables};
+use adams::{AdamsModel, DataSet, Error, ModelState, Solution, SplineFunction, SplineMethod, tables};
 use nalgebra::Vector3;
 
 const FLEXIBLE: &str = include_str!("listings/flexible.adm");
@@ -12,16 +12,16 @@ const TABLES: &str = include_str!("../../../examples/bogie/printed.adm");
 /// The total load of all wheels, in lb.
 const WEIGHT: f64 = 4.8e6;
 
-fn model(listing: &str, tables: &str) -> Model {
+fn model(listing: &str, tables: &str) -> AdamsModel {
     let read = |text: &str| DataSet::read(text).unwrap_or_else(|error| panic!("{error}"));
     let mut set = read(listing);
     set.statements.extend(read(tables).statements.into_iter().filter(|one| one.keyword == "SPLINE"));
-    Model::new(&set).unwrap_or_else(|error| panic!("{error}"))
+    AdamsModel::new(&set).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The deflections of the trunnion at positions along the rail.
-fn sinks(model: &Model, places: &[f64]) -> Vec<f64> {
-    let path = model.path(places).unwrap_or_else(|error| panic!("{error}"));
+fn sinks(model: &AdamsModel, places: &[f64]) -> Vec<f64> {
+    let path = model.quasi_static_path(places).unwrap_or_else(|error| panic!("{error}"));
     path.iter().map(|one| 1.25 - one.state.parts[&2].origin.y).collect()
 }
 
@@ -64,9 +64,15 @@ fn fine() -> String {
     };
     let stations: Vec<f64> = (0..=240).map(|k| 0.25 * f64::from(k)).collect();
     let list = |z: &f64| stations.iter().map(|x| influence(*x, *z)).collect();
-    let curves = adams::Curves::new(stations.clone(), stations.clone(), stations.iter().map(list).collect());
-    let vertical =
-        adams::Spline { id: 6, name: None, units: None, linear: true, curves: curves.expect("stations") };
+    let curves =
+        adams::SplineValues::new(stations.clone(), stations.clone(), stations.iter().map(list).collect());
+    let vertical = adams::Spline {
+        id: 6,
+        name: None,
+        units: None,
+        linear_extrapolate: true,
+        curves: curves.expect("stations"),
+    };
     let lateral = adams::Spline { id: 7, ..vertical.clone() };
     let all = tables::write(&adams::Tables { title: None, units: None, splines: vec![vertical, lateral] });
     all.expect("two tables")
@@ -122,7 +128,7 @@ fn listing_differs_from_cross_terms_and_both_from_the_girder() {
 }
 
 /// A state with both wheels at a height over the rail, the trunnion at x.
-fn held(model: &Model, x: f64, height: f64) -> State {
+fn held(model: &AdamsModel, x: f64, height: f64) -> ModelState {
     let mut state = model.initial();
     for (part, along) in [(2, 0.0), (3, -4.0 / 3.0), (4, 4.0 / 3.0)] {
         state.parts.get_mut(&part).expect("a part").origin = Vector3::new(0.0, height, x + along);
@@ -130,7 +136,7 @@ fn held(model: &Model, x: f64, height: f64) -> State {
     state
 }
 
-fn solved(model: &Model, state: &State) -> Solution {
+fn solved(model: &AdamsModel, state: &ModelState) -> Solution {
     model.solve(state).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -206,22 +212,22 @@ fn girder_of_the_listing_carries_no_reaction() {
     let wheels: f64 = [17, 18].iter().map(|id| out.solution.loads[&("GFORCE", *id)].force.y).sum();
     near(wheels, WEIGHT, 0.1);
     // The rotations of both wheels are not determined.
-    assert_eq!(out.undetermined, 2);
+    assert_eq!(out.rank_deficiency, 2);
 }
 
 #[test]
 fn table_read_beyond_its_stations_is_said_and_depends_on_the_rule() {
     let all = tables::read(TABLES).expect("two tables");
     let mut spline = all.splines[0].clone();
-    let read = |spline: &adams::Spline| Family::new(spline, Method::Akima).read(80.0, 75.0, 0);
+    let read = |spline: &adams::Spline| SplineFunction::new(spline, SplineMethod::Akima).read(80.0, 75.0, 0);
     let tangent = read(&spline).expect("a value");
     near(tangent.value, 1.921e-7, 1e-10);
-    assert!(tangent.beyond);
-    spline.linear = false;
+    assert!(tangent.extrapolated);
+    spline.linear_extrapolate = false;
     near(read(&spline).expect("a value").value, 1.956e-7, 5e-11);
     let model = model(FLEXIBLE, TABLES);
     let out = solved(&model, &held(&model, 76.0, 1.0));
-    assert_eq!(out.beyond.into_iter().collect::<Vec<u32>>(), [6, 7]);
+    assert_eq!(out.extrapolated.into_iter().collect::<Vec<u32>>(), [6, 7]);
     // Without LINEAR_EXTRAPOLATE z must stay inside.
     let model = self::model(FLEXIBLE, &TABLES.replace(", LINEAR_EXTRAPOLATE\n", ""));
     let error = model.solve(&held(&model, 76.0, 1.0));
@@ -232,7 +238,7 @@ fn table_read_beyond_its_stations_is_said_and_depends_on_the_rule() {
 fn unread_cross_terms_are_not_symmetric() {
     // The largest |G(x, z) - G(z, x)| of AKISPL on wheels 32 in apart: 5.345e-9 ft/lb, at 15 ft.
     let all = tables::read(TABLES).expect("two tables");
-    let family = Family::new(&all.splines[0], Method::Akima);
+    let family = SplineFunction::new(&all.splines[0], SplineMethod::Akima);
     let read = |x: f64, z: f64| family.read(x, z, 0).expect("inside").value;
     let gap = |x: f64| (read(x, x + 8.0 / 3.0) - read(x + 8.0 / 3.0, x)).abs();
     let most = (0..=5600).map(|k| gap(0.01 * f64::from(k))).fold(0.0, f64::max);

@@ -2,7 +2,10 @@
 //! is refused with its place.
 
 use adams::tables::{read, write};
-use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
+use adams::{
+    AdamsFault, AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, Error, Spline, SplineValues,
+    StatementId, Tables,
+};
 
 /// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
 struct Random(u64);
@@ -15,20 +18,27 @@ impl Random {
 }
 
 /// A table of the form of the paper's: a sine in both directions, with all digits.
-fn table() -> Curves {
+fn table() -> SplineValues {
     let x: Vec<f64> = (0..7).map(|i| 15.0 * f64::from(i) - 15.0).collect();
     let y = x.iter().map(|z| x.iter().map(|x| 1e-7 * (x / 19.0).sin() * (z / 19.0).sin()).collect());
     let y = y.collect();
-    Curves::new(x.clone(), x, y).expect("increasing")
+    SplineValues::new(x.clone(), x, y).expect("increasing")
 }
 
 fn set(splines: Vec<Spline>) -> Tables {
-    let units = Units { force: Force::Pound, mass: Mass::Slug, length: Length::Foot };
+    let units =
+        AdamsUnits { force: AdamsForceUnit::Pound, mass: AdamsMassUnit::Slug, length: AdamsLengthUnit::Foot };
     Tables { title: Some("bridge_flex".into()), units: Some(units), splines }
 }
 
-fn spline(id: u32, curves: Curves) -> Spline {
-    Spline { id, name: Some(format!("vertical_{id}")), units: Some("no_units".into()), linear: true, curves }
+fn spline(id: u32, curves: SplineValues) -> Spline {
+    Spline {
+        id,
+        name: Some(format!("vertical_{id}")),
+        units: Some("no_units".into()),
+        linear_extrapolate: true,
+        curves,
+    }
 }
 
 fn bits(set: &Tables) -> Vec<u64> {
@@ -51,19 +61,19 @@ fn round_trips(set: &Tables) {
 #[test]
 fn data_set_reads_back_bit_for_bit() {
     let x = vec![0.0, 0.1, 1.0 / 3.0, 2e9];
-    let curve = Curves::new(x, Vec::new(), vec![vec![-0.0, 5e-324, f64::MAX, -1.5e-7]]);
+    let curve = SplineValues::new(x, Vec::new(), vec![vec![-0.0, 5e-324, f64::MAX, -1.5e-7]]);
     let mut plain = spline(4, curve.expect("four points"));
-    (plain.name, plain.units, plain.linear) = (None, None, false);
+    (plain.name, plain.units, plain.linear_extrapolate) = (None, None, false);
     round_trips(&set(vec![spline(6, table()), plain]));
     round_trips(&Tables { title: None, units: None, splines: vec![] });
     for (force, mass, length) in [
-        (Force::Newton, Mass::Kilogram, Length::Meter),
-        (Force::Kilonewton, Mass::Tonne, Length::Millimeter),
-        (Force::Kilopound, Mass::Slinch, Length::Inch),
-        (Force::Pound, Mass::Pound, Length::Foot),
+        (AdamsForceUnit::Newton, AdamsMassUnit::Kilogram, AdamsLengthUnit::Meter),
+        (AdamsForceUnit::Kilonewton, AdamsMassUnit::Tonne, AdamsLengthUnit::Millimeter),
+        (AdamsForceUnit::Kilopound, AdamsMassUnit::Slinch, AdamsLengthUnit::Inch),
+        (AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Foot),
     ] {
         let mut set = set(vec![]);
-        set.units = Some(Units { force, mass, length });
+        set.units = Some(AdamsUnits { force, mass, length });
         round_trips(&set);
     }
 }
@@ -83,7 +93,7 @@ fn random_bits_read_back() {
         x.sort_by(f64::total_cmp);
         x.dedup();
         let y = (0..3).map(|_| x.iter().map(|_| any()).collect()).collect();
-        round_trips(&set(vec![spline(1, Curves::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted"))]));
+        round_trips(&set(vec![spline(1, SplineValues::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted"))]));
     }
 }
 
@@ -122,14 +132,24 @@ SPLINE/9, X = nonsense
 ";
     let set = read(text).expect("readable");
     assert_eq!(set.title.as_deref(), Some("Adams View model name: girder"));
-    assert_eq!(set.units, Some(Units { force: Force::Pound, mass: Mass::Slug, length: Length::Foot }));
+    assert_eq!(
+        set.units,
+        Some(AdamsUnits {
+            force: AdamsForceUnit::Pound,
+            mass: AdamsMassUnit::Slug,
+            length: AdamsLengthUnit::Foot
+        })
+    );
     assert_eq!(set.splines.iter().map(|s| s.id).collect::<Vec<_>>(), [6, 7, 8]);
     let [six, seven, eight] = &set.splines[..] else { panic!("three splines") };
     assert_eq!((six.name.as_deref(), six.units.as_deref()), (Some("vertical"), Some("no_units")));
     assert_eq!(six.curves.x(), [-15.0, 0.0, 15.0, 30.0, 45.0]);
     assert_eq!(six.curves.z(), [0.0, 10.0]);
     assert_eq!(six.curves.y(), [vec![1e-7, 2.0, 3.0, 4.0, 5.0], vec![0.5, 0.25, 3.0, 4.0, 5.0]]);
-    assert_eq!((six.linear, seven.linear, eight.linear), (true, true, false));
+    assert_eq!(
+        (six.linear_extrapolate, seven.linear_extrapolate, eight.linear_extrapolate),
+        (true, true, false)
+    );
     assert_eq!((seven.curves.y()[0][0], &seven.name), (4.0, &None));
     assert_eq!(eight.curves.z(), [] as [f64; 0]);
 }
@@ -137,44 +157,44 @@ SPLINE/9, X = nonsense
 /// Each text with the line, column and fault of its error.
 #[test]
 fn faults_have_their_place() {
-    let points = |index| Fault::Spline { id: 6, source: Box::new(Fault::Order { index }) };
-    let few = Fault::Spline { id: 6, source: Box::new(Fault::Points { found: 3, least: 4 }) };
-    let cases: &[(&str, usize, usize, Fault)] = &[
-        ("t\nSPLINE/6, X=0,1,2,3\n, FILE=force.dac", 3, 3, Fault::File { id: 6 }),
-        ("t\nSPLINE/6, X=0,1,2,3\n, B=1", 3, 3, Fault::File { id: 6 }),
-        ("t\nSPLINE/6, X=0,1,2,3, Z=0", 2, 22, Fault::Argument),
-        ("t\nSPLINE/6, X=0,1,2,3, X=0", 2, 22, Fault::Repeated),
-        ("t\nSPLINE/6, LINEAR, LINEAR", 2, 19, Fault::Repeated),
-        ("t\nSPLINE/x", 2, 8, Fault::Id),
-        ("t\nSPLINE/0", 2, 8, Fault::Id),
-        ("t\nSPLINE/-3", 2, 8, Fault::Id),
-        ("t\nSPLINE/99999999999", 2, 8, Fault::Id),
-        ("t\nSPLINE/", 2, 7, Fault::Id),
-        ("t\nSPLINE/6, X=0,1,2,3, Y=0,1,2,3\nSPLINE/6", 3, 8, Fault::Twice { id: 6 }),
-        ("t\nSPLINE/6, X=0,1,2,3", 2, 8, Fault::NoY { id: 6 }),
-        ("t\nSPLINE/6\n, Y=0,1,2,3", 2, 8, Fault::NoX { id: 6 }),
-        ("t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2", 3, 3, Fault::Count { id: 6, found: 3, expected: 4 }),
+    let points = |index| AdamsFault::Spline { id: 6, source: Box::new(AdamsFault::Order { index }) };
+    let few = AdamsFault::Spline { id: 6, source: Box::new(AdamsFault::Points { found: 3, least: 4 }) };
+    let cases: &[(&str, usize, usize, AdamsFault)] = &[
+        ("t\nSPLINE/6, X=0,1,2,3\n, FILE=force.dac", 3, 3, AdamsFault::File { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3\n, B=1", 3, 3, AdamsFault::File { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3, Z=0", 2, 22, AdamsFault::Argument),
+        ("t\nSPLINE/6, X=0,1,2,3, X=0", 2, 22, AdamsFault::Repeated),
+        ("t\nSPLINE/6, LINEAR, LINEAR", 2, 19, AdamsFault::Repeated),
+        ("t\nSPLINE/x", 2, 8, AdamsFault::Id),
+        ("t\nSPLINE/0", 2, 8, AdamsFault::Id),
+        ("t\nSPLINE/-3", 2, 8, AdamsFault::Id),
+        ("t\nSPLINE/99999999999", 2, 8, AdamsFault::Id),
+        ("t\nSPLINE/", 2, 7, AdamsFault::Id),
+        ("t\nSPLINE/6, X=0,1,2,3, Y=0,1,2,3\nSPLINE/6", 3, 8, AdamsFault::DuplicateId { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3", 2, 8, AdamsFault::NoY { id: 6 }),
+        ("t\nSPLINE/6\n, Y=0,1,2,3", 2, 8, AdamsFault::NoX { id: 6 }),
+        ("t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2", 3, 3, AdamsFault::Count { id: 6, found: 3, expected: 4 }),
         (
             "t\nSPLINE/6, X=0,1,2,3\n, Y=0,1,2,3,4\n, Y=1,2",
             4,
             3,
-            Fault::Count { id: 6, found: 2, expected: 5 },
+            AdamsFault::Count { id: 6, found: 2, expected: 5 },
         ),
         ("t\nSPLINE/6, X=0,1,2, Y=0,1,2", 2, 8, few),
         ("t\nSPLINE/6, X=0,1,1,2, Y=0,1,2,3", 2, 8, points(2)),
         ("t\nSPLINE/6, X=0,1,2,3\n, Y=1,0,0,0,0\n, Y=1,0,0,0,0", 2, 8, points(1)),
-        ("t\nSPLINE/6, X=0,1,2,90D", 2, 19, Fault::Number),
-        ("t\nSPLINE/6, X=0,1,2,1e999", 2, 19, Fault::Number),
-        ("t\nSPLINE/6, X=0,1,2,1.2.3", 2, 19, Fault::Number),
-        ("t\nSPLINE/6, X=0 1", 2, 15, Fault::Text),
-        ("t\nSPLINE/6, X 0", 2, 11, Fault::Text),
-        ("t\nSPLINE/6, 5", 2, 11, Fault::Text),
-        ("t\nSPLINE/6, X=\"a\"", 2, 13, Fault::Text),
-        ("t\n  , X=1", 2, 3, Fault::Text),
-        ("t\nUNITS/FORCE=STONE", 2, 13, Fault::Unit),
-        ("t\nUNITS/FORCE=NEWTON", 2, 1, Fault::Unit),
-        ("t\nUNITS/UCF=1", 2, 7, Fault::Argument),
-        ("t\nUNITS/SYSTEM=CGS", 2, 14, Fault::Unit),
+        ("t\nSPLINE/6, X=0,1,2,90D", 2, 19, AdamsFault::Number),
+        ("t\nSPLINE/6, X=0,1,2,1e999", 2, 19, AdamsFault::Number),
+        ("t\nSPLINE/6, X=0,1,2,1.2.3", 2, 19, AdamsFault::Number),
+        ("t\nSPLINE/6, X=0 1", 2, 15, AdamsFault::UnexpectedText),
+        ("t\nSPLINE/6, X 0", 2, 11, AdamsFault::UnexpectedText),
+        ("t\nSPLINE/6, 5", 2, 11, AdamsFault::UnexpectedText),
+        ("t\nSPLINE/6, X=\"a\"", 2, 13, AdamsFault::UnexpectedText),
+        ("t\n  , X=1", 2, 3, AdamsFault::UnexpectedText),
+        ("t\nUNITS/FORCE=STONE", 2, 13, AdamsFault::Unit),
+        ("t\nUNITS/FORCE=NEWTON", 2, 1, AdamsFault::Unit),
+        ("t\nUNITS/UCF=1", 2, 7, AdamsFault::Argument),
+        ("t\nUNITS/SYSTEM=CGS", 2, 14, AdamsFault::Unit),
     ];
     for (text, line, column, fault) in cases {
         let expected = Error::At { line: *line, column: *column, fault: fault.clone() };

@@ -2,7 +2,10 @@
 //! else is refused with its place.
 
 use adams::view::{read, write};
-use adams::{Curves, Error, Fault, Force, Length, Mass, Spline, StatementId, Tables, Units};
+use adams::{
+    AdamsFault, AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, Error, Spline, SplineValues,
+    StatementId, Tables,
+};
 
 /// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
 struct Random(u64);
@@ -26,16 +29,24 @@ impl Random {
 }
 
 fn set(splines: Vec<Spline>) -> Tables {
-    let units = Units { force: Force::Pound, mass: Mass::Slug, length: Length::Foot };
+    let units =
+        AdamsUnits { force: AdamsForceUnit::Pound, mass: AdamsMassUnit::Slug, length: AdamsLengthUnit::Foot };
     Tables { title: Some("bridge_flex".into()), units: Some(units), splines }
 }
 
-fn spline(id: u32, curves: Curves) -> Spline {
-    Spline { id, name: Some(format!("vertical_{id}")), units: Some("no_units".into()), linear: true, curves }
+fn spline(id: u32, curves: SplineValues) -> Spline {
+    Spline {
+        id,
+        name: Some(format!("vertical_{id}")),
+        units: Some("no_units".into()),
+        linear_extrapolate: true,
+        curves,
+    }
 }
 
-fn four() -> Curves {
-    Curves::new(vec![0.0, 1.0, 2.0, 3.0], Vec::new(), vec![vec![1.0, 2.0, 3.0, 4.0]]).expect("increasing")
+fn four() -> SplineValues {
+    SplineValues::new(vec![0.0, 1.0, 2.0, 3.0], Vec::new(), vec![vec![1.0, 2.0, 3.0, 4.0]])
+        .expect("increasing")
 }
 
 fn round_trips(set: &Tables) {
@@ -61,17 +72,17 @@ fn commands_of_any_doubles_read_back_bit_for_bit() {
         x.sort_by(f64::total_cmp);
         x.dedup();
         let y = (0..3).map(|_| x.iter().map(|_| random.any()).collect()).collect();
-        let family = Curves::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted");
-        let plain = Spline { name: None, units: None, linear: false, ..spline(1, four()) };
+        let family = SplineValues::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted");
+        let plain = Spline { name: None, units: None, linear_extrapolate: false, ..spline(1, four()) };
         round_trips(&set(vec![spline(6, family), plain]));
     }
     for (force, mass, length) in [
-        (Force::Newton, Mass::Kilogram, Length::Meter),
-        (Force::Kilonewton, Mass::Tonne, Length::Millimeter),
-        (Force::Kilopound, Mass::Slinch, Length::Inch),
-        (Force::Pound, Mass::Pound, Length::Foot),
+        (AdamsForceUnit::Newton, AdamsMassUnit::Kilogram, AdamsLengthUnit::Meter),
+        (AdamsForceUnit::Kilonewton, AdamsMassUnit::Tonne, AdamsLengthUnit::Millimeter),
+        (AdamsForceUnit::Kilopound, AdamsMassUnit::Slinch, AdamsLengthUnit::Inch),
+        (AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Foot),
     ] {
-        let units = Some(Units { force, mass, length });
+        let units = Some(AdamsUnits { force, mass, length });
         round_trips(&Tables { units, ..set(vec![spline(4, four())]) });
     }
 }
@@ -109,13 +120,23 @@ data_elem cre spl spline_name=\"SPLINE_6\" adams_id=6 comments=\"a = b & c, (d)\
 default units length = inch
 ";
     let set = read(text).expect("readable");
-    assert_eq!(set.units, Some(Units { force: Force::Newton, mass: Mass::Kilogram, length: Length::Inch }));
+    assert_eq!(
+        set.units,
+        Some(AdamsUnits {
+            force: AdamsForceUnit::Newton,
+            mass: AdamsMassUnit::Kilogram,
+            length: AdamsLengthUnit::Inch
+        })
+    );
     assert_eq!(set.title.as_deref(), Some("crane"));
     let [force, six] = &set.splines[..] else { panic!("two splines") };
-    assert_eq!((force.id, force.name.as_deref(), force.linear), (7, Some("force"), false));
+    assert_eq!((force.id, force.name.as_deref(), force.linear_extrapolate), (7, Some("force"), false));
     assert_eq!((force.curves.x(), force.curves.z().len()), (&[-1.5, 0.0, 1.0, 2.0][..], 0));
     assert_eq!(force.curves.y()[0][0], 1e-7);
-    assert_eq!((six.id, &six.name, six.linear, six.units.as_deref()), (6, &None, true, Some("no_units")));
+    assert_eq!(
+        (six.id, &six.name, six.linear_extrapolate, six.units.as_deref()),
+        (6, &None, true, Some("no_units"))
+    );
     assert_eq!(six.curves.y(), [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0]]);
 }
 
@@ -123,41 +144,41 @@ default units length = inch
 #[test]
 fn faults_have_their_place() {
     let head = "data_element create spline ";
-    let few = Fault::Spline { id: 0, source: Box::new(Fault::Points { found: 3, least: 4 }) };
-    let order = Fault::Spline { id: 6, source: Box::new(Fault::Order { index: 2 }) };
-    let cases: &[(&str, usize, usize, Fault)] = &[
-        ("x=0,1,2,3 file_name=\"a.dac\"", 1, 38, Fault::File { id: 0 }),
-        ("x=0,1,2,3 colour=red", 1, 38, Fault::Argument),
-        ("x=0,1,2,3 x=0", 1, 38, Fault::Repeated),
-        ("adams_id=0 x=0,1,2,3", 1, 28, Fault::Id),
-        ("adams_id=-3", 1, 28, Fault::Id),
-        ("x=0,1,2,3", 1, 1, Fault::NoY { id: 0 }),
-        ("y=0,1,2,3", 1, 1, Fault::NoX { id: 0 }),
-        ("x=0,1,2,3 y=0,1,2", 1, 38, Fault::Count { id: 0, found: 3, expected: 4 }),
-        ("x=0,1,2,3 z=0,1 y=0,1,2,3", 1, 44, Fault::Count { id: 0, found: 4, expected: 8 }),
+    let few = AdamsFault::Spline { id: 0, source: Box::new(AdamsFault::Points { found: 3, least: 4 }) };
+    let order = AdamsFault::Spline { id: 6, source: Box::new(AdamsFault::Order { index: 2 }) };
+    let cases: &[(&str, usize, usize, AdamsFault)] = &[
+        ("x=0,1,2,3 file_name=\"a.dac\"", 1, 38, AdamsFault::File { id: 0 }),
+        ("x=0,1,2,3 colour=red", 1, 38, AdamsFault::Argument),
+        ("x=0,1,2,3 x=0", 1, 38, AdamsFault::Repeated),
+        ("adams_id=0 x=0,1,2,3", 1, 28, AdamsFault::Id),
+        ("adams_id=-3", 1, 28, AdamsFault::Id),
+        ("x=0,1,2,3", 1, 1, AdamsFault::NoY { id: 0 }),
+        ("y=0,1,2,3", 1, 1, AdamsFault::NoX { id: 0 }),
+        ("x=0,1,2,3 y=0,1,2", 1, 38, AdamsFault::Count { id: 0, found: 3, expected: 4 }),
+        ("x=0,1,2,3 z=0,1 y=0,1,2,3", 1, 44, AdamsFault::Count { id: 0, found: 4, expected: 8 }),
         ("x=0,1,2 y=0,1,2", 1, 1, few),
         ("adams_id=6 x=0,1,1,2 y=0,1,2,3", 1, 1, order),
-        ("x=0,1,2,3mm y=0,1,2,3", 1, 36, Fault::Number),
-        ("x=0,1,2,\"3\" y=0,1,2,3", 1, 36, Fault::Number),
-        ("x=0,1,2,1e999 y=0,1,2,3", 1, 36, Fault::Number),
-        ("x=0,1,2,(3) y=0,1,2,3", 1, 36, Fault::Text),
-        ("x=0 1", 1, 32, Fault::Text),
-        ("&\n  5", 2, 3, Fault::Text),
-        ("spline_name=\"a", 1, 40, Fault::Text),
-        ("linear_extrapolate=maybe x=0,1,2,3 y=0,1,2,3", 1, 47, Fault::Text),
-        ("spline_name=.a.b, c x=0", 1, 46, Fault::Text),
-        ("spline_name= x=0", 1, 28, Fault::Text),
+        ("x=0,1,2,3mm y=0,1,2,3", 1, 36, AdamsFault::Number),
+        ("x=0,1,2,\"3\" y=0,1,2,3", 1, 36, AdamsFault::Number),
+        ("x=0,1,2,1e999 y=0,1,2,3", 1, 36, AdamsFault::Number),
+        ("x=0,1,2,(3) y=0,1,2,3", 1, 36, AdamsFault::UnexpectedText),
+        ("x=0 1", 1, 32, AdamsFault::UnexpectedText),
+        ("&\n  5", 2, 3, AdamsFault::UnexpectedText),
+        ("spline_name=\"a", 1, 40, AdamsFault::UnexpectedText),
+        ("linear_extrapolate=maybe x=0,1,2,3 y=0,1,2,3", 1, 47, AdamsFault::UnexpectedText),
+        ("spline_name=.a.b, c x=0", 1, 46, AdamsFault::UnexpectedText),
+        ("spline_name= x=0", 1, 28, AdamsFault::UnexpectedText),
     ];
     for (text, line, column, fault) in cases {
         let expected = Error::At { line: *line, column: *column, fault: fault.clone() };
         assert_eq!(read(&format!("{head}{text}")), Err(expected), "{text}");
     }
     let twice = format!("{head}adams_id=6 x=0,1,2,3 y=0,1,2,3\n").repeat(2);
-    assert_eq!(read(&twice), Err(Error::At { line: 2, column: 1, fault: Fault::Twice { id: 6 } }));
+    assert_eq!(read(&twice), Err(Error::At { line: 2, column: 1, fault: AdamsFault::DuplicateId { id: 6 } }));
     let changed = "data_element modify spline spline_name=a x=1";
-    assert_eq!(read(changed), Err(Error::At { line: 1, column: 1, fault: Fault::Changed }));
+    assert_eq!(read(changed), Err(Error::At { line: 1, column: 1, fault: AdamsFault::Changed }));
     for (text, column) in [("defaults units length=cubit", 23), ("defaults units force=n time=hour", 29)] {
-        assert_eq!(read(text), Err(Error::At { line: 1, column, fault: Fault::Unit }), "{text}");
+        assert_eq!(read(text), Err(Error::At { line: 1, column, fault: AdamsFault::Unit }), "{text}");
     }
 }
 

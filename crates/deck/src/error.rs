@@ -32,7 +32,7 @@ pub enum Error {
         /// What it belongs to.
         name: String,
         /// What is wrong with it.
-        fault: adams::Fault,
+        fault: adams::AdamsFault,
     },
     /// The text of a deck cannot be read or executed.
     #[error(transparent)]

@@ -54,7 +54,7 @@ pub enum Error {
     },
     /// All wheel pairs are at the guide, so that the crane has no centre of rotation behind it.
     #[error("no wheel pair lies behind the guide")]
-    NoReach,
+    NoRotationCentre,
     /// A series and its times differ in length.
     #[error("series {series} has {found} samples, expected {expected}")]
     Samples {

@@ -47,10 +47,12 @@ pub mod fatigue;
 mod signals;
 
 pub use codes::{aist, buffer, cmaa, crane, drive, duty, factor, osha, skew};
-pub use crane::{Crane, WheelLoads};
+pub use crane::{Crane, StaticWheelLoads};
 pub use error::{Argument, Error};
-pub use fatigue::{Cycle, Damage, History, Point, Section, Strength, aisc, rainflow, stress};
+pub use fatigue::{
+    Cycle, Damage, Repetition, SectionPoint, SectionProperties, Strength, aisc, rainflow, stress,
+};
 pub use signals::{
-    Decay, Excursions, Extremes, Instant, Mark, Response, Run, Tone, View, decay, dominant, envelope,
-    excursions, low_pass, mean, resample, response,
+    Decay, Excursions, ExtremeInstant, Extremes, ResponseCharacteristics, ResponseSettings, RunHistories,
+    SineComponent, TimedValue, decay, dominant, envelope, excursions, low_pass, mean, resample, response,
 };

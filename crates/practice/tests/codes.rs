@@ -1,8 +1,8 @@
 //! Values of codes: published numbers, equilibrium, closed forms.
 
-use practice::aist::{self, Building, Kind};
-use practice::factor::{self, Hoisting, Onset, Release};
-use practice::skew::{self, Guide, Pairs};
+use practice::aist::{self, BuildingClass, CraneKind};
+use practice::factor::{self, DriveOnset, HoistingClass, Release};
+use practice::skew::{self, Guide, WheelPairs};
 use practice::{Crane, Error, buffer, cmaa, drive, duty, osha};
 
 const FOOT: f64 = 0.3048;
@@ -25,14 +25,14 @@ fn the_worked_case_comes_out_to_its_digits() -> Result<(), Error> {
     close(loads.near, 161.23913, 5e-6);
     close(loads.far, 53.76087, 5e-6);
     close(2.0 * (loads.near + loads.far), crane.weight(), 1e-12);
-    close(aist::with_impact(Kind::MotorRoom, loads.near)?, 193.487, 5e-4);
-    let thrust = aist::side_thrust(Kind::MotorRoom, &crane)?;
+    close(aist::with_impact(CraneKind::MotorRoom, loads.near)?, 193.487, 5e-4);
+    let thrust = aist::side_thrust(CraneKind::MotorRoom, &crane)?;
     close(thrust.lifted, 60.0, 1e-12);
     close(thrust.trolley, 48.0, 1e-12);
     close(thrust.crane, 43.0, 1e-12);
     close(thrust.governing(), 60.0, 1e-12);
     let driven = [loads.near, loads.near, loads.far, loads.far];
-    close(aist::tractive_force(Kind::MotorRoom, &driven)?, 86.0, 1e-12);
+    close(aist::tractive_force(CraneKind::MotorRoom, &driven)?, 86.0, 1e-12);
     // The CMAA factors of the same crane, at 4 and 30 m/min, are at their lower bounds.
     close(cmaa::hoist_load_factor(4.0 / 60.0)?, 0.15, 0.0);
     close(cmaa::dead_load_factor(30.0 / 60.0)?, 1.1, 0.0);
@@ -44,10 +44,10 @@ fn any_of_the_three_side_thrusts_can_govern() -> Result<(), Error> {
     let crane = maintenance();
     let heavy_trolley = Crane { trolley: 200.0, ..crane };
     let heavy_bridge = Crane { bridge: 700.0, ..crane };
-    close(aist::side_thrust(Kind::MotorRoom, &heavy_trolley)?.governing(), 0.2 * 400.0, 1e-12);
-    close(aist::side_thrust(Kind::MotorRoom, &heavy_bridge)?.governing(), 0.1 * 940.0, 1e-12);
-    close(aist::side_thrust(Kind::Mill, &crane)?.governing(), 80.0, 1e-12);
-    close(aist::with_impact(Kind::Mill, 100.0)?, 125.0, 1e-12);
+    close(aist::side_thrust(CraneKind::MotorRoom, &heavy_trolley)?.governing(), 0.2 * 400.0, 1e-12);
+    close(aist::side_thrust(CraneKind::MotorRoom, &heavy_bridge)?.governing(), 0.1 * 940.0, 1e-12);
+    close(aist::side_thrust(CraneKind::Mill, &crane)?.governing(), 80.0, 1e-12);
+    close(aist::with_impact(CraneKind::Mill, 100.0)?, 125.0, 1e-12);
     Ok(())
 }
 
@@ -67,13 +67,13 @@ fn a_crane_without_load_stands_on_its_dead_weight() -> Result<(), Error> {
 fn hoisting_factors_are_those_of_the_table() -> Result<(), Error> {
     // External: EN 1991-3, Table 2.5, at 0.2 m/s.
     let expected = [1.084, 1.168, 1.252, 1.336];
-    for (class, expected) in Hoisting::ALL.into_iter().zip(expected) {
+    for (class, expected) in HoistingClass::ALL.into_iter().zip(expected) {
         close(factor::phi2(class, 0.2)?, expected, 1e-12);
     }
     close(factor::phi6(1.168)?, 1.084, 1e-12);
     close(factor::phi3(0.5, 1.0, Release::Slow)?, 0.25, 1e-12);
     close(factor::phi3(1.0, 1.0, Release::Rapid)?, -1.0, 1e-12);
-    assert_eq!(factor::phi5(Onset::Smooth), [1.0, 1.5]);
+    assert_eq!(factor::phi5(DriveOnset::Smooth), [1.0, 1.5]);
     Ok(())
 }
 
@@ -89,7 +89,7 @@ fn a_spring_buffer_meets_the_energy_balance() -> Result<(), Error> {
     close(buffer::phi7(0.5)?, 1.25, 0.0);
     close(buffer::phi7(1.0)?, 1.6, 1e-12);
     close(buffer::trolley_force(200.0, 40.0)?, 24.0, 1e-12);
-    let code = buffer::buffer_force(buffer::phi7(0.2)?, buffer::SPEED * 2.0, mass, stiffness)?;
+    let code = buffer::buffer_force(buffer::phi7(0.2)?, buffer::END_STOP_SPEED * 2.0, mass, stiffness)?;
     close(code, 1.25 * force, 1e-6);
     Ok(())
 }
@@ -97,7 +97,7 @@ fn a_spring_buffer_meets_the_energy_balance() -> Result<(), Error> {
 #[test]
 fn forces_of_acceleration_turn_nothing() -> Result<(), Error> {
     // Independent: the couple of the drives about the middle against the couples of both rails at the guides.
-    let travel = drive::Travel {
+    let travel = drive::AcceleratingCrane {
         span: 18.0,
         guides: 4.0,
         heavy: 280.0,
@@ -109,7 +109,7 @@ fn forces_of_acceleration_turn_nothing() -> Result<(), Error> {
     let forces = drive::traction(&travel)?;
     close(travel.drive, 12.0, 1e-12);
     close(forces.along, 9.0, 1e-12);
-    close(forces.share, 0.7, 1e-12);
+    close(forces.fraction, 0.7, 1e-12);
     close(forces.moment, 12.0 * 0.2 * 18.0, 1e-12);
     close((forces.heavy + forces.light) * travel.guides, travel.factor * forces.moment, 1e-12);
     close(forces.heavy / forces.light, 0.3 / 0.7, 1e-12);
@@ -120,7 +120,7 @@ fn forces_of_acceleration_turn_nothing() -> Result<(), Error> {
 fn friction_of_skewing_grows_from_250_alpha_to_its_end() -> Result<(), Error> {
     close(skew::friction(1e-9)? / 1e-9, 75.0, 1e-4);
     // External: 0.2929 at the largest angle.
-    close(skew::friction(skew::MOST)?, 0.3 * (1.0 - (-3.75_f64).exp()), 1e-15);
+    close(skew::friction(skew::MAX_ANGLE)?, 0.3 * (1.0 - (-3.75_f64).exp()), 1e-15);
     close(skew::friction(1.0)?, 0.3, 1e-12);
     // 20 mm of slack, 60 mm of head, 4 m between flanges.
     close(skew::angle(Guide::Flanges, 0.02, 0.06, 4.0)?, (0.015 + 0.006) / 4.0 + 0.001, 1e-15);
@@ -132,7 +132,9 @@ fn friction_of_skewing_grows_from_250_alpha_to_its_end() -> Result<(), Error> {
 fn forces_of_skewing_balance_across_and_about_the_guide() -> Result<(), Error> {
     let (span, share) = (18.0, 0.7);
     for pairs in [vec![0.0, 4.0], vec![0.5, 2.5, 5.0], vec![1.0, 1.0, 6.0, 6.5]] {
-        for kind in [Pairs::AloneFixed, Pairs::AloneFree, Pairs::CoupledFixed, Pairs::CoupledFree] {
+        for kind in
+            [WheelPairs::AloneFixed, WheelPairs::AloneFree, WheelPairs::CoupledFixed, WheelPairs::CoupledFree]
+        {
             let forces = skew::skewing(kind, span, share, &pairs)?;
             let across: f64 = forces.across.iter().map(|pair| pair[0] + pair[1]).sum();
             close(across, forces.guide, 1e-12);
@@ -143,8 +145,8 @@ fn forces_of_skewing_balance_across_and_about_the_guide() -> Result<(), Error> {
         }
     }
     // External: a crane with two separately driven pairs, the first at the guide, rotates about the second.
-    let two = skew::skewing(Pairs::AloneFixed, span, share, &[0.0, 4.0])?;
-    close(two.reach, 4.0, 1e-12);
+    let two = skew::skewing(WheelPairs::AloneFixed, span, share, &[0.0, 4.0])?;
+    close(two.rotation_distance, 4.0, 1e-12);
     close(two.guide, 0.5, 1e-12);
     close(two.across[0][0], 0.15, 1e-12);
     close(two.across[0][1], 0.35, 1e-12);
@@ -173,8 +175,8 @@ fn cmaa_and_osha_agree_with_their_feet() -> Result<(), Error> {
 
 #[test]
 fn limits_of_runways_and_frames_are_those_of_tr_13() -> Result<(), Error> {
-    assert_eq!(aist::runway_vertical(Building::B), 1000.0);
-    assert_eq!(aist::runway_vertical(Building::C), 600.0);
+    assert_eq!(aist::runway_vertical(BuildingClass::B), 1000.0);
+    assert_eq!(aist::runway_vertical(BuildingClass::C), 600.0);
     close(aist::drift(12.0)?, 0.03, 1e-15);
     close(aist::drift(40.0)?, 0.0508, 1e-15);
     Ok(())
@@ -185,12 +187,12 @@ fn damage_equivalent_loads_follow_their_classes() -> Result<(), Error> {
     // Each class doubles the damage of the one below: by cubes for normal stresses, by fifth powers for
     // shear.
     for index in 0..10 {
-        let class = duty::Duty::new(index).expect("there are ten");
+        let class = duty::FatigueClass::new(index).expect("there are ten");
         let doublings = f64::from(index) - 7.0;
         close(class.normal(), (doublings / 3.0).exp2(), 5e-4);
         close(class.shear(), (doublings / 5.0).exp2(), 8e-4);
     }
-    assert_eq!(duty::Duty::new(10), None);
+    assert_eq!(duty::FatigueClass::new(10), None);
     close(duty::equivalent_load(100.0, 0.5, duty::fatigue_factor(1.1)?)?, 52.5, 1e-12);
     Ok(())
 }
@@ -201,12 +203,12 @@ fn numbers_that_make_no_sense_are_refused() {
     assert!(matches!(Crane { wheels: 0, ..crane }.wheel_loads(1.0, 1.0), Err(Error::Range { .. })));
     assert!(Crane { approach: 24.0, ..crane }.wheel_loads(1.0, 1.0).is_err());
     assert!(Crane { lifted: f64::NAN, ..crane }.wheel_loads(1.0, 1.0).is_err());
-    assert!(factor::phi2(Hoisting::Hc1, f64::INFINITY).is_err());
+    assert!(factor::phi2(HoistingClass::Hc1, f64::INFINITY).is_err());
     assert!(factor::phi3(2.0, 1.0, Release::Slow).is_err());
     assert!(buffer::phi7(1.1).is_err());
     assert!(buffer::stopping_force(1.0, 1.0, 0.0, 0.5).is_err());
-    assert_eq!(skew::skewing(Pairs::AloneFixed, 10.0, 0.5, &[]), Err(Error::NoReach));
-    assert_eq!(skew::skewing(Pairs::CoupledFree, 10.0, 0.5, &[0.0]), Err(Error::NoReach));
+    assert_eq!(skew::skewing(WheelPairs::AloneFixed, 10.0, 0.5, &[]), Err(Error::NoRotationCentre));
+    assert_eq!(skew::skewing(WheelPairs::CoupledFree, 10.0, 0.5, &[0.0]), Err(Error::NoRotationCentre));
     assert!(osha::brake_distance(-1.0).is_err());
     assert!(aist::drift(0.0).is_err());
 }

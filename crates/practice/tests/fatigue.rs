@@ -1,9 +1,9 @@
 //! Rainflow counts, strength curves, damage, stresses.
 
-use practice::fatigue::{CATEGORIES, END, KNEE, REFERENCE, Stress};
+use practice::fatigue::{CATEGORIES, CUT_OFF_CYCLES, LIMIT_CYCLES, REFERENCE_CYCLES, Stress};
 use practice::rainflow::ranges;
 use practice::stress::{direct, weights};
-use practice::{Cycle, Error, History, Point, Section, Strength, rainflow};
+use practice::{Cycle, Error, Repetition, SectionPoint, SectionProperties, Strength, rainflow};
 
 fn close(found: f64, expected: f64, slack: f64) {
     assert!((found - expected).abs() <= slack, "{found} is not {expected}");
@@ -57,7 +57,7 @@ fn table(counts: &[[f64; 2]]) -> Vec<f64> {
 #[test]
 fn the_published_history_is_counted_exactly() -> Result<(), Error> {
     // External: ASTM E1049-85, Figure 6.
-    let cycles = rainflow(&PUBLISHED, History::Once)?;
+    let cycles = rainflow(&PUBLISHED, Repetition::Once)?;
     assert_eq!(ranges(&cycles), [[3.0, 0.5], [4.0, 1.5], [6.0, 0.5], [8.0, 1.0], [9.0, 0.5]]);
     let whole: Vec<&Cycle> = cycles.iter().filter(|cycle| cycle.count == 1.0).collect();
     assert_eq!(whole.len(), 1);
@@ -68,7 +68,7 @@ fn the_published_history_is_counted_exactly() -> Result<(), Error> {
 #[test]
 fn the_published_history_repeated_is_counted_exactly() -> Result<(), Error> {
     // External: ASTM E1049-85, Figure 7.
-    let cycles = rainflow(&PUBLISHED, History::Repeated)?;
+    let cycles = rainflow(&PUBLISHED, Repetition::Repeated)?;
     assert_eq!(ranges(&cycles), [[3.0, 1.0], [4.0, 1.0], [7.0, 1.0], [9.0, 1.0]]);
     Ok(())
 }
@@ -92,7 +92,7 @@ fn another_program_counts_the_same() -> Result<(), Error> {
         [0.7809330293159786, 0.5],
         [1.4343610172143002, 0.5],
     ];
-    let found = ranges(&rainflow(&signal, History::Once)?);
+    let found = ranges(&rainflow(&signal, Repetition::Once)?);
     assert_eq!(found.len(), expected.len());
     for (found, expected) in found.iter().zip(expected) {
         close(found[0], expected[0], 1e-14);
@@ -120,7 +120,7 @@ fn four_points_count_what_three_points_count() -> Result<(), Error> {
                     points.push(value);
                 }
             }
-            let found = ranges(&rainflow(&values, History::Once)?);
+            let found = ranges(&rainflow(&values, Repetition::Once)?);
             assert_eq!(table(&found), table(&by_three_points(&points)), "seed {seed}, {levels} levels");
         }
     }
@@ -131,9 +131,9 @@ fn four_points_count_what_three_points_count() -> Result<(), Error> {
 fn a_repeated_history_closes_wherever_it_begins() -> Result<(), Error> {
     for seed in 0..50 {
         let values = history(seed, 60, 40);
-        let counts = ranges(&rainflow(&values, History::Repeated)?);
+        let counts = ranges(&rainflow(&values, Repetition::Repeated)?);
         let turned: Vec<f64> = values[23..].iter().chain(&values[..23]).copied().collect();
-        assert_eq!(counts, ranges(&rainflow(&turned, History::Repeated)?), "seed {seed}");
+        assert_eq!(counts, ranges(&rainflow(&turned, Repetition::Repeated)?), "seed {seed}");
         assert!(counts.iter().all(|pair| pair[1].fract() == 0.0), "halves make wholes");
     }
     Ok(())
@@ -141,13 +141,13 @@ fn a_repeated_history_closes_wherever_it_begins() -> Result<(), Error> {
 
 #[test]
 fn between_turning_points_nothing_counts() -> Result<(), Error> {
-    let coarse = rainflow(&[0.0, 10.0, 4.0, 12.0, 0.0], History::Once)?;
-    let fine = rainflow(&[0.0, 3.0, 3.0, 10.0, 7.0, 5.0, 4.0, 4.0, 9.0, 12.0, 1.0, 0.0], History::Once)?;
+    let coarse = rainflow(&[0.0, 10.0, 4.0, 12.0, 0.0], Repetition::Once)?;
+    let fine = rainflow(&[0.0, 3.0, 3.0, 10.0, 7.0, 5.0, 4.0, 4.0, 9.0, 12.0, 1.0, 0.0], Repetition::Once)?;
     assert_eq!(ranges(&coarse), ranges(&fine));
     assert_eq!(ranges(&coarse), [[6.0, 1.0], [12.0, 1.0]]);
-    assert_eq!(rainflow(&[5.0; 8], History::Repeated)?, []);
-    assert_eq!(rainflow(&[], History::Repeated)?, []);
-    assert_eq!(rainflow(&[1.0, f64::NAN], History::Once), Err(Error::Number { series: 0, sample: 1 }));
+    assert_eq!(rainflow(&[5.0; 8], Repetition::Repeated)?, []);
+    assert_eq!(rainflow(&[], Repetition::Repeated)?, []);
+    assert_eq!(rainflow(&[1.0, f64::NAN], Repetition::Once), Err(Error::Number { series: 0, sample: 1 }));
     Ok(())
 }
 
@@ -156,12 +156,12 @@ fn a_strength_curve_goes_through_its_corners() -> Result<(), Error> {
     for category in CATEGORIES {
         let curve = Strength::new(Stress::Direct, category, 1.0, 1.0)?;
         // External: EN 1993-1-9, 7.1: 0.737, and 0.549 of that.
-        close(curve.limit() / category, 0.737, 5e-4);
-        close(curve.cut_off() / curve.limit(), 0.549, 5e-4);
-        close(1.0 / curve.damage(category)?, REFERENCE, 1e-3);
-        close(1.0 / curve.damage(curve.limit())?, KNEE, 1e-2);
-        close(1.0 / curve.damage(curve.limit() * (1.0 - 1e-15))?, KNEE, 1e-2);
-        close(1.0 / curve.damage(curve.cut_off() * (1.0 + 1e-12))?, END, 1.0);
+        close(curve.fatigue_limit() / category, 0.737, 5e-4);
+        close(curve.cut_off() / curve.fatigue_limit(), 0.549, 5e-4);
+        close(1.0 / curve.damage(category)?, REFERENCE_CYCLES, 1e-3);
+        close(1.0 / curve.damage(curve.fatigue_limit())?, LIMIT_CYCLES, 1e-2);
+        close(1.0 / curve.damage(curve.fatigue_limit() * (1.0 - 1e-15))?, LIMIT_CYCLES, 1e-2);
+        close(1.0 / curve.damage(curve.cut_off() * (1.0 + 1e-12))?, CUT_OFF_CYCLES, 1.0);
         assert_eq!(curve.damage(curve.cut_off())?, 0.0);
         close(curve.damage(2.0 * category)? / curve.damage(category)?, 8.0, 1e-12);
         close(curve.damage(0.8 * category)?, 0.8_f64.powi(3) / 2e6, 1e-18);
@@ -169,7 +169,7 @@ fn a_strength_curve_goes_through_its_corners() -> Result<(), Error> {
     }
     let shear = Strength::new(Stress::Shear, 100.0, 1.0, 1.0)?;
     close(shear.cut_off(), 45.7, 0.05);
-    close(1.0 / shear.damage(100.0)?, REFERENCE, 1e-3);
+    close(1.0 / shear.damage(100.0)?, REFERENCE_CYCLES, 1e-3);
     close(shear.equivalent(1e6 * shear.damage(80.0)?)?, 80.0 * 0.5_f64.powf(0.2), 1e-9);
     close(shear.damage(90.0)? / shear.damage(60.0)?, 1.5_f64.powi(5), 1e-9);
     Ok(())
@@ -187,20 +187,20 @@ fn partial_factors_count_on_either_side() -> Result<(), Error> {
 fn miners_sum_and_its_equivalent_range_belong_together() -> Result<(), Error> {
     let curve = Strength::new(Stress::Direct, 71.0, 1.0, 1.0)?;
     // Two ranges of 100 as half cycles, and one of 20 below the cut-off.
-    let cycles = rainflow(&[0.0, 100.0, 0.0, 100.0, 80.0, 100.0, 0.0], History::Once)?;
+    let cycles = rainflow(&[0.0, 100.0, 0.0, 100.0, 80.0, 100.0, 0.0], Repetition::Once)?;
     let damage = curve.miner(&cycles)?;
-    close(damage.most, 100.0, 0.0);
+    close(damage.largest_range, 100.0, 0.0);
     let one = (100.0_f64 / 71.0).powi(3) / 2e6;
     close(damage.sum, 2.0 * one, 1e-18);
-    assert!(!damage.endures);
+    assert!(!damage.below_limit);
     close(damage.repeats().expect("there is damage"), 1.0 / (2.0 * one), 1e-3);
     // 1e6 cycles of the range are worth 2e6 of the range by the cube root of a half.
     close(curve.equivalent(1e6 * one)?, 100.0 * 0.5_f64.cbrt(), 1e-9);
     close(curve.equivalent(1.0)?, 71.0, 1e-12);
-    let small = curve.miner(&rainflow(&[0.0, 50.0, 0.0], History::Once)?)?;
-    assert!(small.endures && small.sum > 0.0);
-    assert!(!curve.miner(&rainflow(&[0.0, 60.0, 0.0], History::Once)?)?.endures);
-    let none = curve.miner(&rainflow(&[0.0, 20.0, 0.0], History::Once)?)?;
+    let small = curve.miner(&rainflow(&[0.0, 50.0, 0.0], Repetition::Once)?)?;
+    assert!(small.below_limit && small.sum > 0.0);
+    assert!(!curve.miner(&rainflow(&[0.0, 60.0, 0.0], Repetition::Once)?)?.below_limit);
+    let none = curve.miner(&rainflow(&[0.0, 20.0, 0.0], Repetition::Once)?)?;
     assert_eq!((none.sum, none.repeats()), (0.0, None));
     assert!(Strength::new(Stress::Direct, 0.0, 1.0, 1.0).is_err());
     Ok(())
@@ -210,7 +210,7 @@ fn miners_sum_and_its_equivalent_range_belong_together() -> Result<(), Error> {
 fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     // Independent: integrate over a rectangle by midpoints; M_y = sum z sigma, M_z = -sum y sigma.
     let (height, width) = (0.6, 0.3);
-    let section = Section {
+    let section = SectionProperties {
         area: height * width,
         iy: height * width * width * width / 12.0,
         iz: width * height * height * height / 12.0,
@@ -222,7 +222,7 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     let (mut n, mut my, mut mz) = (0.0, 0.0, 0.0);
     for i in 0..count {
         for j in 0..count {
-            let point = Point { y: place(i, height), z: place(j, width) };
+            let point = SectionPoint { y: place(i, height), z: place(j, width) };
             let force = direct(&section, point, forces)? * cell;
             n += force;
             my += point.z * force;
@@ -233,10 +233,12 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
     close(my, 35.0, 35.0 * 3e-5);
     close(mz, -90.0, 90.0 * 3e-5);
     // A positive Mz causes tension at -y, a positive My at +z.
-    assert!(weights(&section, Point { y: -0.3, z: 0.0 })?[5] > 0.0);
-    assert!(weights(&section, Point { y: 0.0, z: 0.15 })?[4] > 0.0);
-    assert!(direct(&Section { area: 0.0, ..section }, Point { y: 0.0, z: 0.0 }, forces).is_err());
-    assert!(direct(&section, Point { y: 0.0, z: 0.0 }, [f64::NAN; 6]).is_err());
+    assert!(weights(&section, SectionPoint { y: -0.3, z: 0.0 })?[5] > 0.0);
+    assert!(weights(&section, SectionPoint { y: 0.0, z: 0.15 })?[4] > 0.0);
+    assert!(
+        direct(&SectionProperties { area: 0.0, ..section }, SectionPoint { y: 0.0, z: 0.0 }, forces).is_err()
+    );
+    assert!(direct(&section, SectionPoint { y: 0.0, z: 0.0 }, [f64::NAN; 6]).is_err());
     Ok(())
 }
 
@@ -244,9 +246,9 @@ fn stresses_add_up_to_the_forces_they_come_from() -> Result<(), Error> {
 /// at 4.4 million cycles, of category A 24 ksi at 1.8 million.
 #[test]
 fn categories_of_aisc_meet_their_thresholds_where_they_are_known_to() {
-    use practice::aisc::{Category, Curve};
-    for (category, cycles) in [(Category::C, 4.4e6), (Category::A, 25e9 / 13824.0)] {
-        let curve = Curve::new(category, 6.894_757).expect("a unit");
+    use practice::aisc::{AiscCategory, AiscCurve};
+    for (category, cycles) in [(AiscCategory::C, 4.4e6), (AiscCategory::A, 25e9 / 13824.0)] {
+        let curve = AiscCurve::new(category, 6.894_757).expect("a unit");
         let damage = curve.damage(curve.limit()).expect("a range");
         assert!((damage * cycles - 1.0).abs() < 1e-12, "{category:?}: {damage:e}");
         let reference = curve.damage(curve.reference()).expect("a range");

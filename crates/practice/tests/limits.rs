@@ -1,11 +1,11 @@
 //! Every function returns finite numbers or an error for any input.
 
-use practice::factor::{Hoisting, Release};
+use practice::factor::{HoistingClass, Release};
 use practice::fatigue::Stress;
-use practice::skew::{Guide, Pairs};
+use practice::skew::{Guide, WheelPairs};
 use practice::{
-    Crane, Error, History, Point, Section, Strength, View, aist, buffer, cmaa, drive, duty, factor, osha,
-    rainflow, response, skew, stress,
+    Crane, Error, Repetition, ResponseSettings, SectionPoint, SectionProperties, Strength, aist, buffer,
+    cmaa, drive, duty, factor, osha, rainflow, response, skew, stress,
 };
 
 const ODD: [f64; 13] = [
@@ -51,7 +51,7 @@ impl Tally {
 fn formulas_give_numbers_or_refuse() {
     let mut tally = Tally::default();
     for a in ODD {
-        tally.one(factor::phi2(Hoisting::Hc4, a));
+        tally.one(factor::phi2(HoistingClass::Hc4, a));
         tally.one(factor::phi6(a));
         tally.one(buffer::phi7(a));
         tally.one(skew::friction(a));
@@ -60,7 +60,7 @@ fn formulas_give_numbers_or_refuse() {
         tally.one(cmaa::drive_inertia(a));
         tally.one(osha::brake_distance(a));
         tally.one(aist::drift(a));
-        tally.one(aist::with_impact(aist::Kind::Ladle, a));
+        tally.one(aist::with_impact(aist::CraneKind::Ladle, a));
         tally.one(duty::fatigue_factor(a));
         for b in ODD {
             tally.one(factor::phi3(a, b, Release::Rapid));
@@ -76,23 +76,33 @@ fn formulas_give_numbers_or_refuse() {
                 tally.one(buffer::buffer_force(1.25, a, b, c));
                 tally.one(Strength::new(Stress::Direct, a, b, 1.0).and_then(|curve| curve.damage(c)));
                 tally.one(Strength::new(Stress::Shear, a, 1.0, b).and_then(|curve| curve.equivalent(c)));
-                let section = Section { area: a, iy: b, iz: c };
-                tally.one(stress::direct(&section, Point { y: b, z: c }, [a, b, c, c, b, a]));
-                for kind in [Pairs::AloneFixed, Pairs::CoupledFree] {
+                let section = SectionProperties { area: a, iy: b, iz: c };
+                tally.one(stress::direct(&section, SectionPoint { y: b, z: c }, [a, b, c, c, b, a]));
+                for kind in [WheelPairs::AloneFixed, WheelPairs::CoupledFree] {
                     let forces = skew::skewing(kind, a, 0.6, &[b, c]);
                     tally.add(forces.map(|found| {
                         let across = found.across.into_iter().flatten();
-                        across.chain(found.along).chain([found.guide, found.reach]).collect()
+                        across.chain(found.along).chain([found.guide, found.rotation_distance]).collect()
                     }));
                 }
                 let crane = Crane { lifted: a, trolley: b, bridge: c, span: a, approach: b, wheels: 2 };
                 tally.add(crane.wheel_loads(c, 1.0).map(|loads| vec![loads.near, loads.far]));
-                tally.one(aist::side_thrust(aist::Kind::Stacker, &crane).map(|thrusts| thrusts.governing()));
-                let travel =
-                    drive::Travel { span: a, guides: b, heavy: c, light: b, drive: a, factor: 1.5, rails: 2 };
+                tally.one(
+                    aist::side_thrust(aist::CraneKind::Stacker, &crane).map(|thrusts| thrusts.governing()),
+                );
+                let travel = drive::AcceleratingCrane {
+                    span: a,
+                    guides: b,
+                    heavy: c,
+                    light: b,
+                    drive: a,
+                    factor: 1.5,
+                    rails: 2,
+                };
                 tally.add(
-                    drive::traction(&travel)
-                        .map(|found| vec![found.share, found.along, found.moment, found.heavy, found.light]),
+                    drive::traction(&travel).map(|found| {
+                        vec![found.fraction, found.along, found.moment, found.heavy, found.light]
+                    }),
                 );
             }
         }
@@ -104,25 +114,39 @@ fn formulas_give_numbers_or_refuse() {
 fn histories_give_numbers_or_refuse() {
     let mut tally = Tally::default();
     let times: Vec<f64> = (0..40).map(f64::from).collect();
-    let view =
-        View { from: 0.0, settled: 0.0, step: 0.5, cut: Some(0.3), share: 0.1, band: [0.0, 1.0], floor: 0.0 };
+    let view = ResponseSettings {
+        from: 0.0,
+        settled: 0.0,
+        step: 0.5,
+        cut_off: Some(0.3),
+        excursion_fraction: 0.1,
+        band: [0.0, 1.0],
+        floor: 0.0,
+    };
     for a in ODD {
         for b in ODD {
             for c in [a, b, 0.3] {
                 let values: Vec<f64> = (0..40).map(|k| [a, b, c, 1.0][k * k % 7 % 4]).collect();
                 tally.add(
-                    rainflow(&values, History::Repeated).map(|cycles| {
+                    rainflow(&values, Repetition::Repeated).map(|cycles| {
                         cycles.iter().flat_map(|cycle| [cycle.range(), cycle.mean()]).collect()
                     }),
                 );
                 tally.add(response(&times, &values, &view).map(|found| {
-                    let tone = found.tone.map_or([0.0; 2], |tone| [tone.frequency, tone.amplitude]);
+                    let tone = found.sine.map_or([0.0; 2], |tone| [tone.frequency, tone.amplitude]);
                     let decay = found.decay.map_or([0.0; 2], |decay| [decay.ratio, decay.frequency]);
-                    [[found.mean, found.peak.value], [found.least.value, found.least.time], tone, decay]
+                    [[found.mean, found.peak.value], [found.trough.value, found.trough.time], tone, decay]
                         .concat()
                 }));
-                let odd =
-                    View { from: a, settled: b, step: c, cut: Some(b), share: c, band: [a, b], floor: a };
+                let odd = ResponseSettings {
+                    from: a,
+                    settled: b,
+                    step: c,
+                    cut_off: Some(b),
+                    excursion_fraction: c,
+                    band: [a, b],
+                    floor: a,
+                };
                 tally.add(response(&times, &times, &odd).map(|found| vec![found.mean, found.peak.value]));
             }
         }

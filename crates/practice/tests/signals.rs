@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use practice::{
-    Error, Excursions, Run, Tone, View, decay, dominant, envelope, excursions, low_pass, mean, resample,
-    response,
+    Error, Excursions, ResponseSettings, RunHistories, SineComponent, decay, dominant, envelope, excursions,
+    low_pass, mean, resample, response,
 };
 
 fn close(found: f64, expected: f64, slack: f64) {
@@ -28,18 +28,18 @@ fn an_envelope_has_what_stood_beside_it() -> Result<(), Error> {
     let (reaction, moment, place) = ([1.0, 4.0, 2.0, -1.0], [0.5, -3.0, 9.0, 9.0], [10.0, 20.0, 30.0, 40.0]);
     let later = ([7.0, 7.0, 3.0, 1.0], [0.0, 1.0, -4.0, 2.0], [50.0, 60.0, 70.0, 80.0]);
     let runs = [
-        Run { times: &times, series: &[&reaction, &moment, &place] },
-        Run { times: &[5.0, 6.0, 7.0, 8.0], series: &[&later.0, &later.1, &later.2] },
+        RunHistories { times: &times, series: &[&reaction, &moment, &place] },
+        RunHistories { times: &[5.0, 6.0, 7.0, 8.0], series: &[&later.0, &later.1, &later.2] },
     ];
     let found = envelope(&runs, 2)?;
     assert_eq!(found.len(), 2);
     // The first of equal values, with all values at that instant.
-    let most = &found[0].most;
+    let most = &found[0].max;
     assert_eq!((most.run, most.sample, most.time), (1, 0, 5.0));
     assert_eq!(most.values, [7.0, 0.0, 50.0]);
-    assert_eq!(found[0].least.values, [-1.0, 9.0, 40.0]);
-    assert_eq!(found[1].most.values, [2.0, 9.0, 30.0]);
-    assert_eq!(found[1].least.values, [3.0, -4.0, 70.0]);
+    assert_eq!(found[0].min.values, [-1.0, 9.0, 40.0]);
+    assert_eq!(found[1].max.values, [2.0, 9.0, 30.0]);
+    assert_eq!(found[1].min.values, [3.0, -4.0, 70.0]);
     Ok(())
 }
 
@@ -49,12 +49,14 @@ fn no_value_lies_outside_its_envelope() -> Result<(), Error> {
     let series: Vec<Vec<f64>> =
         (1..6).map(|k| samples(500, 0.1, |t| (f64::from(k) * t).sin() + (0.37 * t * t).cos())).collect();
     let borrowed: Vec<&[f64]> = series.iter().map(Vec::as_slice).collect();
-    for (own, extremes) in envelope(&[Run { times: &times, series: &borrowed }], 5)?.iter().enumerate() {
-        for instant in [&extremes.most, &extremes.least] {
+    for (own, extremes) in
+        envelope(&[RunHistories { times: &times, series: &borrowed }], 5)?.iter().enumerate()
+    {
+        for instant in [&extremes.max, &extremes.min] {
             let there: Vec<f64> = series.iter().map(|values| values[instant.sample]).collect();
             assert_eq!(instant.values, there);
         }
-        let [most, least] = [extremes.most.values[own], extremes.least.values[own]];
+        let [most, least] = [extremes.max.values[own], extremes.min.values[own]];
         assert!(series[own].iter().all(|value| (least..=most).contains(value)));
     }
     Ok(())
@@ -159,7 +161,8 @@ fn a_large_mean_hides_no_slow_sine() -> Result<(), Error> {
 #[test]
 fn the_stronger_of_two_sines_within_the_band_is_taken() -> Result<(), Error> {
     let wave = samples(3000, 0.01, |t| (2.0 * PI * 1.3 * t).sin() + 0.4 * (2.0 * PI * 6.1 * t).sin());
-    let tone = |band| dominant(&wave, 0.01, band).map(|tone| tone.map(|Tone { frequency, .. }| frequency));
+    let tone =
+        |band| dominant(&wave, 0.01, band).map(|tone| tone.map(|SineComponent { frequency, .. }| frequency));
     close(tone([0.0, 50.0])?.expect("one"), 1.3, 1e-4);
     close(tone([3.0, 50.0])?.expect("the other"), 6.1, 1e-4);
     assert_eq!(dominant(&samples(100, 0.1, |_| 4.0), 0.1, [0.0, 5.0])?, None);
@@ -196,12 +199,12 @@ fn a_response_is_told_in_its_numbers() -> Result<(), Error> {
     let times: Vec<f64> = (0..16001).map(|k| f64::from(k) * 1e-3).collect();
     let clean: Vec<f64> = times.iter().map(|&t| value(t)).collect();
     let rough: Vec<f64> = times.iter().map(|&t| value(t) + 3.0 * (2.0 * PI * 30.0 * t).sin()).collect();
-    let view = View {
+    let view = ResponseSettings {
         from: 1.0,
         settled: 14.0,
         step: 0.002,
-        cut: None,
-        share: 0.01,
+        cut_off: None,
+        excursion_fraction: 0.01,
         band: [0.5, 100.0],
         floor: 0.05,
     };
@@ -211,14 +214,14 @@ fn a_response_is_told_in_its_numbers() -> Result<(), Error> {
     let overshoot = 50.0 * (-PI * 0.03_f64 / (1.0 - 0.03_f64 * 0.03).sqrt()).exp();
     close(plain.peak.value, 1050.0 + overshoot, 0.05);
     close(plain.peak.time, 1.25, 0.01);
-    close(plain.least.value, 1000.0, 1e-9);
-    close(plain.tone.expect("it rings").frequency, 2.0, 0.02);
+    close(plain.trough.value, 1000.0, 1e-9);
+    close(plain.sine.expect("it rings").frequency, 2.0, 0.02);
     close(plain.decay.expect("it rings").ratio, 0.03, 1e-4);
     // 50 exp(-k pi zeta') > 10.5 for k = 0 to 16.
     assert_eq!(plain.excursions, Excursions { above: 8, below: 9 });
     let counted = response(&times, &rough, &view)?.excursions;
     assert!(counted.total() > 17, "chatter counts: {counted:?}");
-    let filtered = response(&times, &rough, &View { cut: Some(10.0), ..view })?;
+    let filtered = response(&times, &rough, &ResponseSettings { cut_off: Some(10.0), ..view })?;
     assert_eq!(filtered.excursions, plain.excursions);
     close(filtered.decay.expect("it rings").ratio, 0.03, 1e-3);
     Ok(())
@@ -237,9 +240,9 @@ fn histories_that_make_no_sense_are_refused() {
     assert!(excursions(&[f64::NAN], 0.0, 0.1).is_err());
     assert!(decay(&values, 0.0, 0.1).is_err());
     assert_eq!(envelope(&[], 0).map(|found| found.len()), Err(Error::Few { found: 0, least: 1 }));
-    let run = Run { times: &times, series: &[&values] };
+    let run = RunHistories { times: &times, series: &[&values] };
     assert_eq!(envelope(&[run], 2), Err(Error::Series { run: 0, found: 1, expected: 2 }));
     let infinite = [1.0, f64::INFINITY];
-    let broken = Run { times: &times, series: &[&infinite] };
+    let broken = RunHistories { times: &times, series: &[&infinite] };
     assert_eq!(envelope(&[run, broken], 1), Err(Error::Number { series: 0, sample: 1 }));
 }

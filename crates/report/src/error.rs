@@ -49,7 +49,7 @@ pub enum Error {
     },
     /// A number of a moving picture is not finite.
     #[error("figure {figure} of section {section} moves by a number that is not finite")]
-    Picture {
+    Animation {
         /// Index of the section.
         section: usize,
         /// Index of the figure in it.

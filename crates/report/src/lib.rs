@@ -14,7 +14,7 @@ pub mod text;
 pub(crate) use document::code::coded;
 pub use document::number::number;
 pub use document::page::Report;
-pub use document::section::{Cell, Column, Fact, Figure, Picture, Section, Table};
+pub use document::section::{Fact, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
 pub use error::Error;
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Pages are parsed, not searched.
 
 use super::*;
-use crate::chart::{Axis, Chart, Series, Style};
+use crate::chart::{Chart, ChartAxis, Series, Style};
 use crate::document::code::tests::decoded;
 use html5gum::{DefaultEmitter, Token, Tokenizer};
 use std::collections::{BTreeMap, BTreeSet};
@@ -12,8 +12,8 @@ fn chart() -> Chart {
             |i: usize| [i as f64 * 0.1, scale * (std::f64::consts::PI * i as f64 / 600.0).sin().powi(2)];
         (0..=600).map(point).collect()
     };
-    let x = Axis::new("position of the trunnion", "ft");
-    Chart::new("Path of the trunnion", x, Axis::new("deflection", "ft").downwards())
+    let x = ChartAxis::new("position of the trunnion", "ft");
+    Chart::new("Path of the trunnion", x, ChartAxis::new("deflection", "ft").downwards())
         .with(Series::new("influence, exact", Style::Line, path(0.5457515)))
         .with(Series::new("two rigid parts", Style::Line, path(1.198)))
         .with(Series::new("rigid </script> rail", Style::Dashed, vec![[0.0, 0.05], [60.0, 0.05]]))
@@ -21,22 +21,26 @@ fn chart() -> Chart {
 }
 
 fn report() -> Report {
-    let peaks = Table {
+    let peaks = ReportTable {
         caption: "Largest deflection of the trunnion.".into(),
-        columns: vec![Column::new("model", ""), Column::new("peak", "ft"), Column::new("at", "ft")],
+        columns: vec![
+            TableColumn::new("model", ""),
+            TableColumn::new("peak", "ft"),
+            TableColumn::new("at", "ft"),
+        ],
         rows: vec![
             vec!["influence, exact".into(), 0.5457515.into(), 30.0.into()],
             vec!["two rigid parts".into(), 1.198.into(), 30.25.into()],
-            vec!["rigid rail".into(), 0.05.into(), Cell::Empty],
+            vec!["rigid rail".into(), 0.05.into(), TableCell::Empty],
         ],
     };
-    let girder = Section::new("Girder")
+    let girder = ReportSection::new("Girder")
         .say("One span of 60 ft with overhangs of 15 ft, solved as an Euler-Bernoulli beam.")
         .fact("Span", 60.0, "ft")
         .fact("Bending stiffness", 9.528 * 4.32e9, "lbf ft\u{b2}")
         .fact("Influence at midspan", 1.0932689616568709e-7, "ft/lbf")
         .fact("Status", "done <b>", "");
-    let crossing = Section::new("Crossing & <i>forces</i>")
+    let crossing = ReportSection::new("Crossing & <i>forces</i>")
         .say("The trunnion's path for every model.")
         .fact("Load", 4.8e6, "lbf")
         .table(peaks)
@@ -139,7 +143,7 @@ fn text_cannot_become_markup() {
     let mut report = report();
     report.title = hostile.into();
     report.subtitle = hostile.into();
-    let mut section = Section::new(hostile).say(hostile).fact(hostile, hostile, hostile);
+    let mut section = ReportSection::new(hostile).say(hostile).fact(hostile, hostile, hostile);
     let mut chart = chart();
     chart.title = hostile.into();
     chart.series[0].label = hostile.into();
@@ -173,28 +177,31 @@ fn chart_data_survive_the_way_through_the_page() {
 
 #[test]
 fn nan_is_refused_by_place() {
-    let with = |section: Section| {
+    let with = |section: ReportSection| {
         let mut report = report();
         report.sections.push(section);
         report.html(None)
     };
     let bad = f64::NAN;
     assert_eq!(
-        with(Section::new("x").fact("a", 1.0, "").fact("b", bad, "")),
+        with(ReportSection::new("x").fact("a", 1.0, "").fact("b", bad, "")),
         Err(Error::Fact { section: 2, fact: 1 })
     );
-    let mut table =
-        Table { caption: String::new(), columns: vec![Column::new("a", "")], rows: vec![vec![bad.into()]] };
+    let mut table = ReportTable {
+        caption: String::new(),
+        columns: vec![TableColumn::new("a", "")],
+        rows: vec![vec![bad.into()]],
+    };
     let cell = Error::Cell { section: 2, table: 0, row: 0, column: 0 };
-    assert_eq!(with(Section::new("x").table(table.clone())), Err(cell));
+    assert_eq!(with(ReportSection::new("x").table(table.clone())), Err(cell));
     table.rows[0].clear();
     let row = Error::Row { section: 2, table: 0, row: 0, found: 0, expected: 1 };
-    assert_eq!(with(Section::new("x").table(table)), Err(row));
+    assert_eq!(with(ReportSection::new("x").table(table)), Err(row));
     let mut chart = chart();
     chart.series[1].points[7][1] = bad;
     let source = crate::chart::Error::NotFinite { series: 1, point: 7 };
     assert_eq!(
-        with(Section::new("x").figure(chart, "")),
+        with(ReportSection::new("x").figure(chart, "")),
         Err(Error::Chart { section: 2, figure: 0, source })
     );
 }
@@ -225,16 +232,21 @@ fn numbers_read_well() {
 
 #[test]
 fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
-    use crate::document::film::{Film, Track};
+    use crate::document::animated::{Animation, AnimationTrack};
     let svg = crate::chart::Svg::new(8.0, 4.0, "<g data-m=\"0\" transform=\"translate(1 2)\"></g>");
     let film = |x: f64| {
         let places = vec![[1.0, 2.0], [x, 2.0]];
-        Film { svg: svg.clone(), still: 0.5, times: vec![0.5, 1.0], tracks: vec![(0, Track::Move(places))] }
+        Animation {
+            svg: svg.clone(),
+            still_time: 0.5,
+            times: vec![0.5, 1.0],
+            tracks: vec![(0, AnimationTrack::Displacement(places))],
+        }
     };
-    let with = |film: Film| {
+    let with = |film: Animation| {
         let mut report = report();
-        let picture = Picture::Film(Box::new(film));
-        report.sections.push(Section::new("x").figure(picture, "It moves."));
+        let picture = Picture::Animation(Box::new(film));
+        report.sections.push(ReportSection::new("x").figure(picture, "It moves."));
         report.html(None)
     };
     let scripts = |page: &str| parse(page).0.iter().filter(|(name, _)| name == "script").count();
@@ -250,5 +262,5 @@ fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
         "hundredths of pixels"
     );
     assert!(!tags.iter().any(|(name, _)| name == "button" || name == "input"), "the script makes them");
-    assert_eq!(with(film(f64::NAN)), Err(Error::Picture { section: 2, figure: 0 }));
+    assert_eq!(with(film(f64::NAN)), Err(Error::Animation { section: 2, figure: 0 }));
 }

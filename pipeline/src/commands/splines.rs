@@ -1,6 +1,6 @@
 //! `girderway splines`: the tables of a grid, or of a file of tables, in another format.
 
-use adams::Curves;
+use adams::SplineValues;
 use serde_json::{Map, Value, json};
 use splines::Surface;
 
@@ -116,7 +116,7 @@ fn given(
     if let Some(wanted) = args.reading.map(TableReadingMethod::from).zip(args.tolerance) {
         grid = fewest::chosen(args, wanted, &source, (&grid, surface.as_ref()), progress, told_more)?;
     }
-    for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Curves::LEAST) {
+    for rail in grid.rails.iter().filter(|rail| rail.stations.len() < SplineValues::MIN_POINTS) {
         progress
             .say(&format!("note: no tables of loads on rail {}: it has fewer than four stations", rail.name));
     }

@@ -1,7 +1,7 @@
 //! Pictures of differences.
 
 use super::outcome::PeerOutcome;
-use report::chart::{Axis, Chart, Series, Style};
+use report::chart::{Chart, ChartAxis, Series, Style};
 
 /// Differences below this are drawn here: a logarithmic axis has no zero.
 const LEAST: f64 = 1e-17;
@@ -19,8 +19,8 @@ pub fn charts(outcome: &PeerOutcome, rails: &[String], unit: &str) -> Vec<Chart>
         };
         let mut chart = Chart::new(
             title,
-            Axis::new("place of the deflection along the rail", unit),
-            Axis::new("largest difference over all loads", "").log(),
+            ChartAxis::new("place of the deflection along the rail", unit),
+            ChartAxis::new("largest difference over all loads", "").log(),
         );
         for difference in &outcome.differences {
             let points = kept.iter().map(|k| [x(k), difference.profile[*k].max(LEAST)]).collect();

@@ -1,7 +1,7 @@
 //! Functions of expressions that depend on the values of their arguments alone, from ABS to IMPACT.
 
 use super::scalar::Scalar;
-use crate::Fault;
+use crate::AdamsFault;
 use std::f64::consts::PI;
 
 /// A function whose value depends on the values of its arguments alone.
@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
     /// One of [`Unary`].
-    Unary(Unary),
+    Unary(UnaryFunction),
     /// ATAN2(y, x)
     Atan2,
     /// MOD(a, b): the remainder of a/b, with the sign of a.
@@ -45,7 +45,7 @@ pub enum Function {
 
 /// A function of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unary {
+pub enum UnaryFunction {
     /// Absolute value.
     Abs,
     /// Square root.
@@ -80,23 +80,23 @@ pub enum Unary {
     Anint,
 }
 
-const UNARY: &[(&str, Unary)] = &[
-    ("ABS", Unary::Abs),
-    ("SQRT", Unary::Sqrt),
-    ("SIN", Unary::Sin),
-    ("COS", Unary::Cos),
-    ("TAN", Unary::Tan),
-    ("ASIN", Unary::Asin),
-    ("ACOS", Unary::Acos),
-    ("ATAN", Unary::Atan),
-    ("SINH", Unary::Sinh),
-    ("COSH", Unary::Cosh),
-    ("TANH", Unary::Tanh),
-    ("EXP", Unary::Exp),
-    ("LOG", Unary::Log),
-    ("LOG10", Unary::Log10),
-    ("AINT", Unary::Aint),
-    ("ANINT", Unary::Anint),
+const UNARY: &[(&str, UnaryFunction)] = &[
+    ("ABS", UnaryFunction::Abs),
+    ("SQRT", UnaryFunction::Sqrt),
+    ("SIN", UnaryFunction::Sin),
+    ("COS", UnaryFunction::Cos),
+    ("TAN", UnaryFunction::Tan),
+    ("ASIN", UnaryFunction::Asin),
+    ("ACOS", UnaryFunction::Acos),
+    ("ATAN", UnaryFunction::Atan),
+    ("SINH", UnaryFunction::Sinh),
+    ("COSH", UnaryFunction::Cosh),
+    ("TANH", UnaryFunction::Tanh),
+    ("EXP", UnaryFunction::Exp),
+    ("LOG", UnaryFunction::Log),
+    ("LOG10", UnaryFunction::Log10),
+    ("AINT", UnaryFunction::Aint),
+    ("ANINT", UnaryFunction::Anint),
 ];
 
 impl Function {
@@ -130,7 +130,7 @@ impl Function {
     /// # Errors
     /// [`Fault::Arguments`] for a wrong number of arguments; [`Fault::Parameter`] for a ramp without length,
     /// or a stiffness, exponent, damping or penetration outside the range of a contact law.
-    pub fn value<T: Scalar>(self, arguments: &[T]) -> Result<T, Fault> {
+    pub fn value<T: Scalar>(self, arguments: &[T]) -> Result<T, AdamsFault> {
         match (self, arguments) {
             (Function::Unary(unary), [a]) => Ok(unary.value(a)),
             (Function::Atan2, [y, x]) => Ok(atan2(y, x)),
@@ -155,31 +155,31 @@ impl Function {
             (Function::Havsin, [x, x0, h0, x1, h1]) => havsin(x, [x0, h0, x1, h1]),
             (Function::Impact, [x, v, x1, law @ ..]) => impact(x, v, x1, law),
             (Function::Bistop, [x, v, x1, x2, law @ ..]) => bistop(x, v, [x1, x2], law),
-            _ => Err(Fault::Arguments),
+            _ => Err(AdamsFault::Arguments),
         }
     }
 }
 
-impl Unary {
+impl UnaryFunction {
     fn value<T: Scalar>(self, a: &T) -> T {
         let x = a.value();
         let (value, slope) = match self {
-            Unary::Abs => (x.abs(), if x < 0.0 { -1.0 } else { 1.0 }),
-            Unary::Sqrt => (x.sqrt(), 0.5 / x.sqrt()),
-            Unary::Sin => (x.sin(), x.cos()),
-            Unary::Cos => (x.cos(), -x.sin()),
-            Unary::Tan => (x.tan(), 1.0 + x.tan() * x.tan()),
-            Unary::Asin => (x.asin(), 1.0 / (1.0 - x * x).sqrt()),
-            Unary::Acos => (x.acos(), -1.0 / (1.0 - x * x).sqrt()),
-            Unary::Atan => (x.atan(), 1.0 / (1.0 + x * x)),
-            Unary::Sinh => (x.sinh(), x.cosh()),
-            Unary::Cosh => (x.cosh(), x.sinh()),
-            Unary::Tanh => (x.tanh(), 1.0 - x.tanh() * x.tanh()),
-            Unary::Exp => (x.exp(), x.exp()),
-            Unary::Log => (x.ln(), 1.0 / x),
-            Unary::Log10 => (x.log10(), std::f64::consts::LOG10_E / x),
-            Unary::Aint => (x.trunc(), 0.0),
-            Unary::Anint => (x.round(), 0.0),
+            UnaryFunction::Abs => (x.abs(), if x < 0.0 { -1.0 } else { 1.0 }),
+            UnaryFunction::Sqrt => (x.sqrt(), 0.5 / x.sqrt()),
+            UnaryFunction::Sin => (x.sin(), x.cos()),
+            UnaryFunction::Cos => (x.cos(), -x.sin()),
+            UnaryFunction::Tan => (x.tan(), 1.0 + x.tan() * x.tan()),
+            UnaryFunction::Asin => (x.asin(), 1.0 / (1.0 - x * x).sqrt()),
+            UnaryFunction::Acos => (x.acos(), -1.0 / (1.0 - x * x).sqrt()),
+            UnaryFunction::Atan => (x.atan(), 1.0 / (1.0 + x * x)),
+            UnaryFunction::Sinh => (x.sinh(), x.cosh()),
+            UnaryFunction::Cosh => (x.cosh(), x.sinh()),
+            UnaryFunction::Tanh => (x.tanh(), 1.0 - x.tanh() * x.tanh()),
+            UnaryFunction::Exp => (x.exp(), x.exp()),
+            UnaryFunction::Log => (x.ln(), 1.0 / x),
+            UnaryFunction::Log10 => (x.log10(), std::f64::consts::LOG10_E / x),
+            UnaryFunction::Aint => (x.trunc(), 0.0),
+            UnaryFunction::Anint => (x.round(), 0.0),
         };
         a.mapped(value, slope)
     }
@@ -217,11 +217,11 @@ fn positive<T: Scalar>(a: &T) -> T {
 
 /// h0 + (h1 - h0) s(D) with D = (x - x0) / (x1 - x0); s is 0 below D = 0 and 1 above D = 1. Between them the
 /// closure gives s and its slope.
-fn ramp<T: Scalar>(x: &T, ends: [&T; 4], s: impl Fn(f64) -> (f64, f64)) -> Result<T, Fault> {
+fn ramp<T: Scalar>(x: &T, ends: [&T; 4], s: impl Fn(f64) -> (f64, f64)) -> Result<T, AdamsFault> {
     let [x0, h0, x1, h1] = ends;
     let length = x1.minus(x0);
     if length.value() <= 0.0 || !length.value().is_finite() {
-        return Err(Fault::Parameter);
+        return Err(AdamsFault::Parameter);
     }
     let d = x.minus(x0).over(&length);
     if d.value() <= 0.0 {
@@ -238,7 +238,7 @@ fn ramp<T: Scalar>(x: &T, ends: [&T; 4], s: impl Fn(f64) -> (f64, f64)) -> Resul
 ///
 /// # Source
 /// Adams Solver reference, STEP.
-fn step<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, Fault> {
+fn step<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
     ramp(x, ends, |d| (d * d * (3.0 - 2.0 * d), 6.0 * d * (1.0 - d)))
 }
 
@@ -246,7 +246,7 @@ fn step<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, Fault> {
 ///
 /// # Source
 /// Adams Solver reference, STEP5.
-fn step5<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, Fault> {
+fn step5<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
     let slope = |d: f64| 30.0 * d * d * (1.0 - d) * (1.0 - d);
     ramp(x, ends, |d| (d * d * d * (10.0 - 15.0 * d + 6.0 * d * d), slope(d)))
 }
@@ -255,17 +255,17 @@ fn step5<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, Fault> {
 ///
 /// # Source
 /// Adams Solver reference, HAVSIN.
-fn havsin<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, Fault> {
+fn havsin<T: Scalar>(x: &T, ends: [&T; 4]) -> Result<T, AdamsFault> {
     let angle = |d: f64| PI * d - 0.5 * PI;
     ramp(x, ends, |d| (0.5 * (1.0 + angle(d).sin()), 0.5 * PI * angle(d).cos()))
 }
 
 /// Parameters of a contact law, checked: stiffness k >= 0, exponent e > 0, damping cmax >= 0 and the
 /// penetration d > 0 at which the damping is fully applied.
-fn contact_parameters<T: Scalar>(law: &[T]) -> Result<[&T; 4], Fault> {
-    let [k, e, c, d] = law else { return Err(Fault::Arguments) };
+fn contact_parameters<T: Scalar>(law: &[T]) -> Result<[&T; 4], AdamsFault> {
+    let [k, e, c, d] = law else { return Err(AdamsFault::Arguments) };
     let sound = k.value() >= 0.0 && e.value() > 0.0 && c.value() >= 0.0 && d.value() > 0.0;
-    if sound { Ok([k, e, c, d]) } else { Err(Fault::Parameter) }
+    if sound { Ok([k, e, c, d]) } else { Err(AdamsFault::Parameter) }
 }
 
 /// Contact force max(0, k p^e - c xdot) at the penetration p > 0 (`depth`); c rises to cmax over the
@@ -273,7 +273,7 @@ fn contact_parameters<T: Scalar>(law: &[T]) -> Result<[&T; 4], Fault> {
 ///
 /// The reference writes c as STEP(x, x1 - d, cmax, x1, 0). The equal form cmax STEP(p, 0, 0, d, 1) is used
 /// here because p and d are known without cancellation.
-fn contact_force<T: Scalar>(depth: &T, speed: &T, law: [&T; 4]) -> Result<T, Fault> {
+fn contact_force<T: Scalar>(depth: &T, speed: &T, law: [&T; 4]) -> Result<T, AdamsFault> {
     let [k, e, c, d] = law;
     let zero = T::constant(0.0);
     let damping = step(depth, [&zero, &zero, d, c])?;
@@ -284,7 +284,7 @@ fn contact_force<T: Scalar>(depth: &T, speed: &T, law: [&T; 4]) -> Result<T, Fau
 ///
 /// # Source
 /// Adams Solver reference, IMPACT.
-fn impact<T: Scalar>(x: &T, speed: &T, x1: &T, parameters: &[T]) -> Result<T, Fault> {
+fn impact<T: Scalar>(x: &T, speed: &T, x1: &T, parameters: &[T]) -> Result<T, AdamsFault> {
     let law = contact_parameters(parameters)?;
     let depth = x1.minus(x);
     if depth.value() > 0.0 { contact_force(&depth, speed, law) } else { Ok(T::constant(0.0)) }
@@ -294,7 +294,7 @@ fn impact<T: Scalar>(x: &T, speed: &T, x1: &T, parameters: &[T]) -> Result<T, Fa
 ///
 /// # Source
 /// Adams Solver reference, BISTOP.
-fn bistop<T: Scalar>(x: &T, speed: &T, stops: [&T; 2], parameters: &[T]) -> Result<T, Fault> {
+fn bistop<T: Scalar>(x: &T, speed: &T, stops: [&T; 2], parameters: &[T]) -> Result<T, AdamsFault> {
     let law = contact_parameters(parameters)?;
     let (low, high) = (stops[0].minus(x), x.minus(stops[1]));
     if low.value() > 0.0 {

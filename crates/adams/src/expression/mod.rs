@@ -11,4 +11,4 @@ mod tree;
 
 pub use parser::parse;
 pub use scalar::{Dual, Scalar};
-pub use tree::{Expression, Factor, Name, Sign};
+pub use tree::{Expression, ExpressionName, FactorOperator, TermOperator};

@@ -1,7 +1,7 @@
 //! Parser of function expressions: characters to tokens, tokens to a tree.
 
-use super::tree::{Expression, Factor, Name, Sign};
-use crate::{Fault, number};
+use super::tree::{Expression, ExpressionName, FactorOperator, TermOperator};
+use crate::{AdamsFault, number};
 
 /// Largest depth of nested brackets, signs and powers. It bounds the recursion of everything that walks a
 /// tree.
@@ -22,14 +22,14 @@ const DEEPEST: usize = 100;
 /// assert_eq!(expression::parse("180D"), Ok(Expression::Number(std::f64::consts::PI)));
 /// assert_eq!(expression::parse("1+*2"), Err((2, Fault::Text)));
 /// ```
-pub fn parse(text: &str) -> Result<Expression, (usize, Fault)> {
+pub fn parse(text: &str) -> Result<Expression, (usize, AdamsFault)> {
     let letters: Vec<char> = text.chars().collect();
     let tokens = tokens(&letters)?;
     let mut parser = Parser { tokens: &tokens, next: 0, end: letters.len(), depth: 0 };
     let out = parser.sum()?;
     match parser.peek() {
         None => Ok(out),
-        Some(_) => Err((parser.offset(), Fault::Text)),
+        Some(_) => Err((parser.offset(), AdamsFault::UnexpectedText)),
     }
 }
 
@@ -44,7 +44,7 @@ struct Parser<'a> {
     depth: usize,
 }
 
-type Parsed = Result<Expression, (usize, Fault)>;
+type Parsed = Result<Expression, (usize, AdamsFault)>;
 
 impl Parser<'_> {
     fn peek(&self) -> Option<&Token> {
@@ -62,14 +62,14 @@ impl Parser<'_> {
         found
     }
 
-    fn expect(&mut self, token: &Token) -> Result<(), (usize, Fault)> {
-        if self.take(token) { Ok(()) } else { Err((self.offset(), Fault::Text)) }
+    fn expect(&mut self, token: &Token) -> Result<(), (usize, AdamsFault)> {
+        if self.take(token) { Ok(()) } else { Err((self.offset(), AdamsFault::UnexpectedText)) }
     }
 
     /// Reads a part that is nested one level deeper.
     fn within(&mut self, part: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
         if self.depth == DEEPEST {
-            return Err((self.offset(), Fault::Deep));
+            return Err((self.offset(), AdamsFault::NestedTooDeep));
         }
         self.depth += 1;
         let out = part(self);
@@ -77,11 +77,11 @@ impl Parser<'_> {
         out
     }
 
-    fn sign(&mut self) -> Option<Sign> {
+    fn sign(&mut self) -> Option<TermOperator> {
         if self.take(&Token::Plus) {
-            Some(Sign::Plus)
+            Some(TermOperator::Plus)
         } else if self.take(&Token::Minus) {
-            Some(Sign::Minus)
+            Some(TermOperator::Minus)
         } else {
             None
         }
@@ -89,11 +89,11 @@ impl Parser<'_> {
 
     fn sum(&mut self) -> Parsed {
         let first = self.sign();
-        let mut terms = vec![(first.unwrap_or(Sign::Plus), self.product()?)];
+        let mut terms = vec![(first.unwrap_or(TermOperator::Plus), self.product()?)];
         while let Some(sign) = self.sign() {
             terms.push((sign, self.product()?));
         }
-        if let [(Sign::Plus, _)] = terms.as_slice()
+        if let [(TermOperator::Plus, _)] = terms.as_slice()
             && let Some((_, only)) = terms.pop()
         {
             return Ok(only);
@@ -102,12 +102,12 @@ impl Parser<'_> {
     }
 
     fn product(&mut self) -> Parsed {
-        let mut factors = vec![(Factor::Times, self.signed()?)];
+        let mut factors = vec![(FactorOperator::Times, self.signed()?)];
         loop {
             let factor = if self.take(&Token::Times) {
-                Factor::Times
+                FactorOperator::Times
             } else if self.take(&Token::Over) {
-                Factor::Over
+                FactorOperator::Over
             } else {
                 break;
             };
@@ -126,7 +126,7 @@ impl Parser<'_> {
         match self.sign() {
             Some(sign) => {
                 let inner = self.within(Parser::signed)?;
-                Ok(if sign == Sign::Plus { inner } else { Expression::Sum(vec![(sign, inner)]) })
+                Ok(if sign == TermOperator::Plus { inner } else { Expression::Sum(vec![(sign, inner)]) })
             }
             None => self.power(),
         }
@@ -156,14 +156,14 @@ impl Parser<'_> {
             }
             Some(Token::Word(word)) => {
                 self.next += 1;
-                let name = Name { word, offset };
+                let name = ExpressionName { word, offset };
                 if self.take(&Token::Open) { self.call(name) } else { Ok(Expression::Name(name)) }
             }
-            _ => Err((offset, Fault::Text)),
+            _ => Err((offset, AdamsFault::UnexpectedText)),
         }
     }
 
-    fn call(&mut self, name: Name) -> Parsed {
+    fn call(&mut self, name: ExpressionName) -> Parsed {
         let mut arguments = Vec::new();
         if self.take(&Token::Close) {
             return Ok(Expression::Call(name, arguments));
@@ -199,7 +199,7 @@ enum Token {
 }
 
 /// The tokens of an expression, each with the number of characters before it.
-fn tokens(text: &[char]) -> Result<Vec<(usize, Token)>, (usize, Fault)> {
+fn tokens(text: &[char]) -> Result<Vec<(usize, Token)>, (usize, AdamsFault)> {
     let mut out = Vec::new();
     let mut k = 0;
     while let Some(&c) = text.get(k) {
@@ -220,7 +220,7 @@ fn tokens(text: &[char]) -> Result<Vec<(usize, Token)>, (usize, Fault)> {
             ',' => Token::Comma,
             ':' => Token::Colon,
             c if c.is_ascii_digit() || c == '.' => {
-                let (value, end) = number_at(text, start).ok_or((start, Fault::Number))?;
+                let (value, end) = number_at(text, start).ok_or((start, AdamsFault::Number))?;
                 k = end;
                 Token::Number(value)
             }
@@ -230,7 +230,7 @@ fn tokens(text: &[char]) -> Result<Vec<(usize, Token)>, (usize, Fault)> {
                 }
                 Token::Word(text[start..k].iter().collect::<String>().to_ascii_uppercase())
             }
-            _ => return Err((start, Fault::Text)),
+            _ => return Err((start, AdamsFault::UnexpectedText)),
         };
         out.push((start, token));
     }

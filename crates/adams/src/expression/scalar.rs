@@ -107,7 +107,7 @@ impl Dual {
 
     /// The derivative with respect to the unknown number `index`.
     #[must_use]
-    pub fn slope(&self, index: usize) -> f64 {
+    pub fn derivative(&self, index: usize) -> f64 {
         self.slopes.get(index).copied().unwrap_or(0.0)
     }
 }
@@ -148,7 +148,7 @@ mod tests {
     fn slopes_of_a_quotient_follow_the_rule() {
         let (a, b) = (Dual::unknown(3.0, 0, 2), Dual::unknown(4.0, 1, 2));
         let c = a.times(&a).over(&b).minus(&b.scaled(2.0));
-        assert_eq!((c.value(), c.slope(0), c.slope(1)), (9.0 / 4.0 - 8.0, 1.5, -9.0 / 16.0 - 2.0));
-        assert_eq!(Dual::constant(2.0).slope(7), 0.0);
+        assert_eq!((c.value(), c.derivative(0), c.derivative(1)), (9.0 / 4.0 - 8.0, 1.5, -9.0 / 16.0 - 2.0));
+        assert_eq!(Dual::constant(2.0).derivative(7), 0.0);
     }
 }

@@ -17,20 +17,20 @@ pub enum Expression {
     /// A number. An angle written with the suffix D is stored in radians.
     Number(f64),
     /// A word without arguments, such as TIME.
-    Name(Name),
+    Name(ExpressionName),
     /// A function and its arguments; `IF(e: a, b, c)` has four.
-    Call(Name, Vec<Expression>),
+    Call(ExpressionName, Vec<Expression>),
     /// Terms from left to right, each with the operator before it.
-    Sum(Vec<(Sign, Expression)>),
+    Sum(Vec<(TermOperator, Expression)>),
     /// Factors from left to right, each with the operator before it.
-    Product(Vec<(Factor, Expression)>),
+    Product(Vec<(FactorOperator, Expression)>),
     /// Base and exponent.
     Power(Box<Expression>, Box<Expression>),
 }
 
 /// A word of an expression and its place.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Name {
+pub struct ExpressionName {
     /// The word in capitals.
     pub word: String,
     /// Number of characters of the expression before it.
@@ -39,7 +39,7 @@ pub struct Name {
 
 /// The operator before a term of a sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Sign {
+pub enum TermOperator {
     /// +
     Plus,
     /// -
@@ -48,7 +48,7 @@ pub enum Sign {
 
 /// The operator before a factor of a product.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Factor {
+pub enum FactorOperator {
     /// *
     Times,
     /// /

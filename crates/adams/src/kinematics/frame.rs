@@ -43,7 +43,7 @@ pub(crate) enum Measure {
 impl<T: Scalar> Frame<T> {
     /// The frame of ground.
     pub fn ground() -> Frame<T> {
-        Frame::of(&Pose::at(nalgebra::Vector3::zeros(), nalgebra::Matrix3::identity()))
+        Frame::of(&Pose::at_rest(nalgebra::Vector3::zeros(), nalgebra::Matrix3::identity()))
     }
 
     /// The frame of a part in a pose.
@@ -56,7 +56,7 @@ impl<T: Scalar> Frame<T> {
             axes: rows(&pose.rotation),
             velocity: three(&pose.velocity),
             rate: rows(&pose.rate),
-            spin: three(&pose.spin),
+            spin: three(&pose.angular_velocity),
         }
     }
 

@@ -10,4 +10,4 @@ mod state;
 pub(crate) mod vector;
 
 pub(crate) use frame::{Frame, Measure, angle, measure};
-pub use state::{Pose, State};
+pub use state::{ModelState, Pose};

@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 /// assert_eq!(state.parts[&2].velocity, Vector3::zeros());
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
+pub struct ModelState {
     /// The value of TIME, in s.
     pub time: f64,
     /// The pose of every PART except ground, by identifier.
@@ -39,13 +39,13 @@ pub struct Pose {
     /// Time derivative of `rotation`: a point with part coordinates s has the velocity `velocity + rate s`.
     pub rate: Matrix3<f64>,
     /// Angular velocity, which WX, WY and WZ measure, in rad/s.
-    pub spin: Vector3<f64>,
+    pub angular_velocity: Vector3<f64>,
 }
 
 impl Pose {
     /// A part at rest.
     #[must_use]
-    pub fn at(origin: Vector3<f64>, rotation: Matrix3<f64>) -> Pose {
+    pub fn at_rest(origin: Vector3<f64>, rotation: Matrix3<f64>) -> Pose {
         Pose::moving(origin, rotation, Vector3::zeros(), Vector3::zeros())
     }
 
@@ -55,8 +55,14 @@ impl Pose {
         origin: Vector3<f64>,
         rotation: Matrix3<f64>,
         velocity: Vector3<f64>,
-        spin: Vector3<f64>,
+        angular_velocity: Vector3<f64>,
     ) -> Pose {
-        Pose { origin, rotation, velocity, rate: spin.cross_matrix() * rotation, spin }
+        Pose {
+            origin,
+            rotation,
+            velocity,
+            rate: angular_velocity.cross_matrix() * rotation,
+            angular_velocity,
+        }
     }
 }

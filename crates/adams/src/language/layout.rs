@@ -1,7 +1,7 @@
 //! Statements to lines of text.
 
 use super::lexer::statement_word;
-use super::statement::{Statement, Value};
+use super::statement::{ArgumentValue, Statement};
 use crate::{Error, StatementId, number};
 
 /// Largest number of characters of a line.
@@ -49,16 +49,20 @@ impl Layout {
 
     /// Writes one argument; `None` if its text cannot be broken into lines. An expression that is not the
     /// last argument ends with `\`.
-    fn argument(&mut self, name: &str, value: &Value, last: bool) -> Option<()> {
+    fn argument(&mut self, name: &str, value: &ArgumentValue, last: bool) -> Option<()> {
         match value {
-            Value::Flag => self.line(&format!(", {name}")),
-            Value::Word(text) => return self.words(name, text),
-            Value::Whole(whole) => self.line(&format!(", {name} = {whole}")),
-            Value::Numbers(values) => self.list(name, values.iter().map(|&value| number::write(value))),
-            Value::Degrees(values) => {
+            ArgumentValue::Flag => self.line(&format!(", {name}")),
+            ArgumentValue::Word(text) => return self.words(name, text),
+            ArgumentValue::Whole(whole) => self.line(&format!(", {name} = {whole}")),
+            ArgumentValue::Numbers(values) => {
+                self.list(name, values.iter().map(|&value| number::write(value)))
+            }
+            ArgumentValue::Degrees(values) => {
                 self.list(name, values.iter().map(|&value| number::write(value) + "D"));
             }
-            Value::Function(text) => return self.expression(name, text, if last { "" } else { "\\" }),
+            ArgumentValue::Function(text) => {
+                return self.expression(name, text, if last { "" } else { "\\" });
+            }
         }
         Some(())
     }

@@ -1,6 +1,6 @@
 //! Lines to statements, and statements to tokens.
 
-use crate::{Error, Fault};
+use crate::{AdamsFault, Error};
 
 /// The text of one statement, and what the comments before it say.
 #[derive(Debug, Default)]
@@ -54,7 +54,7 @@ pub(crate) enum TokenKind<'a> {
 }
 
 impl Token<'_> {
-    pub fn fault(&self, fault: Fault) -> Error {
+    pub fn fault(&self, fault: AdamsFault) -> Error {
         Error::At { line: self.line, column: self.column, fault }
     }
 }
@@ -113,7 +113,11 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'
                     Some(last) => last.pieces.push(piece),
                     None => {
                         let column = piece.column + part.chars().take_while(|c| c.is_whitespace()).count();
-                        return Err(Error::At { line: piece.line, column, fault: Fault::Text });
+                        return Err(Error::At {
+                            line: piece.line,
+                            column,
+                            fault: AdamsFault::UnexpectedText,
+                        });
                     }
                 }
             } else {
@@ -183,7 +187,7 @@ pub(crate) fn tokens<'a>(statement: &RawStatement<'a>) -> Result<Vec<Token<'a>>,
                     let number = &rest[..number_length(rest.as_bytes())];
                     (number.len(), at(TokenKind::Number(number)))
                 }
-                _ => return Err(Error::At { line: piece.line, column, fault: Fault::Text }),
+                _ => return Err(Error::At { line: piece.line, column, fault: AdamsFault::UnexpectedText }),
             };
             out.push(token);
             rest = &rest[length..];

@@ -12,6 +12,6 @@ mod statement;
 mod units;
 
 pub use data_set::DataSet;
-pub use statement::{Argument, Statement, Value};
+pub use statement::{ArgumentValue, Statement, StatementArgument};
 pub(crate) use units::UnitWords;
-pub use units::{Force, Length, Mass, Units};
+pub use units::{AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits};

@@ -21,21 +21,21 @@ pub struct Statement {
     /// Other comment lines before it.
     pub remarks: Vec<String>,
     /// Arguments in order.
-    pub arguments: Vec<Argument>,
+    pub arguments: Vec<StatementArgument>,
 }
 
 /// One argument of a statement.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Argument {
+pub struct StatementArgument {
     /// Full name in capitals, such as `QP`.
     pub name: String,
     /// Its value.
-    pub value: Value,
+    pub value: ArgumentValue,
 }
 
 /// The value of an argument.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Value {
+pub enum ArgumentValue {
     /// No value: the name stands alone, as FLOATING does.
     Flag,
     /// A word such as POUND_FORCE, or quoted text, as it is written.
@@ -54,12 +54,12 @@ impl Statement {
     /// A statement with an identifier and no arguments.
     #[must_use]
     pub fn new(keyword: &str, id: u32) -> Statement {
-        Statement { id: Some(id), ..Statement::lone(keyword) }
+        Statement { id: Some(id), ..Statement::without_id(keyword) }
     }
 
     /// A statement of a kind without identifier, such as UNITS, without arguments.
     #[must_use]
-    pub fn lone(keyword: &str) -> Statement {
+    pub fn without_id(keyword: &str) -> Statement {
         Statement {
             keyword: keyword.to_owned(),
             id: None,
@@ -86,44 +86,44 @@ impl Statement {
 
     /// Adds an argument.
     #[must_use]
-    pub fn with(mut self, name: &str, value: Value) -> Statement {
-        self.arguments.push(Argument { name: name.to_owned(), value });
+    pub fn with(mut self, name: &str, value: ArgumentValue) -> Statement {
+        self.arguments.push(StatementArgument { name: name.to_owned(), value });
         self
     }
 
     /// Adds an argument without value.
     #[must_use]
     pub fn flag(self, name: &str) -> Statement {
-        self.with(name, Value::Flag)
+        self.with(name, ArgumentValue::Flag)
     }
 
     /// Adds an argument whose value is an identifier.
     #[must_use]
     pub fn reference(self, name: &str, id: u32) -> Statement {
-        self.with(name, Value::Whole(i64::from(id)))
+        self.with(name, ArgumentValue::Whole(i64::from(id)))
     }
 
     /// Adds an argument whose value is a word.
     #[must_use]
     pub fn word(self, name: &str, word: &str) -> Statement {
-        self.with(name, Value::Word(word.to_owned()))
+        self.with(name, ArgumentValue::Word(word.to_owned()))
     }
 
     /// Adds an argument whose value is a list of numbers.
     #[must_use]
     pub fn numbers(self, name: &str, values: &[f64]) -> Statement {
-        self.with(name, Value::Numbers(values.to_vec()))
+        self.with(name, ArgumentValue::Numbers(values.to_vec()))
     }
 
     /// Adds an argument whose value is a function expression.
     #[must_use]
     pub fn function(self, name: &str, expression: impl Into<String>) -> Statement {
-        self.with(name, Value::Function(expression.into()))
+        self.with(name, ArgumentValue::Function(expression.into()))
     }
 
     /// The value of the first argument with this full name in capitals.
     #[must_use]
-    pub fn get(&self, name: &str) -> Option<&Value> {
+    pub fn get(&self, name: &str) -> Option<&ArgumentValue> {
         self.arguments.iter().find(|argument| argument.name == name).map(|argument| &argument.value)
     }
 }

@@ -4,14 +4,14 @@ use super::statement::Statement;
 
 /// Units of a data set. The unit of time is the second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Units {
+pub struct AdamsUnits {
     /// FORCE.
-    pub force: Force,
+    pub force: AdamsForceUnit,
     /// MASS. It need not be consistent with force and length: ADAMS converts mass times acceleration to
     /// force.
-    pub mass: Mass,
+    pub mass: AdamsMassUnit,
     /// LENGTH.
-    pub length: Length,
+    pub length: AdamsLengthUnit,
 }
 
 /// A quantity whose units have words in UNITS.
@@ -27,7 +27,7 @@ pub(crate) trait UnitWords: Copy + PartialEq + 'static {
 
 /// FORCE of a UNITS statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Force {
+pub enum AdamsForceUnit {
     /// NEWTON.
     Newton,
     /// KNEWTON.
@@ -40,7 +40,7 @@ pub enum Force {
 
 /// MASS of a UNITS statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Mass {
+pub enum AdamsMassUnit {
     /// KILOGRAM.
     Kilogram,
     /// TONNE, known to the C++ solver only.
@@ -55,7 +55,7 @@ pub enum Mass {
 
 /// LENGTH of a UNITS statement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Length {
+pub enum AdamsLengthUnit {
     /// METER.
     Meter,
     /// MILLIMETER.
@@ -66,11 +66,11 @@ pub enum Length {
     Inch,
 }
 
-impl Units {
+impl AdamsUnits {
     /// The UNITS statement.
     #[must_use]
     pub fn statement(&self) -> Statement {
-        Statement::lone("UNITS")
+        Statement::without_id("UNITS")
             .word("FORCE", self.force.word())
             .word("MASS", self.mass.word())
             .word("LENGTH", self.length.word())
@@ -78,30 +78,30 @@ impl Units {
     }
 }
 
-impl UnitWords for Force {
+impl UnitWords for AdamsForceUnit {
     const ALL: &'static [(Self, &'static str)] = &[
-        (Force::Newton, "NEWTON"),
-        (Force::Kilonewton, "KNEWTON"),
-        (Force::Pound, "POUND_FORCE"),
-        (Force::Kilopound, "KPOUND_FORCE"),
+        (AdamsForceUnit::Newton, "NEWTON"),
+        (AdamsForceUnit::Kilonewton, "KNEWTON"),
+        (AdamsForceUnit::Pound, "POUND_FORCE"),
+        (AdamsForceUnit::Kilopound, "KPOUND_FORCE"),
     ];
 }
 
-impl UnitWords for Mass {
+impl UnitWords for AdamsMassUnit {
     const ALL: &'static [(Self, &'static str)] = &[
-        (Mass::Kilogram, "KILOGRAM"),
-        (Mass::Tonne, "TONNE"),
-        (Mass::Pound, "POUND_MASS"),
-        (Mass::Slug, "SLUG"),
-        (Mass::Slinch, "SLINCH"),
+        (AdamsMassUnit::Kilogram, "KILOGRAM"),
+        (AdamsMassUnit::Tonne, "TONNE"),
+        (AdamsMassUnit::Pound, "POUND_MASS"),
+        (AdamsMassUnit::Slug, "SLUG"),
+        (AdamsMassUnit::Slinch, "SLINCH"),
     ];
 }
 
-impl UnitWords for Length {
+impl UnitWords for AdamsLengthUnit {
     const ALL: &'static [(Self, &'static str)] = &[
-        (Length::Meter, "METER"),
-        (Length::Millimeter, "MILLIMETER"),
-        (Length::Foot, "FOOT"),
-        (Length::Inch, "INCH"),
+        (AdamsLengthUnit::Meter, "METER"),
+        (AdamsLengthUnit::Millimeter, "MILLIMETER"),
+        (AdamsLengthUnit::Foot, "FOOT"),
+        (AdamsLengthUnit::Inch, "INCH"),
     ];
 }

@@ -1,6 +1,6 @@
 //! Checked access to the arguments of a statement.
 
-use crate::{Error, Fault, Statement, StatementId, Value};
+use crate::{AdamsFault, ArgumentValue, Error, Statement, StatementId};
 
 /// A statement whose arguments are read and checked. A missing optional argument is `None`; a value of the
 /// wrong form is an error that names the statement and the argument.
@@ -11,7 +11,7 @@ pub(super) struct Arguments<'a> {
 
 impl<'a> Arguments<'a> {
     /// An error of this statement.
-    pub fn fault(&self, fault: Fault) -> Error {
+    pub fn fault(&self, fault: AdamsFault) -> Error {
         Error::Statement {
             statement: StatementId::new(&self.statement.keyword, self.statement.id.unwrap_or(0)),
             fault: Box::new(fault),
@@ -20,7 +20,7 @@ impl<'a> Arguments<'a> {
 
     /// The identifier.
     pub fn id(&self) -> Result<u32, Error> {
-        self.statement.id.filter(|id| *id > 0).ok_or_else(|| self.fault(Fault::Id))
+        self.statement.id.filter(|id| *id > 0).ok_or_else(|| self.fault(AdamsFault::Id))
     }
 
     /// Whether an argument is given.
@@ -30,21 +30,21 @@ impl<'a> Arguments<'a> {
 
     /// The error of a value of the wrong form.
     pub fn wrong_form(&self, argument: &'static str) -> Error {
-        self.fault(Fault::Given { argument })
+        self.fault(AdamsFault::WrongForm { argument })
     }
 
     /// The error of a required argument that is missing.
     pub fn missing_argument(&self, argument: &'static str) -> Error {
-        self.fault(Fault::Lacks { argument })
+        self.fault(AdamsFault::MissingArgument { argument })
     }
 
     /// A list of finite numbers; angles in radians.
     pub fn numbers(&self, name: &'static str) -> Result<Option<Vec<f64>>, Error> {
         let all = match self.statement.get(name) {
             None => return Ok(None),
-            Some(Value::Numbers(all)) => all.clone(),
-            Some(Value::Degrees(all)) => all.iter().map(|angle| angle.to_radians()).collect(),
-            Some(Value::Whole(whole)) => vec![*whole as f64],
+            Some(ArgumentValue::Numbers(all)) => all.clone(),
+            Some(ArgumentValue::Degrees(all)) => all.iter().map(|angle| angle.to_radians()).collect(),
+            Some(ArgumentValue::Whole(whole)) => vec![*whole as f64],
             Some(_) => return Err(self.wrong_form(name)),
         };
         if all.iter().all(|value| value.is_finite()) { Ok(Some(all)) } else { Err(self.wrong_form(name)) }
@@ -86,7 +86,9 @@ impl<'a> Arguments<'a> {
     pub fn reference(&self, name: &'static str) -> Result<Option<u32>, Error> {
         match self.statement.get(name) {
             None => Ok(None),
-            Some(Value::Whole(whole)) => u32::try_from(*whole).map(Some).map_err(|_| self.wrong_form(name)),
+            Some(ArgumentValue::Whole(whole)) => {
+                u32::try_from(*whole).map(Some).map_err(|_| self.wrong_form(name))
+            }
             Some(_) => Err(self.wrong_form(name)),
         }
     }
@@ -95,7 +97,7 @@ impl<'a> Arguments<'a> {
     pub fn function(&self, name: &'static str) -> Result<Option<&'a str>, Error> {
         match self.statement.get(name) {
             None => Ok(None),
-            Some(Value::Function(text)) => Ok(Some(text)),
+            Some(ArgumentValue::Function(text)) => Ok(Some(text)),
             Some(_) => Err(self.wrong_form(name)),
         }
     }
@@ -112,10 +114,10 @@ impl<'a> Arguments<'a> {
 
 /// The cosine and sine of every angle of a value. They are exact for multiples of 90 degrees given in
 /// degrees.
-pub(super) fn cosines_and_sines(value: &Value) -> Option<Vec<(f64, f64)>> {
+pub(super) fn cosines_and_sines(value: &ArgumentValue) -> Option<Vec<(f64, f64)>> {
     match value {
-        Value::Numbers(all) => Some(all.iter().map(|angle| (angle.cos(), angle.sin())).collect()),
-        Value::Degrees(all) => Some(
+        ArgumentValue::Numbers(all) => Some(all.iter().map(|angle| (angle.cos(), angle.sin())).collect()),
+        ArgumentValue::Degrees(all) => Some(
             all.iter()
                 .map(|degrees| {
                     let quarter = degrees.rem_euclid(360.0) / 90.0;
@@ -129,7 +131,7 @@ pub(super) fn cosines_and_sines(value: &Value) -> Option<Vec<(f64, f64)>> {
                 })
                 .collect(),
         ),
-        Value::Whole(angle) => Some(vec![((*angle as f64).cos(), (*angle as f64).sin())]),
+        ArgumentValue::Whole(angle) => Some(vec![((*angle as f64).cos(), (*angle as f64).sin())]),
         _ => None,
     }
 }

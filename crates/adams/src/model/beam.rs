@@ -3,7 +3,7 @@
 use super::arguments::Arguments;
 use crate::kinematics::vector::{Vector, apply};
 use crate::kinematics::{Frame, Measure, angle, measure};
-use crate::{Error, Fault, Scalar, Value};
+use crate::{AdamsFault, ArgumentValue, Error, Scalar};
 
 /// A massless beam from J to I, which lies at the distance LENGTH along x of J in the undeformed state.
 ///
@@ -40,11 +40,11 @@ impl Beam {
         let shear = [arguments.number("ASY")?.unwrap_or(0.0), arguments.number("ASZ")?.unwrap_or(0.0)];
         let positive = [length, area, e, g].into_iter().all(|value| value > 0.0);
         if !positive || [ixx, iyy, izz, shear[0], shear[1]].into_iter().any(|value| value < 0.0) {
-            return Err(arguments.fault(Fault::Parameter));
+            return Err(arguments.fault(AdamsFault::Parameter));
         }
         match arguments.statement.get("FORMULATION") {
             None => {}
-            Some(Value::Word(word)) if word.eq_ignore_ascii_case("LINEAR") => {}
+            Some(ArgumentValue::Word(word)) if word.eq_ignore_ascii_case("LINEAR") => {}
             Some(_) => return Err(arguments.wrong_form("FORMULATION")),
         }
         let (l, l2, l3) = (length, length * length, length * length * length);
@@ -62,8 +62,8 @@ impl Beam {
         (k[5][1], k[4][2]) = (k[1][5], k[2][4]);
         let damping = match (arguments.number("CRATIO")?, arguments.numbers("CMATRIX")?) {
             (ratio, None) => k.map(|row| row.map(|value| value * ratio.unwrap_or(0.0))),
-            (None, Some(list)) => symmetric(&list).ok_or_else(|| arguments.fault(Fault::Parameter))?,
-            _ => return Err(arguments.fault(Fault::Parameter)),
+            (None, Some(list)) => symmetric(&list).ok_or_else(|| arguments.fault(AdamsFault::Parameter))?,
+            _ => return Err(arguments.fault(AdamsFault::Parameter)),
         };
         Ok(Beam { length, stiffness: k, damping })
     }

@@ -3,10 +3,10 @@
 use super::formula::Formula;
 use super::load::LoadKind;
 use crate::expression::functions::Function;
-use crate::expression::{Expression, Name};
+use crate::expression::{Expression, ExpressionName};
 use crate::kinematics::Measure;
-use crate::tables::Method;
-use crate::{Fault, StatementId};
+use crate::tables::SplineMethod;
+use crate::{AdamsFault, StatementId};
 use std::collections::BTreeMap;
 
 /// The indices that identifiers refer to.
@@ -19,7 +19,7 @@ pub(crate) struct Symbols {
     pub loads: BTreeMap<(LoadKind, u32), usize>,
     pub constraints: BTreeMap<(&'static str, u32), usize>,
     /// Index of the family, and whether it depends on z.
-    pub families: BTreeMap<(u32, Method), (usize, bool)>,
+    pub families: BTreeMap<(u32, SplineMethod), (usize, bool)>,
 }
 
 /// What is needed to compile an expression.
@@ -29,7 +29,7 @@ pub(super) struct Compiler<'a> {
     pub reactions: bool,
 }
 
-type Compiled = Result<Formula, (usize, Fault)>;
+type Compiled = Result<Formula, (usize, AdamsFault)>;
 
 impl Compiler<'_> {
     /// Compiles an expression.
@@ -46,7 +46,7 @@ impl Compiler<'_> {
                 "PI" => Ok(Formula::Number(std::f64::consts::PI)),
                 "DTOR" => Ok(Formula::Number(std::f64::consts::PI / 180.0)),
                 "RTOD" => Ok(Formula::Number(180.0 / std::f64::consts::PI)),
-                _ => Err((name.offset, Fault::Unknown { name: name.word.clone() })),
+                _ => Err((name.offset, AdamsFault::Unknown { name: name.word.clone() })),
             },
             Expression::Sum(terms) => {
                 let each = terms.iter().map(|(sign, term)| Ok((*sign, self.compile(term)?)));
@@ -64,15 +64,15 @@ impl Compiler<'_> {
     }
 
     /// A function call.
-    fn call(&self, name: &Name, arguments: &[Expression]) -> Compiled {
+    fn call(&self, name: &ExpressionName, arguments: &[Expression]) -> Compiled {
         let word = name.word.as_str();
-        let fault = |fault: Fault| (name.offset, fault);
+        let fault = |fault: AdamsFault| (name.offset, fault);
         if let Some((what, most)) = measure(word) {
             return self.measure(name, arguments, what, most);
         }
         if let Some((function, least, most)) = Function::find(word) {
             if !(least..=most).contains(&arguments.len()) {
-                return Err(fault(Fault::Arguments));
+                return Err(fault(AdamsFault::Arguments));
             }
             let all: Result<Vec<Formula>, _> = arguments.iter().map(|one| self.compile(one)).collect();
             return Ok(Formula::Call(function, all?));
@@ -94,8 +94,8 @@ impl Compiler<'_> {
                 let (index, slot) = found.ok_or_else(|| fault(missing("DIFF", id)))?;
                 Ok(if word == "DIF" { Formula::Differential(index) } else { Formula::Slot(slot) })
             }
-            ("AKISPL", _) => self.spline(name, arguments, Method::Akima),
-            ("CUBSPL", _) => self.spline(name, arguments, Method::Natural),
+            ("AKISPL", _) => self.spline(name, arguments, SplineMethod::Akima),
+            ("CUBSPL", _) => self.spline(name, arguments, SplineMethod::Natural),
             ("SFORCE" | "VFORCE" | "GFORCE" | "BEAM" | "JOINT" | "JPRIM" | "MOTION", [id, rest @ ..]) => {
                 self.force(name, id, rest)
             }
@@ -103,13 +103,17 @@ impl Compiler<'_> {
                 "IF" | "VARVAL" | "DIF" | "DIF1" | "SFORCE" | "VFORCE" | "GFORCE" | "BEAM" | "JOINT"
                 | "MOTION",
                 _,
-            ) => Err(fault(Fault::Arguments)),
-            _ => Err(fault(Fault::Unknown { name: name.word.clone() })),
+            ) => Err(fault(AdamsFault::Arguments)),
+            _ => Err(fault(AdamsFault::Unknown { name: name.word.clone() })),
         }
     }
 
     /// The index of a marker; the identifier zero is ground.
-    fn marker(&self, argument: &Expression, name: &Name) -> Result<Option<usize>, (usize, Fault)> {
+    fn marker(
+        &self,
+        argument: &Expression,
+        name: &ExpressionName,
+    ) -> Result<Option<usize>, (usize, AdamsFault)> {
         match whole(argument, name)? {
             0 => Ok(None),
             id => {
@@ -120,9 +124,15 @@ impl Compiler<'_> {
     }
 
     /// A kinematic function, DX to WM and AX to AZ.
-    fn measure(&self, name: &Name, arguments: &[Expression], what: Measure, most: usize) -> Compiled {
+    fn measure(
+        &self,
+        name: &ExpressionName,
+        arguments: &[Expression],
+        what: Measure,
+        most: usize,
+    ) -> Compiled {
         if arguments.is_empty() || arguments.len() > most {
-            return Err((name.offset, Fault::Arguments));
+            return Err((name.offset, AdamsFault::Arguments));
         }
         let mut markers = [None; 4];
         // VM and VR have no axes to be resolved in: their third marker is the frame of the derivative.
@@ -134,38 +144,38 @@ impl Compiler<'_> {
     }
 
     /// AKISPL or CUBSPL with the arguments (x, z, id, order).
-    fn spline(&self, name: &Name, arguments: &[Expression], method: Method) -> Compiled {
-        let fault = |fault: Fault| (name.offset, fault);
+    fn spline(&self, name: &ExpressionName, arguments: &[Expression], method: SplineMethod) -> Compiled {
+        let fault = |fault: AdamsFault| (name.offset, fault);
         let (x, z, id, order) = match arguments {
             [x, z, id] => (x, z, id, 0),
             [x, z, id, order] => (x, z, id, whole(order, name)?),
-            _ => return Err(fault(Fault::Arguments)),
+            _ => return Err(fault(AdamsFault::Arguments)),
         };
         let id = whole(id, name)?;
         let found = self.symbols.families.get(&(id, method)).copied();
         let (family, surface) = found.ok_or_else(|| fault(missing("SPLINE", id)))?;
         if order > 0 && surface {
-            return Err(fault(Fault::Derivative));
+            return Err(fault(AdamsFault::Derivative));
         }
         if order > 2 {
-            return Err(fault(Fault::Arguments));
+            return Err(fault(AdamsFault::Arguments));
         }
         let (x, z) = (Box::new(self.compile(x)?), Box::new(self.compile(z)?));
         Ok(Formula::Spline { family, order: order as usize, x, z })
     }
 
     /// A component of a force or reaction, with the arguments (id, jflag, comp, rm).
-    fn force(&self, name: &Name, id: &Expression, rest: &[Expression]) -> Compiled {
-        let fault = |fault: Fault| (name.offset, fault);
+    fn force(&self, name: &ExpressionName, id: &Expression, rest: &[Expression]) -> Compiled {
+        let fault = |fault: AdamsFault| (name.offset, fault);
         let id = whole(id, name)?;
         let (on_j, component, frame) = match rest {
             [on_j, component] => (on_j, component, None),
             [on_j, component, frame] => (on_j, component, self.marker(frame, name)?),
-            _ => return Err(fault(Fault::Arguments)),
+            _ => return Err(fault(AdamsFault::Arguments)),
         };
         let (on_j, component) = (whole(on_j, name)?, whole(component, name)? as usize);
         if on_j > 1 || !(1..=8).contains(&component) {
-            return Err(fault(Fault::Arguments));
+            return Err(fault(AdamsFault::Arguments));
         }
         let on_j = on_j == 1;
         let kind = match name.word.as_str() {
@@ -178,7 +188,7 @@ impl Compiler<'_> {
                 let found = all.iter().find(|((keyword, other), _)| *keyword == word && *other == id);
                 let (_, &constraint) = found.ok_or_else(|| fault(missing(word, id)))?;
                 if !self.reactions {
-                    return Err(fault(Fault::Reaction));
+                    return Err(fault(AdamsFault::Reaction));
                 }
                 return Ok(Formula::Reaction { constraint, on_j, component, frame });
             }
@@ -190,13 +200,13 @@ impl Compiler<'_> {
 }
 
 /// The fault of a statement that does not exist.
-fn missing(keyword: &str, id: u32) -> Fault {
-    Fault::Missing { statement: StatementId::new(keyword, id) }
+fn missing(keyword: &str, id: u32) -> AdamsFault {
+    AdamsFault::Missing { statement: StatementId::new(keyword, id) }
 }
 
 /// An identifier or another argument that must be a whole number, not an expression.
-fn whole(argument: &Expression, name: &Name) -> Result<u32, (usize, Fault)> {
-    argument.whole().ok_or((name.offset, Fault::Id))
+fn whole(argument: &Expression, name: &ExpressionName) -> Result<u32, (usize, AdamsFault)> {
+    argument.whole().ok_or((name.offset, AdamsFault::Id))
 }
 
 /// The kinematic function of a name, DX to WM and AX to AZ, with its largest number of markers.

@@ -3,12 +3,12 @@
 use super::compiler::{Compiler, Symbols};
 use super::constraint::Constraint;
 use super::formula::Formula;
-use super::load::Load;
+use super::load::AppliedForce;
 use super::order::Block;
 use super::part::{Marker, Part};
 use crate::kinematics::vector::Vector;
-use crate::tables::Family;
-use crate::{Expression, Fault, State};
+use crate::tables::SplineFunction;
+use crate::{AdamsFault, Expression, ModelState};
 
 /// A data set with every reference resolved, which can be executed.
 ///
@@ -24,16 +24,16 @@ use crate::{Expression, Fault, State};
 /// # Ok::<(), adams::Error>(())
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Model {
+pub struct AdamsModel {
     pub(crate) parts: Vec<Part>,
     pub(crate) markers: Vec<Marker>,
-    pub(crate) loads: Vec<Load>,
+    pub(crate) loads: Vec<AppliedForce>,
     pub(crate) constraints: Vec<Constraint>,
     /// Every scalar that an expression defines: VARIABLEs, components of loads, DIF1s.
     pub(crate) slots: Vec<Slot>,
     pub(crate) diffs: Vec<Diff>,
     pub(crate) requests: Vec<Request>,
-    pub(crate) families: Vec<Family>,
+    pub(crate) families: Vec<SplineFunction>,
     /// The identifier of the SPLINE of each family.
     pub(crate) splines: Vec<u32>,
     /// Weight of one unit of mass, in the unit of force of the data set.
@@ -87,14 +87,14 @@ pub(crate) struct Request {
     pub columns: Vec<(usize, Formula)>,
 }
 
-impl Model {
+impl AdamsModel {
     /// The initial state: QG, REULER and VX to WZ of every PART, and IC of every DIFF, at time zero.
     #[must_use]
-    pub fn initial(&self) -> State {
+    pub fn initial(&self) -> ModelState {
         let parts =
             self.parts.iter().filter(|part| !part.ground).map(|part| (part.id, part.pose(&self.markers)));
         let differentials = self.diffs.iter().map(|diff| (diff.id, diff.start));
-        State { time: 0.0, parts: parts.collect(), differentials: differentials.collect() }
+        ModelState { time: 0.0, parts: parts.collect(), differentials: differentials.collect() }
     }
 
     /// The keyword and argument that a slot belongs to.
@@ -109,7 +109,7 @@ impl Model {
     }
 
     /// Compiles an expression that is not part of the data set.
-    pub(crate) fn compile(&self, tree: &Expression) -> Result<Formula, (usize, Fault)> {
+    pub(crate) fn compile(&self, tree: &Expression) -> Result<Formula, (usize, AdamsFault)> {
         Compiler { symbols: &self.symbols, reactions: true }.compile(tree)
     }
 }

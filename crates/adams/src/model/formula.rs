@@ -1,13 +1,13 @@
 //! Expressions with their names resolved, and their evaluation.
 
 use super::configuration::Configuration;
-use super::load::Load;
+use super::load::AppliedForce;
 use crate::expression::functions::{Function, power};
-use crate::expression::{Factor, Sign};
+use crate::expression::{FactorOperator, TermOperator};
 use crate::kinematics::vector::{Vector, norm, resolve};
 use crate::kinematics::{Frame, Measure, measure};
-use crate::tables::Family;
-use crate::{Fault, Scalar};
+use crate::tables::SplineFunction;
+use crate::{AdamsFault, Scalar};
 use std::cell::RefCell;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -51,15 +51,15 @@ pub(crate) enum Formula {
     /// IF: the test, and the values where it is negative, zero and positive.
     Choice(Box<[Formula; 4]>),
     Call(Function, Vec<Formula>),
-    Sum(Vec<(Sign, Formula)>),
-    Product(Vec<(Factor, Formula)>),
+    Sum(Vec<(TermOperator, Formula)>),
+    Product(Vec<(FactorOperator, Formula)>),
     Power(Box<Formula>, Box<Formula>),
 }
 
 /// Everything that the value of a formula depends on.
 pub(crate) struct Evaluation<'a, T> {
-    pub loads: &'a [Load],
-    pub families: &'a [Family],
+    pub loads: &'a [AppliedForce],
+    pub families: &'a [SplineFunction],
     /// Frames, time and values of slots.
     pub at: Configuration<T>,
     /// Force and torque on I of each constraint, in ground axes; `None` where they are not known.
@@ -71,8 +71,8 @@ pub(crate) struct Evaluation<'a, T> {
 impl<'a, T: Scalar> Evaluation<'a, T> {
     /// An evaluation on a configuration, with `constraints` reactions that are not known.
     pub fn new(
-        loads: &'a [Load],
-        families: &'a [Family],
+        loads: &'a [AppliedForce],
+        families: &'a [SplineFunction],
         at: Configuration<T>,
         constraints: usize,
     ) -> Evaluation<'a, T> {
@@ -86,13 +86,13 @@ impl Formula {
     ///
     /// # Errors
     /// The faults of functions and tables; [`Fault::Infinite`] for a result that is not finite.
-    pub fn value<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, Fault> {
+    pub fn value<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, AdamsFault> {
         let out = self.part(on)?;
-        if out.value().is_finite() { Ok(out) } else { Err(Fault::Infinite) }
+        if out.value().is_finite() { Ok(out) } else { Err(AdamsFault::NotFiniteValue) }
     }
 
     /// The value, which may be infinite or NaN.
-    fn part<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, Fault> {
+    fn part<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, AdamsFault> {
         match self {
             Formula::Number(value) => Ok(T::constant(*value)),
             Formula::Time => Ok(T::constant(on.at.time)),
@@ -102,7 +102,7 @@ impl Formula {
                 Ok(measure(*what, markers.map(|marker| on.at.frame(marker)), same))
             }
             Formula::Load { load, on_j, component, frame } => {
-                let load = on.loads.get(*load).ok_or(Fault::Text)?;
+                let load = on.loads.get(*load).ok_or(AdamsFault::UnexpectedText)?;
                 if let Some(slot) = load.direct(*component, *frame) {
                     let sign = if *on_j { -1.0 } else { 1.0 };
                     return Ok(slot.map_or(T::constant(0.0), |slot| on.at.values[slot].scaled(sign)));
@@ -110,11 +110,14 @@ impl Formula {
                 Ok(component_of(&load.wrench(&on.at), *component, on.at.frame(*frame), *on_j))
             }
             Formula::Reaction { constraint, on_j, component, frame } => {
-                let wrench = on.reactions.get(*constraint).and_then(Option::as_ref).ok_or(Fault::Reaction)?;
+                let wrench =
+                    on.reactions.get(*constraint).and_then(Option::as_ref).ok_or(AdamsFault::Reaction)?;
                 Ok(component_of(wrench, *component, on.at.frame(*frame), *on_j))
             }
-            Formula::Slot(index) => on.at.values.get(*index).cloned().ok_or(Fault::Text),
-            Formula::Differential(index) => on.at.differentials.get(*index).cloned().ok_or(Fault::Text),
+            Formula::Slot(index) => on.at.values.get(*index).cloned().ok_or(AdamsFault::UnexpectedText),
+            Formula::Differential(index) => {
+                on.at.differentials.get(*index).cloned().ok_or(AdamsFault::UnexpectedText)
+            }
             Formula::Spline { family, order, x, z } => {
                 interpolated(on, *family, *order, &x.part(on)?, &z.part(on)?)
             }
@@ -124,11 +127,11 @@ impl Formula {
                     Some(Ordering::Less) => below.part(on),
                     Some(Ordering::Equal) => zero.part(on),
                     Some(Ordering::Greater) => above.part(on),
-                    None => Err(Fault::Infinite),
+                    None => Err(AdamsFault::NotFiniteValue),
                 }
             }
             Formula::Call(function, arguments) => {
-                let all: Result<Vec<T>, Fault> = arguments.iter().map(|one| one.part(on)).collect();
+                let all: Result<Vec<T>, AdamsFault> = arguments.iter().map(|one| one.part(on)).collect();
                 function.value(&all?)
             }
             Formula::Sum(terms) => sum(on, terms),
@@ -156,7 +159,7 @@ impl Formula {
     }
 
     /// Adds the slots whose values the formula reads.
-    pub fn needs(&self, loads: &[Load], out: &mut BTreeSet<usize>) {
+    pub fn needs(&self, loads: &[AppliedForce], out: &mut BTreeSet<usize>) {
         match self {
             Formula::Number(_)
             | Formula::Time
@@ -194,42 +197,45 @@ fn interpolated<T: Scalar>(
     order: usize,
     x: &T,
     z: &T,
-) -> Result<T, Fault> {
-    let table = on.families.get(family).ok_or(Fault::Text)?;
+) -> Result<T, AdamsFault> {
+    let table = on.families.get(family).ok_or(AdamsFault::UnexpectedText)?;
     if !(x.value().is_finite() && z.value().is_finite()) {
-        return Err(Fault::Infinite);
+        return Err(AdamsFault::NotFiniteValue);
     }
     let read = table.read(x.value(), z.value(), order)?;
-    if read.beyond {
+    if read.extrapolated {
         on.beyond.borrow_mut().insert(family);
     }
     Ok(T::compose(read.value, &[(read.by_x, x), (read.by_z, z)]))
 }
 
 /// The sum of terms from left to right.
-fn sum<T: Scalar>(on: &Evaluation<'_, T>, terms: &[(Sign, Formula)]) -> Result<T, Fault> {
+fn sum<T: Scalar>(on: &Evaluation<'_, T>, terms: &[(TermOperator, Formula)]) -> Result<T, AdamsFault> {
     let mut sum: Option<T> = None;
     for (sign, term) in terms {
         let term = term.part(on)?;
         sum = Some(match (sum, sign) {
-            (None, Sign::Plus) => term,
-            (None, Sign::Minus) => term.negated(),
-            (Some(sum), Sign::Plus) => sum.plus(&term),
-            (Some(sum), Sign::Minus) => sum.minus(&term),
+            (None, TermOperator::Plus) => term,
+            (None, TermOperator::Minus) => term.negated(),
+            (Some(sum), TermOperator::Plus) => sum.plus(&term),
+            (Some(sum), TermOperator::Minus) => sum.minus(&term),
         });
     }
     Ok(sum.unwrap_or(T::constant(0.0)))
 }
 
 /// The product of factors from left to right.
-fn product<T: Scalar>(on: &Evaluation<'_, T>, factors: &[(Factor, Formula)]) -> Result<T, Fault> {
+fn product<T: Scalar>(
+    on: &Evaluation<'_, T>,
+    factors: &[(FactorOperator, Formula)],
+) -> Result<T, AdamsFault> {
     let mut product: Option<T> = None;
     for (factor, part) in factors {
         let part = part.part(on)?;
         product = Some(match (product, factor) {
             (None, _) => part,
-            (Some(product), Factor::Times) => product.times(&part),
-            (Some(product), Factor::Over) => product.over(&part),
+            (Some(product), FactorOperator::Times) => product.times(&part),
+            (Some(product), FactorOperator::Over) => product.over(&part),
         });
     }
     Ok(product.unwrap_or(T::constant(1.0)))

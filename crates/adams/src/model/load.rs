@@ -8,7 +8,7 @@ use crate::kinematics::vector::{Vector, apply, column, norm, resolve, scale, sub
 /// A force and torque on the part of marker I at I, with the opposite force and torque on the part of J at
 /// the same point.
 #[derive(Clone, Debug)]
-pub(crate) struct Load {
+pub(crate) struct AppliedForce {
     pub kind: LoadKind,
     pub id: u32,
     pub i: usize,
@@ -41,7 +41,7 @@ pub(crate) enum Law {
 /// The arguments of the components of a VFORCE or GFORCE.
 pub(super) const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "TX", "TY", "TZ"];
 
-impl Load {
+impl AppliedForce {
     /// The keyword, and the argument whose expression gives a component.
     pub fn label(&self, component: usize) -> (&'static str, &'static str) {
         let argument = match self.law {

@@ -19,7 +19,7 @@ mod part;
 
 pub(crate) use configuration::Configuration;
 pub(crate) use constraint::{Constraint, Equation};
-pub use data::Model;
+pub use data::AdamsModel;
 pub(crate) use data::Owner;
 pub(crate) use formula::Evaluation;
 pub(crate) use order::Block;

@@ -2,7 +2,7 @@
 
 use super::arguments::Arguments;
 use crate::kinematics::vector::{IDENTITY, Matrix, Vector, cross, dot, norm, product, subtract};
-use crate::{Error, Fault, Pose};
+use crate::{AdamsFault, Error, Pose};
 use nalgebra::{Matrix3, Vector3};
 
 /// A rigid body, or ground.
@@ -96,9 +96,9 @@ fn placement(
             };
             let second = other.map_or(spare, |point| subtract(&point, &origin));
             let axes = if by_x { from_axes(second, first, true) } else { from_axes(first, second, false) };
-            axes.ok_or_else(|| arguments.fault(Fault::Axes))?
+            axes.ok_or_else(|| arguments.fault(AdamsFault::Axes))?
         }
-        _ => return Err(arguments.fault(Fault::Axes)),
+        _ => return Err(arguments.fault(AdamsFault::Axes)),
     };
     Ok((origin, axes))
 }
@@ -129,13 +129,13 @@ fn euler([a, b, c]: [(f64, f64); 3]) -> Matrix<f64> {
 mod tests {
     use super::super::arguments::cosines_and_sines;
     use super::{euler, from_axes};
-    use crate::Value;
+    use crate::ArgumentValue;
     use crate::kinematics::vector::apply;
 
     #[test]
     fn euler_angles_are_body_3_1_3() {
         // x along ground z, y along ground y.
-        let angles = cosines_and_sines(&Value::Degrees(vec![270.0, 90.0, 90.0])).expect("angles");
+        let angles = cosines_and_sines(&ArgumentValue::Degrees(vec![270.0, 90.0, 90.0])).expect("angles");
         let axes = euler([angles[0], angles[1], angles[2]]);
         assert_eq!(apply(&axes, &[1.0, 0.0, 0.0]), [0.0, 0.0, 1.0]);
         assert_eq!(apply(&axes, &[0.0, 1.0, 0.0]), [0.0, 1.0, 0.0]);

@@ -1,10 +1,10 @@
 //! The expressions of a model at a state.
 
 use crate::kinematics::Frame;
-use crate::model::{Configuration, Evaluation, Model};
-use crate::{Error, Scalar, State, StatementId};
+use crate::model::{AdamsModel, Configuration, Evaluation};
+use crate::{Error, ModelState, Scalar, StatementId};
 
-impl Model {
+impl AdamsModel {
     /// The value of the expression of a slot.
     pub(super) fn slot_value<T: Scalar>(&self, slot: usize, on: &Evaluation<'_, T>) -> Result<T, Error> {
         let slot = &self.slots[slot];
@@ -16,7 +16,7 @@ impl Model {
     }
 
     /// Everything that expressions read at a state. The values of slots are zero.
-    pub(super) fn evaluation<T: Scalar>(&self, state: &State) -> Result<Evaluation<'_, T>, Error> {
+    pub(super) fn evaluation<T: Scalar>(&self, state: &ModelState) -> Result<Evaluation<'_, T>, Error> {
         let missing = |keyword: &str, id: u32| Error::State { statement: StatementId::new(keyword, id) };
         let mut frames: Vec<Frame<T>> = Vec::with_capacity(self.parts.len());
         for part in &self.parts {

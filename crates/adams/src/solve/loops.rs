@@ -2,11 +2,11 @@
 
 use super::newton;
 use super::solution::Solution;
-use crate::model::{Block, Evaluation, Model};
-use crate::{Dual, Error, Scalar, State, StatementId};
+use crate::model::{AdamsModel, Block, Evaluation};
+use crate::{Dual, Error, ModelState, Scalar, StatementId};
 use nalgebra::DMatrix;
 
-impl Model {
+impl AdamsModel {
     /// VARIABLEs, forces and rates at a state.
     ///
     /// Expressions are evaluated in the order in which they depend on each other. Expressions that depend on
@@ -29,7 +29,7 @@ impl Model {
     /// assert!((solution.variables[&1] - 1.0 / 11.9).abs() < 1e-16);
     /// # Ok::<(), adams::Error>(())
     /// ```
-    pub fn solve(&self, state: &State) -> Result<Solution, Error> {
+    pub fn solve(&self, state: &ModelState) -> Result<Solution, Error> {
         let mut on = self.evaluation::<f64>(state)?;
         on.at.values = self.slots.iter().map(|slot| slot.guess).collect();
         let mut dual: Option<Evaluation<'_, Dual>> = None;
@@ -75,7 +75,7 @@ impl Model {
                 dual.at.values[*slot] = Dual::unknown(*x, k, count);
             }
             let all = self.loop_residuals(dual, torn, rest)?;
-            let matrix = DMatrix::from_fn(count, count, |i, j| all[i].slope(j));
+            let matrix = DMatrix::from_fn(count, count, |i, j| all[i].derivative(j));
             Ok((all.iter().map(Scalar::value).collect(), matrix))
         };
         let residual = |x: &[f64]| {

@@ -12,4 +12,4 @@ mod solution;
 mod statics;
 
 pub use solution::{Load, Solution};
-pub use statics::{Equilibrium, Reaction};
+pub use statics::{ConstraintReaction, Equilibrium};

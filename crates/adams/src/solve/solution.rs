@@ -1,8 +1,8 @@
 //! The values of a model at a solved state.
 
 use crate::kinematics::vector::Vector;
-use crate::model::{Evaluation, Model, Owner};
-use crate::{Error, Fault, State, StatementId, expression};
+use crate::model::{AdamsModel, Evaluation, Owner};
+use crate::{AdamsFault, Error, ModelState, StatementId, expression};
 use nalgebra::Vector3;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,7 +20,7 @@ pub struct Solution {
     /// out.
     pub requests: BTreeMap<u32, BTreeMap<usize, f64>>,
     /// The identifiers of SPLINEs that were read beyond their values.
-    pub beyond: BTreeSet<u32>,
+    pub extrapolated: BTreeSet<u32>,
     /// Newton iterations of all loops.
     pub iterations: usize,
     /// The values of all slots.
@@ -41,7 +41,7 @@ pub struct Load {
     pub torque: Vector3<f64>,
 }
 
-impl Model {
+impl AdamsModel {
     /// The solution, once the values of all slots are known.
     pub(super) fn report(&self, on: &Evaluation<'_, f64>, iterations: usize) -> Result<Solution, Error> {
         const COLUMNS: [&str; 8] = ["F1", "F2", "F3", "F4", "F5", "F6", "F7", "F8"];
@@ -69,7 +69,7 @@ impl Model {
                     Ok(value) => {
                         columns.insert(column + 1, value);
                     }
-                    Err(Fault::Reaction) => {}
+                    Err(AdamsFault::Reaction) => {}
                     Err(fault) => {
                         let statement = StatementId::new("REQUEST", request.id);
                         let fault = Box::new(fault);
@@ -80,7 +80,7 @@ impl Model {
             out.requests.insert(request.id, columns);
         }
         let beyond = on.beyond.borrow();
-        out.beyond = beyond.iter().filter_map(|family| self.splines.get(*family)).copied().collect();
+        out.extrapolated = beyond.iter().filter_map(|family| self.splines.get(*family)).copied().collect();
         out.values.clone_from(&on.at.values);
         out.reactions.clone_from(&on.reactions);
         Ok(out)
@@ -102,8 +102,8 @@ impl Model {
     /// assert_eq!(model.evaluate(&state, &solution, "2*DY(216)")?, 2.5);
     /// # Ok::<(), adams::Error>(())
     /// ```
-    pub fn evaluate(&self, state: &State, solution: &Solution, text: &str) -> Result<f64, Error> {
-        let refuse = |(offset, fault): (usize, Fault)| Error::In {
+    pub fn evaluate(&self, state: &ModelState, solution: &Solution, text: &str) -> Result<f64, Error> {
+        let refuse = |(offset, fault): (usize, AdamsFault)| Error::In {
             statement: StatementId::new("REQUEST", 0),
             argument: "F1",
             offset,

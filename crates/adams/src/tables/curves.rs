@@ -1,6 +1,6 @@
 //! The values of a SPLINE.
 
-use crate::Fault;
+use crate::AdamsFault;
 
 /// Values y over x: one curve for each z, or a single curve without z.
 ///
@@ -18,15 +18,15 @@ use crate::Fault;
 /// # Ok::<(), Fault>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curves {
+pub struct SplineValues {
     x: Vec<f64>,
     z: Vec<f64>,
     y: Vec<Vec<f64>>,
 }
 
-impl Curves {
+impl SplineValues {
     /// The smallest number of x values of a SPLINE.
-    pub const LEAST: usize = 4;
+    pub const MIN_POINTS: usize = 4;
 
     /// A family of curves, where `y[i]` are the values over `x` at `z[i]`; with an empty `z` the single curve
     /// `y[0]`.
@@ -37,24 +37,24 @@ impl Curves {
     /// [`Fault::Points`] for fewer than four x values; [`Fault::Order`] for x or z values that are not finite
     /// or do not increase; [`Fault::Curves`] and [`Fault::Values`] for a wrong shape of `y`;
     /// [`Fault::NotFinite`] for a y value that is not finite.
-    pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<Curves, Fault> {
-        if x.len() < Curves::LEAST {
-            return Err(Fault::Points { found: x.len(), least: Curves::LEAST });
+    pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<SplineValues, AdamsFault> {
+        if x.len() < SplineValues::MIN_POINTS {
+            return Err(AdamsFault::Points { found: x.len(), least: SplineValues::MIN_POINTS });
         }
         increasing(&x)?;
         increasing(&z)?;
         if y.len() != z.len().max(1) {
-            return Err(Fault::Curves { found: y.len(), expected: z.len().max(1) });
+            return Err(AdamsFault::Curves { found: y.len(), expected: z.len().max(1) });
         }
         for (curve, values) in y.iter().enumerate() {
             if values.len() != x.len() {
-                return Err(Fault::Values { curve, found: values.len(), expected: x.len() });
+                return Err(AdamsFault::Values { curve, found: values.len(), expected: x.len() });
             }
             if let Some(index) = values.iter().position(|value| !value.is_finite()) {
-                return Err(Fault::NotFinite { curve, index });
+                return Err(AdamsFault::NotFinite { curve, index });
             }
         }
-        Ok(Curves { x, z, y })
+        Ok(SplineValues { x, z, y })
     }
 
     /// The x values, increasing.
@@ -76,12 +76,12 @@ impl Curves {
     }
 }
 
-fn increasing(list: &[f64]) -> Result<(), Fault> {
+fn increasing(list: &[f64]) -> Result<(), AdamsFault> {
     if let Some(index) = list.iter().position(|value| !value.is_finite()) {
-        return Err(Fault::Order { index });
+        return Err(AdamsFault::Order { index });
     }
     match list.windows(2).position(|pair| pair[0] >= pair[1]) {
-        Some(k) => Err(Fault::Order { index: k + 1 }),
+        Some(k) => Err(AdamsFault::Order { index: k + 1 }),
         None => Ok(()),
     }
 }

@@ -11,7 +11,7 @@ mod family;
 mod reader;
 mod spline;
 
-pub use curves::Curves;
-pub use family::{Family, Method, Reading};
+pub use curves::SplineValues;
+pub use family::{SplineFunction, SplineMethod, SplineReading};
 pub use reader::read;
 pub use spline::{Spline, Tables, of_statement, write};

@@ -3,12 +3,12 @@
 //! It reads tokens instead of using the reader of whole data sets, so that a file with statements that this
 //! crate cannot read still gives its tables.
 
-use super::curves::Curves;
+use super::curves::SplineValues;
 use super::spline::{Spline, Tables};
 use crate::keyword::lookup;
 use crate::language::lexer::{RawStatement, Token, TokenKind, statement_word, statements, tokens};
-use crate::language::{Force, Length, Mass, UnitWords, Units};
-use crate::{Error, Fault, number};
+use crate::language::{AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, UnitWords};
+use crate::{AdamsFault, Error, number};
 
 /// Reads the SPLINE and UNITS statements of a data set, up to END, and passes over every other statement.
 ///
@@ -91,21 +91,27 @@ fn spline(statement: &RawStatement<'_>, before: &[Spline]) -> Result<Spline, Err
         [_, _, at, rest @ ..] => match at.kind {
             TokenKind::Number(text) => {
                 let id = text.parse::<u32>().ok().filter(|&id| id > 0);
-                (id.ok_or_else(|| at.fault(Fault::Id))?, *at, rest)
+                (id.ok_or_else(|| at.fault(AdamsFault::Id))?, *at, rest)
             }
-            _ => return Err(at.fault(Fault::Id)),
+            _ => return Err(at.fault(AdamsFault::Id)),
         },
-        [.., last] => return Err(last.fault(Fault::Id)),
-        [] => return Err(Error::At { line: 1, column: 1, fault: Fault::Id }),
+        [.., last] => return Err(last.fault(AdamsFault::Id)),
+        [] => return Err(Error::At { line: 1, column: 1, fault: AdamsFault::Id }),
     };
     if before.iter().any(|spline| spline.id == id) {
-        return Err(at.fault(Fault::Twice { id }));
+        return Err(at.fault(AdamsFault::DuplicateId { id }));
     }
     let Arguments { x, y, linear } = arguments(id, rest)?;
-    let x = x.ok_or_else(|| at.fault(Fault::NoX { id }))?;
+    let x = x.ok_or_else(|| at.fault(AdamsFault::NoX { id }))?;
     let owned = |text: Option<&str>| text.map(str::to_owned);
     let curves = curves(id, at, x, &y)?;
-    Ok(Spline { id, name: owned(statement.name), units: owned(statement.units), linear, curves })
+    Ok(Spline {
+        id,
+        name: owned(statement.name),
+        units: owned(statement.units),
+        linear_extrapolate: linear,
+        curves,
+    })
 }
 
 /// The arguments of the SPLINE `id`, from the tokens after its identifier.
@@ -118,29 +124,29 @@ fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error
         rest = after;
         match token.kind {
             TokenKind::Comma => separated = true,
-            _ if !separated => return Err(token.fault(Fault::Text)),
+            _ if !separated => return Err(token.fault(AdamsFault::UnexpectedText)),
             TokenKind::Number(text) => {
                 let list = match target {
                     Some(Argument::X) => out.x.as_mut(),
                     Some(Argument::Y) => out.y.last_mut(),
                     _ => None,
                 };
-                let list = list.ok_or_else(|| token.fault(Fault::Text))?;
-                list.values.push(number::read(text).ok_or_else(|| token.fault(Fault::Number))?);
+                let list = list.ok_or_else(|| token.fault(AdamsFault::UnexpectedText))?;
+                list.values.push(number::read(text).ok_or_else(|| token.fault(AdamsFault::Number))?);
                 separated = false;
             }
             TokenKind::Word(word) => {
-                let argument = lookup(ARGUMENTS, word).ok_or_else(|| token.fault(Fault::Argument))?;
+                let argument = lookup(ARGUMENTS, word).ok_or_else(|| token.fault(AdamsFault::Argument))?;
                 match argument {
-                    Argument::File => return Err(token.fault(Fault::File { id })),
-                    Argument::Linear if out.linear => return Err(token.fault(Fault::Repeated)),
+                    Argument::File => return Err(token.fault(AdamsFault::File { id })),
+                    Argument::Linear if out.linear => return Err(token.fault(AdamsFault::Repeated)),
                     Argument::Linear => (out.linear, separated, target) = (true, false, None),
                     Argument::X | Argument::Y => {
                         if argument == Argument::X && out.x.is_some() {
-                            return Err(token.fault(Fault::Repeated));
+                            return Err(token.fault(AdamsFault::Repeated));
                         }
                         let [Token { kind: TokenKind::Equals, .. }, after @ ..] = rest else {
-                            return Err(token.fault(Fault::Text));
+                            return Err(token.fault(AdamsFault::UnexpectedText));
                         };
                         rest = after;
                         target = Some(argument);
@@ -149,7 +155,7 @@ fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error
                     }
                 }
             }
-            TokenKind::Equals | TokenKind::Slash => return Err(token.fault(Fault::Text)),
+            TokenKind::Equals | TokenKind::Slash => return Err(token.fault(AdamsFault::UnexpectedText)),
         }
     }
     Ok(out)
@@ -157,17 +163,17 @@ fn arguments<'a>(id: u32, mut rest: &[Token<'a>]) -> Result<Arguments<'a>, Error
 
 /// The curves of a SPLINE: one list of n values is a single curve; lists of n + 1 values, z first, are a
 /// family.
-fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Curves, Error> {
+fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<SplineValues, Error> {
     let n = x.values.len();
     let (z, values) = match y {
-        [] => return Err(at.fault(Fault::NoY { id })),
+        [] => return Err(at.fault(AdamsFault::NoY { id })),
         [one] if one.values.len() == n => (Vec::new(), vec![one.values.clone()]),
         _ => {
             let expected = if y.len() == 1 { n } else { n + 1 };
             for list in y {
                 let found = list.values.len();
                 if found != n + 1 || found < 2 {
-                    return Err(list.at.fault(Fault::Count { id, found, expected }));
+                    return Err(list.at.fault(AdamsFault::Count { id, found, expected }));
                 }
             }
             (
@@ -176,8 +182,8 @@ fn curves(id: u32, at: Token<'_>, x: List<'_>, y: &[List<'_>]) -> Result<Curves,
             )
         }
     };
-    Curves::new(x.values, z, values)
-        .map_err(|source| at.fault(Fault::Spline { id, source: Box::new(source) }))
+    SplineValues::new(x.values, z, values)
+        .map_err(|source| at.fault(AdamsFault::Spline { id, source: Box::new(source) }))
 }
 
 #[derive(Clone, Copy)]
@@ -197,19 +203,19 @@ const QUANTITIES: &[(Quantity, &str)] = &[
     (Quantity::System, "SYSTEM"),
 ];
 
-const fn system(force: Force, mass: Mass, length: Length) -> Option<Units> {
-    Some(Units { force, mass, length })
+const fn system(force: AdamsForceUnit, mass: AdamsMassUnit, length: AdamsLengthUnit) -> Option<AdamsUnits> {
+    Some(AdamsUnits { force, mass, length })
 }
 
-const SYSTEMS: &[(Option<Units>, &str)] = &[
-    (system(Force::Newton, Mass::Kilogram, Length::Meter), "MKS"),
-    (system(Force::Pound, Mass::Pound, Length::Foot), "FPS"),
-    (system(Force::Pound, Mass::Pound, Length::Inch), "IPS"),
+const SYSTEMS: &[(Option<AdamsUnits>, &str)] = &[
+    (system(AdamsForceUnit::Newton, AdamsMassUnit::Kilogram, AdamsLengthUnit::Meter), "MKS"),
+    (system(AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Foot), "FPS"),
+    (system(AdamsForceUnit::Pound, AdamsMassUnit::Pound, AdamsLengthUnit::Inch), "IPS"),
     (None, "NONE"),
 ];
 
 /// The units of a UNITS statement.
-fn units(tokens: &[Token<'_>]) -> Result<Option<Units>, Error> {
+fn units(tokens: &[Token<'_>]) -> Result<Option<AdamsUnits>, Error> {
     let (mut force, mut mass, mut length) = (None, None, None);
     let mut rest = tokens.get(2..).unwrap_or(&[]);
     while let [first, after @ ..] = rest {
@@ -217,26 +223,26 @@ fn units(tokens: &[Token<'_>]) -> Result<Option<Units>, Error> {
         let name = match first.kind {
             TokenKind::Comma => continue,
             TokenKind::Word(name) => name,
-            _ => return Err(first.fault(Fault::Text)),
+            _ => return Err(first.fault(AdamsFault::UnexpectedText)),
         };
-        let quantity = lookup(QUANTITIES, name).ok_or_else(|| first.fault(Fault::Argument))?;
+        let quantity = lookup(QUANTITIES, name).ok_or_else(|| first.fault(AdamsFault::Argument))?;
         let [Token { kind: TokenKind::Equals, .. }, value, after @ ..] = after else {
-            return Err(first.fault(Fault::Text));
+            return Err(first.fault(AdamsFault::UnexpectedText));
         };
         rest = after;
-        let unknown = || value.fault(Fault::Unit);
+        let unknown = || value.fault(AdamsFault::Unit);
         let TokenKind::Word(word) = value.kind else { return Err(unknown()) };
         match quantity {
-            Quantity::Force => force = Some(lookup(Force::ALL, word).ok_or_else(unknown)?),
-            Quantity::Mass => mass = Some(lookup(Mass::ALL, word).ok_or_else(unknown)?),
-            Quantity::Length => length = Some(lookup(Length::ALL, word).ok_or_else(unknown)?),
+            Quantity::Force => force = Some(lookup(AdamsForceUnit::ALL, word).ok_or_else(unknown)?),
+            Quantity::Mass => mass = Some(lookup(AdamsMassUnit::ALL, word).ok_or_else(unknown)?),
+            Quantity::Length => length = Some(lookup(AdamsLengthUnit::ALL, word).ok_or_else(unknown)?),
             Quantity::Time => lookup(&[((), "SECOND")], word).ok_or_else(unknown)?,
             Quantity::System => return lookup(SYSTEMS, word).ok_or_else(unknown),
         }
     }
     match (force, mass, length, tokens.first()) {
-        (Some(force), Some(mass), Some(length), _) => Ok(Some(Units { force, mass, length })),
-        (_, _, _, Some(token)) => Err(token.fault(Fault::Unit)),
+        (Some(force), Some(mass), Some(length), _) => Ok(Some(AdamsUnits { force, mass, length })),
+        (_, _, _, Some(token)) => Err(token.fault(AdamsFault::Unit)),
         _ => Ok(None),
     }
 }

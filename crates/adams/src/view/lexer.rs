@@ -1,7 +1,7 @@
 //! Lines to commands, and commands to tokens.
 
 use crate::language::lexer::Piece;
-use crate::{Error, Fault};
+use crate::{AdamsFault, Error};
 
 /// A command: one piece of text for each line, without the `&` that continues it.
 pub(super) struct Command<'a>(Vec<Piece<'a>>);
@@ -23,7 +23,7 @@ pub(super) enum CommandTokenKind<'a> {
 }
 
 impl CommandToken<'_> {
-    pub fn fault(&self, fault: Fault) -> Error {
+    pub fn fault(&self, fault: AdamsFault) -> Error {
         Error::At { line: self.line, column: self.column, fault }
     }
 }
@@ -76,7 +76,7 @@ impl<'a> Command<'a> {
                 column += rest[..rest.len() - trimmed.len()].chars().count();
                 rest = trimmed;
                 let Some(first) = rest.chars().next() else { break };
-                let refused = || Error::At { line: piece.line, column, fault: Fault::Text };
+                let refused = || Error::At { line: piece.line, column, fault: AdamsFault::UnexpectedText };
                 let (length, kind) = match first {
                     '=' => (1, CommandTokenKind::Equals),
                     ',' => (1, CommandTokenKind::Comma),

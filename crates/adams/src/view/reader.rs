@@ -4,9 +4,9 @@ use super::lexer::{Command, CommandToken, CommandTokenKind, commands};
 use super::units::{FORCES, LENGTHS, MASSES, TIMES, unit};
 use super::writer::default_name;
 use crate::keyword::lookup;
-use crate::language::{Force, Length, Mass, Units};
-use crate::tables::{Curves, Spline, Tables};
-use crate::{Error, Fault, number};
+use crate::language::{AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits};
+use crate::tables::{Spline, SplineValues, Tables};
+use crate::{AdamsFault, Error, number};
 
 /// Reads the commands `data_element create spline` and `defaults units`, and passes over every other command.
 ///
@@ -35,7 +35,7 @@ pub fn read(text: &str) -> Result<Tables, Error> {
             out.splines.push(spline);
         } else if command.starts(&[("data_element", 4), ("modify", 2), ("spline", 3)]) {
             let tokens = command.tokens()?;
-            let fault = |token: &CommandToken<'_>| Err(token.fault(Fault::Changed));
+            let fault = |token: &CommandToken<'_>| Err(token.fault(AdamsFault::Changed));
             tokens.first().map_or(Ok(()), fault)?;
         } else if command.starts(&[("defaults", 3), ("units", 4)]) {
             units.take(command)?;
@@ -81,7 +81,7 @@ fn entries<'a>(command: &Command<'a>, skip: usize) -> Result<Vec<Entry<'a>>, Err
                 separated = false;
             }
             (CommandTokenKind::Comma, _) if !all.is_empty() => separated = true,
-            _ => return Err(token.fault(Fault::Text)),
+            _ => return Err(token.fault(AdamsFault::UnexpectedText)),
         }
     }
     Ok(all)
@@ -127,29 +127,29 @@ fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<St
     let entries = entries(command, 3)?;
     let mut seen = Vec::new();
     for entry in &entries {
-        let key = lookup(KEYS, entry.word).ok_or_else(|| entry.key.fault(Fault::Argument))?;
+        let key = lookup(KEYS, entry.word).ok_or_else(|| entry.key.fault(AdamsFault::Argument))?;
         if key != Key::Other && seen.iter().any(|(one, _)| *one == key) {
-            return Err(entry.key.fault(Fault::Repeated));
+            return Err(entry.key.fault(AdamsFault::Repeated));
         }
         seen.push((key, entry));
     }
     let find = |key: Key| seen.iter().find(|(one, _)| *one == key).map(|(_, entry)| *entry);
     let at = match command.tokens()?.first() {
         Some(token) => *token,
-        None => return Err(Error::At { line: 1, column: 1, fault: Fault::Text }),
+        None => return Err(Error::At { line: 1, column: 1, fault: AdamsFault::UnexpectedText }),
     };
     let (id, numbered) = match find(Key::Id) {
         None => (0, false),
         Some(entry) => {
             let id = one(entry)?.0.parse::<u32>().ok().filter(|&id| id > 0);
-            (id.ok_or_else(|| entry.key.fault(Fault::Id))?, true)
+            (id.ok_or_else(|| entry.key.fault(AdamsFault::Id))?, true)
         }
     };
     if let Some(entry) = find(Key::File) {
-        return Err(entry.key.fault(Fault::File { id }));
+        return Err(entry.key.fault(AdamsFault::File { id }));
     }
     if numbered && before.iter().any(|spline| spline.id == id) {
-        return Err(at.fault(Fault::Twice { id }));
+        return Err(at.fault(AdamsFault::DuplicateId { id }));
     }
     let (name, model) = match find(Key::Name) {
         None => (None, None),
@@ -164,15 +164,15 @@ fn spline(command: &Command<'_>, before: &[Spline]) -> Result<(Spline, Option<St
         None => false,
         Some(entry) => {
             let (word, token) = one(entry)?;
-            lookup(ANSWERS, word).ok_or_else(|| token.fault(Fault::Text))?
+            lookup(ANSWERS, word).ok_or_else(|| token.fault(AdamsFault::UnexpectedText))?
         }
     };
     let units = find(Key::Units).map(one).transpose()?.map(|(word, _)| word.to_owned());
-    let x = find(Key::X).ok_or_else(|| at.fault(Fault::NoX { id }))?;
-    let y = find(Key::Y).ok_or_else(|| at.fault(Fault::NoY { id }))?;
+    let x = find(Key::X).ok_or_else(|| at.fault(AdamsFault::NoX { id }))?;
+    let y = find(Key::Y).ok_or_else(|| at.fault(AdamsFault::NoY { id }))?;
     let z = find(Key::Z).map(numbers).transpose()?.unwrap_or_default();
     let curves = curves(id, at, numbers(x)?, z, (y.key, numbers(y)?))?;
-    Ok((Spline { id, name, units, linear, curves }, model, numbered))
+    Ok((Spline { id, name, units, linear_extrapolate: linear, curves }, model, numbered))
 }
 
 /// The value of an entry that has exactly one.
@@ -180,18 +180,18 @@ fn one<'a>(entry: &Entry<'a>) -> Result<(&'a str, CommandToken<'a>), Error> {
     match entry.values.as_slice() {
         [token] => match token.kind {
             CommandTokenKind::Word(word) | CommandTokenKind::Quoted(word) => Ok((word, *token)),
-            _ => Err(token.fault(Fault::Text)),
+            _ => Err(token.fault(AdamsFault::UnexpectedText)),
         },
-        [_, second, ..] => Err(second.fault(Fault::Text)),
-        [] => Err(entry.key.fault(Fault::Text)),
+        [_, second, ..] => Err(second.fault(AdamsFault::UnexpectedText)),
+        [] => Err(entry.key.fault(AdamsFault::UnexpectedText)),
     }
 }
 
 /// The values of an entry as numbers.
 fn numbers(entry: &Entry<'_>) -> Result<Vec<f64>, Error> {
     let read = |token: &CommandToken<'_>| match token.kind {
-        CommandTokenKind::Word(text) => number::read(text).ok_or_else(|| token.fault(Fault::Number)),
-        _ => Err(token.fault(Fault::Number)),
+        CommandTokenKind::Word(text) => number::read(text).ok_or_else(|| token.fault(AdamsFault::Number)),
+        _ => Err(token.fault(AdamsFault::Number)),
     };
     entry.values.iter().map(read).collect()
 }
@@ -203,21 +203,22 @@ fn curves(
     x: Vec<f64>,
     z: Vec<f64>,
     (key, y): (CommandToken<'_>, Vec<f64>),
-) -> Result<Curves, Error> {
+) -> Result<SplineValues, Error> {
     let expected = x.len().saturating_mul(z.len().max(1));
     if y.len() != expected || x.is_empty() {
-        return Err(key.fault(Fault::Count { id, found: y.len(), expected }));
+        return Err(key.fault(AdamsFault::Count { id, found: y.len(), expected }));
     }
     let rows = y.chunks(x.len()).map(<[f64]>::to_vec).collect();
-    Curves::new(x, z, rows).map_err(|source| at.fault(Fault::Spline { id, source: Box::new(source) }))
+    SplineValues::new(x, z, rows)
+        .map_err(|source| at.fault(AdamsFault::Spline { id, source: Box::new(source) }))
 }
 
 /// The units of all `defaults units` commands so far; a later command replaces the units it names.
 #[derive(Default)]
 struct DefaultUnits {
-    force: Option<Force>,
-    mass: Option<Mass>,
-    length: Option<Length>,
+    force: Option<AdamsForceUnit>,
+    mass: Option<AdamsMassUnit>,
+    length: Option<AdamsLengthUnit>,
 }
 
 impl DefaultUnits {
@@ -228,7 +229,7 @@ impl DefaultUnits {
                 continue;
             }
             let (word, token) = one(&entry)?;
-            let unknown = || token.fault(Fault::Unit);
+            let unknown = || token.fault(AdamsFault::Unit);
             match key.as_str() {
                 "length" => self.length = Some(unit(LENGTHS, word).ok_or_else(unknown)?),
                 "force" => self.force = Some(unit(FORCES, word).ok_or_else(unknown)?),
@@ -241,8 +242,8 @@ impl DefaultUnits {
 
     /// The units, if force and length are given. A missing unit of mass becomes the kilogram, since tables
     /// have no mass.
-    fn units(&self) -> Option<Units> {
+    fn units(&self) -> Option<AdamsUnits> {
         let (force, length) = self.force.zip(self.length)?;
-        Some(Units { force, mass: self.mass.unwrap_or(Mass::Kilogram), length })
+        Some(AdamsUnits { force, mass: self.mass.unwrap_or(AdamsMassUnit::Kilogram), length })
     }
 }

@@ -1,41 +1,41 @@
 //! The words for units in the command `defaults units`.
 
 use crate::keyword::lookup;
-use crate::language::{Force, Length, Mass};
+use crate::language::{AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit};
 
 /// Units of length; the first word of each unit is the one that is written.
-pub(super) const LENGTHS: &[(Length, &str)] = &[
-    (Length::Millimeter, "mm"),
-    (Length::Meter, "meter"),
-    (Length::Foot, "foot"),
-    (Length::Inch, "inch"),
-    (Length::Millimeter, "millimeter"),
-    (Length::Meter, "m"),
-    (Length::Foot, "ft"),
-    (Length::Inch, "in"),
+pub(super) const LENGTHS: &[(AdamsLengthUnit, &str)] = &[
+    (AdamsLengthUnit::Millimeter, "mm"),
+    (AdamsLengthUnit::Meter, "meter"),
+    (AdamsLengthUnit::Foot, "foot"),
+    (AdamsLengthUnit::Inch, "inch"),
+    (AdamsLengthUnit::Millimeter, "millimeter"),
+    (AdamsLengthUnit::Meter, "m"),
+    (AdamsLengthUnit::Foot, "ft"),
+    (AdamsLengthUnit::Inch, "in"),
 ];
 
 /// Units of force, likewise.
-pub(super) const FORCES: &[(Force, &str)] = &[
-    (Force::Newton, "newton"),
-    (Force::Kilonewton, "knewton"),
-    (Force::Pound, "pound_force"),
-    (Force::Kilopound, "kpound_force"),
-    (Force::Newton, "n"),
-    (Force::Kilonewton, "kn"),
-    (Force::Pound, "lbf"),
+pub(super) const FORCES: &[(AdamsForceUnit, &str)] = &[
+    (AdamsForceUnit::Newton, "newton"),
+    (AdamsForceUnit::Kilonewton, "knewton"),
+    (AdamsForceUnit::Pound, "pound_force"),
+    (AdamsForceUnit::Kilopound, "kpound_force"),
+    (AdamsForceUnit::Newton, "n"),
+    (AdamsForceUnit::Kilonewton, "kn"),
+    (AdamsForceUnit::Pound, "lbf"),
 ];
 
 /// Units of mass, likewise.
-pub(super) const MASSES: &[(Mass, &str)] = &[
-    (Mass::Kilogram, "kg"),
-    (Mass::Tonne, "tonne"),
-    (Mass::Pound, "pound_mass"),
-    (Mass::Slug, "slug"),
-    (Mass::Slinch, "slinch"),
-    (Mass::Kilogram, "kilogram"),
-    (Mass::Tonne, "megagram"),
-    (Mass::Pound, "lbm"),
+pub(super) const MASSES: &[(AdamsMassUnit, &str)] = &[
+    (AdamsMassUnit::Kilogram, "kg"),
+    (AdamsMassUnit::Tonne, "tonne"),
+    (AdamsMassUnit::Pound, "pound_mass"),
+    (AdamsMassUnit::Slug, "slug"),
+    (AdamsMassUnit::Slinch, "slinch"),
+    (AdamsMassUnit::Kilogram, "kilogram"),
+    (AdamsMassUnit::Tonne, "megagram"),
+    (AdamsMassUnit::Pound, "lbm"),
 ];
 
 /// Words for the second, the only unit of time.

@@ -79,7 +79,7 @@ fn entries<'s>(spline: &Spline, name: &str) -> Vec<(&'s str, Vec<String>)> {
     if !spline.curves.z().is_empty() {
         all.push(("z", list(spline.curves.z())));
     }
-    let answer = if spline.linear { "yes" } else { "no" };
+    let answer = if spline.linear_extrapolate { "yes" } else { "no" };
     all.push(("linear_extrapolate", vec![answer.to_owned()]));
     all
 }

@@ -1,6 +1,6 @@
 //! Components of every GFORCE against the simulator's.
 
-use adams::{Argument, DataSet, Model, Solution, State, Value};
+use adams::{AdamsModel, ArgumentValue, DataSet, ModelState, Solution, StatementArgument};
 use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Influence, Probe};
@@ -134,8 +134,8 @@ fn side(plan: &DeckPlan<'_>, case: &CheckCase, w: usize) -> f64 {
 /// A first guess decides whether Newton's method converges, not to what: a wrong deck has other solutions.
 fn solve(
     set: &DataSet,
-    model: &Model,
-    state: &State,
+    model: &AdamsModel,
+    state: &ModelState,
     wanted: &ExpectedForces,
 ) -> Result<Solution, adams::Error> {
     model.solve(state).or_else(|error| {
@@ -144,10 +144,11 @@ fn solve(
             let known = wanted.variables.iter().find(|(id, _)| statement.id == Some(*id));
             let Some((_, value)) = known else { continue };
             statement.arguments.retain(|argument| argument.name != "IC");
-            let argument = Argument { name: "IC".to_owned(), value: Value::Numbers(vec![*value]) };
+            let argument =
+                StatementArgument { name: "IC".to_owned(), value: ArgumentValue::Numbers(vec![*value]) };
             statement.arguments.push(argument);
         }
-        Model::new(&set).and_then(|model| model.solve(state)).map_err(|_| error)
+        AdamsModel::new(&set).and_then(|model| model.solve(state)).map_err(|_| error)
     })
 }
 
@@ -160,9 +161,9 @@ pub fn compare(
     set: &DataSet,
     (what, asked): (&'static str, Option<f64>),
     wanted: &[ExpectedForces],
-    states: impl Iterator<Item = State>,
+    states: impl Iterator<Item = ModelState>,
 ) -> Result<CheckDifference, Error> {
-    let model = Model::new(set)?;
+    let model = AdamsModel::new(set)?;
     let mut out = CheckDifference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
     let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
     let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };

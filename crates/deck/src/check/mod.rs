@@ -9,7 +9,7 @@ mod report;
 mod states;
 mod step;
 
-use adams::{DataSet, Model};
+use adams::{AdamsModel, DataSet};
 
 pub use compare::{COMPONENTS, CheckDifference, ExpectedForces};
 pub use path::SweepDifference;
@@ -85,7 +85,7 @@ impl CheckReport {
 /// A text that cannot be executed; a scene without states to compare.
 pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckReport, Error> {
     let set = DataSet::read(text)?;
-    let model = Model::new(&set)?;
+    let model = AdamsModel::new(&set)?;
     let mut stepped = set.clone();
     step::discretise(plan, &mut stepped);
     let foundations = plan.foundations()?;

@@ -1,6 +1,6 @@
 //! The deck with its rails on a moving part: what wheels feel of them must not change.
 
-use adams::{DataSet, Pose, Statement, Value};
+use adams::{ArgumentValue, DataSet, Pose, Statement};
 use nalgebra::{Matrix3, Vector3};
 
 use super::poses::CarrierPose;
@@ -15,8 +15,8 @@ pub fn mount(set: &mut DataSet) -> u32 {
     let (part, cm) = (parts.max().unwrap_or(GROUND) + 1, markers.max().unwrap_or_default() + 1);
     for statement in set.statements.iter_mut().filter(|one| one.keyword == "MARKER") {
         for argument in statement.arguments.iter_mut().filter(|argument| argument.name == "PART") {
-            if argument.value == Value::Whole(i64::from(GROUND)) {
-                argument.value = Value::Whole(i64::from(part));
+            if argument.value == ArgumentValue::Whole(i64::from(GROUND)) {
+                argument.value = ArgumentValue::Whole(i64::from(part));
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use adams::Model;
+use adams::AdamsModel;
 use sim::{Analysis, Channel, Foundation, Freedom, Status};
 
 use crate::DeckPlan;
@@ -60,7 +60,7 @@ impl SweepDifference {
 /// A scene that the simulator refuses.
 pub(super) fn path(
     plan: &DeckPlan<'_>,
-    model: &Model,
+    model: &AdamsModel,
     foundations: &[Foundation],
 ) -> Result<Option<SweepDifference>, Error> {
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
@@ -77,7 +77,7 @@ pub(super) fn path(
         return Ok(Some(out));
     }
     let times = run.history.column(Channel::Time);
-    let found = match model.path(&times) {
+    let found = match model.quasi_static_path(&times) {
         Ok(found) => found,
         Err(error) => {
             out.failed = Some(error.to_string());

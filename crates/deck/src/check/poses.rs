@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use adams::{Pose, State};
+use adams::{ModelState, Pose};
 use nalgebra::{Matrix3, Vector3};
 
 use super::states::CheckCase;
@@ -30,7 +30,12 @@ pub struct CarrierPose {
 
 /// The state of the deck's parts at `case`, one step before it for penetrations: see [`step`].
 #[must_use]
-pub fn state(plan: &DeckPlan<'_>, case: &CheckCase, turns: Turns, carrier: Option<CarrierPose>) -> State {
+pub fn state(
+    plan: &DeckPlan<'_>,
+    case: &CheckCase,
+    turns: Turns,
+    carrier: Option<CarrierPose>,
+) -> ModelState {
     let mut parts = BTreeMap::new();
     let instant = &case.instant;
     let bodies: Vec<Pose> = (0..plan.bodies.len()).map(|b| body(plan, case, b, turns)).collect();
@@ -41,7 +46,7 @@ pub fn state(plan: &DeckPlan<'_>, case: &CheckCase, turns: Turns, carrier: Optio
         let Some((part, _)) = wheel.spin else { continue };
         let body = &bodies[wheel.body];
         let hub = Vector3::from(wheel.hub);
-        let spin = Vector3::new(body.spin[0], body.spin[1], instant.spin[w]);
+        let spin = Vector3::new(body.angular_velocity[0], body.angular_velocity[1], instant.spin[w]);
         let (origin, velocity) = (body.origin + body.rotation * hub, body.velocity + body.rate * hub);
         parts.insert(part, Pose::moving(origin, body.rotation, velocity, spin));
     }
@@ -58,7 +63,7 @@ pub fn state(plan: &DeckPlan<'_>, case: &CheckCase, turns: Turns, carrier: Optio
             differentials.insert(id, case.forces.penetration[c] - lengths[c] * case.rate[c]);
         }
     }
-    State { time: instant.time, parts, differentials }
+    ModelState { time: instant.time, parts, differentials }
 }
 
 fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
@@ -74,7 +79,7 @@ fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
             rotation: Matrix3::identity() + turn.cross_matrix(),
             velocity,
             rate: spin.cross_matrix(),
-            spin,
+            angular_velocity: spin,
         },
         Turns::Finite => {
             let rows = start::rotation([roll, yaw, pitch]);
@@ -90,6 +95,6 @@ fn carried(by: &Pose, pose: &Pose) -> Pose {
         rotation: by.rotation * pose.rotation,
         velocity: by.velocity + by.rate * pose.origin + by.rotation * pose.velocity,
         rate: by.rate * pose.rotation + by.rotation * pose.rate,
-        spin: by.spin + by.rotation * pose.spin,
+        angular_velocity: by.angular_velocity + by.rotation * pose.angular_velocity,
     }
 }

@@ -3,7 +3,7 @@
 //! Penetrations alone hardly fix forces: where wheels are close, G F = e - p is nearly singular, and tables read by
 //! AKISPL may even have negative eigenvalues. Within a step, DIF1 = (DIF - past)/h, and G + 1/(k + c/h) is sound.
 
-use adams::{DataSet, Statement, Value};
+use adams::{ArgumentValue, DataSet, Statement};
 
 use crate::DeckPlan;
 use crate::model::plan::ContactPlan;
@@ -41,11 +41,11 @@ pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
             one.keyword == "DIFF" && one.id == Some(id) && one.get("IMPLICIT").is_some()
         };
         let Some(diff) = set.statements.iter_mut().find(implicit) else { continue };
-        let Some(Value::Function(residual)) = diff.get("FUNCTION").cloned() else { continue };
+        let Some(ArgumentValue::Function(residual)) = diff.get("FUNCTION").cloned() else { continue };
         diff.arguments.retain(|argument| argument.name == "IC");
         *diff = diff.clone().function("FUNCTION", "0.0");
         let start = match diff.get("IC") {
-            Some(Value::Numbers(all)) => all.first().copied().unwrap_or_default(),
+            Some(ArgumentValue::Numbers(all)) => all.first().copied().unwrap_or_default(),
             _ => 0.0,
         };
         let own = variable(id);
@@ -57,7 +57,7 @@ pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
             text.replace(&format!("PAST({id})"), &format!("DIF({id})"))
         };
         for argument in set.statements.iter_mut().flat_map(|one| &mut one.arguments) {
-            if let Value::Function(text) = &mut argument.value {
+            if let ArgumentValue::Function(text) = &mut argument.value {
                 *text = replaced(text);
             }
         }

@@ -1,6 +1,6 @@
 //! What a structure's rails give: SPLINE statements, and the expressions that read them.
 
-use adams::{Curves, Spline, Statement};
+use adams::{Spline, SplineValues, Statement};
 use sim::{Extent, Foundation};
 use splines::{Axis, Factored, Kind, Rank, Reading, Sheet};
 
@@ -87,7 +87,7 @@ impl RailCompliance {
         }
         for &(rail, _) in &ways {
             let outline = &structure.rails[rail];
-            if outline.stations.len() < Curves::LEAST {
+            if outline.stations.len() < SplineValues::MIN_POINTS {
                 return Err(format!("rail {} has fewer than four stations", outline.name));
             }
         }
@@ -292,10 +292,13 @@ pub(crate) fn spline(
     z: Vec<f64>,
     values: Vec<Vec<f64>>,
 ) -> Result<Statement, Error> {
-    let curves =
-        Curves::new(x, z, values).map_err(|fault| Error::Spline { id, name: name.to_owned(), fault })?;
+    let curves = SplineValues::new(x, z, values).map_err(|fault| Error::Spline {
+        id,
+        name: name.to_owned(),
+        fault,
+    })?;
     let (name, units) = (Some(plain(name)), Some("no_units".to_owned()));
-    Ok(Spline { id, name, units, linear: true, curves }.statement())
+    Ok(Spline { id, name, units, linear_extrapolate: true, curves }.statement())
 }
 
 /// Word of an axis in names.

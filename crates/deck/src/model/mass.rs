@@ -14,11 +14,11 @@ const KILOGRAM: u128 = 100_000_000;
 #[must_use]
 pub fn factor(units: Units) -> f64 {
     match units.to_adams().mass {
-        adams::Mass::Slug => {
+        adams::AdamsMassUnit::Slug => {
             let slugs = Units { length: Length::Foot, force: Force::Pound };
             Scale { from: units, to: slugs }.factor(Dimension::MASS)
         }
-        adams::Mass::Pound => {
+        adams::AdamsMassUnit::Pound => {
             let kilograms = Scale { from: units, to: Units::SI }.factor(Dimension::MASS);
             kilograms * (KILOGRAM as f64) / (POUND as f64)
         }

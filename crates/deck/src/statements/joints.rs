@@ -1,6 +1,6 @@
 //! What holds bodies to their tracks: JOINT, JPRIM and MOTION statements.
 
-use adams::{Statement, Value};
+use adams::{ArgumentValue, Statement};
 
 use crate::model::plan::{DeckPlan, GROUND};
 use crate::model::travel;
@@ -53,7 +53,7 @@ impl Holds<'_> {
             .reference("PART", part)
             .numbers("QP", &at);
         if axis != 2 {
-            statement = statement.with("REULER", Value::Degrees(ALONG[axis].to_vec()));
+            statement = statement.with("REULER", ArgumentValue::Degrees(ALONG[axis].to_vec()));
         }
         self.out.push(statement);
         id

@@ -1,6 +1,6 @@
 //! REQUEST statements: wheels, bodies, what the girders carry, what their supports take.
 
-use adams::{Statement, Value};
+use adams::{ArgumentValue, Statement};
 use splines::Axis;
 
 use crate::Error;
@@ -72,7 +72,7 @@ fn request(id: u32, name: &str, parts: Vec<(String, String)>) -> Statement {
     let quoted: Vec<String> = parts.iter().map(|(name, _)| format!("\"{name}\"")).collect();
     let mut statement = Statement::new("REQUEST", id)
         .named(plain(name))
-        .with("CNAMES", Value::Word(quoted.join(", ")))
+        .with("CNAMES", ArgumentValue::Word(quoted.join(", ")))
         .word("RESULTS_NAME", &plain(name));
     for (k, (_, text)) in parts.into_iter().enumerate() {
         statement = statement.function(&format!("F{}", k + 1), text);

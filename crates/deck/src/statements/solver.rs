@@ -15,7 +15,7 @@ pub(crate) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
     if plan.form == crate::DeckForm::Paper {
         units = units.remark(remark::PAPER);
     }
-    let gravity = Statement::lone("ACCGRAV")
+    let gravity = Statement::without_id("ACCGRAV")
         .numbers("IGRAV", &[0.0])
         .numbers("JGRAV", &[-plan.scene.gravity])
         .numbers("KGRAV", &[0.0]);
@@ -24,14 +24,14 @@ pub(crate) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
 
 /// Integrator and output.
 pub(crate) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
-    let integrator = Statement::lone("INTEGRATOR")
+    let integrator = Statement::without_id("INTEGRATOR")
         .remark(remark::INTEGRATOR)
         .flag("GSTIFF")
         .flag("SI2")
         .numbers("ERROR", &[plan.scene.accuracy.min(LARGEST)])
         .numbers("HMAX", &[plan.scene.dt]);
-    let output = Statement::lone("OUTPUT").flag("REQSAVE").flag("GRSAVE");
-    let results = Statement::lone("RESULTS").flag("XRF");
+    let output = Statement::without_id("OUTPUT").flag("REQSAVE").flag("GRSAVE");
+    let results = Statement::without_id("RESULTS").flag("XRF");
     vec![integrator, output, results]
 }
 

@@ -1,6 +1,6 @@
 //! What a run writes beside the motion: the scene's member `output`.
 
-use practice::History;
+use practice::Repetition;
 
 use super::raw::{RawColumns, RawFatigue, RawOutput, RawScene};
 use super::{Origin, SceneRail, Structure};
@@ -67,14 +67,14 @@ pub struct Fatigue {
     /// gamma_Mf of the strength.
     pub material: f64,
     /// Whether the history happens once or follows itself.
-    pub history: History,
+    pub history: Repetition,
     /// How often the run happens in the life looked at, if that is known.
     pub crossings: Option<f64>,
 }
 
 impl Default for Fatigue {
     fn default() -> Fatigue {
-        Fatigue { loads: 1.0, material: 1.0, history: History::Once, crossings: None }
+        Fatigue { loads: 1.0, material: 1.0, history: Repetition::Once, crossings: None }
     }
 }
 
@@ -88,9 +88,9 @@ fn read_fatigue(raw: &Option<RawFatigue>, at: &Place<'_>, check: &mut Check<'_>)
             *value = check.positive(given, &at.key(key), Dimension::NUMBER, "a partial factor, such as 1.15");
         }
     }
-    let words = [("once", History::Once), ("repeated", History::Repeated)];
+    let words = [("once", Repetition::Once), ("repeated", Repetition::Repeated)];
     let history = raw.history.as_ref().and_then(|word| check.faults.word(word, &at.key("history"), &words));
-    fatigue.history = history.unwrap_or(History::Once);
+    fatigue.history = history.unwrap_or(Repetition::Once);
     let hint = "how often the run happens in a life";
     fatigue.crossings = check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
     fatigue

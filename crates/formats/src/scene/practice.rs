@@ -1,7 +1,7 @@
 //! What the codes of crane engineers need beside the scene itself: the member `practice`.
 
-use practice::aist::Kind;
-use practice::factor::{Hoisting, Onset, Release};
+use practice::aist::CraneKind;
+use practice::factor::{DriveOnset, HoistingClass, Release};
 use practice::skew::Guide;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -16,28 +16,32 @@ use crate::units::Dimension;
 crate::object::objects!(RawPractice);
 
 /// Words of the hoisting classes.
-const HOISTING: [(&str, Hoisting); 4] =
-    [("HC1", Hoisting::Hc1), ("HC2", Hoisting::Hc2), ("HC3", Hoisting::Hc3), ("HC4", Hoisting::Hc4)];
+const HOISTING: [(&str, HoistingClass); 4] = [
+    ("HC1", HoistingClass::Hc1),
+    ("HC2", HoistingClass::Hc2),
+    ("HC3", HoistingClass::Hc3),
+    ("HC4", HoistingClass::Hc4),
+];
 /// Words of how drives come on.
-const DRIVES: [(&str, Onset); 4] = [
-    ("steady", Onset::Steady),
-    ("smooth", Onset::Smooth),
-    ("sudden", Onset::Sudden),
-    ("backlash", Onset::Backlash),
+const DRIVES: [(&str, DriveOnset); 4] = [
+    ("steady", DriveOnset::Steady),
+    ("smooth", DriveOnset::Smooth),
+    ("sudden", DriveOnset::Sudden),
+    ("backlash", DriveOnset::Backlash),
 ];
 /// Words of how fast a payload lets go.
 const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Release::Rapid)];
 /// Words of what guides a crane.
 const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
 /// Words of kinds of cranes.
-const KINDS: [(&str, Kind); 7] = [
-    ("mill", Kind::Mill),
-    ("ladle", Kind::Ladle),
-    ("bucket", Kind::Bucket),
-    ("soaking pit", Kind::SoakingPit),
-    ("stripping", Kind::Stripping),
-    ("motor room", Kind::MotorRoom),
-    ("stacker", Kind::Stacker),
+const KINDS: [(&str, CraneKind); 7] = [
+    ("mill", CraneKind::Mill),
+    ("ladle", CraneKind::Ladle),
+    ("bucket", CraneKind::Bucket),
+    ("soaking pit", CraneKind::SoakingPit),
+    ("stripping", CraneKind::Stripping),
+    ("motor room", CraneKind::MotorRoom),
+    ("stacker", CraneKind::Stacker),
 ];
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -68,11 +72,11 @@ pub struct Practice {
     /// Bodies that hang from either.
     pub loads: Vec<usize>,
     /// Row of TR-13's table.
-    pub kind: Kind,
+    pub kind: CraneKind,
     /// Hoisting class; `None`: not said.
-    pub hoisting: Option<Hoisting>,
+    pub hoisting: Option<HoistingClass>,
     /// How its drives come on.
-    pub drives: Onset,
+    pub drives: DriveOnset,
     /// How fast a load lets go.
     pub release: Release,
     /// What guides it.
@@ -146,9 +150,9 @@ pub(super) fn read(
         rails,
         trolley,
         loads,
-        kind: kind.unwrap_or(Kind::Mill),
+        kind: kind.unwrap_or(CraneKind::Mill),
         hoisting,
-        drives: drives.unwrap_or(Onset::Smooth),
+        drives: drives.unwrap_or(DriveOnset::Smooth),
         release: release.unwrap_or(Release::Rapid),
         guide: guide.unwrap_or(Guide::Flanges),
         approach,

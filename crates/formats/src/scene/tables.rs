@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use adams::Curves;
+use adams::SplineValues;
 
 use super::raw::{Pick, RawTables};
 use super::structure::{Origin, TablePair};
@@ -48,7 +48,7 @@ fn pair(set: &TableSet, raw: &RawTables, at: &Place<'_>, check: &mut Check<'_>) 
     }
     let length = scale.factor(Dimension::LENGTH);
     let give = scale.factor(Dimension::FLEXIBILITY);
-    let rows = |table: &Curves| {
+    let rows = |table: &SplineValues| {
         let rows = table.y().iter();
         rows.map(|row| row.iter().map(|value| value * give).collect()).collect()
     };
@@ -65,7 +65,7 @@ fn table<'s>(
     pick: Option<&Pick>,
     at: &Place<'_>,
     check: &mut Check<'_>,
-) -> Option<&'s Curves> {
+) -> Option<&'s SplineValues> {
     let found = match pick? {
         Pick::Id(id) => by_id(set, *id, at, check),
         Pick::Name(name) => by_name(set, name, at, check),

@@ -1,6 +1,6 @@
 //! Points of sections whose stresses are wanted.
 
-use practice::aisc::Category;
+use practice::aisc::AiscCategory;
 use practice::fatigue::CATEGORIES;
 
 use super::raw::{RawDetail, RawPoint, RawSpec};
@@ -29,7 +29,7 @@ pub enum Detail {
     /// Detail category of EN 1993-1-9 for direct stress, N/mm2.
     Eurocode(f64),
     /// Stress category of AISC 360.
-    Aisc(Category),
+    Aisc(AiscCategory),
 }
 
 impl Detail {
@@ -39,7 +39,7 @@ impl Detail {
         match self {
             Detail::Eurocode(category) => category.to_string(),
             Detail::Aisc(category) => {
-                let known = Category::ALL.iter().find(|(_, own)| own == category);
+                let known = AiscCategory::ALL.iter().find(|(_, own)| own == category);
                 known.map_or_else(String::new, |(word, _)| (*word).to_owned())
             }
         }
@@ -92,9 +92,9 @@ fn read_detail(raw: &RawDetail, at: &Place<'_>, check: &mut Check<'_>) -> Option
             None
         }
         RawDetail::Word(word) => {
-            let found = Category::ALL.iter().find(|(known, _)| known == word);
+            let found = AiscCategory::ALL.iter().find(|(known, _)| known == word);
             if found.is_none() {
-                let words = Category::ALL.map(|(word, _)| word);
+                let words = AiscCategory::ALL.map(|(word, _)| word);
                 let fault = Fault::new(at, format!("must be {}", alternatives(&words)));
                 let fault = fault.got(format!("\"{word}\""));
                 check.faults.add(fault.hint("categories of EN 1993-1-9 are numbers, such as 112"));

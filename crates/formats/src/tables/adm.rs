@@ -14,7 +14,7 @@ use crate::units::Units;
 /// An identifier that stands twice.
 pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     let tables = set.adams();
-    let mut statements: Vec<_> = tables.units.iter().map(adams::Units::statement).collect();
+    let mut statements: Vec<_> = tables.units.iter().map(adams::AdamsUnits::statement).collect();
     if let Some(first) = statements.first_mut() {
         first.remarks = remarks(set);
     }

@@ -1,6 +1,6 @@
 //! Numbers of few digits.
 
-use adams::Curves;
+use adams::SplineValues;
 use serde_json::{Value, json};
 
 use super::set::{Table, TableSet};
@@ -96,7 +96,7 @@ fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, Unroun
         let values = row.iter().zip(x).map(|(&value, &x)| one(value, x, z, false));
         rows.push(values.collect::<Result<_, _>>()?);
     }
-    let curves = Curves::new(new_x, new_z, rows).map_err(|_| Unrounded::Stations { id })?;
+    let curves = SplineValues::new(new_x, new_z, rows).map_err(|_| Unrounded::Stations { id })?;
     Ok(Table { curves, ..table.clone() })
 }
 

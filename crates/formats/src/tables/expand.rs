@@ -1,6 +1,6 @@
 //! The factored form back to the plain one.
 
-use adams::Curves;
+use adams::SplineValues;
 
 use super::set::{Draft, Table, TableSet};
 
@@ -31,7 +31,7 @@ pub fn expand(set: &TableSet) -> TableSet {
             terms.iter().map(one).sum::<f64>()
         };
         let values = (0..z.len()).map(|i| (0..x.len()).map(|j| value(i, j)).collect()).collect();
-        let Ok(curves) = Curves::new(x.to_vec(), z.to_vec(), values) else { continue };
+        let Ok(curves) = SplineValues::new(x.to_vec(), z.to_vec(), values) else { continue };
         drafts.push(Draft {
             name: Some(product.name.clone()),
             quantity: product.quantity,

@@ -1,6 +1,6 @@
 //! The plain form to the factored one.
 
-use adams::Curves;
+use adams::SplineValues;
 use nalgebra::DMatrix;
 use splines::{Axis, Compliance, Factor, Factored, Influence, Probe, Rank, Sheet, Surface, Table as Values};
 
@@ -46,7 +46,7 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<Factoring, Unfactored> {
         let relates = |quantity: GridBlock| quantity.direct() != [quantity; 2];
         let coupling = table.quantity.is_some_and(relates) || table.curves.x() != table.curves.z();
         let zero = table.curves.y().iter().flatten().all(|value| *value == 0.0);
-        table.curves.z().len() >= Curves::LEAST && !(coupling && zero)
+        table.curves.z().len() >= SplineValues::MIN_POINTS && !(coupling && zero)
     });
     let ways = ways(&tables)?;
     let mut sheets = Vec::new();
@@ -167,7 +167,7 @@ fn curves_of(
         let mut own = Vec::new();
         for k in 0..rank {
             let values = curves.values.column(k).iter().copied().collect();
-            let curve = Curves::new(curves.stations.clone(), Vec::new(), vec![values]);
+            let curve = SplineValues::new(curves.stations.clone(), Vec::new(), vec![values]);
             own.push(Table {
                 id: u32::try_from(step * (out.len() + 1) + k + 1).unwrap_or(u32::MAX),
                 name: format!("{}_{}", table.name, k + 1),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use adams::Curves;
+use adams::SplineValues;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
@@ -184,7 +184,7 @@ fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     let (x, values) = (faults.need(&raw.x, at, "x"), faults.need(&raw.values, at, "values"));
     let (x, values) = x.zip(values)?;
     let z = raw.z.clone().unwrap_or_default();
-    let curves: Result<Curves, Wrong> = wrong::curves(x.clone(), z, values.clone());
+    let curves: Result<SplineValues, Wrong> = wrong::curves(x.clone(), z, values.clone());
     let curves = curves.map_err(|wrong| faults.add(placed(wrong, at, "x"))).ok()?;
     let rails = raw.rail.clone().zip(raw.load_rail.clone()).map(|(rail, load)| [rail, load]);
     Some(Draft { id: raw.id, name: raw.name.clone(), quantity, rails, ..Draft::of(curves) })

@@ -1,6 +1,6 @@
 //! Tables in no particular format.
 
-use adams::{Curves, Spline, Tables};
+use adams::{Spline, SplineValues, Tables};
 
 use super::product::Product;
 use crate::block::GridBlock;
@@ -38,7 +38,7 @@ pub struct Table {
     /// Rail of the deflection and rail of the load, where they are known.
     pub rails: Option<[String; 2]>,
     /// x: where the load stands; z: where the deflection is taken; y: values, a row for each z.
-    pub curves: Curves,
+    pub curves: SplineValues,
 }
 
 impl TableSet {
@@ -63,7 +63,7 @@ impl TableSet {
                     let (n, m) = (row.stations.len(), column.stations.len());
                     let values = block.view((top, left), (n, m));
                     let values = values.row_iter().map(|line| line.iter().copied().collect()).collect();
-                    let Ok(curves) = Curves::new(column.stations.clone(), row.stations.clone(), values)
+                    let Ok(curves) = SplineValues::new(column.stations.clone(), row.stations.clone(), values)
                     else {
                         continue;
                     };
@@ -101,7 +101,7 @@ impl TableSet {
             id: table.id,
             name: Some(plain(&table.name)),
             units: Some("no_units".to_owned()),
-            linear: true,
+            linear_extrapolate: true,
             curves: table.curves.clone(),
         };
         Tables {
@@ -116,7 +116,7 @@ impl TableSet {
         let draft = |spline: Spline| Draft {
             id: Some(spline.id),
             name: Some(spline.name.unwrap_or_else(|| format!("SPLINE_{}", spline.id))),
-            linear: Some(spline.linear),
+            linear: Some(spline.linear_extrapolate),
             ..Draft::of(spline.curves)
         };
         splines.into_iter().map(draft).collect()
@@ -151,12 +151,12 @@ pub(super) struct Draft {
     pub rails: Option<[String; 2]>,
     /// Whether it goes on with a line beyond its ends.
     pub linear: Option<bool>,
-    pub curves: Curves,
+    pub curves: SplineValues,
 }
 
 impl Draft {
     /// Of which nothing else is known.
-    pub fn of(curves: Curves) -> Draft {
+    pub fn of(curves: SplineValues) -> Draft {
         Draft { id: None, name: None, quantity: None, rails: None, linear: None, curves }
     }
 }

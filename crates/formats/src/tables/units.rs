@@ -5,39 +5,39 @@ use crate::units::{Force, Length, Units};
 impl Units {
     /// The units of a data set.
     #[must_use]
-    pub fn of_adams(units: adams::Units) -> Units {
+    pub fn of_adams(units: adams::AdamsUnits) -> Units {
         Units {
             length: match units.length {
-                adams::Length::Foot => Length::Foot,
-                adams::Length::Inch => Length::Inch,
-                adams::Length::Meter => Length::Metre,
-                adams::Length::Millimeter => Length::Millimetre,
+                adams::AdamsLengthUnit::Foot => Length::Foot,
+                adams::AdamsLengthUnit::Inch => Length::Inch,
+                adams::AdamsLengthUnit::Meter => Length::Metre,
+                adams::AdamsLengthUnit::Millimeter => Length::Millimetre,
             },
             force: match units.force {
-                adams::Force::Pound => Force::Pound,
-                adams::Force::Kilopound => Force::Kip,
-                adams::Force::Newton => Force::Newton,
-                adams::Force::Kilonewton => Force::Kilonewton,
+                adams::AdamsForceUnit::Pound => Force::Pound,
+                adams::AdamsForceUnit::Kilopound => Force::Kip,
+                adams::AdamsForceUnit::Newton => Force::Newton,
+                adams::AdamsForceUnit::Kilonewton => Force::Kilonewton,
             },
         }
     }
 
     /// A data set's UNITS; its mass unit is that of the system, or one that every solver knows.
     #[must_use]
-    pub fn to_adams(self) -> adams::Units {
+    pub fn to_adams(self) -> adams::AdamsUnits {
         let (length, mass) = match self.length {
-            Length::Foot => (adams::Length::Foot, adams::Mass::Slug),
-            Length::Inch => (adams::Length::Inch, adams::Mass::Pound),
-            Length::Metre => (adams::Length::Meter, adams::Mass::Kilogram),
-            Length::Millimetre => (adams::Length::Millimeter, adams::Mass::Kilogram),
+            Length::Foot => (adams::AdamsLengthUnit::Foot, adams::AdamsMassUnit::Slug),
+            Length::Inch => (adams::AdamsLengthUnit::Inch, adams::AdamsMassUnit::Pound),
+            Length::Metre => (adams::AdamsLengthUnit::Meter, adams::AdamsMassUnit::Kilogram),
+            Length::Millimetre => (adams::AdamsLengthUnit::Millimeter, adams::AdamsMassUnit::Kilogram),
         };
         let force = match self.force {
-            Force::Pound => adams::Force::Pound,
-            Force::Kip => adams::Force::Kilopound,
-            Force::Newton => adams::Force::Newton,
-            Force::Kilonewton => adams::Force::Kilonewton,
+            Force::Pound => adams::AdamsForceUnit::Pound,
+            Force::Kip => adams::AdamsForceUnit::Kilopound,
+            Force::Newton => adams::AdamsForceUnit::Newton,
+            Force::Kilonewton => adams::AdamsForceUnit::Kilonewton,
         };
-        adams::Units { force, mass, length }
+        adams::AdamsUnits { force, mass, length }
     }
 
     /// The units that a few words name, such as `ft, lbf, s` or `ft/lbf`.

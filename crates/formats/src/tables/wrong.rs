@@ -1,6 +1,6 @@
 //! What is wrong with a table's numbers, by row and column, whatever the format.
 
-use adams::Curves;
+use adams::SplineValues;
 
 /// A part of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -35,9 +35,9 @@ impl Wrong {
 }
 
 /// The table of these numbers, where they make one.
-pub(super) fn curves(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<Curves, Wrong> {
-    if x.len() < Curves::LEAST {
-        let expected = format!("must have at least {} x", Curves::LEAST);
+pub(super) fn curves(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<SplineValues, Wrong> {
+    if x.len() < SplineValues::MIN_POINTS {
+        let expected = format!("must have at least {} x", SplineValues::MIN_POINTS);
         let hint = Some("a SPLINE has four x values or more");
         return Err(Wrong { hint, ..Wrong::of(Part::Xs, expected, x.len()) });
     }
@@ -64,7 +64,7 @@ pub(super) fn curves(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<
             return Err(Wrong::of(Part::Value(i, j), "must be finite", row[j]));
         }
     }
-    Curves::new(x, z, values).map_err(|fault| Wrong {
+    SplineValues::new(x, z, values).map_err(|fault| Wrong {
         part: Part::Values,
         expected: fault.to_string(),
         found: None,

@@ -8,7 +8,7 @@ use crate::error::{Argument, non_negative, positive};
 /// The kind of a crane, cab-operated or radio-operated. The separate rules for pendant-operated cranes are
 /// not included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum CraneKind {
     /// Mill cranes.
     Mill,
     /// Ladle cranes; the row is *not confirmed*.
@@ -27,7 +27,7 @@ pub enum Kind {
 
 /// The fractions of loads that give impact, side thrust and traction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shares {
+pub struct LoadFractions {
     /// Vertical impact, as a fraction of the largest wheel loads.
     pub impact: f64,
     /// Total side thrust, as a fraction of the lifted load.
@@ -40,19 +40,21 @@ pub struct Shares {
     pub traction: f64,
 }
 
-impl Kind {
+impl CraneKind {
     /// The row of the table for this kind, with the other two fractions of the side thrust.
     ///
     /// # Source
     /// AIST TR-13 (2021), 3.7.2 with Table 3.2 (3.6.2 in the draft of 2020).
     #[must_use]
-    pub fn shares(self) -> Shares {
-        let usual = Shares { impact: 0.25, lifted: 0.4, trolley: 0.2, crane: 0.1, traction: 0.2 };
+    pub fn shares(self) -> LoadFractions {
+        let usual = LoadFractions { impact: 0.25, lifted: 0.4, trolley: 0.2, crane: 0.1, traction: 0.2 };
         match self {
-            Kind::Mill | Kind::Ladle => usual,
-            Kind::Bucket | Kind::SoakingPit | Kind::Stripping => Shares { lifted: 1.0, ..usual },
-            Kind::MotorRoom => Shares { impact: 0.2, lifted: 0.3, ..usual },
-            Kind::Stacker => Shares { lifted: 2.0, trolley: 0.4, crane: 0.15, ..usual },
+            CraneKind::Mill | CraneKind::Ladle => usual,
+            CraneKind::Bucket | CraneKind::SoakingPit | CraneKind::Stripping => {
+                LoadFractions { lifted: 1.0, ..usual }
+            }
+            CraneKind::MotorRoom => LoadFractions { impact: 0.2, lifted: 0.3, ..usual },
+            CraneKind::Stacker => LoadFractions { lifted: 2.0, trolley: 0.4, crane: 0.15, ..usual },
         }
     }
 }
@@ -83,7 +85,7 @@ impl Thrusts {
 ///
 /// # Source
 /// AIST TR-13 (2021), 3.7.2.
-pub fn side_thrust(kind: Kind, crane: &Crane) -> Result<Thrusts, Error> {
+pub fn side_thrust(kind: CraneKind, crane: &Crane) -> Result<Thrusts, Error> {
     let shares = kind.shares();
     let lifted = non_negative(Argument::Force, crane.lifted)?;
     let moving = lifted + non_negative(Argument::Force, crane.trolley)?;
@@ -102,7 +104,7 @@ pub fn side_thrust(kind: Kind, crane: &Crane) -> Result<Thrusts, Error> {
 ///
 /// # Source
 /// AIST TR-13 (2021), 3.7.2.
-pub fn with_impact(kind: Kind, load: f64) -> Result<f64, Error> {
+pub fn with_impact(kind: CraneKind, load: f64) -> Result<f64, Error> {
     Ok((1.0 + kind.shares().impact) * non_negative(Argument::Force, load)?)
 }
 
@@ -113,14 +115,14 @@ pub fn with_impact(kind: Kind, load: f64) -> Result<f64, Error> {
 ///
 /// # Source
 /// AIST TR-13 (2021), 3.7.2.
-pub fn tractive_force(kind: Kind, driven: &[f64]) -> Result<f64, Error> {
+pub fn tractive_force(kind: CraneKind, driven: &[f64]) -> Result<f64, Error> {
     let share = kind.shares().traction;
     driven.iter().try_fold(0.0, |sum, load| Ok(sum + share * non_negative(Argument::Force, *load)?))
 }
 
 /// The class of a mill building, by the number of load cycles of its members.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Building {
+pub enum BuildingClass {
     /// More than 500 000 cycles.
     A,
     /// 100 000 to 500 000 cycles.
@@ -136,10 +138,10 @@ pub enum Building {
 /// # Source
 /// AIST TR-13 (draft of 2020), 5.8.7.
 #[must_use]
-pub fn runway_vertical(building: Building) -> f64 {
+pub fn runway_vertical(building: BuildingClass) -> f64 {
     match building {
-        Building::A | Building::B => 1000.0,
-        Building::C | Building::D => 600.0,
+        BuildingClass::A | BuildingClass::B => 1000.0,
+        BuildingClass::C | BuildingClass::D => 600.0,
     }
 }
 

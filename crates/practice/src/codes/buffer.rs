@@ -7,7 +7,7 @@ use crate::error::{Argument, non_negative, positive, within};
 ///
 /// # Source
 /// EN 1991-3:2006, 2.11.1.
-pub const SPEED: f64 = 0.7;
+pub const END_STOP_SPEED: f64 = 0.7;
 
 /// The dynamic factor phi7 by the buffer characteristic xi: 1.25 up to 0.5, then 1.25 + 0.7 (xi - 0.5).
 ///

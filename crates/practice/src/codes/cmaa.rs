@@ -31,7 +31,7 @@ pub const RUNWAY_LATERAL: f64 = 400.0;
 ///
 /// # Source
 /// CMAA 70-1983, 3.5.5.
-pub const BRIDGE: f64 = 0.001125;
+pub const BRIDGE_DEFLECTION: f64 = 0.001125;
 
 /// Fraction of the rated speed at which cranes and trolleys meet their bumpers.
 ///

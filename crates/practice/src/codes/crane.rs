@@ -33,7 +33,7 @@ pub struct Crane {
 
 /// The load of one wheel on either rail.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelLoads {
+pub struct StaticWheelLoads {
     /// On the rail near the trolley.
     pub near: f64,
     /// On the other rail.
@@ -54,7 +54,7 @@ impl Crane {
     ///
     /// # Source
     /// Statics.
-    pub fn wheel_loads(&self, dead: f64, hoist: f64) -> Result<WheelLoads, Error> {
+    pub fn wheel_loads(&self, dead: f64, hoist: f64) -> Result<StaticWheelLoads, Error> {
         let force = |force| non_negative(Argument::Force, force);
         let (lifted, trolley, bridge) = (force(self.lifted)?, force(self.trolley)?, force(self.bridge)?);
         let dead = non_negative(Argument::Factor, dead)?;
@@ -64,7 +64,7 @@ impl Crane {
         let wheels = count(self.wheels)?;
         let half = dead * bridge / 2.0;
         let moving = dead * trolley + hoist * lifted;
-        Ok(WheelLoads {
+        Ok(StaticWheelLoads {
             near: (half + moving * (span - approach) / span) / wheels,
             far: (half + moving * approach / span) / wheels,
         })

@@ -26,7 +26,7 @@ pub fn drive_force(friction: f64, wheels: &[f64]) -> Result<f64, Error> {
 
 /// A crane that accelerates or brakes. Forces and lengths are in any consistent units.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Travel {
+pub struct AcceleratingCrane {
     /// Distance l of the rails.
     pub span: f64,
     /// Distance a of the guides of the crane, which are guide rollers or the outer flanged wheels.
@@ -45,9 +45,9 @@ pub struct Travel {
 
 /// The forces on the runway.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Traction {
+pub struct DriveForces {
     /// xi1, the fraction of the loads on the rail that carries more.
-    pub share: f64,
+    pub fraction: f64,
     /// H_L, the force along each runway beam.
     pub along: f64,
     /// M = K l_s, the moment of the drive force about the centre of mass.
@@ -67,7 +67,7 @@ pub struct Traction {
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.2.
-pub fn traction(travel: &Travel) -> Result<Traction, Error> {
+pub fn traction(travel: &AcceleratingCrane) -> Result<DriveForces, Error> {
     let span = positive(Argument::Length, travel.span)?;
     let guides = positive(Argument::Length, travel.guides)?;
     let heavy = positive(Argument::Force, travel.heavy)?;
@@ -78,8 +78,8 @@ pub fn traction(travel: &Travel) -> Result<Traction, Error> {
     let share = heavy / (heavy + light);
     let moment = drive * (share - 0.5) * span;
     let couple = factor * moment / guides;
-    Ok(Traction {
-        share,
+    Ok(DriveForces {
+        fraction: share,
         along: factor * drive / rails,
         moment,
         heavy: (1.0 - share) * couple,

@@ -14,7 +14,7 @@ use crate::error::{Argument, non_negative};
 /// # Ok::<(), practice::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub struct Duty(u8);
+pub struct FatigueClass(u8);
 
 /// Damage-equivalent factors lambda of S0 to S9 for normal stresses.
 const NORMAL: [f64; 10] = [0.198, 0.250, 0.315, 0.397, 0.500, 0.630, 0.794, 1.000, 1.260, 1.587];
@@ -22,11 +22,11 @@ const NORMAL: [f64; 10] = [0.198, 0.250, 0.315, 0.397, 0.500, 0.630, 0.794, 1.00
 /// Damage-equivalent factors lambda of S0 to S9 for shear stresses.
 const SHEAR: [f64; 10] = [0.379, 0.436, 0.500, 0.575, 0.660, 0.758, 0.871, 1.000, 1.149, 1.320];
 
-impl Duty {
+impl FatigueClass {
     /// The class S`index`; `None` beyond S9.
     #[must_use]
-    pub fn new(index: u8) -> Option<Duty> {
-        (usize::from(index) < NORMAL.len()).then_some(Duty(index))
+    pub fn new(index: u8) -> Option<FatigueClass> {
+        (usize::from(index) < NORMAL.len()).then_some(FatigueClass(index))
     }
 
     /// The damage-equivalent factor lambda for normal stresses.

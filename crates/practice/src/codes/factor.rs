@@ -19,7 +19,7 @@ pub const PHI4: f64 = 1.0;
 
 /// The hoisting class, by how smoothly a load leaves the ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Hoisting {
+pub enum HoistingClass {
     /// HC1, the smoothest.
     Hc1,
     /// HC2.
@@ -30,9 +30,10 @@ pub enum Hoisting {
     Hc4,
 }
 
-impl Hoisting {
+impl HoistingClass {
     /// All classes in order.
-    pub const ALL: [Hoisting; 4] = [Hoisting::Hc1, Hoisting::Hc2, Hoisting::Hc3, Hoisting::Hc4];
+    pub const ALL: [HoistingClass; 4] =
+        [HoistingClass::Hc1, HoistingClass::Hc2, HoistingClass::Hc3, HoistingClass::Hc4];
 
     /// phi2,min, and beta2 in s/m.
     ///
@@ -41,10 +42,10 @@ impl Hoisting {
     #[must_use]
     pub fn values(self) -> [f64; 2] {
         match self {
-            Hoisting::Hc1 => [1.05, 0.17],
-            Hoisting::Hc2 => [1.10, 0.34],
-            Hoisting::Hc3 => [1.15, 0.51],
-            Hoisting::Hc4 => [1.20, 0.68],
+            HoistingClass::Hc1 => [1.05, 0.17],
+            HoistingClass::Hc2 => [1.10, 0.34],
+            HoistingClass::Hc3 => [1.15, 0.51],
+            HoistingClass::Hc4 => [1.20, 0.68],
         }
     }
 }
@@ -64,7 +65,7 @@ impl Hoisting {
 /// assert!((phi2(Hoisting::Hc2, 0.2)? - 1.168).abs() < 1e-12);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn phi2(class: Hoisting, speed: f64) -> Result<f64, Error> {
+pub fn phi2(class: HoistingClass, speed: f64) -> Result<f64, Error> {
     let [least, slope] = class.values();
     Ok(least + slope * non_negative(Argument::Speed, speed)?)
 }
@@ -101,7 +102,7 @@ pub fn phi3(released: f64, total: f64, release: Release) -> Result<f64, Error> {
 
 /// How the forces of a drive change.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Onset {
+pub enum DriveOnset {
     /// No change, as for centrifugal forces.
     Steady,
     /// A smooth change.
@@ -119,12 +120,12 @@ pub enum Onset {
 /// # Source
 /// EN 1991-3:2006, Table 2.6.
 #[must_use]
-pub fn phi5(onset: Onset) -> [f64; 2] {
+pub fn phi5(onset: DriveOnset) -> [f64; 2] {
     match onset {
-        Onset::Steady => [1.0, 1.0],
-        Onset::Smooth => [1.0, 1.5],
-        Onset::Sudden => [1.5, 2.0],
-        Onset::Backlash => [3.0, 3.0],
+        DriveOnset::Steady => [1.0, 1.0],
+        DriveOnset::Smooth => [1.0, 1.5],
+        DriveOnset::Sudden => [1.5, 2.0],
+        DriveOnset::Backlash => [3.0, 3.0],
     }
 }
 

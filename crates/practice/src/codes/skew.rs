@@ -7,13 +7,13 @@ use crate::error::{Argument, non_negative, positive, within};
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4.
-pub const MOST: f64 = 0.015;
+pub const MAX_ANGLE: f64 = 0.015;
 
 /// alpha_0, the part of the skewing angle from tolerances of wheels and rails, in rad. *Not confirmed.*
 ///
 /// # Source
 /// EN 1991-3:2006, Table 2.7.
-pub const TOLERANCE: f64 = 0.001;
+pub const TOLERANCE_ANGLE: f64 = 0.001;
 
 /// The guides of a crane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,7 +43,7 @@ pub fn angle(guide: Guide, slack: f64, head: f64, spacing: f64) -> Result<f64, E
     };
     let slack = (0.75 * non_negative(Argument::Length, slack)?).max(least);
     let wear = wear * non_negative(Argument::Length, head)?;
-    Ok((slack + wear) / positive(Argument::Length, spacing)? + TOLERANCE)
+    Ok((slack + wear) / positive(Argument::Length, spacing)? + TOLERANCE_ANGLE)
 }
 
 /// The coefficient of friction f = 0.3 (1 - exp(-250 alpha)) of a wheel at the skewing angle alpha, in rad.
@@ -59,7 +59,7 @@ pub fn friction(angle: f64) -> Result<f64, Error> {
 
 /// How the wheels of both rails are driven, and whether they are fixed laterally.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Pairs {
+pub enum WheelPairs {
     /// Driven separately, fixed laterally on both rails (IFF).
     AloneFixed,
     /// Driven separately, fixed on one rail and free on the other (IFM).
@@ -74,7 +74,7 @@ pub enum Pairs {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Skewing {
     /// h, the distance from the guide back to the centre of rotation of the crane.
-    pub reach: f64,
+    pub rotation_distance: f64,
     /// lambda_S, of the guide force S.
     pub guide: f64,
     /// lambda_S,i,j,L, of the longitudinal forces of every wheel pair; those of the two rails are opposite.
@@ -101,7 +101,7 @@ pub struct Skewing {
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4, Tables 2.8 and 2.9.
-pub fn skewing(kind: Pairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skewing, Error> {
+pub fn skewing(kind: WheelPairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skewing, Error> {
     let span = positive(Argument::Length, span)?;
     let heavy = within(Argument::Share, share, 0.0, 1.0)?;
     let light = 1.0 - heavy;
@@ -112,20 +112,20 @@ pub fn skewing(kind: Pairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skew
     }
     let count = pairs.len() as f64;
     let (coupled, free) = match kind {
-        Pairs::AloneFixed => (0.0, false),
-        Pairs::AloneFree => (0.0, true),
-        Pairs::CoupledFixed => (count, false),
-        Pairs::CoupledFree => (count, true),
+        WheelPairs::AloneFixed => (0.0, false),
+        WheelPairs::AloneFree => (0.0, true),
+        WheelPairs::CoupledFixed => (count, false),
+        WheelPairs::CoupledFree => (count, true),
     };
     let lever = if free { heavy } else { heavy * light };
     let reach = (coupled * lever * span * span + second) / first;
     if first <= 0.0 || reach <= 0.0 || !reach.is_finite() {
-        return Err(Error::NoReach);
+        return Err(Error::NoRotationCentre);
     }
     let side = |pair: f64| (1.0 - pair / reach) / count;
     let along = if coupled > 0.0 { heavy * light * span / (count * reach) } else { 0.0 };
     Ok(Skewing {
-        reach,
+        rotation_distance: reach,
         guide: (if free { light } else { 1.0 }) * (1.0 - first / (count * reach)),
         along: vec![along; pairs.len()],
         across: pairs.iter().map(|&e| [light * side(e), if free { 0.0 } else { heavy * side(e) }]).collect(),

@@ -1,13 +1,13 @@
 //! Fatigue strength of AISC 360, Appendix 3, which AIST TR-13 refers to.
 
 use super::rainflow::Cycle;
-use super::strength::{Damage, REFERENCE};
+use super::strength::{Damage, REFERENCE_CYCLES};
 use crate::Error;
 use crate::error::{Argument, non_negative, positive};
 
 /// The stress category of a detail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Category {
+pub enum AiscCategory {
     /// Plain material.
     A,
     /// Built-up members with continuous welds.
@@ -24,16 +24,16 @@ pub enum Category {
     EPrime,
 }
 
-impl Category {
+impl AiscCategory {
     /// All categories with their names.
-    pub const ALL: [(&'static str, Category); 7] = [
-        ("A", Category::A),
-        ("B", Category::B),
-        ("B'", Category::BPrime),
-        ("C", Category::C),
-        ("D", Category::D),
-        ("E", Category::E),
-        ("E'", Category::EPrime),
+    pub const ALL: [(&'static str, AiscCategory); 7] = [
+        ("A", AiscCategory::A),
+        ("B", AiscCategory::B),
+        ("B'", AiscCategory::BPrime),
+        ("C", AiscCategory::C),
+        ("D", AiscCategory::D),
+        ("E", AiscCategory::E),
+        ("E'", AiscCategory::EPrime),
     ];
 
     /// The constant C_f, and the threshold F_TH in ksi. The values of E and E' are those of a public program:
@@ -45,13 +45,13 @@ impl Category {
     #[must_use]
     pub fn values(self) -> [f64; 2] {
         match self {
-            Category::A => [25.0, 24.0],
-            Category::B => [12.0, 16.0],
-            Category::BPrime => [6.1, 12.0],
-            Category::C => [4.4, 10.0],
-            Category::D => [2.2, 7.0],
-            Category::E => [1.1, 4.5],
-            Category::EPrime => [0.39, 2.6],
+            AiscCategory::A => [25.0, 24.0],
+            AiscCategory::B => [12.0, 16.0],
+            AiscCategory::BPrime => [6.1, 12.0],
+            AiscCategory::C => [4.4, 10.0],
+            AiscCategory::D => [2.2, 7.0],
+            AiscCategory::E => [1.1, 4.5],
+            AiscCategory::EPrime => [0.39, 2.6],
         }
     }
 }
@@ -67,25 +67,25 @@ impl Category {
 /// # Ok::<(), practice::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Curve {
-    category: Category,
+pub struct AiscCurve {
+    category: AiscCategory,
     /// One ksi in the unit of stress of the ranges.
     ksi: f64,
 }
 
-impl Curve {
+impl AiscCurve {
     /// The curve of a category. `ksi` is one ksi in the unit of stress of the ranges, above zero.
     ///
     /// # Errors
     /// [`Error::Range`] for a `ksi` that is not positive.
-    pub fn new(category: Category, ksi: f64) -> Result<Curve, Error> {
-        Ok(Curve { category, ksi: positive(Argument::Range, ksi)? })
+    pub fn new(category: AiscCategory, ksi: f64) -> Result<AiscCurve, Error> {
+        Ok(AiscCurve { category, ksi: positive(Argument::Range, ksi)? })
     }
 
     /// The range whose life on the sloping line is [`REFERENCE`] cycles; the threshold is disregarded.
     #[must_use]
     pub fn reference(&self) -> f64 {
-        (self.category.values()[0] * 1e9 / REFERENCE).cbrt() * self.ksi
+        (self.category.values()[0] * 1e9 / REFERENCE_CYCLES).cbrt() * self.ksi
     }
 
     /// F_TH: if no range of a history is larger, the history does no damage.

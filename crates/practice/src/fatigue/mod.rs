@@ -8,6 +8,6 @@ pub mod rainflow;
 mod strength;
 pub mod stress;
 
-pub use rainflow::{Cycle, History, rainflow};
-pub use strength::{CATEGORIES, Damage, END, KNEE, REFERENCE, Strength, Stress};
-pub use stress::{Point, Section};
+pub use rainflow::{Cycle, Repetition, rainflow};
+pub use strength::{CATEGORIES, CUT_OFF_CYCLES, Damage, LIMIT_CYCLES, REFERENCE_CYCLES, Strength, Stress};
+pub use stress::{SectionPoint, SectionProperties};

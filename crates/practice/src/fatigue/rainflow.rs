@@ -30,7 +30,7 @@ impl Cycle {
 
 /// How the residue is counted: the ranges that no larger range closes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum History {
+pub enum Repetition {
     /// The history occurs once; the ranges of the residue are half cycles.
     Once,
     /// The history is repeated. It is counted from its highest point through its end and beginning back to
@@ -64,12 +64,12 @@ type Turn = (f64, usize);
 /// assert_eq!(found, [[2.0, 1.0], [5.0, 0.5], [6.0, 0.5]]);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn rainflow(values: &[f64], history: History) -> Result<Vec<Cycle>, Error> {
+pub fn rainflow(values: &[f64], history: Repetition) -> Result<Vec<Cycle>, Error> {
     check_samples(0, values)?;
     let samples = values.iter().copied().zip(0..);
     let turns = match history {
-        History::Once => turning_points(samples),
-        History::Repeated => {
+        Repetition::Once => turning_points(samples),
+        Repetition::Repeated => {
             let top = (0..values.len()).fold(0, |top, k| if values[k] > values[top] { k } else { top });
             let round = (top..values.len()).chain(0..values.len().min(top + 1));
             turning_points(round.map(|k| (values[k], k)))

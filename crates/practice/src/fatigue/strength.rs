@@ -5,13 +5,13 @@ use crate::Error;
 use crate::error::{Argument, non_negative, positive};
 
 /// The number of cycles at which the reference strength is given.
-pub const REFERENCE: f64 = 2e6;
+pub const REFERENCE_CYCLES: f64 = 2e6;
 
 /// The number of cycles at the constant-amplitude fatigue limit.
-pub const KNEE: f64 = 5e6;
+pub const LIMIT_CYCLES: f64 = 5e6;
 
 /// The number of cycles at the cut-off limit.
-pub const END: f64 = 1e8;
+pub const CUT_OFF_CYCLES: f64 = 1e8;
 
 /// The detail categories for direct stress, in N/mm2.
 ///
@@ -72,9 +72,9 @@ impl Strength {
     /// The range below which a history does no damage if none of its ranges is larger: (2/5)^(1/3) = 0.737 of
     /// the reference strength for direct stress, the cut-off limit for shear.
     #[must_use]
-    pub fn limit(&self) -> f64 {
+    pub fn fatigue_limit(&self) -> f64 {
         match self.stress {
-            Stress::Direct => self.reference * (REFERENCE / KNEE).cbrt(),
+            Stress::Direct => self.reference * (REFERENCE_CYCLES / LIMIT_CYCLES).cbrt(),
             Stress::Shear => self.cut_off(),
         }
     }
@@ -84,8 +84,8 @@ impl Strength {
     #[must_use]
     pub fn cut_off(&self) -> f64 {
         match self.stress {
-            Stress::Direct => self.limit() * (KNEE / END).powf(0.2),
-            Stress::Shear => self.reference * (REFERENCE / END).powf(0.2),
+            Stress::Direct => self.fatigue_limit() * (LIMIT_CYCLES / CUT_OFF_CYCLES).powf(0.2),
+            Stress::Shear => self.reference * (REFERENCE_CYCLES / CUT_OFF_CYCLES).powf(0.2),
         }
     }
 
@@ -102,15 +102,15 @@ impl Strength {
     /// EN 1993-1-9:2005, 7.1.
     pub fn damage(&self, range: f64) -> Result<f64, Error> {
         let range = non_negative(Argument::Range, range)?;
-        let limit = self.limit();
+        let limit = self.fatigue_limit();
         Ok(if range <= self.cut_off() {
             0.0
         } else if self.stress == Stress::Shear {
-            (range / self.reference).powi(5) / REFERENCE
+            (range / self.reference).powi(5) / REFERENCE_CYCLES
         } else if range < limit {
-            (range / limit).powi(5) / KNEE
+            (range / limit).powi(5) / LIMIT_CYCLES
         } else {
-            (range / self.reference).powi(3) / REFERENCE
+            (range / self.reference).powi(3) / REFERENCE_CYCLES
         })
     }
 
@@ -122,7 +122,7 @@ impl Strength {
     /// # Source
     /// EN 1993-1-9:2005, A.5 (Palmgren and Miner).
     pub fn miner(&self, cycles: &[Cycle]) -> Result<Damage, Error> {
-        Damage::of(cycles, self.limit(), |range| self.damage(range))
+        Damage::of(cycles, self.fatigue_limit(), |range| self.damage(range))
     }
 
     /// The equivalent constant range, which does the damage `sum` in [`REFERENCE`] cycles: the reference
@@ -150,10 +150,10 @@ pub struct Damage {
     /// Miner's sum; failure is predicted at one.
     pub sum: f64,
     /// The largest range of the history.
-    pub most: f64,
+    pub largest_range: f64,
     /// Whether no range is above the fatigue limit. The damage may then be taken as zero although the sum is
     /// not.
-    pub endures: bool,
+    pub below_limit: bool,
 }
 
 impl Damage {
@@ -163,13 +163,13 @@ impl Damage {
         limit: f64,
         by: impl Fn(f64) -> Result<f64, Error>,
     ) -> Result<Damage, Error> {
-        let mut damage = Damage { sum: 0.0, most: 0.0, endures: true };
+        let mut damage = Damage { sum: 0.0, largest_range: 0.0, below_limit: true };
         for cycle in cycles {
             let range = cycle.range();
             damage.sum += non_negative(Argument::Count, cycle.count)? * by(range)?;
-            damage.most = damage.most.max(range);
+            damage.largest_range = damage.largest_range.max(range);
         }
-        damage.endures = damage.most <= limit;
+        damage.below_limit = damage.largest_range <= limit;
         non_negative(Argument::Factor, damage.sum)?;
         Ok(damage)
     }

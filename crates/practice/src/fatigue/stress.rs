@@ -5,7 +5,7 @@ use crate::error::{Argument, positive, signed};
 
 /// The properties of a section about its principal axes y and z through the centroid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
+pub struct SectionProperties {
     /// Area A.
     pub area: f64,
     /// Second moment of area I_y, the integral of z^2, for bending in the x-z plane.
@@ -16,7 +16,7 @@ pub struct Section {
 
 /// A point of a section, measured from its centroid.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Point {
+pub struct SectionPoint {
     /// Coordinate along the local y axis.
     pub y: f64,
     /// Coordinate along the local z axis.
@@ -36,7 +36,7 @@ pub struct Point {
 ///
 /// # Source
 /// Timoshenko and Goodier, Theory of Elasticity (1970), article 102.
-pub fn weights(section: &Section, point: Point) -> Result<[f64; 6], Error> {
+pub fn weights(section: &SectionProperties, point: SectionPoint) -> Result<[f64; 6], Error> {
     Ok([
         1.0 / positive(Argument::Section, section.area)?,
         0.0,
@@ -65,7 +65,7 @@ pub fn weights(section: &Section, point: Point) -> Result<[f64; 6], Error> {
 /// assert!((sigma - 15_000.0).abs() < 1e-9);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn direct(section: &Section, point: Point, forces: [f64; 6]) -> Result<f64, Error> {
+pub fn direct(section: &SectionProperties, point: SectionPoint, forces: [f64; 6]) -> Result<f64, Error> {
     let weights = weights(section, point)?;
     forces
         .iter()

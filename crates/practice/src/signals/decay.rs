@@ -14,7 +14,7 @@ pub struct Decay {
     /// Damped frequency, in cycles per unit of time.
     pub frequency: f64,
     /// Number of half cycles from which they are determined.
-    pub halves: usize,
+    pub half_cycles: usize,
 }
 
 /// The damping ratio by the logarithmic decrement.
@@ -70,7 +70,7 @@ pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Err
     Ok(Some(Decay {
         ratio: delta / (4.0 * PI * PI + delta * delta).sqrt(),
         frequency: logs.len() as f64 / (2.0 * time),
-        halves: logs.len(),
+        half_cycles: logs.len(),
     }))
 }
 

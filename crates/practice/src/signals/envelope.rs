@@ -5,7 +5,7 @@ use crate::Error;
 
 /// The histories of one simulation.
 #[derive(Clone, Copy, Debug)]
-pub struct Run<'a> {
+pub struct RunHistories<'a> {
     /// Times, not decreasing.
     pub times: &'a [f64],
     /// Series over these times, the same in every run: first those whose extremes are sought, then any others
@@ -15,7 +15,7 @@ pub struct Run<'a> {
 
 /// The values of all series at the instant when one of them is extreme.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Instant {
+pub struct ExtremeInstant {
     /// Index of the run.
     pub run: usize,
     /// Index of the sample.
@@ -30,9 +30,9 @@ pub struct Instant {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extremes {
     /// The instant of the largest value; the first of equals.
-    pub most: Instant,
+    pub max: ExtremeInstant,
     /// The instant of the smallest value; the first of equals.
-    pub least: Instant,
+    pub min: ExtremeInstant,
 }
 
 /// The largest and smallest value of each of the first `count` series over all runs, with the coincident
@@ -51,7 +51,7 @@ pub struct Extremes {
 /// assert_eq!(found[0].most.values, [8.0, 12.0]);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn envelope(runs: &[Run], count: usize) -> Result<Vec<Extremes>, Error> {
+pub fn envelope(runs: &[RunHistories], count: usize) -> Result<Vec<Extremes>, Error> {
     let expected = runs.first().map_or(0, |run| run.series.len()).max(count);
     for (index, run) in runs.iter().enumerate() {
         if run.series.len() != expected {
@@ -64,14 +64,14 @@ pub fn envelope(runs: &[Run], count: usize) -> Result<Vec<Extremes>, Error> {
     }
     Ok((0..count)
         .map(|series| Extremes {
-            most: extreme(runs, series, |value, best| value > best),
-            least: extreme(runs, series, |value, best| value < best),
+            max: extreme(runs, series, |value, best| value > best),
+            min: extreme(runs, series, |value, best| value < best),
         })
         .collect())
 }
 
 /// The instant at which a series is `better` than at every one before. At least one run must have a sample.
-fn extreme(runs: &[Run], series: usize, better: impl Fn(f64, f64) -> bool) -> Instant {
+fn extreme(runs: &[RunHistories], series: usize, better: impl Fn(f64, f64) -> bool) -> ExtremeInstant {
     let mut best: Option<(usize, usize, f64)> = None;
     for (index, run) in runs.iter().enumerate() {
         for (sample, &value) in run.series[series].iter().enumerate() {
@@ -82,5 +82,5 @@ fn extreme(runs: &[Run], series: usize, better: impl Fn(f64, f64) -> bool) -> In
     }
     let (run, sample, _) = best.expect("envelope refuses runs without samples");
     let values = runs[run].series.iter().map(|series| series[sample]).collect();
-    Instant { run, sample, time: runs[run].times[sample], values }
+    ExtremeInstant { run, sample, time: runs[run].times[sample], values }
 }

@@ -12,8 +12,8 @@ mod series;
 mod spectrum;
 
 pub use decay::{Decay, decay};
-pub use envelope::{Extremes, Instant, Run, envelope};
+pub use envelope::{ExtremeInstant, Extremes, RunHistories, envelope};
 pub use filter::low_pass;
-pub use response::{Mark, Response, View, response};
+pub use response::{ResponseCharacteristics, ResponseSettings, TimedValue, response};
 pub use series::{Excursions, excursions, mean, resample};
-pub use spectrum::{Tone, dominant};
+pub use spectrum::{SineComponent, dominant};

@@ -3,13 +3,13 @@
 use super::decay::{Decay, decay};
 use super::filter::low_pass;
 use super::series::{Excursions, excursions, mean, resample};
-use super::spectrum::{Tone, dominant};
+use super::spectrum::{SineComponent, dominant};
 use crate::Error;
 use crate::error::{Argument, within};
 
 /// How a response is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
+pub struct ResponseSettings {
     /// Time from which the response is evaluated.
     pub from: f64,
     /// Time from which the response is taken as settled.
@@ -17,9 +17,9 @@ pub struct View {
     /// Interval of the even samples.
     pub step: f64,
     /// Cut-off frequency of the low-pass filter, in cycles per unit of time; `None` for no filter.
-    pub cut: Option<f64>,
+    pub cut_off: Option<f64>,
     /// Half width of the band of excursions, as a fraction of the settled mean.
-    pub share: f64,
+    pub excursion_fraction: f64,
     /// Lower and upper limit of the dominant frequency, in cycles per unit of time.
     pub band: [f64; 2],
     /// The smallest range that is used for the damping, as a fraction of the largest.
@@ -28,7 +28,7 @@ pub struct View {
 
 /// A value and its time.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mark {
+pub struct TimedValue {
     /// Time.
     pub time: f64,
     /// Value.
@@ -38,17 +38,17 @@ pub struct Mark {
 /// The characteristics of a response from [`View::from`] on, which is sampled evenly and, if requested,
 /// filtered.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Response {
+pub struct ResponseCharacteristics {
     /// Time average of the unfiltered history from [`View::settled`] to the end.
     pub mean: f64,
     /// Largest value.
-    pub peak: Mark,
+    pub peak: TimedValue,
     /// Smallest value.
-    pub least: Mark,
+    pub trough: TimedValue,
     /// Excursions beyond the band about the mean.
     pub excursions: Excursions,
     /// Strongest sine component; `None` if the spectrum has no peak in the band.
-    pub tone: Option<Tone>,
+    pub sine: Option<SineComponent>,
     /// Damping, which is meaningful if the response is that of one mode; `None` if it does not oscillate.
     pub decay: Option<Decay>,
 }
@@ -73,24 +73,28 @@ pub struct Response {
 /// assert!((found.decay.expect("an oscillation").ratio - 0.03).abs() < 1e-3);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn response(times: &[f64], values: &[f64], view: &View) -> Result<Response, Error> {
+pub fn response(
+    times: &[f64],
+    values: &[f64],
+    view: &ResponseSettings,
+) -> Result<ResponseCharacteristics, Error> {
     let settled = within(Argument::Time, view.settled, view.from, 1e30)?;
     let mean = mean(times, values, settled)?;
     let even = resample(times, values, view.from, view.step)?;
-    let even = match view.cut {
+    let even = match view.cut_off {
         Some(cut) => low_pass(&even, view.step, cut)?,
         None => even,
     };
     let best = |better: fn(f64, f64) -> bool| {
         let sample = (0..even.len()).fold(0, |best, k| if better(even[k], even[best]) { k } else { best });
-        Mark { time: view.from + sample as f64 * view.step, value: even[sample] }
+        TimedValue { time: view.from + sample as f64 * view.step, value: even[sample] }
     };
-    Ok(Response {
+    Ok(ResponseCharacteristics {
         mean,
         peak: best(|value, found| value > found),
-        least: best(|value, found| value < found),
-        excursions: excursions(&even, mean, view.share)?,
-        tone: dominant(&even, view.step, view.band)?,
+        trough: best(|value, found| value < found),
+        excursions: excursions(&even, mean, view.excursion_fraction)?,
+        sine: dominant(&even, view.step, view.band)?,
         decay: decay(&even, view.step, view.floor)?,
     })
 }

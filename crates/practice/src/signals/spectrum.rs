@@ -16,7 +16,7 @@ pub(crate) const NOISE: f64 = 64.0 * f64::EPSILON;
 
 /// A sine component of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tone {
+pub struct SineComponent {
     /// Frequency, in cycles per unit of time.
     pub frequency: f64,
     /// Amplitude, half of the range from trough to crest.
@@ -47,7 +47,7 @@ pub struct Tone {
 /// assert!((tone.amplitude - 3.0).abs() < 0.05);
 /// # Ok::<(), practice::Error>(())
 /// ```
-pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Tone>, Error> {
+pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<SineComponent>, Error> {
     let step = positive(Argument::Time, step)?;
     let least = non_negative(Argument::Frequency, band[0])?;
     let most = within(Argument::Frequency, band[1], least, 1e30)?;
@@ -74,7 +74,10 @@ pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Tone
         let shift = ((2.0 * ratio - 1.0) / (ratio + 1.0)).clamp(0.0, 0.5);
         let lobe = if shift > 0.0 { (PI * shift).sin() / (PI * shift) } else { 1.0 };
         let place = k as f64 + if right { shift } else { -shift };
-        Tone { frequency: place / (n * step), amplitude: 4.0 * size * (1.0 - shift * shift) / (n * lobe) }
+        SineComponent {
+            frequency: place / (n * step),
+            amplitude: 4.0 * size * (1.0 - shift * shift) / (n * lobe),
+        }
     }))
 }
 

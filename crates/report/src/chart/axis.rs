@@ -11,7 +11,7 @@ use super::label::with_unit;
 /// assert_eq!((axis.log, axis.range), (true, Some([1e-6, 1e-2])));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Axis {
+pub struct ChartAxis {
     /// What is measured, without the unit.
     pub label: String,
     /// Unit; empty for pure numbers.
@@ -24,25 +24,25 @@ pub struct Axis {
     pub downwards: bool,
 }
 
-impl Axis {
+impl ChartAxis {
     /// A linear axis whose range is taken from the data.
     pub fn new(label: impl Into<String>, unit: impl Into<String>) -> Self {
-        Axis { label: label.into(), unit: unit.into(), ..Axis::default() }
+        ChartAxis { label: label.into(), unit: unit.into(), ..ChartAxis::default() }
     }
 
     /// The same axis with positive values downwards.
     pub fn downwards(self) -> Self {
-        Axis { downwards: true, ..self }
+        ChartAxis { downwards: true, ..self }
     }
 
     /// The same axis on a logarithmic scale.
     pub fn log(self) -> Self {
-        Axis { log: true, ..self }
+        ChartAxis { log: true, ..self }
     }
 
     /// The same axis from `low` to `high`.
     pub fn range(self, low: f64, high: f64) -> Self {
-        Axis { range: Some([low, high]), ..self }
+        ChartAxis { range: Some([low, high]), ..self }
     }
 
     /// Label with unit and the power of ten taken out of the tick labels.

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
-use super::scale::Scale;
+use super::scale::AxisScale;
 use super::sheet::HELD;
 use super::ticks::Ticks;
 
 /// One coordinate of a chart of plotters, whose grid lines and labels are at the ticks.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Coordinate {
-    pub scale: Scale,
+    pub scale: AxisScale,
     pub ticks: Ticks,
     /// Values grow against the direction of the axis.
     pub is_reversed: bool,

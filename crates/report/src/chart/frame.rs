@@ -4,12 +4,12 @@ use plotters::coord::cartesian::Cartesian2d;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::backend::SvgBackend;
 use super::coordinate::Coordinate;
 use super::error::Error;
 use super::palette::{FAINT, GREY, INK};
-use super::scale::Scale;
+use super::scale::AxisScale;
 use super::sheet::{Area, LABEL, SMALL, WIDTH, font, stroke, units};
 use super::text::text_width;
 use super::ticks::Ticks;
@@ -42,7 +42,7 @@ pub(super) type Plot<'s> = ChartContext<'s, SvgBackend<'s>, Cartesian2d<Coordina
 /// # Ok::<(), report::chart::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct PlotArea {
     /// Left edge.
     pub left: f64,
     /// Upper edge.
@@ -51,20 +51,25 @@ pub struct Frame {
     pub width: f64,
     /// Height.
     pub height: f64,
-    pub(super) x: Scale,
-    pub(super) y: Scale,
+    pub(super) x: AxisScale,
+    pub(super) y: AxisScale,
     /// Values of x grow to the left, those of y downwards.
     pub(super) is_reversed: [bool; 2],
 }
 
-impl Frame {
+impl PlotArea {
     /// A frame as wide as the picture allows beside the labels of the y axis, with the ticks of both axes.
-    pub(super) fn new(x: (&Axis, Scale), y: (&Axis, Scale), top: f64, height: f64) -> (Self, [Ticks; 2]) {
+    pub(super) fn new(
+        x: (&ChartAxis, AxisScale),
+        y: (&ChartAxis, AxisScale),
+        top: f64,
+        height: f64,
+    ) -> (Self, [Ticks; 2]) {
         let y_ticks = Ticks::new(&y.1, (height / 55.0).clamp(3.0, 10.0));
         let left = CAPTION + widest(&y_ticks);
         let width = WIDTH - left - RIGHT;
         let is_reversed = [x.0.downwards, y.0.downwards];
-        let frame = Frame { left, top, width, height, x: x.1, y: y.1, is_reversed };
+        let frame = PlotArea { left, top, width, height, x: x.1, y: y.1, is_reversed };
         (frame, [frame.x_ticks(), y_ticks])
     }
 
@@ -150,7 +155,7 @@ pub(super) fn grid(plot: &mut Plot<'_>) -> Result<(), Error> {
 }
 
 /// Draws the border, ticks with their labels, and captions.
-pub(super) fn axes(plot: &mut Plot<'_>, [x, y]: [&Axis; 2]) -> Result<(), Error> {
+pub(super) fn axes(plot: &mut Plot<'_>, [x, y]: [&ChartAxis; 2]) -> Result<(), Error> {
     let exponents = {
         let both = plot.as_coord_spec();
         [both.x_spec().ticks.exponent, both.y_spec().ticks.exponent]

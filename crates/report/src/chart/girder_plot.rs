@@ -6,11 +6,11 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::coordinate::Coordinate;
 use super::elements::Symbol;
 use super::error::Error;
-use super::frame::{Frame, Plot, pairs, plot};
+use super::frame::{Plot, PlotArea, pairs, plot};
 use super::label::short;
 use super::legend::{Legend, dashes};
 use super::palette::{GREY, INK, colour};
-use super::scale::{Scale, extent, step};
+use super::scale::{AxisScale, extent, step};
 use super::series::{Series, Style};
 use super::sheet::{self, Area, NOTE_LINE, SMALL, TITLE, TITLE_LINE, WIDTH, font, group, stroke};
 use super::svg::{FINE, Svg};
@@ -28,7 +28,7 @@ const RADIUS: f64 = 3.4;
 
 /// A support of the side view.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Support {
+pub struct SupportMark {
     /// (x, y) of the supported point.
     pub at: [f64; 2],
     /// The support restrains the longitudinal direction too; otherwise it is drawn as a roller.
@@ -77,7 +77,7 @@ pub struct GirderPlot {
     /// Rail as a polyline.
     pub rail: Vec<[f64; 2]>,
     /// Supports.
-    pub supports: Vec<Support>,
+    pub supports: Vec<SupportMark>,
     /// Stations on the rail.
     pub stations: Vec<[f64; 2]>,
     /// Loads, drawn as arrows that end at these points.
@@ -182,7 +182,7 @@ impl GirderPlot {
     }
 
     /// Frame with one scale for both directions, from below the legend to below all that is drawn to scale.
-    fn frame(&self, top: f64, shape: Option<&[[f64; 2]]>) -> Result<Frame, Error> {
+    fn frame(&self, top: f64, shape: Option<&[[f64; 2]]>) -> Result<PlotArea, Error> {
         let (left, right) = self.ends();
         let scale = (WIDTH - 2.0 * MARGIN) / (right - left);
         if !(scale.is_finite() && scale > 0.0) {
@@ -197,9 +197,9 @@ impl GirderPlot {
         if !(height.is_finite() && top + height < TALLEST) {
             return Err(Error::Range { low, high });
         }
-        let x = Scale { low: left, high: right, log: false };
-        let y = Scale { low: low - below / scale, high: high + above / scale, log: false };
-        Ok(Frame { left: MARGIN, top, width: WIDTH - 2.0 * MARGIN, height, x, y, is_reversed: [false; 2] })
+        let x = AxisScale { low: left, high: right, log: false };
+        let y = AxisScale { low: low - below / scale, high: high + above / scale, log: false };
+        Ok(PlotArea { left: MARGIN, top, width: WIDTH - 2.0 * MARGIN, height, x, y, is_reversed: [false; 2] })
     }
 
     /// Symbols on the rail, and coordinates above it as far as there is room.
@@ -207,7 +207,7 @@ impl GirderPlot {
         &self,
         area: &Area<'_>,
         view: &mut Plot<'_>,
-        frame: &Frame,
+        frame: &PlotArea,
         index: usize,
     ) -> Result<(), Error> {
         view.draw_series(pairs(&self.stations).map(|at| Symbol::of_series(index, at, RADIUS * FINE)))?;
@@ -226,7 +226,7 @@ impl GirderPlot {
     }
 
     /// Chain of dimensions below the frame, from end to end over the supports.
-    fn dimensions(&self, area: &Area<'_>, frame: &Frame) -> Result<(), Error> {
+    fn dimensions(&self, area: &Area<'_>, frame: &PlotArea) -> Result<(), Error> {
         let (left, right) = self.ends();
         let mut stops: Vec<f64> = self.supports.iter().map(|s| s.at[0]).chain([left, right]).collect();
         stops.sort_by(f64::total_cmp);

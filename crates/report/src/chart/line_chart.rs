@@ -3,14 +3,14 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::elements::Symbol;
 use super::error::Error;
-use super::frame::{self, BELOW, Frame, Plot, RIGHT};
+use super::frame::{self, BELOW, Plot, PlotArea, RIGHT};
 use super::legend::{Legend, RADIUS, dashes};
 use super::palette::{GREY, colour, line_colour};
-use super::scale::Scale;
-use super::series::{Marker, Series, Style};
+use super::scale::AxisScale;
+use super::series::{Series, SeriesMarker, Style};
 use super::sheet::{
     self, Area, NOTE_LINE, SMALL, TITLE, TITLE_LINE, WIDTH, clipped, font, group, stroke, units,
 };
@@ -53,13 +53,13 @@ pub struct Chart {
     /// Heading.
     pub title: String,
     /// Horizontal axis.
-    pub x_axis: Axis,
+    pub x_axis: ChartAxis,
     /// Vertical axis.
-    pub y_axis: Axis,
+    pub y_axis: ChartAxis,
     /// Curves, in the order of the legend.
     pub series: Vec<Series>,
     /// Vertical lines with labels.
-    pub markers: Vec<Marker>,
+    pub markers: Vec<SeriesMarker>,
     /// Small print below the chart.
     pub note: String,
     /// Both axes have the same scale: a circle stays one. Linear axes only.
@@ -72,14 +72,14 @@ pub struct Drawing {
     /// The picture.
     pub svg: Svg,
     /// Where its data lie.
-    pub frame: Frame,
+    pub frame: PlotArea,
     /// Points drawn for each series: all of them, or the thinned ones.
     pub series: Vec<Vec<[f64; 2]>>,
 }
 
 impl Chart {
     /// A chart without series.
-    pub fn new(title: impl Into<String>, x_axis: Axis, y_axis: Axis) -> Self {
+    pub fn new(title: impl Into<String>, x_axis: ChartAxis, y_axis: ChartAxis) -> Self {
         Chart { title: title.into(), x_axis, y_axis, ..Chart::default() }
     }
 
@@ -91,7 +91,7 @@ impl Chart {
 
     /// The same chart with one more marker.
     pub fn mark(mut self, x: f64, label: impl Into<String>) -> Self {
-        self.markers.push(Marker::new(x, label));
+        self.markers.push(SeriesMarker::new(x, label));
         self
     }
 
@@ -127,7 +127,7 @@ impl Chart {
         let (x, y, height) = self.scales()?;
         let title = wrap(&self.title, WIDTH - 40.0, TITLE);
         let mut top = 14.0 + TITLE_LINE * title.len() as f64;
-        let (mut frame, ticks) = Frame::new((&self.x_axis, x), (&self.y_axis, y), top, height);
+        let (mut frame, ticks) = PlotArea::new((&self.x_axis, x), (&self.y_axis, y), top, height);
         let legend = Legend::new(&self.series, frame.left, WIDTH - RIGHT, top, self.is_crowded());
         top += legend.height;
         let marker_labels = self.marker_labels(&frame);
@@ -187,19 +187,19 @@ impl Chart {
     }
 
     /// Scales of both axes, and the height of the frame.
-    fn scales(&self) -> Result<(Scale, Scale, f64), Error> {
+    fn scales(&self) -> Result<(AxisScale, AxisScale, f64), Error> {
         let points = || self.series.iter().flat_map(|s| &s.points);
         let loose = self.series.iter().any(Series::has_symbols) && !self.equal_aspect;
         let spread = self.series.iter().flat_map(|s| s.spread.iter().flatten().copied());
         let spread = spread.filter(|x| x.is_finite() && (*x > 0.0 || !self.x_axis.log));
-        let x = Scale::new(&self.x_axis, points().map(|p| p[0]).chain(spread), loose)?;
-        let y = Scale::new(&self.y_axis, points().map(|p| p[1]), true)?;
+        let x = AxisScale::new(&self.x_axis, points().map(|p| p[0]).chain(spread), loose)?;
+        let y = AxisScale::new(&self.y_axis, points().map(|p| p[1]), true)?;
         let mut found = (x, y, HEIGHT);
         if self.equal_aspect && !x.log && !y.log {
             // The frame is as wide as the labels of the y axis leave it, and those depend on the height.
             for _ in 0..8 {
                 let width =
-                    Frame::new((&self.x_axis, found.0), (&self.y_axis, found.1), 0.0, found.2).0.width;
+                    PlotArea::new((&self.x_axis, found.0), (&self.y_axis, found.1), 0.0, found.2).0.width;
                 let wanted = width * (y.high - y.low) / (x.high - x.low);
                 let height = wanted.clamp(EQUAL[0], EQUAL[1]);
                 found = (x.widened(wanted / height), y.widened(height / wanted), height);
@@ -213,12 +213,12 @@ impl Chart {
         self.series.iter().filter(|s| !s.has_symbols()).count() > 2
     }
 
-    fn inside<'a>(&'a self, frame: &'a Frame) -> impl Iterator<Item = &'a Marker> {
+    fn inside<'a>(&'a self, frame: &'a PlotArea) -> impl Iterator<Item = &'a SeriesMarker> {
         self.markers.iter().filter(|m| (-1e-9..=1.0 + 1e-9).contains(&frame.x.unit(m.x)))
     }
 
     /// Middle and row of the label of each marker inside the frame; rows are counted upwards.
-    fn marker_labels(&self, frame: &Frame) -> Vec<(f64, usize)> {
+    fn marker_labels(&self, frame: &PlotArea) -> Vec<(f64, usize)> {
         let mut taken: Vec<Vec<[f64; 2]>> = Vec::new();
         let mut found = Vec::new();
         for marker in self.inside(frame) {
@@ -240,7 +240,7 @@ impl Chart {
         &self,
         area: &Area<'_>,
         plot: &mut Plot<'_>,
-        frame: &Frame,
+        frame: &PlotArea,
         index: usize,
     ) -> Result<Vec<[f64; 2]>, Error> {
         let series = &self.series[index];
@@ -287,7 +287,7 @@ struct Layout {
     legend: Legend,
     /// Middle and row of the label of each marker inside the frame.
     marker_labels: Vec<(f64, usize)>,
-    frame: Frame,
+    frame: PlotArea,
     ticks: [Ticks; 2],
     note: Vec<String>,
 }

@@ -42,12 +42,12 @@ mod text;
 mod thinning;
 mod ticks;
 
-pub use axis::Axis;
+pub use axis::ChartAxis;
 pub use error::Error;
-pub use frame::Frame;
-pub use girder_plot::{Deflected, GirderPlot, Support};
+pub use frame::PlotArea;
+pub use girder_plot::{Deflected, GirderPlot, SupportMark};
 pub use line_chart::{Chart, Drawing};
-pub use series::{Marker, Series, Style};
+pub use series::{Series, SeriesMarker, Style};
 pub use surface_plot::SurfacePlot;
 pub use svg::{Svg, stack};
 

@@ -1,6 +1,6 @@
 //! Scales: data to the unit interval, over ranges that end at 1, 2 or 5 times a power of ten.
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::error::Error;
 
 /// Ranges shorter than this count as a single value: powers of ten below it lose digits.
@@ -8,7 +8,7 @@ const TINY: f64 = 1e-280;
 
 /// Scale of one axis: data to the unit interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Scale {
+pub(super) struct AxisScale {
     pub low: f64,
     pub high: f64,
     pub log: bool,
@@ -19,13 +19,13 @@ pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
 }
 
-impl Scale {
+impl AxisScale {
     /// Scale of `axis` over `data`. `loose` widens a range taken from the data to the next ticks.
     ///
     /// # Errors
     /// [`Error::NoData`] where there is neither a range nor a value, [`Error::Range`] where the range cannot
     /// be drawn.
-    pub fn new(axis: &Axis, data: impl Iterator<Item = f64>, loose: bool) -> Result<Self, Error> {
+    pub fn new(axis: &ChartAxis, data: impl Iterator<Item = f64>, loose: bool) -> Result<Self, Error> {
         let (mut low, mut high) = match axis.range {
             Some([low, high]) => (low, high),
             None => extent(data),
@@ -55,7 +55,11 @@ impl Scale {
                 }
             }
         }
-        if fits(low, high) { Ok(Scale { low, high, log: axis.log }) } else { Err(Error::Range { low, high }) }
+        if fits(low, high) {
+            Ok(AxisScale { low, high, log: axis.log })
+        } else {
+            Err(Error::Range { low, high })
+        }
     }
 
     /// Place of a value: 0 at the lower end, 1 at the upper.
@@ -71,7 +75,7 @@ impl Scale {
     pub fn widened(self, factor: f64) -> Self {
         let (middle, half) = (0.5 * (self.low + self.high), 0.5 * (self.high - self.low));
         if factor > 1.0 {
-            Scale { low: middle - factor * half, high: middle + factor * half, ..self }
+            AxisScale { low: middle - factor * half, high: middle + factor * half, ..self }
         } else {
             self
         }

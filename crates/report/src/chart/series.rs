@@ -42,7 +42,7 @@ pub struct Series {
 impl Style {
     /// Full lines for even indices, dashed lines for odd ones.
     #[must_use]
-    pub fn in_turn(index: usize) -> Style {
+    pub fn alternating(index: usize) -> Style {
         if index.is_multiple_of(2) { Style::Line } else { Style::Dashed }
     }
 }
@@ -80,16 +80,16 @@ impl Series {
 
 /// A vertical line across the chart with a label above it, for example a support.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Marker {
+pub struct SeriesMarker {
     /// Place on the x axis.
     pub x: f64,
     /// Text above the line.
     pub label: String,
 }
 
-impl Marker {
+impl SeriesMarker {
     /// A marker at `x`.
     pub fn new(x: f64, label: impl Into<String>) -> Self {
-        Marker { x, label: label.into() }
+        SeriesMarker { x, label: label.into() }
     }
 }

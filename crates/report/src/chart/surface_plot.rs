@@ -3,16 +3,16 @@
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::axis::Axis;
+use super::axis::ChartAxis;
 use super::contour::region;
 use super::coordinate::Coordinate;
 use super::elements::OnePath;
 use super::error::Error;
-use super::frame::{self, BELOW, Frame, pairs, plot};
+use super::frame::{self, BELOW, PlotArea, pairs, plot};
 use super::label::{fixed, short, with_unit};
 use super::line_chart::Chart;
 use super::palette::{GREY, INK, shade};
-use super::scale::{Scale, extent, step};
+use super::scale::{AxisScale, extent, step};
 use super::series::{Series, Style};
 use super::sheet::{self, Area, LABEL, NOTE_LINE, SMALL, WIDTH, bold, font, group, stroke, units};
 use super::svg::Svg;
@@ -94,8 +94,8 @@ impl SurfacePlot {
     /// As [`SurfacePlot::svg`].
     pub fn lines(&self) -> Result<Chart, Error> {
         self.check()?;
-        let x = Axis::new("place of the deflection", &self.length_unit);
-        let mut chart = Chart::new(&self.title, x, Axis::new(&self.label, &self.unit));
+        let x = ChartAxis::new("place of the deflection", &self.length_unit);
+        let mut chart = Chart::new(&self.title, x, ChartAxis::new(&self.label, &self.unit));
         for (column, load) in self.loads.iter().enumerate() {
             let points = self.at.iter().zip(&self.values).map(|(x, row)| [*x, row[column]]).collect();
             let label = format!("load at {} {}", short(*load), self.length_unit);
@@ -166,7 +166,7 @@ impl SurfacePlot {
             let head = |stations: &[f64], is_reversed| {
                 let values = (0..stations.len()).map(|i| i as f64 + 0.5).collect();
                 let labels = stations.iter().map(|station| short(*station)).collect();
-                let scale = Scale { low: 0.0, high: stations.len() as f64, log: false };
+                let scale = AxisScale { low: 0.0, high: stations.len() as f64, log: false };
                 Coordinate { scale, ticks: Ticks { values, labels, exponent: 0 }, is_reversed }
             };
             let rectangle = [left, top, width * columns, height * rows];
@@ -220,11 +220,15 @@ impl SurfacePlot {
         let (low, high) = self.extent();
         let limit = low.abs().max(high.abs());
         let power = exponent(limit);
-        let axes = [Axis::new("load at", &self.length_unit), Axis::new("deflection at", &self.length_unit)];
-        let x = Scale::new(&axes[0], self.loads.iter().copied(), false)?;
-        let y = Scale::new(&axes[1], self.at.iter().copied(), false)?;
+        let axes = [
+            ChartAxis::new("load at", &self.length_unit),
+            ChartAxis::new("deflection at", &self.length_unit),
+        ];
+        let x = AxisScale::new(&axes[0], self.loads.iter().copied(), false)?;
+        let y = AxisScale::new(&axes[1], self.at.iter().copied(), false)?;
         let is_reversed = [false; 2];
-        let frame = Frame { left: LEFT, top: BELOW_HEADING[1], width: SIDE, height: SIDE, x, y, is_reversed };
+        let frame =
+            PlotArea { left: LEFT, top: BELOW_HEADING[1], width: SIDE, height: SIDE, x, y, is_reversed };
         let levels = levels(low, high);
         let is_dashed = levels.iter().any(|v| *v < -1e-9 * limit);
         let note = if is_dashed {
@@ -287,7 +291,7 @@ fn band_colours(levels: &[f64], low: f64, high: f64, limit: f64) -> Vec<RGBColor
 /// Colour bar right of the map: a chart over the indices of the bands, with the levels as ticks between them.
 fn bar(
     area: &Area<'_>,
-    frame: &Frame,
+    frame: &PlotArea,
     levels: &[f64],
     colours: &[RGBColor],
     power: i32,
@@ -295,7 +299,7 @@ fn bar(
     let apart = if levels.len() > 1 { levels[1] - levels[0] } else { 1.0 };
     let decimals = (-(apart / 10f64.powi(power)).log10().floor()).clamp(0.0, 12.0) as usize;
     let coordinate = |high: f64, ticks| Coordinate {
-        scale: Scale { low: 0.0, high, log: false },
+        scale: AxisScale { low: 0.0, high, log: false },
         ticks,
         is_reversed: false,
     };

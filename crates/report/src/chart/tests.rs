@@ -60,8 +60,8 @@ fn crossing(label: &str, style: Style, scale: f64) -> Series {
 fn trunnion() -> Chart {
     Chart::new(
         "Path of the trunnion over the girder",
-        Axis::new("position of the trunnion", "ft"),
-        Axis::new("deflection", "ft").downwards(),
+        ChartAxis::new("position of the trunnion", "ft"),
+        ChartAxis::new("deflection", "ft").downwards(),
     )
     .with(crossing("influence, exact", Style::Line, 1.04))
     .with(crossing("two rigid parts, contact handed over", Style::Line, 2.3))
@@ -84,7 +84,7 @@ fn path_of_the_trunnion_is_drawn() {
 fn wheel_forces_stand_in_millions() {
     let force = |i: usize| 2.4e6 * (1.0 + 0.02 * (i as f64 * 0.01).sin()) + if i > 6000 { -8e4 } else { 0.0 };
     let points = (0..20_000).map(|i| [i as f64 * 6e-4, force(i)]).collect();
-    let chart = Chart::new("Wheel forces", Axis::new("time", "s"), Axis::new("wheel force", "lbf"))
+    let chart = Chart::new("Wheel forces", ChartAxis::new("time", "s"), ChartAxis::new("wheel force", "lbf"))
         .with(Series::new("rear wheel", Style::Line, points))
         .with(Series::new(
             "command",
@@ -103,8 +103,9 @@ fn rim_path_keeps_its_aspect() {
         let a = i as f64 * 0.01;
         [r * a - r * a.sin(), r - r * a.cos()]
     };
-    let mut chart = Chart::new("Path of a point of the rim", Axis::new("x", "ft"), Axis::new("y", "ft"))
-        .with(Series::new("rim", Style::Line, (0..2000).map(rim).collect()));
+    let mut chart =
+        Chart::new("Path of a point of the rim", ChartAxis::new("x", "ft"), ChartAxis::new("y", "ft"))
+            .with(Series::new("rim", Style::Line, (0..2000).map(rim).collect()));
     chart.equal_aspect = true;
     let drawing = chart.draw().expect("data are finite");
     show("trochoid", &drawing.svg);
@@ -133,8 +134,8 @@ fn girder_is_drawn() {
         members: vec![vec![[-15.0, 0.0], [75.0, 0.0]]],
         rail: vec![[-15.0, 3.66], [75.0, 3.66]],
         supports: vec![
-            Support { at: [0.0, 0.0], holds_length: true },
-            Support { at: [60.0, 0.0], holds_length: false },
+            SupportMark { at: [0.0, 0.0], holds_length: true },
+            SupportMark { at: [60.0, 0.0], holds_length: false },
         ],
         stations: stations(7).iter().map(|x| [*x, 3.66]).collect(),
         loads: vec![[23.7, 3.66], [26.3, 3.66]],
@@ -154,7 +155,7 @@ fn girder_is_drawn() {
 #[test]
 fn logarithmic_axes_can_be_read() {
     for (low, high) in [(1.3, 2.2), (5.6e3, 2.4e4), (0.9, 1.1), (2e-9, 3e-4), (0.5, 60.0), (2.1e-3, 0.62)] {
-        let ticks = ticks::Ticks::new(&scale::Scale { low, high, log: true }, 6.0);
+        let ticks = ticks::Ticks::new(&scale::AxisScale { low, high, log: true }, 6.0);
         let labels = ticks.labels.iter().filter(|label| !label.is_empty()).count();
         assert!(labels >= 3, "{low} to {high}: {:?}", ticks.labels);
         assert!(ticks.values.windows(2).all(|pair| pair[0] < pair[1]));
@@ -168,8 +169,8 @@ fn logarithmic_errors_are_drawn() {
     let points = |c: f64| (0..6).map(|i| [6.0 * 2f64.powi(i), c * 4f64.powi(-i)]).collect();
     let chart = Chart::new(
         "Error against the number of parts",
-        Axis::new("parts", "").log(),
-        Axis::new("largest error", "ft").log(),
+        ChartAxis::new("parts", "").log(),
+        ChartAxis::new("largest error", "ft").log(),
     )
     .with(Series::new("parts", Style::Line, points(0.05)))
     .with(Series::new("at midspan", Style::Points, points(0.003)));
@@ -177,7 +178,11 @@ fn logarithmic_errors_are_drawn() {
 }
 
 fn plain(points: Vec<[f64; 2]>) -> Chart {
-    Chart::new("", Axis::new("x", ""), Axis::new("y", "")).with(Series::new("one", Style::Line, points))
+    Chart::new("", ChartAxis::new("x", ""), ChartAxis::new("y", "")).with(Series::new(
+        "one",
+        Style::Line,
+        points,
+    ))
 }
 
 #[test]
@@ -248,8 +253,8 @@ fn thinning_keeps_every_extreme_to_the_last_bit() {
 fn ticks_are_1_2_5_and_never_negative_zero() {
     for (low, high) in [(-0.3, 0.3), (0.0, 1e6), (-1e-9, 1e-9), (2.38e6, 2.42e6), (-7.0, 1e4), (-1.0, 1e-12)]
     {
-        let axis = Axis::new("x", "").range(low, high);
-        let scale = scale::Scale::new(&axis, std::iter::empty(), true).expect("a usable range");
+        let axis = ChartAxis::new("x", "").range(low, high);
+        let scale = scale::AxisScale::new(&axis, std::iter::empty(), true).expect("a usable range");
         let ticks = ticks::Ticks::new(&scale, 8.0);
         let apart = (ticks.values[1] - ticks.values[0]) / 10f64.powi(ticks.exponent);
         let mantissa = apart / 10f64.powf(apart.log10().floor() + 1e-12);

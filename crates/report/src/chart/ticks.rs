@@ -1,7 +1,7 @@
 //! Ticks of an axis at 1, 2 or 5 times a power of ten, and their labels.
 
 use super::label::{fixed, with_power};
-use super::scale::{Scale, step};
+use super::scale::{AxisScale, step};
 
 /// Labels that a logarithmic axis must have to be read.
 const FEWEST: usize = 3;
@@ -24,7 +24,7 @@ impl Ticks {
     }
 
     /// Ticks of a scale, about `target` of them.
-    pub fn new(scale: &Scale, target: f64) -> Ticks {
+    pub fn new(scale: &AxisScale, target: f64) -> Ticks {
         if !scale.log {
             return Ticks::linear(scale, target);
         }
@@ -37,7 +37,7 @@ impl Ticks {
         }
     }
 
-    fn linear(scale: &Scale, target: f64) -> Ticks {
+    fn linear(scale: &AxisScale, target: f64) -> Ticks {
         let step = step(scale.low, scale.high, target);
         let exponent = exponent(scale.low.abs().max(scale.high.abs()));
         let slack = 1e-9 * (scale.high - scale.low);
@@ -55,7 +55,7 @@ impl Ticks {
         Ticks { values, labels, exponent }
     }
 
-    fn logarithmic(scale: &Scale) -> Ticks {
+    fn logarithmic(scale: &AxisScale) -> Ticks {
         let decades = (scale.high / scale.low).log10();
         let factors: &[f64] = if decades <= 3.0 { &[1.0, 2.0, 5.0] } else { &[1.0] };
         let skip = (decades / 8.0).ceil().max(1.0) as i32;

@@ -3,7 +3,7 @@
 use crate::chart::{Chart, Drawing};
 use crate::document::code::{coded, exponent, plain};
 use crate::document::number::number;
-use crate::document::section::{Cell, Figure, Picture, Section, Table};
+use crate::document::section::{Figure, Picture, ReportSection, ReportTable, TableCell};
 use crate::error::Error;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use results::threads::parallel_map;
@@ -23,7 +23,7 @@ pub struct Report {
     /// Line below the title.
     pub subtitle: String,
     /// Chapters.
-    pub sections: Vec<Section>,
+    pub sections: Vec<ReportSection>,
 }
 
 impl Report {
@@ -42,7 +42,7 @@ impl Report {
         let (mut drawn, mut tables) = (drawn.into_iter(), 0);
         let bodies: Result<Vec<Markup>, Error> =
             sections.map(|(i, s)| section(i, s, &mut tables, &mut drawn)).collect();
-        let moves = figures.iter().any(|(.., figure)| matches!(figure.picture, Picture::Film(_)));
+        let moves = figures.iter().any(|(.., figure)| matches!(figure.picture, Picture::Animation(_)));
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -78,7 +78,7 @@ impl Report {
 /// One section; `tables_before` counts those of the page, `drawn` has its figures next.
 fn section(
     index: usize,
-    section: &Section,
+    section: &ReportSection,
     tables_before: &mut usize,
     drawn: &mut impl Iterator<Item = Result<Markup, Error>>,
 ) -> Result<Markup, Error> {
@@ -102,7 +102,7 @@ fn section(
                         @for (fact, value) in &facts {
                             tr {
                                 th scope="row" { (fact.name) }
-                                td.number[matches!(fact.value, Cell::Number(_))] { (value) }
+                                td.number[matches!(fact.value, TableCell::Number(_))] { (value) }
                                 td.unit { (fact.unit) }
                             }
                         }
@@ -115,7 +115,7 @@ fn section(
     })
 }
 
-fn table(section: usize, index: usize, table: &Table, running: usize) -> Result<Markup, Error> {
+fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> Result<Markup, Error> {
     let mut rows = Vec::new();
     for (row, cells) in table.rows.iter().enumerate() {
         let (found, expected) = (cells.len(), table.columns.len());
@@ -125,12 +125,12 @@ fn table(section: usize, index: usize, table: &Table, running: usize) -> Result<
         let mut texts = Vec::new();
         for (column, cell) in cells.iter().enumerate() {
             let text = shown(cell).ok_or(Error::Cell { section, table: index, row, column })?;
-            texts.push((matches!(cell, Cell::Number(_)), text));
+            texts.push((matches!(cell, TableCell::Number(_)), text));
         }
         rows.push(texts);
     }
     // A column's head stands over its numbers.
-    let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], Cell::Number(_)));
+    let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
     Ok(html! {
         div.scroll {
             table {
@@ -159,9 +159,9 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
     let mut still = None;
     let (svg, class, data) = match &figure.picture {
         Picture::Svg(svg) => (svg.clone(), "picture", None),
-        Picture::Film(film) => {
-            let data = film.data().ok_or(Error::Picture { section, figure: index })?;
-            still = Some(film.still);
+        Picture::Animation(film) => {
+            let data = film.data().ok_or(Error::Animation { section, figure: index })?;
+            still = Some(film.still_time);
             (film.svg.clone(), "picture film", Some(data))
         }
         Picture::Chart(chart) => {
@@ -184,20 +184,20 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
 }
 
 /// Text of a cell; `None` for a number that is not finite.
-fn shown(cell: &Cell) -> Option<String> {
+fn shown(cell: &TableCell) -> Option<String> {
     match cell {
-        Cell::Empty => Some(String::new()),
-        Cell::Text(text) => Some(text.clone()),
-        Cell::Number(value) => number(*value, DIGITS),
+        TableCell::Empty => Some(String::new()),
+        TableCell::Text(text) => Some(text.clone()),
+        TableCell::Number(value) => number(*value, DIGITS),
     }
 }
 
 /// What the read-out over a chart needs, as JSON that may stand inside a script element.
 fn data(chart: &Chart, drawing: &Drawing) -> String {
     let frame = &drawing.frame;
-    let axis = |axis: &crate::chart::Axis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
+    let axis = |axis: &crate::chart::ChartAxis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
     let [x, y] = frame.ranges();
-    let list = |values: &[f64], axis: &crate::chart::Axis, range| {
+    let list = |values: &[f64], axis: &crate::chart::ChartAxis, range| {
         if axis.log { plain(values) } else { coded(values, exponent(range)) }
     };
     // curves over the same places have them once

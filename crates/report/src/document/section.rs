@@ -1,11 +1,11 @@
 //! Parts of a report.
 
 use crate::chart::{Chart, Svg};
-use crate::document::film::Film;
+use crate::document::animated::Animation;
 
 /// A chapter of a report: shown in this order, empty parts left out.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Section {
+pub struct ReportSection {
     /// Heading, also in the table of contents.
     pub heading: String,
     /// Text.
@@ -13,15 +13,15 @@ pub struct Section {
     /// Table of names and values.
     pub facts: Vec<Fact>,
     /// Further tables.
-    pub tables: Vec<Table>,
+    pub tables: Vec<ReportTable>,
     /// Charts and pictures.
     pub figures: Vec<Figure>,
 }
 
-impl Section {
+impl ReportSection {
     /// An empty section.
     pub fn new(heading: impl Into<String>) -> Self {
-        Section { heading: heading.into(), ..Section::default() }
+        ReportSection { heading: heading.into(), ..ReportSection::default() }
     }
 
     /// The same section with one more paragraph.
@@ -31,7 +31,12 @@ impl Section {
     }
 
     /// The same section with one more fact.
-    pub fn fact(mut self, name: impl Into<String>, value: impl Into<Cell>, unit: impl Into<String>) -> Self {
+    pub fn fact(
+        mut self,
+        name: impl Into<String>,
+        value: impl Into<TableCell>,
+        unit: impl Into<String>,
+    ) -> Self {
         self.facts.push(Fact { name: name.into(), value: value.into(), unit: unit.into() });
         self
     }
@@ -43,7 +48,7 @@ impl Section {
     }
 
     /// The same section with one more table.
-    pub fn table(mut self, table: Table) -> Self {
+    pub fn table(mut self, table: ReportTable) -> Self {
         self.tables.push(table);
         self
     }
@@ -51,7 +56,7 @@ impl Section {
 
 /// A value of a fact or of a table.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Cell {
+pub enum TableCell {
     /// Nothing to show.
     #[default]
     Empty,
@@ -61,27 +66,27 @@ pub enum Cell {
     Number(f64),
 }
 
-impl From<f64> for Cell {
+impl From<f64> for TableCell {
     fn from(value: f64) -> Self {
-        Cell::Number(value)
+        TableCell::Number(value)
     }
 }
 
-impl From<usize> for Cell {
+impl From<usize> for TableCell {
     fn from(value: usize) -> Self {
-        Cell::Number(value as f64)
+        TableCell::Number(value as f64)
     }
 }
 
-impl From<&str> for Cell {
+impl From<&str> for TableCell {
     fn from(value: &str) -> Self {
-        Cell::Text(value.to_owned())
+        TableCell::Text(value.to_owned())
     }
 }
 
-impl From<String> for Cell {
+impl From<String> for TableCell {
     fn from(value: String) -> Self {
-        Cell::Text(value)
+        TableCell::Text(value)
     }
 }
 
@@ -91,36 +96,36 @@ pub struct Fact {
     /// What it is.
     pub name: String,
     /// The value.
-    pub value: Cell,
+    pub value: TableCell,
     /// Unit; empty where there is none.
     pub unit: String,
 }
 
 /// Head of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Column {
+pub struct TableColumn {
     /// What the column holds.
     pub name: String,
     /// Unit of its numbers; empty where there is none.
     pub unit: String,
 }
 
-impl Column {
+impl TableColumn {
     /// A column's head.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Column { name: name.into(), unit: unit.into() }
+        TableColumn { name: name.into(), unit: unit.into() }
     }
 }
 
 /// A table.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table {
+pub struct ReportTable {
     /// Shown above it, after its number.
     pub caption: String,
     /// Heads.
-    pub columns: Vec<Column>,
+    pub columns: Vec<TableColumn>,
     /// Rows, each with one cell a column.
-    pub rows: Vec<Vec<Cell>>,
+    pub rows: Vec<Vec<TableCell>>,
 }
 
 /// What a figure shows.
@@ -131,7 +136,7 @@ pub enum Picture {
     /// A finished picture; it is trusted and taken in as it is.
     Svg(Svg),
     /// A picture that moves where scripts run.
-    Film(Box<Film>),
+    Animation(Box<Animation>),
 }
 
 impl From<Chart> for Picture {

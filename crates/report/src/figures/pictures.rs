@@ -4,7 +4,9 @@ use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
 
 use super::error::FigureError;
 use crate::Picture;
-use crate::chart::{self, Axis, Chart, Deflected, GirderPlot, Series, Style, Support, SurfacePlot, Svg};
+use crate::chart::{
+    self, Chart, ChartAxis, Deflected, GirderPlot, Series, Style, SupportMark, SurfacePlot, Svg,
+};
 use formats::block::GridBlock;
 use formats::motion::{Cast, CastWheel};
 use formats::scene::{Body, Scene};
@@ -19,7 +21,7 @@ const SAMPLES: usize = 61;
 const WHEELS: usize = 6;
 
 /// A named picture with a caption.
-pub struct Plate {
+pub struct RunFigure {
     /// File name without its ending.
     pub name: String,
     /// What it shows.
@@ -28,14 +30,14 @@ pub struct Plate {
     pub picture: Picture,
 }
 
-impl Plate {
+impl RunFigure {
     /// A chart.
-    pub fn chart(name: impl Into<String>, caption: impl Into<String>, chart: Chart) -> Plate {
-        Plate { name: name.into(), caption: caption.into(), picture: chart.into() }
+    pub fn chart(name: impl Into<String>, caption: impl Into<String>, chart: Chart) -> RunFigure {
+        RunFigure { name: name.into(), caption: caption.into(), picture: chart.into() }
     }
 
-    fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: Svg) -> Plate {
-        Plate { name: name.into(), caption: caption.into(), picture: svg.into() }
+    fn drawing(name: impl Into<String>, caption: impl Into<String>, svg: Svg) -> RunFigure {
+        RunFigure { name: name.into(), caption: caption.into(), picture: svg.into() }
     }
 
     /// As SVG.
@@ -46,13 +48,13 @@ impl Plate {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),
-            Picture::Film(film) => Ok(film.svg.clone()),
+            Picture::Animation(film) => Ok(film.svg.clone()),
         }
     }
 }
 
 /// One run under its label.
-pub struct Labelled<'a> {
+pub struct LabelledRun<'a> {
     /// Its label.
     pub label: String,
     /// Its scene.
@@ -63,15 +65,15 @@ pub struct Labelled<'a> {
 
 /// Paths of every body over its rail, all runs on one chart.
 #[must_use]
-pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
+pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     let scene = runs[0].scene;
     let unit = scene.units.label(Dimension::LENGTH);
     let mut plates = Vec::new();
     for body in scene.bodies.iter().filter(|body| !body.in_space) {
         let mut chart = Chart::new(
             format!("Path of {}", body.name),
-            Axis::new("place along the rail", &unit),
-            Axis::new("deflection", &unit).downwards(),
+            ChartAxis::new("place along the rail", &unit),
+            ChartAxis::new("deflection", &unit).downwards(),
         );
         for (index, run) in runs.iter().enumerate() {
             let points = run.record.points(&format!("{}.x", body.name), &format!("{}.deflection", body.name));
@@ -80,7 +82,7 @@ pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
         }
         let caption =
             format!("Deflection of {} below the unloaded rail, over its place along the rail.", body.name);
-        plates.push(Plate::chart(format!("path-{}", body.name), caption, chart));
+        plates.push(RunFigure::chart(format!("path-{}", body.name), caption, chart));
     }
     plates
 }
@@ -88,7 +90,7 @@ pub fn paths(runs: &[Labelled]) -> Vec<Plate> {
 /// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free; `events`: what
 /// happened, and when.
 #[must_use]
-pub fn travel(run: &Labelled, events: &[(f64, &str)]) -> Vec<Plate> {
+pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     let (scene, record) = (run.scene, run.record);
     if !scene.bodies.iter().any(|body| !body.in_space && body.motion.is_free()) {
         return Vec::new();
@@ -105,11 +107,11 @@ pub fn travel(run: &Labelled, events: &[(f64, &str)]) -> Vec<Plate> {
     let plate = |(name, part, label, dimension): (&str, &str, &str, Dimension)| {
         let mut chart = Chart::new(
             format!("{}{} over time", name[..1].to_uppercase(), &name[1..]),
-            Axis::new("time", "s"),
-            Axis::new(label, scene.units.label(dimension)),
+            ChartAxis::new("time", "s"),
+            ChartAxis::new(label, scene.units.label(dimension)),
         );
         for (index, body) in moving.iter().enumerate() {
-            let style = Style::in_turn(index);
+            let style = Style::alternating(index);
             let points = record.points("time", &format!("{}.{part}", body.name));
             chart = chart.with(Series::new(&body.name, style, points));
         }
@@ -117,26 +119,26 @@ pub fn travel(run: &Labelled, events: &[(f64, &str)]) -> Vec<Plate> {
             chart = chart.mark(*time, *what);
         }
         let caption = format!("{} of the bodies along their rails ({}).", chart.title, run.label);
-        Plate::chart(name, caption, chart)
+        RunFigure::chart(name, caption, chart)
     };
     if moving.is_empty() { Vec::new() } else { each.into_iter().map(plate).collect() }
 }
 
 /// Vertical forces of all wheels, sliding and rolling where wheels spin.
 #[must_use]
-pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
+pub fn wheels(run: &LabelledRun, cast: &Cast) -> Vec<RunFigure> {
     let units = run.scene.units;
-    let time = || Axis::new("time", "s");
+    let time = || ChartAxis::new("time", "s");
     let mut forces =
-        Chart::new("Wheel forces", time(), Axis::new("vertical force", units.label(Dimension::FORCE)));
+        Chart::new("Wheel forces", time(), ChartAxis::new("vertical force", units.label(Dimension::FORCE)));
     for (index, wheel) in cast.wheels.iter().enumerate() {
         let name = &wheel.name;
-        let style = Style::in_turn(index);
+        let style = Style::alternating(index);
         forces =
             forces.with(Series::new(name, style, run.record.points("time", &format!("{name}.vertical"))));
     }
     let caption = format!("Vertical force of each wheel on its rail ({}).", run.label);
-    let mut plates = vec![Plate::chart("wheel-forces", caption, forces)];
+    let mut plates = vec![RunFigure::chart("wheel-forces", caption, forces)];
     plates.extend(horizontal(run, cast, "lateral", "sideways"));
     plates.extend(horizontal(run, cast, "traction", "along the rail"));
     for wheel in cast.wheels.iter().filter(|wheel| wheel.spins) {
@@ -146,7 +148,7 @@ pub fn wheels(run: &Labelled, cast: &Cast) -> Vec<Plate> {
 }
 
 /// Lateral forces or traction of the wheels where they are largest; none where all are zero.
-fn horizontal(run: &Labelled, cast: &Cast, part: &str, word: &str) -> Option<Plate> {
+fn horizontal(run: &LabelledRun, cast: &Cast, part: &str, word: &str) -> Option<RunFigure> {
     let reach = |wheel: &CastWheel| {
         run.record.part(&wheel.name, part).iter().fold(0.0_f64, |most, force| most.max(force.abs()))
     };
@@ -162,20 +164,20 @@ fn horizontal(run: &Labelled, cast: &Cast, part: &str, word: &str) -> Option<Pla
     own.truncate(WHEELS);
     own.sort_by_key(|(w, _)| *w);
     let title = format!("Forces of wheels {word}");
-    let axis = Axis::new(format!("force {word}"), run.scene.units.label(Dimension::FORCE));
-    let mut chart = Chart::new(title, Axis::new("time", "s"), axis);
+    let axis = ChartAxis::new(format!("force {word}"), run.scene.units.label(Dimension::FORCE));
+    let mut chart = Chart::new(title, ChartAxis::new("time", "s"), axis);
     for (index, (w, _)) in own.iter().enumerate() {
         let name = &cast.wheels[*w].name;
-        let style = Style::in_turn(index);
+        let style = Style::alternating(index);
         chart = chart.with(Series::new(name, style, run.record.points("time", &format!("{name}.{part}"))));
     }
     let few = if all > WHEELS { format!(", the largest {WHEELS} of {all}") } else { String::new() };
     let caption = format!("Force of wheels on their rails {word}{few} ({}).", run.label);
-    (all > 0).then(|| Plate::chart(format!("wheel-{part}"), caption, chart))
+    (all > 0).then(|| RunFigure::chart(format!("wheel-{part}"), caption, chart))
 }
 
 /// Speeds of hub and rim, and the path of a point of the rim.
-fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
+fn rolling(run: &LabelledRun, wheel: &CastWheel) -> Vec<RunFigure> {
     let (units, record, name) = (run.scene.units, run.record, &wheel.name);
     let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
     let values = |part: &str| record.part(name, part);
@@ -187,8 +189,8 @@ fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
     let rim = |i: usize| -spin[i] * (radius - depth[i]);
     let speeds = Chart::new(
         format!("{name}: from sliding to rolling"),
-        Axis::new("time", "s"),
-        Axis::new("speed", &speed),
+        ChartAxis::new("time", "s"),
+        ChartAxis::new("speed", &speed),
     )
     .with(Series::new("hub", Style::Line, pairs(&|i| hub[i])))
     .with(Series::new("rim, backwards at the rail", Style::Dashed, pairs(&rim)))
@@ -197,8 +199,8 @@ fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
     let point = |i: usize| [x[i] + radius * angle[i].sin(), radius - deepest - radius * angle[i].cos()];
     let mut trochoid = Chart::new(
         format!("{name}: path of a point of the rim"),
-        Axis::new("along the rail", &length),
-        Axis::new("height above the rail", &length),
+        ChartAxis::new("along the rail", &length),
+        ChartAxis::new("height above the rail", &length),
     )
     .with(Series::new("point of the rim", Style::Line, (0..time.len()).map(point).collect()))
     .with(Series::new(
@@ -208,12 +210,12 @@ fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
     ));
     trochoid.equal_aspect = true;
     vec![
-        Plate::chart(
+        RunFigure::chart(
             format!("speeds-{name}"),
             "Speed of the hub, of the rim at the rail, and their difference.",
             speeds,
         ),
-        Plate::chart(
+        RunFigure::chart(
             format!("trochoid-{name}"),
             "A point of the rim: a line drawn out while the wheel slides, a cycloid once it rolls.",
             trochoid,
@@ -225,7 +227,7 @@ fn rolling(run: &Labelled, wheel: &CastWheel) -> Vec<Plate> {
 ///
 /// # Errors
 /// What cannot be drawn, or evaluated.
-pub fn structure(name: &str, units: Units, solved: &Solution) -> Result<Vec<Plate>, FigureError> {
+pub fn structure(name: &str, units: Units, solved: &Solution) -> Result<Vec<RunFigure>, FigureError> {
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
     let supports: Vec<f64> =
@@ -250,7 +252,7 @@ pub fn structure(name: &str, units: Units, solved: &Solution) -> Result<Vec<Plat
         let caption = format!(
             "The {word} grid at the stations: deflection at a row's station per unit load at a column's."
         );
-        plates.push(Plate::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
+        plates.push(RunFigure::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
         let Some(surface) = &solved.surface else { continue };
         let Some([from, to]) = surface.range(0) else { continue };
         let places: Vec<f64> =
@@ -263,7 +265,7 @@ pub fn structure(name: &str, units: Units, solved: &Solution) -> Result<Vec<Plat
             values: dense,
             ..table
         };
-        plates.push(Plate::drawing(
+        plates.push(RunFigure::drawing(
             format!("influence-{name}-{word}"),
             format!("The exact {word} surface between the stations, which the simulation reads."),
             smooth.svg()?,
@@ -287,10 +289,10 @@ fn dense(surface: &Surface, axis: Direction, places: &[f64]) -> Result<Vec<Vec<f
 pub fn girder(
     name: &str,
     structure: usize,
-    run: &Labelled,
+    run: &LabelledRun,
     cast: &Cast,
     solved: &Solution,
-) -> Result<Option<Plate>, FigureError> {
+) -> Result<Option<RunFigure>, FigureError> {
     let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
     let Some([from, to]) = surface.range(0) else { return Ok(None) };
     let on: Vec<&String> = cast
@@ -327,7 +329,7 @@ pub fn girder(
             .model
             .supports
             .iter()
-            .map(|support| Support {
+            .map(|support| SupportMark {
                 at: [solved.model.points[support.point][0], 0.0],
                 holds_length: support.fix[0],
             })
@@ -347,5 +349,5 @@ pub fn girder(
         run.record.values("time")[instant],
         run.label
     );
-    Ok(Some(Plate::drawing(format!("girder-{name}"), caption, plot.svg()?)))
+    Ok(Some(RunFigure::drawing(format!("girder-{name}"), caption, plot.svg()?)))
 }

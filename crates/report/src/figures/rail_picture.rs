@@ -1,7 +1,7 @@
 //! Forces of all wheels on a rail, run against run.
 
-use crate::chart::{Axis, Chart, Series, Style};
-use crate::figures::pictures::{Labelled, Plate};
+use crate::chart::{Chart, ChartAxis, Series, Style};
+use crate::figures::pictures::{LabelledRun, RunFigure};
 use crate::number;
 use formats::scene::Scene;
 use formats::units::Dimension;
@@ -17,7 +17,7 @@ const SMALL: f64 = 0.1;
 /// Vertical and lateral sums of each rail on the ground over time, their numbers below; none where
 /// there is one run alone. `comparison`: figures of these runs.
 #[must_use]
-pub fn rails(runs: &[Labelled], comparison: &RunComparison) -> Vec<Plate> {
+pub fn rails(runs: &[LabelledRun], comparison: &RunComparison) -> Vec<RunFigure> {
     let [first, _, ..] = runs else { return Vec::new() };
     let grounded = |name: &String| {
         let rail = name.rsplit_once('.').map_or("", |(rail, _)| rail);
@@ -28,7 +28,7 @@ pub fn rails(runs: &[Labelled], comparison: &RunComparison) -> Vec<Plate> {
     sums.flatten().filter_map(|column| plate(first.scene, &column, runs, comparison)).collect()
 }
 
-fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &RunComparison) -> Option<Plate> {
+fn plate(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComparison) -> Option<RunFigure> {
     let (rail, part) = column.rsplit_once('.')?;
     let word = if part == "lateral" { "lateral" } else { "vertical" };
     let zero = |record: &NamedColumns| record.values(column).iter().all(|value| *value == 0.0);
@@ -37,7 +37,8 @@ fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &RunCompari
     }
     let unit = scene.units.label(Dimension::FORCE);
     let title = format!("Wheels on {rail} together, {word}");
-    let mut chart = Chart::new(title, Axis::new("time", "s"), Axis::new(format!("{word} force"), &unit));
+    let mut chart =
+        Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(format!("{word} force"), &unit));
     let mut told = Vec::new();
     let figures = comparison.of(column).unwrap_or_default();
     for (index, run) in runs.iter().enumerate() {
@@ -52,7 +53,7 @@ fn plate(scene: &Scene, column: &str, runs: &[Labelled], comparison: &RunCompari
         "Sum of the {word} forces of all wheels on {rail}, run against run. Settled means and frequencies are those of the \
          last quarter; excursions leave 5 % about the mean."
     );
-    Some(Plate::chart(format!("rail-{rail}-{word}"), caption, chart))
+    Some(RunFigure::chart(format!("rail-{rail}-{word}"), caption, chart))
 }
 
 /// The numbers of one run in words.

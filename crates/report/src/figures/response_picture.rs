@@ -2,8 +2,8 @@
 
 use splines::{Axis as Direction, Probe};
 
-use crate::chart::{Axis, Chart, Series, Style};
-use crate::figures::pictures::{Labelled, Plate};
+use crate::chart::{Chart, ChartAxis, Series, Style};
+use crate::figures::pictures::{LabelledRun, RunFigure};
 use formats::scene::columns::{Column, Direction as Toward, Kind};
 use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
@@ -20,7 +20,11 @@ const SAMPLES: usize = 241;
 
 /// Reactions of the first run over time, the largest of them in all runs, and influence lines of named sections.
 #[must_use]
-pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<ColumnInfluence>]) -> Vec<Plate> {
+pub fn pictures(
+    runs: &[LabelledRun],
+    responses: &[&Response],
+    lines: &[Option<ColumnInfluence>],
+) -> Vec<RunFigure> {
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
     let mut plates = reactions(runs, run, response);
     for bending in &response.bending {
@@ -39,7 +43,7 @@ pub fn pictures(runs: &[Labelled], responses: &[&Response], lines: &[Option<Colu
 }
 
 /// Reactions of the ground in each direction, over time and run against run.
-fn reactions(runs: &[Labelled], run: &Labelled, response: &Response) -> Vec<Plate> {
+fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Vec<RunFigure> {
     let scene = run.scene;
     let mut plates = Vec::new();
     // what a body holds is not held by the ground
@@ -85,19 +89,19 @@ fn reactions(runs: &[Labelled], run: &Labelled, response: &Response) -> Vec<Plat
 }
 
 /// Reactions of one direction over time.
-fn together(run: &Labelled, shown: &[&Column], word: &str, few: &str) -> Plate {
+fn together(run: &LabelledRun, shown: &[&Column], word: &str, few: &str) -> RunFigure {
     let title = format!("Reactions of the ground, {word}");
     let mut chart = over_time(run.scene, &title, Dimension::FORCE);
     for (index, column) in shown.iter().enumerate() {
-        let style = Style::in_turn(index);
+        let style = Style::alternating(index);
         chart = chart.with(Series::new(&column.name, style, run.record.points("time", &column.name)));
     }
     let caption = format!("Reactions over time, {word}{few} ({}); positive along their axes.", run.label);
-    Plate::chart(format!("reactions-{word}"), caption, chart)
+    RunFigure::chart(format!("reactions-{word}"), caption, chart)
 }
 
 /// One reaction over time in every run.
-fn compared(runs: &[Labelled], scene: &Scene, column: &Column) -> Plate {
+fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
     let mut chart = over_time(scene, &format!("{}, run against run", column.name), column.dimension);
     for (index, other) in runs.iter().enumerate() {
         let points = other.record.points("time", &column.name);
@@ -108,11 +112,11 @@ fn compared(runs: &[Labelled], scene: &Scene, column: &Column) -> Plate {
         chart = chart.with(Series::new(&other.label, style, points));
     }
     let caption = format!("The reaction {} in every run.", column.name);
-    Plate::chart(format!("reaction-{}", column.name), caption, chart)
+    RunFigure::chart(format!("reaction-{}", column.name), caption, chart)
 }
 
 /// Influence lines of the named sections on every rail that moves them.
-fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluence>]) -> Vec<Plate> {
+fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluence>]) -> Vec<RunFigure> {
     let mut plates = Vec::new();
     for (structure, lines) in scene.structures.iter().zip(lines) {
         let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
@@ -142,13 +146,13 @@ fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluenc
 }
 
 /// Extremes of the bending moment over the girder.
-fn moments(run: &Labelled, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -> Plate {
+fn moments(run: &LabelledRun, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -> RunFigure {
     let units = run.scene.units;
     let ends = [rows.first(), rows.last()].map(|row| row.map_or([0.0; 2], |row| [row[0], 0.0]));
     let chart = Chart::new(
         format!("Bending moments under {rail}"),
-        Axis::new("place along the rail", units.label(Dimension::LENGTH)),
-        Axis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
+        ChartAxis::new("place along the rail", units.label(Dimension::LENGTH)),
+        ChartAxis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
     )
     .with(Series::new("girder", Style::Dashed, ends.to_vec()))
     .with(Series::new("largest", Style::Line, rows.iter().map(|row| [row[0], row[1]]).collect()))
@@ -158,7 +162,7 @@ fn moments(run: &Labelled, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -> P
         "Envelope of the bending moments of the members under {rail} over the run, without own weight ({}).",
         run.label
     );
-    Plate::chart(format!("moments-{rail}"), caption, chart)
+    RunFigure::chart(format!("moments-{rail}"), caption, chart)
 }
 
 /// An influence line over the girder, with the extremes of the run.
@@ -169,7 +173,7 @@ fn influence(
     rail: &str,
     points: Vec<[f64; 2]>,
     supports: &[f64],
-) -> Plate {
+) -> RunFigure {
     let own = if column.dimension == Dimension::MOMENT {
         scene.units.label(Dimension::LENGTH)
     } else {
@@ -178,8 +182,8 @@ fn influence(
     let ends = [points.first(), points.last()].map(|point| point.map_or([0.0; 2], |p| [p[0], 0.0]));
     let mut chart = Chart::new(
         format!("Influence line of {} for wheels on {rail}", column.name),
-        Axis::new("place of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
-        Axis::new("per wheel load", own).downwards(),
+        ChartAxis::new("place of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
+        ChartAxis::new("per wheel load", own).downwards(),
     )
     .with(Series::new("girder", Style::Dashed, ends.to_vec()))
     .with(Series::new("influence line", Style::Line, points))
@@ -198,12 +202,12 @@ fn influence(
         chart.note = format!("In this run: max {}; min {}.", told(&envelope.max), told(&envelope.min));
         caption.push_str(" The extremes of the run stand below it.");
     }
-    Plate::chart(format!("influence-{}-{rail}", column.name), caption, chart)
+    RunFigure::chart(format!("influence-{}-{rail}", column.name), caption, chart)
 }
 
 fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> Chart {
     let what = if dimension == Dimension::MOMENT { "moment" } else { "force" };
-    Chart::new(title, Axis::new("time", "s"), Axis::new(what, scene.units.label(dimension)))
+    Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(what, scene.units.label(dimension)))
 }
 
 fn reach(values: &[f64]) -> f64 {

@@ -6,7 +6,7 @@ use results::outcome::CaseResult;
 use results::response::{Response, RunComparison};
 
 use super::error::FigureError;
-use super::pictures::{Labelled, Plate};
+use super::pictures::{LabelledRun, RunFigure};
 use super::{animation, pictures, rail_picture, response_picture};
 
 /// The figures of a document whose cases gave `outcomes`: the scene's own run, beside those that are compared with it, then its
@@ -19,13 +19,13 @@ pub fn figures(
     outcomes: &[CaseResult],
     known: &[SolvedStructure],
     comparison: &RunComparison,
-) -> Result<Vec<Plate>, FigureError> {
+) -> Result<Vec<RunFigure>, FigureError> {
     let scene = document.scene();
-    let labelled: Vec<Labelled> = document
+    let labelled: Vec<LabelledRun> = document
         .cases
         .iter()
         .zip(outcomes)
-        .map(|(case, outcome)| Labelled {
+        .map(|(case, outcome)| LabelledRun {
             label: outcome.label.clone(),
             scene: &case.scene,
             record: &outcome.columns,
@@ -38,7 +38,7 @@ pub fn figures(
         .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
         .collect();
     let (run, input) = (&labelled[0], &outcomes[0].input);
-    let mut plates: Vec<Plate> = animation::plate(run, input)?.into_iter().collect();
+    let mut plates: Vec<RunFigure> = animation::animation_figure(run, input)?.into_iter().collect();
     plates.extend(pictures::travel(run, &fired));
     plates.extend(rail_picture::rails(&labelled, comparison));
     plates.extend(pictures::paths(&labelled));

@@ -1,6 +1,6 @@
 //! What the report says of codes.
 
-use crate::{Cell, Column, Section, Table};
+use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::number::rounded;
 use formats::scene::Scene;
 use results::codes::{CodeCheck, CodeComparison};
@@ -10,11 +10,11 @@ const DIGITS: usize = 5;
 
 /// The section of all runs that have one; `None`: the scene does not ask for it.
 #[must_use]
-pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Section> {
+pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<ReportSection> {
     let all: Vec<(&str, &CodeCheck)> =
         runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
     let (_, first) = *all.first()?;
-    let mut section = Section::new("Beside the codes").say(
+    let mut section = ReportSection::new("Beside the codes").say(
         "What the runs have beside values of codes for the same crane. Forces found include what moves alone. CodeCheck give \
          values for design, with their own partial factors on top: a run that stays below one is no proof, a run above \
          one is a question.",
@@ -25,10 +25,10 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Sec
     if first.measures.approach_is_found {
         section = section.say("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
     }
-    let mut columns = vec![Column::new("quantity", ""), Column::new("unit", "")];
-    columns.extend(all.iter().map(|(label, _)| Column::new(*label, "")));
-    columns.extend(["code", "clause", "formula"].map(|name| Column::new(name, "")));
-    columns.push(Column::new("value", ""));
+    let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
+    columns.extend(all.iter().map(|(label, _)| TableColumn::new(*label, "")));
+    columns.extend(["code", "clause", "formula"].map(|name| TableColumn::new(name, "")));
+    columns.push(TableColumn::new("value", ""));
     let mut rows = Vec::new();
     for row in &first.rows {
         let found = |codes: &CodeCheck| {
@@ -38,36 +38,37 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Sec
                 .find(|other| other.name == row.name)
                 .map(|other: &CodeComparison| other.found.value)
         };
-        let mut head = vec![Cell::from(row.what), Cell::from(scene.units.label(row.dimension))];
-        head.extend(
-            all.iter().map(|(_, codes)| {
-                found(codes).map_or(Cell::Empty, |value| Cell::from(rounded(value, DIGITS)))
-            }),
-        );
+        let mut head = vec![TableCell::from(row.what), TableCell::from(scene.units.label(row.dimension))];
+        head.extend(all.iter().map(|(_, codes)| {
+            found(codes).map_or(TableCell::Empty, |value| TableCell::from(rounded(value, DIGITS)))
+        }));
         for value in &row.values {
-            let mut line = std::mem::replace(&mut head, vec![Cell::Empty; 2 + all.len()]);
-            line.extend([value.code, value.clause].map(Cell::from));
-            line.extend([Cell::from(value.formula.clone()), Cell::from(rounded(value.value, DIGITS))]);
+            let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
+            line.extend([value.code, value.clause].map(TableCell::from));
+            line.extend([
+                TableCell::from(value.formula.clone()),
+                TableCell::from(rounded(value.value, DIGITS)),
+            ]);
             rows.push(line);
         }
     }
     let caption = "Found, and by the codes.".to_owned();
-    let table = Table { caption, columns, rows };
+    let table = ReportTable { caption, columns, rows };
     let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("of", "")];
     let factors = first.factors.iter().map(|given| {
         let value = &given.value;
         vec![
-            Cell::from(given.name.replace('_', " ")),
-            Cell::from(rounded(value.value, DIGITS)),
-            Cell::from(scene.units.label(given.dimension)),
-            Cell::from(value.code),
-            Cell::from(value.clause),
-            Cell::from(value.formula.clone()),
+            TableCell::from(given.name.replace('_', " ")),
+            TableCell::from(rounded(value.value, DIGITS)),
+            TableCell::from(scene.units.label(given.dimension)),
+            TableCell::from(value.code),
+            TableCell::from(value.clause),
+            TableCell::from(value.formula.clone()),
         ]
     });
-    let factors = Table {
+    let factors = ReportTable {
         caption: "Factors of the codes, and loads of one wheel by them.".to_owned(),
-        columns: heads.map(|(name, unit)| Column::new(name, unit)).into(),
+        columns: heads.map(|(name, unit)| TableColumn::new(name, unit)).into(),
         rows: factors.collect(),
     };
     Some(section.table(table).table(factors))

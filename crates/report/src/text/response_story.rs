@@ -1,6 +1,6 @@
 //! What the report says of reactions, internal forces, sag and uplift.
 
-use crate::{Cell, Column, Section, Table};
+use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::number::rounded;
 use formats::scene::Scene;
 use formats::units::Dimension;
@@ -14,8 +14,8 @@ const ROUNDING: f64 = 1e-12;
 
 /// The section of the first run.
 #[must_use]
-pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
-    let mut section = Section::new("Reactions, sag and uplift");
+pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection {
+    let mut section = ReportSection::new("Reactions, sag and uplift");
     if !response.columns.is_empty() {
         let weight = if scene.output.dead_load { "with" } else { "without" };
         section = section
@@ -33,16 +33,20 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> Section {
         section = section.table(drifts(scene, label, response));
     }
     if !response.uplifts.is_empty() {
-        let mut table = Table {
+        let mut table = ReportTable {
             caption: format!("Wheels off their rails in the run \"{label}\"."),
-            columns: vec![Column::new("wheel", ""), Column::new("from", "s"), Column::new("for", "s")],
+            columns: vec![
+                TableColumn::new("wheel", ""),
+                TableColumn::new("from", "s"),
+                TableColumn::new("for", "s"),
+            ],
             rows: Vec::new(),
         };
         for uplift in response.uplifts.iter().take(ROWS) {
             table.rows.push(vec![
-                Cell::from(uplift.wheel.clone()),
-                Cell::from(uplift.time),
-                Cell::from(uplift.duration),
+                TableCell::from(uplift.wheel.clone()),
+                TableCell::from(uplift.time),
+                TableCell::from(uplift.duration),
             ]);
         }
         section = section.table(table);
@@ -68,7 +72,7 @@ pub fn beside(
     labels: &[&str],
     record: &NamedColumns,
     comparison: &RunComparison,
-) -> Option<Section> {
+) -> Option<ReportSection> {
     let all: Vec<_> = comparison.columns().collect();
     if all.is_empty() {
         return None;
@@ -79,16 +83,16 @@ pub fn beside(
     for (name, figures) in all.into_iter().take(ROWS) {
         let column = record.columns.iter().find(|column| column.name == name);
         let unit = column.map_or_else(String::new, |column| scene.units.label(column.dimension));
-        let mut head = vec![Cell::from(name.to_owned()), Cell::from(unit)];
+        let mut head = vec![TableCell::from(name.to_owned()), TableCell::from(unit)];
         for (label, found) in labels.iter().zip(figures) {
-            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
-            row.push(Cell::from(*label));
+            let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
+            row.push(TableCell::from(*label));
             let range = found.peak.value - found.least.value;
             let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
                 .map(|value| short(cleared(value, range)));
             row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
-            row.push(Cell::from(found.excursions));
-            row.push(found.hertz().map_or(Cell::Empty, short));
+            row.push(TableCell::from(found.excursions));
+            row.push(found.hertz().map_or(TableCell::Empty, short));
             rows.push(row);
         }
     }
@@ -108,31 +112,31 @@ pub fn beside(
         "Settled mean over the last quarter of each run, extremes, how often 5 % about the mean are left, and the strongest \
          frequency in that quarter.{rest}"
     );
-    let columns = columns.map(|(name, unit)| Column::new(name, unit)).into();
-    Some(Section::new("Run against run").table(Table { caption, columns, rows }))
+    let columns = columns.map(|(name, unit)| TableColumn::new(name, unit)).into();
+    Some(ReportSection::new("Run against run").table(ReportTable { caption, columns, rows }))
 }
 
-fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
+fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let more = response.envelopes.len().saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
     let length = scene.units.label(Dimension::LENGTH);
     let mut columns = [("quantity", ""), ("unit", ""), ("", ""), ("value", ""), ("at time", "s")]
-        .map(|(n, u)| Column::new(n, u))
+        .map(|(n, u)| TableColumn::new(n, u))
         .to_vec();
-    columns.extend(scene.bodies.iter().map(|body| Column::new(body.name.as_str(), &length)));
-    columns.push(Column::new("own weight", ""));
+    columns.extend(scene.bodies.iter().map(|body| TableColumn::new(body.name.as_str(), &length)));
+    columns.push(TableColumn::new("own weight", ""));
     let mut rows = Vec::new();
     let own = response.columns.iter().zip(&response.dead);
     for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
-        let unit = Cell::from(scene.units.label(column.dimension));
+        let unit = TableCell::from(scene.units.label(column.dimension));
         let range = envelope.max.value - envelope.min.value;
-        let mut head = vec![Cell::from(envelope.column.clone()), unit];
-        let mut weight = Cell::from(*dead);
+        let mut head = vec![TableCell::from(envelope.column.clone()), unit];
+        let mut weight = TableCell::from(*dead);
         for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
-            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 2]);
-            let value = Cell::from(cleared(extreme.value, range));
-            row.extend([Cell::from(word), value, Cell::from(extreme.time)]);
-            row.extend(extreme.bodies.iter().map(|(_, at)| Cell::from(place(at))));
+            let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
+            let value = TableCell::from(cleared(extreme.value, range));
+            row.extend([TableCell::from(word), value, TableCell::from(extreme.time)]);
+            row.extend(extreme.bodies.iter().map(|(_, at)| TableCell::from(place(at))));
             row.push(std::mem::take(&mut weight));
             rows.push(row);
         }
@@ -140,7 +144,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> Table {
     let caption = format!(
         "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
     );
-    Table { caption, columns, rows }
+    ReportTable { caption, columns, rows }
 }
 
 /// The value, or zero where it is what rounding leaves of a range.
@@ -149,8 +153,8 @@ fn cleared(value: f64, range: f64) -> f64 {
 }
 
 /// A number to five digits.
-fn short(value: f64) -> Cell {
-    Cell::from(rounded(value, 5))
+fn short(value: f64) -> TableCell {
+    TableCell::from(rounded(value, 5))
 }
 
 /// Coordinates of a body.
@@ -158,7 +162,7 @@ fn place(at: &[f64]) -> String {
     at.iter().map(|x| crate::number(*x, 4).unwrap_or_default()).collect::<Vec<_>>().join("; ")
 }
 
-fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {
+fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
     let columns = [
         "rail",
@@ -179,43 +183,43 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> Table {
     let mut rows = Vec::new();
     for found in response.drifts.iter().take(ROWS) {
         let mut head = vec![
-            Cell::from(found.rail.clone()),
-            Cell::from(found.x),
-            Cell::from(found.height),
-            Cell::from(found.value),
-            Cell::from(found.time),
-            found.ratio().map_or(Cell::Empty, Cell::from),
+            TableCell::from(found.rail.clone()),
+            TableCell::from(found.x),
+            TableCell::from(found.height),
+            TableCell::from(found.value),
+            TableCell::from(found.time),
+            found.ratio().map_or(TableCell::Empty, TableCell::from),
         ];
         for (code, clause, most) in &found.limits {
-            let mut row = std::mem::replace(&mut head, vec![Cell::Empty; 6]);
-            row.extend([Cell::from(format!("{code}, {clause}")), Cell::from(*most)]);
-            row.push(Cell::from(if found.value <= *most { "yes" } else { "no" }));
+            let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
+            row.extend([TableCell::from(format!("{code}, {clause}")), TableCell::from(*most)]);
+            row.push(TableCell::from(if found.value <= *most { "yes" } else { "no" }));
             rows.push(row);
         }
     }
-    Table {
+    ReportTable {
         caption: format!("Largest displacement sideways of each rail over a column in the run \"{label}\"."),
-        columns: columns.map(|name| Column::new(name, unit_of(name))).into(),
+        columns: columns.map(|name| TableColumn::new(name, unit_of(name))).into(),
         rows,
     }
 }
 
-fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {
+fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
-    let mut table = Table {
+    let mut table = ReportTable {
         caption: format!(
             "Sag of the rails between the ends of each span in the run \"{label}\", and the span over it."
         ),
         columns: vec![
-            Column::new("rail", ""),
-            Column::new("direction", ""),
-            Column::new("from", &unit),
-            Column::new("to", &unit),
-            Column::new("sag", &unit),
-            Column::new("at", &unit),
-            Column::new("at time", "s"),
-            Column::new("span over sag", ""),
-            Column::new("keeps", ""),
+            TableColumn::new("rail", ""),
+            TableColumn::new("direction", ""),
+            TableColumn::new("from", &unit),
+            TableColumn::new("to", &unit),
+            TableColumn::new("sag", &unit),
+            TableColumn::new("at", &unit),
+            TableColumn::new("at time", "s"),
+            TableColumn::new("span over sag", ""),
+            TableColumn::new("keeps", ""),
         ],
         rows: Vec::new(),
     };
@@ -226,15 +230,15 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> Table {
             (false, false) => "not L/400",
         };
         table.rows.push(vec![
-            Cell::from(found.rail.clone()),
-            Cell::from(found.direction.to_owned()),
-            Cell::from(found.span[0]),
-            Cell::from(found.span[1]),
-            Cell::from(found.value),
-            Cell::from(found.x),
-            Cell::from(found.time),
-            found.ratio().map_or(Cell::Empty, Cell::from),
-            Cell::from(kept.to_owned()),
+            TableCell::from(found.rail.clone()),
+            TableCell::from(found.direction.to_owned()),
+            TableCell::from(found.span[0]),
+            TableCell::from(found.span[1]),
+            TableCell::from(found.value),
+            TableCell::from(found.x),
+            TableCell::from(found.time),
+            found.ratio().map_or(TableCell::Empty, TableCell::from),
+            TableCell::from(kept.to_owned()),
         ]);
     }
     table

@@ -1,7 +1,7 @@
 //! The report of a run: what was asked, what came out, what to look at.
 
-use crate::figures::pictures::Plate;
-use crate::{Cell, Column, Report, Section, Table};
+use crate::figures::pictures::RunFigure;
+use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use formats::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
 use formats::units::Dimension;
@@ -19,12 +19,12 @@ pub fn report(
     outcomes: &[CaseResult],
     solved: &[Option<&Solution>],
     comparison: &RunComparison,
-    plates: Vec<Plate>,
+    plates: Vec<RunFigure>,
 ) -> Report {
     let scene = document.scene();
     let mut sections = vec![results(document, outcomes), structures(scene, solved, &outcomes[0].choices)];
     let (mut motion, mut influence) =
-        (Section::new("Pictures of the motion"), Section::new("Pictures of the structures"));
+        (ReportSection::new("Pictures of the motion"), ReportSection::new("Pictures of the structures"));
     for plate in plates {
         let of_structure =
             ["grid-", "influence-", "girder-"].iter().any(|start| plate.name.starts_with(start));
@@ -54,19 +54,19 @@ pub fn report(
 }
 
 /// Peaks of every body in every run.
-fn results(document: &Document, outcomes: &[CaseResult]) -> Section {
+fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let scene = document.scene();
     let length = scene.units.label(Dimension::LENGTH);
-    let mut table = Table {
+    let mut table = ReportTable {
         caption: "Largest deflection of every body, below the unloaded rail.".to_owned(),
         columns: vec![
-            Column::new("run", ""),
-            Column::new("body", ""),
-            Column::new("deflection", &length),
-            Column::new("at x", &length),
-            Column::new("at time", "s"),
-            Column::new("against the first run", "%"),
-            Column::new("status", ""),
+            TableColumn::new("run", ""),
+            TableColumn::new("body", ""),
+            TableColumn::new("deflection", &length),
+            TableColumn::new("at x", &length),
+            TableColumn::new("at time", "s"),
+            TableColumn::new("against the first run", "%"),
+            TableColumn::new("status", ""),
         ],
         rows: Vec::new(),
     };
@@ -80,13 +80,13 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> Section {
             let change = if base == 0.0 { 0.0 } else { 100.0 * (deepest / base - 1.0) };
             let (status, _) = run_error::status(&outcome.run.status);
             table.rows.push(vec![
-                Cell::from(outcome.label.clone()),
-                Cell::from(body.name.clone()),
-                Cell::from(deepest),
-                Cell::from(outcome.columns.part(&body.name, "x")[i]),
-                Cell::from(outcome.columns.values("time")[i]),
-                Cell::from(change),
-                Cell::from(status.to_owned()),
+                TableCell::from(outcome.label.clone()),
+                TableCell::from(body.name.clone()),
+                TableCell::from(deepest),
+                TableCell::from(outcome.columns.part(&body.name, "x")[i]),
+                TableCell::from(outcome.columns.values("time")[i]),
+                TableCell::from(change),
+                TableCell::from(status.to_owned()),
             ]);
         }
     }
@@ -96,14 +96,14 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> Section {
         }
         Analysis::QuasiStatic => "a sequence of static equilibria over the prescribed motion",
     };
-    Section::new("Results")
+    ReportSection::new("Results")
         .say(format!("The scene was computed as {how}. Deflections are positive downwards; forces on the rail are positive pressing."))
         .table(table)
 }
 
 /// What every structure is and how it was made.
-fn structures(scene: &Scene, solved: &[Option<&Solution>], choices: &[sim::Choice]) -> Section {
-    let mut section = Section::new("Structures");
+fn structures(scene: &Scene, solved: &[Option<&Solution>], choices: &[sim::Choice]) -> ReportSection {
+    let mut section = ReportSection::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
         let choice = choices.iter().find(|choice| choice.structure == s);
         let word = choice
@@ -144,16 +144,16 @@ fn structures(scene: &Scene, solved: &[Option<&Solution>], choices: &[sim::Choic
 }
 
 /// Range of every wheel's forces in the first run.
-fn forces(scene: &Scene, outcomes: &[CaseResult]) -> Section {
+fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     let unit = scene.units.label(Dimension::FORCE);
-    let mut table = Table {
+    let mut table = ReportTable {
         caption: format!("Wheel forces of the run \"{}\".", outcomes[0].label),
         columns: vec![
-            Column::new("wheel", ""),
-            Column::new("largest vertical", &unit),
-            Column::new("smallest vertical", &unit),
-            Column::new("largest lateral", &unit),
-            Column::new("largest traction", &unit),
+            TableColumn::new("wheel", ""),
+            TableColumn::new("largest vertical", &unit),
+            TableColumn::new("smallest vertical", &unit),
+            TableColumn::new("largest lateral", &unit),
+            TableColumn::new("largest traction", &unit),
         ],
         rows: Vec::new(),
     };
@@ -163,28 +163,28 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> Section {
         let largest = |part: &str| values(part).iter().fold(0.0_f64, |max, value| max.max(value.abs()));
         let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);
         table.rows.push(vec![
-            Cell::from(name.clone()),
-            Cell::from(largest("vertical")),
-            Cell::from(least),
-            Cell::from(largest("lateral")),
-            Cell::from(largest("traction")),
+            TableCell::from(name.clone()),
+            TableCell::from(largest("vertical")),
+            TableCell::from(least),
+            TableCell::from(largest("lateral")),
+            TableCell::from(largest("traction")),
         ]);
     }
-    Section::new("Wheel forces").table(table)
+    ReportSection::new("Wheel forces").table(table)
 }
 
 /// The energy audit of the dynamic runs.
-fn audit(document: &Document, outcomes: &[CaseResult]) -> Section {
+fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let energy = document.scene().units.label(Dimension::MOMENT);
-    let mut table = Table {
+    let mut table = ReportTable {
         caption: "Energy audit: what was lost and put in, and what does not add up, relative to the peak of the stored elastic energy.".to_owned(),
         columns: vec![
-            Column::new("run", ""),
-            Column::new("peak stored", &energy),
-            Column::new("lost", &energy),
-            Column::new("put in", &energy),
-            Column::new("residual", ""),
-            Column::new("steps", ""),
+            TableColumn::new("run", ""),
+            TableColumn::new("peak stored", &energy),
+            TableColumn::new("lost", &energy),
+            TableColumn::new("put in", &energy),
+            TableColumn::new("residual", ""),
+            TableColumn::new("steps", ""),
         ],
         rows: Vec::new(),
     };
@@ -193,16 +193,16 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> Section {
         if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
             let exchanged = &run.audit.exchanged;
             table.rows.push(vec![
-                Cell::from(outcome.label.clone()),
-                Cell::from(run.audit.peak_stored),
-                Cell::from(exchanged.net_loss() + exchanged.put_in()),
-                Cell::from(exchanged.put_in()),
-                Cell::from(run.audit.residual()),
-                Cell::from(run.counts.steps as f64),
+                TableCell::from(outcome.label.clone()),
+                TableCell::from(run.audit.peak_stored),
+                TableCell::from(exchanged.net_loss() + exchanged.put_in()),
+                TableCell::from(exchanged.put_in()),
+                TableCell::from(run.audit.residual()),
+                TableCell::from(run.counts.steps as f64),
             ]);
         }
     }
-    let mut section = Section::new("Energy");
+    let mut section = ReportSection::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         for warning in warning::case_warnings(&case.scene, outcome) {
             section = section.say(format!("Warning, {}: {warning}.", outcome.label));

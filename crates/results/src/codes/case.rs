@@ -1,6 +1,6 @@
 //! Formulas of codes for one crane and its run.
 
-use practice::skew::Pairs;
+use practice::skew::WheelPairs;
 use practice::{aist, buffer, cmaa, drive, factor, osha, skew};
 
 use super::found::MeasuredCrane;
@@ -48,7 +48,7 @@ pub(super) struct CodeCase<'c> {
     /// Whether the scene lets a load go.
     pub drops: bool,
     /// Loads of a wheel of the full crane on the near and the far rail.
-    pub full: Option<practice::WheelLoads>,
+    pub full: Option<practice::StaticWheelLoads>,
 }
 
 impl<'c> CodeCase<'c> {
@@ -196,10 +196,13 @@ impl<'c> CodeCase<'c> {
             let m = self.metre;
             skew::angle(self.practice.guide, play * m, head * m, measures.base() * m).ok()
         });
-        let angle = given.unwrap_or(skew::MOST).min(skew::MOST);
+        let angle = given.unwrap_or(skew::MAX_ANGLE).min(skew::MAX_ANGLE);
         let full = self.full?;
-        let kind =
-            if measures.play.iter().all(Option::is_some) { Pairs::AloneFixed } else { Pairs::AloneFree };
+        let kind = if measures.play.iter().all(Option::is_some) {
+            WheelPairs::AloneFixed
+        } else {
+            WheelPairs::AloneFree
+        };
         let share = full.near / (full.near + full.far);
         let skewing = skew::skewing(kind, measures.crane.span, share, &measures.pairs).ok()?;
         let force = skew::friction(angle).ok()? * skewing.guide * measures.crane.weight();
@@ -207,12 +210,12 @@ impl<'c> CodeCase<'c> {
     }
 
     /// Forces of the drives on the runway.
-    fn drives(&self) -> Option<drive::Traction> {
+    fn drives(&self) -> Option<drive::DriveForces> {
         let measures = self.measures;
         let wheels = f64::from(measures.crane.wheels);
         let empty = measures.crane.wheel_loads(1.0, 0.0).ok()?;
         let least = vec![empty.far.min(empty.near); measures.driven[0] + measures.driven[1]];
-        let travel = drive::Travel {
+        let travel = drive::AcceleratingCrane {
             span: measures.crane.span,
             guides: measures.base(),
             heavy: wheels * self.full?.near,
@@ -256,7 +259,7 @@ impl<'c> CodeCase<'c> {
                 EN,
                 "2.11.1, Table 2.10",
                 "phi7 v1 sqrt(m S), phi7 = 1.25, v1 = 0.7 of the rated speed",
-                phi7.and_then(|phi7| force(phi7, rated(buffer::SPEED))),
+                phi7.and_then(|phi7| force(phi7, rated(buffer::END_STOP_SPEED))),
             )
             .add(
                 EN,

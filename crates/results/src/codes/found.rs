@@ -1,6 +1,6 @@
 //! What a run has of the quantities that codes give values for.
 
-use practice::Mark;
+use practice::TimedValue;
 
 use super::measures::CraneData;
 use crate::record::NamedColumns;
@@ -21,27 +21,27 @@ const TRACTION: usize = 2;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredCrane {
     /// Vertical force of a rail over what statics puts on it with the trolley where it is: the largest.
-    pub rail: Option<Mark>,
+    pub rail: Option<TimedValue>,
     /// The same of a wheel.
-    pub wheel: Option<Mark>,
+    pub wheel: Option<TimedValue>,
     /// What the bridge gets from trolley and load, less the trolley's weight, over the load: largest, smallest.
-    pub load: [Option<Mark>; 2],
+    pub load: [Option<TimedValue>; 2],
     /// Lateral force of all wheels together: largest in size.
-    pub across: Option<Mark>,
+    pub across: Option<TimedValue>,
     /// Lateral force of one wheel: largest in size.
-    pub flange: Option<Mark>,
+    pub flange: Option<TimedValue>,
     /// Force of the wheels along a rail: largest in size.
-    pub along: Option<Mark>,
+    pub along: Option<TimedValue>,
     /// Force of the end stops together: largest.
-    pub buffer: Option<Mark>,
+    pub buffer: Option<TimedValue>,
     /// Force of the buffer between two cranes: largest.
-    pub collision: Option<Mark>,
+    pub collision: Option<TimedValue>,
     /// Speed at which they are met.
     pub meeting: Option<f64>,
     /// Largest change of the trolley's speed over half a second, by time.
     pub acceleration: Option<f64>,
     /// Way from where the brakes come on to a stand, of bridge and trolley, with the speed then.
-    pub brakes: [Option<(Mark, f64)>; 2],
+    pub brakes: [Option<(TimedValue, f64)>; 2],
 }
 
 impl MeasuredCrane {
@@ -91,9 +91,9 @@ impl MeasuredCrane {
             if !ridden.is_empty() && measures.crane.lifted > 0.0 {
                 let share = (sum(&ridden, VERTICAL, row) - measures.crane.trolley) / measures.crane.lifted;
                 raise(&mut found.load[0], share, t);
-                let mut least = found.load[1].map(|mark| Mark { value: 0.0 - mark.value, ..mark });
+                let mut least = found.load[1].map(|mark| TimedValue { value: 0.0 - mark.value, ..mark });
                 raise(&mut least, 0.0 - share, t);
-                found.load[1] = least.map(|mark| Mark { value: 0.0 - mark.value, ..mark });
+                found.load[1] = least.map(|mark| TimedValue { value: 0.0 - mark.value, ..mark });
             }
         }
         found.stops(scene, practice, record);
@@ -128,9 +128,9 @@ impl MeasuredCrane {
 }
 
 /// Keeps the larger; what is not finite is nothing.
-fn raise(mark: &mut Option<Mark>, value: f64, time: f64) {
+fn raise(mark: &mut Option<TimedValue>, value: f64, time: f64) {
     if value.is_finite() && mark.is_none_or(|known| value > known.value) {
-        *mark = Some(Mark { value, time });
+        *mark = Some(TimedValue { value, time });
     }
 }
 
@@ -152,11 +152,11 @@ fn acceleration(record: &NamedColumns, body: &str) -> Option<f64> {
 }
 
 /// Way of a body from where its brakes come on to a stand, when it stands, and the speed at first.
-fn brakes(record: &NamedColumns, body: &str) -> Option<(Mark, f64)> {
+fn brakes(record: &NamedColumns, body: &str) -> Option<(TimedValue, f64)> {
     let [x, speed, brake] = ["x", "speed", "brake"].map(|part| record.part(body, part));
     let on = brake.iter().position(|force| *force != 0.0)?.saturating_sub(1);
     let first = speed.get(on)?.abs();
     let rest = speed.iter().skip(on).position(|speed| speed.abs() <= STANDS * first)? + on;
     let time = *record.values("time").get(rest)?;
-    (first > 0.0).then_some((Mark { value: (x[rest] - x[on]).abs(), time }, first))
+    (first > 0.0).then_some((TimedValue { value: (x[rest] - x[on]).abs(), time }, first))
 }

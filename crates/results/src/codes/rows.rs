@@ -1,6 +1,6 @@
 //! Quantities of a crane that codes give values for.
 
-use practice::Mark;
+use practice::TimedValue;
 use serde_json::json;
 
 use super::case::CodeCase;
@@ -17,7 +17,7 @@ pub struct CodeComparison {
     /// Dimension of all its values.
     pub dimension: Dimension,
     /// What the run has.
-    pub found: Mark,
+    pub found: TimedValue,
     /// What codes have.
     pub values: Vec<CodeValue>,
 }

@@ -14,7 +14,7 @@ use formats::units::{Dimension, Force, Length, Scale, Units};
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Resistance {
     Eurocode(Strength),
-    Aisc(aisc::Curve),
+    Aisc(aisc::AiscCurve),
 }
 
 /// One stress point of one run.
@@ -52,7 +52,7 @@ impl Resistance {
             }
             Detail::Aisc(category) => {
                 let ksi = unit(Length::Inch, Force::Kip) / fatigue.loads / fatigue.material;
-                aisc::Curve::new(category, ksi).map(Resistance::Aisc)
+                aisc::AiscCurve::new(category, ksi).map(Resistance::Aisc)
             }
         }
     }
@@ -74,7 +74,7 @@ impl Resistance {
     /// Reference, limit.
     fn ranges(&self) -> [f64; 2] {
         match self {
-            Resistance::Eurocode(strength) => [strength.reference(), strength.limit()],
+            Resistance::Eurocode(strength) => [strength.reference(), strength.fatigue_limit()],
             Resistance::Aisc(curve) => [curve.reference(), curve.limit()],
         }
     }
@@ -124,7 +124,7 @@ fn verdict(
         damage,
         reference,
         limit,
-        equivalent: reference * (damage.sum * practice::fatigue::REFERENCE).cbrt(),
+        equivalent: reference * (damage.sum * practice::fatigue::REFERENCE_CYCLES).cbrt(),
         life: fatigue.crossings.map(|crossings| crossings * damage.sum),
     })
 }
@@ -142,8 +142,8 @@ impl FatigueResult {
             "reference": self.reference,
             "limit": self.limit,
             "cycles": count,
-            "largest_range": self.damage.most,
-            "within_limit": self.damage.endures,
+            "largest_range": self.damage.largest_range,
+            "within_limit": self.damage.below_limit,
             "damage": self.damage.sum,
             "equivalent_range": self.equivalent,
             "crossings_to_failure": self.damage.repeats(),

@@ -1,6 +1,6 @@
 //! Histories of forces, run beside run, in the few numbers that engineers compare.
 
-use practice::{Mark, Tone, View, dominant, resample, response};
+use practice::{ResponseSettings, SineComponent, TimedValue, dominant, resample, response};
 use serde_json::{Map, Value, json};
 
 use super::{Response, SceneMode};
@@ -27,13 +27,13 @@ pub struct ColumnStatistics {
     /// Mean over the last quarter of the run.
     pub settled: f64,
     /// Largest value.
-    pub peak: Mark,
+    pub peak: TimedValue,
     /// Smallest value.
-    pub least: Mark,
+    pub least: TimedValue,
     /// How often it leaves 5 % about the settled mean.
     pub excursions: usize,
     /// Strongest waves in the last quarter, of two periods at least, strongest first.
-    pub waves: Vec<Tone>,
+    pub waves: Vec<SineComponent>,
 }
 
 /// Runs beside each other: every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel
@@ -121,12 +121,12 @@ impl ColumnStatistics {
         }
         let length = last - first;
         let step = length / (times.len() - 1) as f64;
-        let view = View {
+        let view = ResponseSettings {
             from: first,
             settled: last - SETTLED * length,
             step,
-            cut: None,
-            share: BAND,
+            cut_off: None,
+            excursion_fraction: BAND,
             band: [0.0, 0.5 / step],
             floor: BAND,
         };
@@ -137,7 +137,7 @@ impl ColumnStatistics {
         Some(ColumnStatistics {
             settled: found.mean,
             peak: found.peak,
-            least: found.least,
+            least: found.trough,
             excursions: found.excursions.total(),
             waves: tones(&late, step, band),
         })
@@ -150,7 +150,7 @@ impl ColumnStatistics {
     }
 
     fn json(&self, modes: &[SceneMode]) -> Value {
-        let wave = |tone: &Tone| {
+        let wave = |tone: &SineComponent| {
             let mode = SceneMode::of(modes, tone.frequency).map(|mode| mode.name.as_str());
             json!({"hz": tone.frequency, "amplitude": tone.amplitude, "mode": mode})
         };
@@ -166,8 +166,8 @@ impl ColumnStatistics {
 }
 
 /// The strongest waves of a history in `band`, strongest first, each apart from those before by [`APART`].
-fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
-    let (mut found, mut rest) = (Vec::<Tone>::new(), vec![band]);
+fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<SineComponent> {
+    let (mut found, mut rest) = (Vec::<SineComponent>::new(), vec![band]);
     let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
     while found.len() < WAVES {
         let all = rest.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
@@ -178,7 +178,7 @@ fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<Tone> {
         }
         let [low, high] = rest.swap_remove(k);
         // the flank of a wave that is known already peaks at the edge of its band
-        let is_known = |known: &Tone| (known.frequency / tone.frequency).ln().abs() < APART.ln();
+        let is_known = |known: &SineComponent| (known.frequency / tone.frequency).ln().abs() < APART.ln();
         if found.iter().any(is_known) {
             continue;
         }

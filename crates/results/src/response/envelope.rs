@@ -52,16 +52,16 @@ impl ColumnEnvelope {
             return Ok(Vec::new());
         }
         let series: Vec<&[f64]> = columns.iter().map(|column| record.values(&column.name)).collect();
-        let run = practice::Run { times: record.values("time"), series: &series };
+        let run = practice::RunHistories { times: record.values("time"), series: &series };
         let found = practice::envelope(&[run], columns.len())?;
-        let extreme = |index: usize, at: &practice::Instant| {
+        let extreme = |index: usize, at: &practice::ExtremeInstant| {
             let value = at.values[index];
             ColumnExtreme { value, time: at.time, ..elsewhere(at.sample, scene, cast, history, loads) }
         };
         let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| ColumnEnvelope {
             column: column.name.clone(),
-            max: extreme(index, &found.most),
-            min: extreme(index, &found.least),
+            max: extreme(index, &found.max),
+            min: extreme(index, &found.min),
         });
         Ok(each.collect())
     }

@@ -5,7 +5,7 @@ use crate::measure::quantity::ErrorGroup;
 use crate::runs::investigate::Study;
 use crate::runs::point::{PointOutcome, StudyPoint};
 use crate::settings::setting::{Against, SettingFamily};
-use report::chart::{Axis, Chart, Error, Series, Style, stack};
+use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
 
 /// A picture, and whether equal studies may differ in it: it has times.
 #[derive(Clone, Debug)]
@@ -108,12 +108,12 @@ fn chart(
     let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
     let knob = shown().next()?.setting.knob;
     let x = match cost {
-        Cost::Time => Axis::new("time of a run (median; bar: least to most)", "ms"),
-        Cost::Stages => Axis::new("contact solutions", ""),
-        Cost::Memory => Axis::new("memory of foundations and run", "kB"),
-        Cost::Knob if knob == "stations" => Axis::new("stations a rail", ""),
-        Cost::Knob if knob == "elements" => Axis::new("elements a member", ""),
-        Cost::Knob => Axis::new(knob, ""),
+        Cost::Time => ChartAxis::new("time of a run (median; bar: least to most)", "ms"),
+        Cost::Stages => ChartAxis::new("contact solutions", ""),
+        Cost::Memory => ChartAxis::new("memory of foundations and run", "kB"),
+        Cost::Knob if knob == "stations" => ChartAxis::new("stations a rail", ""),
+        Cost::Knob if knob == "elements" => ChartAxis::new("elements a member", ""),
+        Cost::Knob => ChartAxis::new(knob, ""),
     };
     let mut title = format!("{name}: error of the {} against ", quantity.name());
     title += match cost {
@@ -128,7 +128,7 @@ fn chart(
     if let Some(time) = study.until {
         title += &format!(", until {time} s");
     }
-    let mut chart = Chart::new(title, x.log(), Axis::new("largest error / largest value", "").log());
+    let mut chart = Chart::new(title, x.log(), ChartAxis::new("largest error / largest value", "").log());
     let mut families: Vec<SettingFamily> = Vec::new();
     for point in shown() {
         if !families.contains(&point.setting.family) {

@@ -1,10 +1,10 @@
 //! Maps drawn: a chart a method, a few below each other.
 
 use super::map::{MapScale, MapVerdict, StabilityMap};
-use report::chart::{Axis, Chart, Error, Series, Style, stack};
+use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
 
-fn axis(scale: &MapScale, range: [f64; 2]) -> Axis {
-    let axis = Axis::new(scale.label.clone(), scale.unit.clone());
+fn axis(scale: &MapScale, range: [f64; 2]) -> ChartAxis {
+    let axis = ChartAxis::new(scale.label.clone(), scale.unit.clone());
     let [low, high] = range;
     if scale.log {
         let room = (high / low).powf(0.03);

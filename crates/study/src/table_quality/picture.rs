@@ -9,8 +9,8 @@ use super::reading_method::TableReadingMethod;
 use super::readings::{map, strip};
 use super::subject::TableSource;
 use formats::units::Dimension;
-use report::chart::{self, Axis, Chart, Series, Style, SurfacePlot, Svg};
-use report::{self, Picture, Report, Section};
+use report::chart::{self, Chart, ChartAxis, Series, Style, SurfacePlot, Svg};
+use report::{self, Picture, Report, ReportSection};
 
 /// Places along the rail on a picture.
 const ACROSS: usize = 240;
@@ -34,7 +34,7 @@ impl TableFigure {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),
-            Picture::Film(film) => Ok(film.svg.clone()),
+            Picture::Animation(film) => Ok(film.svg.clone()),
         }
     }
 }
@@ -126,8 +126,8 @@ fn diagonal(
     let scale = scale(found);
     let mut chart = Chart::new(
         format!("{title}: error under one moving wheel"),
-        Axis::new("place of the wheel", length),
-        Axis::new("error, of the largest coefficient", "%"),
+        ChartAxis::new("place of the wheel", length),
+        ChartAxis::new("error, of the largest coefficient", "%"),
     );
     for (index, one) in
         found.readings.iter().enumerate().filter(|(_, r)| r.manner != TableReadingMethod::Exact)
@@ -138,7 +138,7 @@ fn diagonal(
         for &x in &x {
             points.push([x, 100.0 * (own.at(x, x)? - exact.at(x, x)?) / scale]);
         }
-        let style = Style::in_turn(index);
+        let style = Style::alternating(index);
         chart = chart.with(Series::new(one.manner.word(), style, points));
     }
     if chart.series.is_empty() {
@@ -163,7 +163,8 @@ pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<d
         sections: Vec::new(),
     };
     for found in all {
-        let mut section = Section::new(format!("SPLINE/{} {}", found.item.id, found.item.name).trim_end());
+        let mut section =
+            ReportSection::new(format!("SPLINE/{} {}", found.item.id, found.item.name).trim_end());
         for hazard in &found.hazards {
             section = section.say(format!("Note: {hazard}."));
         }
@@ -178,11 +179,11 @@ pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<d
     Ok(report.html(None)?)
 }
 
-fn readings(subject: &TableSource, found: &TableQuality) -> report::Table {
+fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable {
     let unit = |dimension| subject.units.map(|units| units.label(dimension)).unwrap_or_default();
-    let column = |name: &str, unit: &str| report::Column::new(name, unit);
+    let column = |name: &str, unit: &str| report::TableColumn::new(name, unit);
     let (length, stiffness) = (unit(Dimension::LENGTH), unit(Dimension::STIFFNESS));
-    let mut table = report::Table {
+    let mut table = report::ReportTable {
         caption: "Readings, errors of the largest coefficient".to_owned(),
         columns: vec![
             column("reading", ""),
@@ -195,7 +196,7 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::Table {
         ],
         rows: Vec::new(),
     };
-    let number = |value: Option<f64>| value.map_or(report::Cell::Empty, report::Cell::Number);
+    let number = |value: Option<f64>| value.map_or(report::TableCell::Empty, report::TableCell::Number);
     for one in &found.readings {
         let direct = one.direct.as_ref();
         table.rows.push(vec![
@@ -204,8 +205,8 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::Table {
             number(one.error.map(|e| e.largest.x)),
             number(one.error.map(|e| e.largest.z)),
             number(direct.filter(|d| d.scale > 0.0).map(|d| 100.0 * d.asymmetry.value / d.scale)),
-            direct.and_then(|d| d.layouts.last()).map_or(report::Cell::Empty, |layout| {
-                layout.stiffness.map_or_else(|| "never".into(), report::Cell::Number)
+            direct.and_then(|d| d.layouts.last()).map_or(report::TableCell::Empty, |layout| {
+                layout.stiffness.map_or_else(|| "never".into(), report::TableCell::Number)
             }),
             number(direct.and_then(|d| d.kink).map(|k| k.jump())),
         ]);

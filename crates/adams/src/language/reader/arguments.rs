@@ -2,8 +2,8 @@
 
 use super::cursor::{Cursor, single_blanks};
 use super::grammar::{Arguments, Form, argument};
-use crate::language::statement::{Argument, Statement, Value};
-use crate::{Error, Fault, expression, number};
+use crate::language::statement::{ArgumentValue, Statement, StatementArgument};
+use crate::{AdamsFault, Error, expression, number};
 
 /// Reads the arguments of a statement by the table of its kind.
 pub(super) fn known(cursor: &mut Cursor, table: Arguments, out: &mut Statement) -> Result<(), Error> {
@@ -15,26 +15,29 @@ pub(super) fn known(cursor: &mut Cursor, table: Arguments, out: &mut Statement) 
             return Ok(());
         }
         let start = cursor.index();
-        let word = cursor.word().filter(|_| separated).ok_or_else(|| cursor.fault(start, Fault::Text))?;
-        let (form, name) = argument(table, &word).ok_or_else(|| cursor.fault(start, Fault::Argument))?;
+        let word = cursor
+            .word()
+            .filter(|_| separated)
+            .ok_or_else(|| cursor.fault(start, AdamsFault::UnexpectedText))?;
+        let (form, name) = argument(table, &word).ok_or_else(|| cursor.fault(start, AdamsFault::Argument))?;
         let many = out.keyword == "SPLINE" && name == "Y";
         if !many && out.get(name).is_some() {
-            return Err(cursor.fault(start, Fault::Repeated));
+            return Err(cursor.fault(start, AdamsFault::Repeated));
         }
         if form != Form::Flag && !cursor.eat('=') {
-            return Err(cursor.fault(cursor.index(), Fault::Text));
+            return Err(cursor.fault(cursor.index(), AdamsFault::UnexpectedText));
         }
         let value = match form {
-            Form::Flag => Value::Flag,
-            Form::Word => Value::Word(item(cursor)?),
-            Form::Words => Value::Word(words(cursor, table)?),
+            Form::Flag => ArgumentValue::Flag,
+            Form::Word => ArgumentValue::Word(item(cursor)?),
+            Form::Words => ArgumentValue::Word(words(cursor, table)?),
             Form::Whole => whole(cursor)?,
             Form::Numbers => numbers(cursor, false)?,
             Form::Angles => numbers(cursor, true)?,
             Form::Function => function(cursor, Some(table))?,
         };
         separated = form == Form::Function;
-        out.arguments.push(Argument { name: name.to_owned(), value });
+        out.arguments.push(StatementArgument { name: name.to_owned(), value });
     }
 }
 
@@ -54,19 +57,19 @@ pub(super) fn unknown(cursor: &mut Cursor, out: &mut Statement) -> Result<(), Er
                 function(cursor, None)?
             } else {
                 cursor.separator();
-                Value::Word(item(cursor)?)
+                ArgumentValue::Word(item(cursor)?)
             };
-            out.arguments.push(Argument { name, value });
+            out.arguments.push(StatementArgument { name, value });
             continue;
         }
         let text = item(cursor)?;
         let goes_on = !text.starts_with(|c: char| c.is_ascii_alphabetic());
         match out.arguments.last_mut() {
-            Some(Argument { value: Value::Word(list), .. }) if goes_on => {
+            Some(StatementArgument { value: ArgumentValue::Word(list), .. }) if goes_on => {
                 list.push_str(", ");
                 list.push_str(&text);
             }
-            _ => out.arguments.push(Argument { name: text, value: Value::Flag }),
+            _ => out.arguments.push(StatementArgument { name: text, value: ArgumentValue::Flag }),
         }
     }
 }
@@ -90,13 +93,13 @@ fn item(cursor: &mut Cursor) -> Result<String, Error> {
             _ => {}
         }
         if !(character.c.is_ascii_graphic() || character.c.is_whitespace()) {
-            return Err(cursor.fault(cursor.index(), Fault::Text));
+            return Err(cursor.fault(cursor.index(), AdamsFault::UnexpectedText));
         }
         text.push(character.c);
         cursor.take();
     }
     let text = single_blanks(&text);
-    if text.is_empty() || quoted { Err(cursor.fault(start, Fault::Text)) } else { Ok(text) }
+    if text.is_empty() || quoted { Err(cursor.fault(start, AdamsFault::UnexpectedText)) } else { Ok(text) }
 }
 
 /// Reads items up to the next argument.
@@ -126,17 +129,17 @@ fn digits(cursor: &mut Cursor) -> String {
 }
 
 /// Reads an identifier or count.
-fn whole(cursor: &mut Cursor) -> Result<Value, Error> {
+fn whole(cursor: &mut Cursor) -> Result<ArgumentValue, Error> {
     cursor.separator();
     cursor.skip();
     let start = cursor.index();
     let value = digits(cursor).parse().ok().filter(|value: &i64| (0..=i64::from(u32::MAX)).contains(value));
-    value.map(Value::Whole).ok_or_else(|| cursor.fault(start, Fault::Id))
+    value.map(ArgumentValue::Whole).ok_or_else(|| cursor.fault(start, AdamsFault::Id))
 }
 
 /// Reads numbers up to the next argument. With `angles` a number that ends with D is an angle in degrees; a
 /// list that mixes degrees and radians is converted to radians.
-fn numbers(cursor: &mut Cursor, angles: bool) -> Result<Value, Error> {
+fn numbers(cursor: &mut Cursor, angles: bool) -> Result<ArgumentValue, Error> {
     cursor.separator();
     let mut all: Vec<(f64, bool)> = Vec::new();
     loop {
@@ -144,7 +147,8 @@ fn numbers(cursor: &mut Cursor, angles: bool) -> Result<Value, Error> {
         let start = cursor.index();
         let text = digits(cursor);
         let plain = text.strip_suffix(['d', 'D']).filter(|_| angles);
-        let value = number::read(plain.unwrap_or(&text)).ok_or_else(|| cursor.fault(start, Fault::Number))?;
+        let value =
+            number::read(plain.unwrap_or(&text)).ok_or_else(|| cursor.fault(start, AdamsFault::Number))?;
         all.push((value, plain.is_some()));
         let next = cursor.ahead(|cursor| {
             let comma = cursor.separator();
@@ -159,16 +163,16 @@ fn numbers(cursor: &mut Cursor, angles: bool) -> Result<Value, Error> {
     }
     let degrees = all.iter().any(|(_, degrees)| *degrees);
     if degrees && all.iter().all(|(value, degrees)| *degrees || *value == 0.0) {
-        return Ok(Value::Degrees(all.into_iter().map(|(value, _)| value).collect()));
+        return Ok(ArgumentValue::Degrees(all.into_iter().map(|(value, _)| value).collect()));
     }
     let radians = |(value, degrees): (f64, bool)| if degrees { value.to_radians() } else { value };
-    Ok(Value::Numbers(all.into_iter().map(radians).collect()))
+    Ok(ArgumentValue::Numbers(all.into_iter().map(radians).collect()))
 }
 
 /// Reads an expression up to `\`, the end of the statement, or a comma and another argument.
 ///
 /// Blanks and the commas that begin continued lines are removed. The expression must parse.
-fn function(cursor: &mut Cursor, table: Option<Arguments>) -> Result<Value, Error> {
+fn function(cursor: &mut Cursor, table: Option<Arguments>) -> Result<ArgumentValue, Error> {
     let start = cursor.index();
     let mut text: Vec<char> = Vec::new();
     let mut places: Vec<usize> = Vec::new();
@@ -205,7 +209,7 @@ fn function(cursor: &mut Cursor, table: Option<Arguments>) -> Result<Value, Erro
         let at = places.get(offset).copied().unwrap_or_else(|| places.last().map_or(start, |at| at + 1));
         cursor.fault(at, fault)
     })?;
-    Ok(Value::Function(text))
+    Ok(ArgumentValue::Function(text))
 }
 
 /// Whether a character belongs to a name or number.

@@ -1,7 +1,7 @@
 //! The characters of a statement with their places in the text.
 
 use crate::language::lexer::RawStatement;
-use crate::{Error, Fault};
+use crate::{AdamsFault, Error};
 
 /// One character of a statement.
 #[derive(Clone, Copy, Debug)]
@@ -35,7 +35,7 @@ impl Cursor {
     }
 
     /// An error at the character `index`, or at the last one beyond the end.
-    pub fn fault(&self, index: usize, fault: Fault) -> Error {
+    pub fn fault(&self, index: usize, fault: AdamsFault) -> Error {
         let place = self.characters.get(index).or(self.characters.last());
         let (line, column) = place.map_or((1, 1), |character| (character.line, character.column));
         Error::At { line, column, fault }

@@ -10,7 +10,7 @@ mod grammar;
 use super::data_set::DataSet;
 use super::lexer::{RawStatement, statements};
 use super::statement::Statement;
-use crate::{Error, Fault};
+use crate::{AdamsFault, Error};
 use cursor::{Cursor, single_blanks};
 use std::collections::BTreeSet;
 
@@ -53,7 +53,7 @@ impl DataSet {
             if let Some(id) = statement.id
                 && !seen.insert((statement.keyword.clone(), id))
             {
-                return Err(cursor.fault(start, Fault::Twice { id }));
+                return Err(cursor.fault(start, AdamsFault::DuplicateId { id }));
             }
             out.statements.push(statement);
         }
@@ -64,13 +64,13 @@ impl DataSet {
 /// One statement.
 fn statement(raw: &RawStatement<'_>, cursor: &mut Cursor) -> Result<Statement, Error> {
     let start = cursor.index();
-    let word = cursor.word().ok_or_else(|| cursor.fault(start, Fault::Text))?;
+    let word = cursor.word().ok_or_else(|| cursor.fault(start, AdamsFault::UnexpectedText))?;
     if !cursor.eat('/') {
-        return Err(cursor.fault(start, Fault::Text));
+        return Err(cursor.fault(start, AdamsFault::UnexpectedText));
     }
     let (keyword, arguments) = grammar::keyword(&word);
     let lone = grammar::has_no_id(&keyword);
-    let mut out = Statement::lone(keyword.as_str());
+    let mut out = Statement::without_id(keyword.as_str());
     let owned = |text: Option<&str>| text.map(str::to_owned);
     (out.name, out.units) = (owned(raw.name), owned(raw.units));
     out.remarks = raw.remarks.iter().map(|text| single_blanks(text)).collect();
@@ -79,11 +79,11 @@ fn statement(raw: &RawStatement<'_>, cursor: &mut Cursor) -> Result<Statement, E
     let digits = if lone { String::new() } else { cursor.run(|c| c.is_ascii_digit()) };
     if digits.is_empty() {
         if arguments.is_some() && !lone {
-            return Err(cursor.fault(at, Fault::Id));
+            return Err(cursor.fault(at, AdamsFault::Id));
         }
     } else {
         let id = digits.parse().ok().filter(|&id: &u32| id > 0);
-        out.id = Some(id.ok_or_else(|| cursor.fault(at, Fault::Id))?);
+        out.id = Some(id.ok_or_else(|| cursor.fault(at, AdamsFault::Id))?);
     }
     match arguments {
         Some(table) => arguments::known(cursor, table, &mut out)?,

@@ -4,7 +4,7 @@ use super::super::arguments::Arguments;
 use super::super::constraint::{self, Constraint, Equation, PrescribedMotion};
 use super::super::formula::Formula;
 use super::context::{Build, Pending, Target, missing};
-use crate::{Error, Fault};
+use crate::{AdamsFault, Error};
 
 /// The types of JOINT.
 const JOINTS: &[&str] = &[
@@ -29,11 +29,11 @@ const PRIMITIVES: &[&str] =
 pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
     for (keyword, kinds) in [("JOINT", JOINTS), ("JPRIM", PRIMITIVES)] {
         for arguments in build.each(keyword) {
-            let kind = arguments.one_of(kinds)?.ok_or_else(|| arguments.fault(Fault::Type))?;
+            let kind = arguments.one_of(kinds)?.ok_or_else(|| arguments.fault(AdamsFault::Type))?;
             let (i, j) = (build.required_marker(&arguments, "I")?, build.required_marker(&arguments, "J")?);
             let equations = constraint::equations(kind);
             if equations.is_empty() {
-                return Err(arguments.fault(Fault::Unsupported));
+                return Err(arguments.fault(AdamsFault::Unsupported));
             }
             constrain(build, keyword, &arguments, [i, j], equations, None)?;
         }
@@ -43,7 +43,7 @@ pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
         let level = arguments.one_of(&["DISPLACEMENT", "VELOCITY", "ACCELERATION"])?;
         let start = match level {
             Some("VELOCITY") => Some(arguments.number("ICDISP")?.unwrap_or(0.0)),
-            Some("ACCELERATION") => return Err(arguments.fault(Fault::Unsupported)),
+            Some("ACCELERATION") => return Err(arguments.fault(AdamsFault::Unsupported)),
             _ => None,
         };
         let motion = PrescribedMotion { formula: Formula::Number(0.0), start };
@@ -65,7 +65,7 @@ fn constrain(
 ) -> Result<usize, Error> {
     let (id, index) = (arguments.id()?, build.model.constraints.len());
     if build.model.markers[i].floating || build.model.markers[j].floating {
-        return Err(arguments.fault(Fault::Floating));
+        return Err(arguments.fault(AdamsFault::Floating));
     }
     build.symbols.constraints.insert((keyword, id), index);
     build.model.constraints.push(Constraint { keyword, id, i, j, equations, motion });
@@ -90,7 +90,7 @@ fn motion(build: &Build<'_>, arguments: &Arguments<'_>) -> Result<([usize; 2], E
                     Equation::Along(2)
                 }
             }
-            _ => return Err(arguments.fault(Fault::Type)),
+            _ => return Err(arguments.fault(AdamsFault::Type)),
         };
         return Ok(([joint.i, joint.j], kind));
     }
@@ -99,8 +99,8 @@ fn motion(build: &Build<'_>, arguments: &Arguments<'_>) -> Result<([usize; 2], E
         Some("X") => Equation::Along(0),
         Some("Y") => Equation::Along(1),
         Some("Z") => Equation::Along(2),
-        Some(_) => return Err(arguments.fault(Fault::Unsupported)),
-        None => return Err(arguments.fault(Fault::Type)),
+        Some(_) => return Err(arguments.fault(AdamsFault::Unsupported)),
+        None => return Err(arguments.fault(AdamsFault::Type)),
     };
     Ok((markers, equation))
 }

@@ -2,15 +2,15 @@
 
 use super::super::arguments::Arguments;
 use super::super::compiler::Symbols;
-use super::super::data::{Model, Owner, Slot};
+use super::super::data::{AdamsModel, Owner, Slot};
 use super::super::formula::Formula;
-use crate::{DataSet, Error, Fault, Statement, StatementId};
+use crate::{AdamsFault, DataSet, Error, Statement, StatementId};
 
 /// A model under construction.
 pub(super) struct Build<'a> {
     pub set: &'a DataSet,
     pub symbols: Symbols,
-    pub model: Model,
+    pub model: AdamsModel,
     /// Expressions to compile once every identifier is known.
     pub pending: Vec<Pending<'a>>,
 }
@@ -74,5 +74,5 @@ impl<'a> Build<'a> {
 
 /// The error of a reference to a statement that does not exist.
 pub(super) fn missing(arguments: &Arguments<'_>, keyword: &str, id: u32) -> Error {
-    arguments.fault(Fault::Missing { statement: StatementId::new(keyword, id) })
+    arguments.fault(AdamsFault::Missing { statement: StatementId::new(keyword, id) })
 }

@@ -3,9 +3,9 @@
 use super::super::arguments::Arguments;
 use super::super::beam::Beam;
 use super::super::data::Owner;
-use super::super::load::{COMPONENTS, Law, Load, LoadKind};
+use super::super::load::{AppliedForce, COMPONENTS, Law, LoadKind};
 use super::context::Build;
-use crate::{Error, Fault};
+use crate::{AdamsFault, Error};
 
 /// Reads all loads.
 pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
@@ -17,7 +17,7 @@ pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
             let other = if matches!(kind, LoadKind::Vforce | LoadKind::Gforce) { "JFLOAT" } else { "J" };
             let j = build.required_marker(&arguments, other)?;
             if build.model.markers[i].floating || (other == "J" && build.model.markers[j].floating) {
-                return Err(arguments.fault(Fault::Floating));
+                return Err(arguments.fault(AdamsFault::Floating));
             }
             let law = match kind {
                 LoadKind::Beam => Law::Beam(Box::new(Beam::read(&arguments)?)),
@@ -30,7 +30,7 @@ pub(super) fn read(build: &mut Build<'_>) -> Result<(), Error> {
                 LoadKind::Vforce | LoadKind::Gforce => components(build, &arguments, index, i, j)?,
             };
             build.symbols.loads.insert((kind, id), index);
-            build.model.loads.push(Load { kind, id, i, j, law });
+            build.model.loads.push(AppliedForce { kind, id, i, j, law });
         }
     }
     Ok(())
@@ -46,11 +46,11 @@ fn components<'a>(
 ) -> Result<Law, Error> {
     let floating = &mut build.model.markers[j];
     if !floating.floating || floating.follows.replace(i).is_some() {
-        return Err(arguments.fault(Fault::Floating));
+        return Err(arguments.fault(AdamsFault::Floating));
     }
     let rm = build.required_marker(arguments, "RM")?;
     if build.model.markers[rm].floating {
-        return Err(arguments.fault(Fault::Floating));
+        return Err(arguments.fault(AdamsFault::Floating));
     }
     let mut slots = [None; 6];
     for (k, name) in COMPONENTS.into_iter().enumerate() {
@@ -59,7 +59,7 @@ fn components<'a>(
         }
     }
     if arguments.flag("FUNCTION") {
-        return Err(arguments.fault(Fault::Unsupported));
+        return Err(arguments.fault(AdamsFault::Unsupported));
     }
     if slots.iter().all(Option::is_none) {
         return Err(arguments.missing_argument("FX"));

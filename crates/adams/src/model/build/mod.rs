@@ -10,12 +10,12 @@ mod units;
 
 use super::arguments::Arguments;
 use super::compiler::{Compiler, Symbols};
-use super::data::{Diff, Model, Owner, Request};
+use super::data::{AdamsModel, Diff, Owner, Request};
 use super::formula::Formula;
 use super::order;
 use super::part::{Marker, Part};
-use crate::tables::{Family, Method};
-use crate::{DataSet, Error, Fault, StatementId, expression, tables};
+use crate::tables::{SplineFunction, SplineMethod};
+use crate::{AdamsFault, DataSet, Error, StatementId, expression, tables};
 use context::{Build, Pending, Target, missing};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -45,15 +45,15 @@ const EXECUTED: &[&str] = &[
     "SPLINE", "UNITS", "VARIABLE", "VFORCE",
 ];
 
-impl Model {
+impl AdamsModel {
     /// Resolves every reference of a data set.
     ///
     /// # Errors
     /// [`Error::Statement`] for statements that are not executed, arguments that are missing or have the
     /// wrong form, and references to statements that do not exist. [`Error::In`] for expressions that cannot
     /// be parsed, use unknown names, or call a function with a wrong number of arguments.
-    pub fn new(set: &DataSet) -> Result<Model, Error> {
-        let (symbols, model) = (Symbols::default(), Model::default());
+    pub fn new(set: &DataSet) -> Result<AdamsModel, Error> {
+        let (symbols, model) = (Symbols::default(), AdamsModel::default());
         let mut build = Build { set, symbols, model, pending: Vec::new() };
         build.check_kinds()?;
         build.parts()?;
@@ -76,15 +76,15 @@ impl<'a> Build<'a> {
             let arguments = Arguments { statement };
             let keyword = statement.keyword.as_str();
             if !IGNORED.contains(&keyword) && !EXECUTED.contains(&keyword) {
-                return Err(arguments.fault(Fault::Unsupported));
+                return Err(arguments.fault(AdamsFault::Unsupported));
             }
             if let Some(id) = statement.id
                 && !seen.insert((keyword, id))
             {
-                return Err(arguments.fault(Fault::Twice { id }));
+                return Err(arguments.fault(AdamsFault::DuplicateId { id }));
             }
             if statement.get("ROUTINE").is_some() {
-                return Err(arguments.fault(Fault::Unsupported));
+                return Err(arguments.fault(AdamsFault::Unsupported));
             }
         }
         Ok(())
@@ -131,8 +131,8 @@ impl<'a> Build<'a> {
     fn splines(&mut self) -> Result<(), Error> {
         for arguments in self.each("SPLINE") {
             let spline = tables::of_statement(arguments.statement)?;
-            for method in [Method::Akima, Method::Natural] {
-                let family = Family::new(&spline, method);
+            for method in [SplineMethod::Akima, SplineMethod::Natural] {
+                let family = SplineFunction::new(&spline, method);
                 let found = (self.model.families.len(), family.is_surface());
                 self.symbols.families.insert((arguments.id()?, method), found);
                 self.model.families.push(family);
@@ -186,7 +186,7 @@ impl<'a> Build<'a> {
     }
 
     /// Compiles the expressions and orders the slots.
-    fn compile(mut self) -> Result<Model, Error> {
+    fn compile(mut self) -> Result<AdamsModel, Error> {
         for Pending { statement, argument, target } in std::mem::take(&mut self.pending) {
             let arguments = Arguments { statement };
             let text = arguments.function(argument)?.ok_or_else(|| arguments.missing_argument(argument))?;
@@ -207,7 +207,7 @@ impl<'a> Build<'a> {
                         // A prescribed velocity is integrated over time, so it must not depend on anything
                         // else.
                         if motion.start.is_some() && !formula.is_function_of_time() {
-                            return Err(arguments.fault(Fault::Unsupported));
+                            return Err(arguments.fault(AdamsFault::Unsupported));
                         }
                         motion.formula = formula;
                     }

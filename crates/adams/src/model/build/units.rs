@@ -3,7 +3,7 @@
 use super::super::arguments::Arguments;
 use crate::keyword::lookup;
 use crate::language::UnitWords;
-use crate::{Error, Fault, Force, Length, Mass, Value};
+use crate::{AdamsFault, AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, ArgumentValue, Error};
 
 /// Newtons of a pound-force, kilograms of a pound, metres of a foot: exact by definition.
 const POUND_FORCE: f64 = 4.448_221_615_260_5;
@@ -19,10 +19,10 @@ const FOOT: f64 = 0.3048;
 /// [`Fault::Unit`] for an unknown unit or system.
 pub(super) fn force_of_mass(arguments: &Arguments<'_>) -> Result<f64, Error> {
     let word = |name: &str| match arguments.statement.get(name) {
-        Some(Value::Word(word)) => Some(word.clone()),
+        Some(ArgumentValue::Word(word)) => Some(word.clone()),
         _ => None,
     };
-    let unknown = || arguments.fault(Fault::Unit);
+    let unknown = || arguments.fault(AdamsFault::Unit);
     if let Some(system) = word("SYSTEM") {
         let systems = &[
             (1.0, "MKS"),
@@ -37,24 +37,24 @@ pub(super) fn force_of_mass(arguments: &Arguments<'_>) -> Result<f64, Error> {
     let (Some(force), Some(mass), Some(length)) = (word("FORCE"), word("MASS"), word("LENGTH")) else {
         return Ok(1.0);
     };
-    let newton = match lookup(Force::ALL, &force).ok_or_else(unknown)? {
-        Force::Newton => 1.0,
-        Force::Kilonewton => 1000.0,
-        Force::Pound => POUND_FORCE,
-        Force::Kilopound => 1000.0 * POUND_FORCE,
+    let newton = match lookup(AdamsForceUnit::ALL, &force).ok_or_else(unknown)? {
+        AdamsForceUnit::Newton => 1.0,
+        AdamsForceUnit::Kilonewton => 1000.0,
+        AdamsForceUnit::Pound => POUND_FORCE,
+        AdamsForceUnit::Kilopound => 1000.0 * POUND_FORCE,
     };
-    let kilogram = match lookup(Mass::ALL, &mass).ok_or_else(unknown)? {
-        Mass::Kilogram => 1.0,
-        Mass::Tonne => 1000.0,
-        Mass::Pound => POUND_MASS,
-        Mass::Slug => POUND_FORCE / FOOT,
-        Mass::Slinch => POUND_FORCE / (FOOT / 12.0),
+    let kilogram = match lookup(AdamsMassUnit::ALL, &mass).ok_or_else(unknown)? {
+        AdamsMassUnit::Kilogram => 1.0,
+        AdamsMassUnit::Tonne => 1000.0,
+        AdamsMassUnit::Pound => POUND_MASS,
+        AdamsMassUnit::Slug => POUND_FORCE / FOOT,
+        AdamsMassUnit::Slinch => POUND_FORCE / (FOOT / 12.0),
     };
-    let meter = match lookup(Length::ALL, &length).ok_or_else(unknown)? {
-        Length::Meter => 1.0,
-        Length::Millimeter => 0.001,
-        Length::Foot => FOOT,
-        Length::Inch => FOOT / 12.0,
+    let meter = match lookup(AdamsLengthUnit::ALL, &length).ok_or_else(unknown)? {
+        AdamsLengthUnit::Meter => 1.0,
+        AdamsLengthUnit::Millimeter => 0.001,
+        AdamsLengthUnit::Foot => FOOT,
+        AdamsLengthUnit::Inch => FOOT / 12.0,
     };
     let factor: f64 = kilogram * meter / newton;
     // Slug and foot are consistent with the pound-force by definition; their quotient is not one to the last

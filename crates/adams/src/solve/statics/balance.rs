@@ -2,10 +2,10 @@
 
 use super::iterate::Unknown;
 use super::motion::prescribed;
-use crate::expression::functions::{Function, Unary, atan2};
+use crate::expression::functions::{Function, UnaryFunction, atan2};
 use crate::kinematics::Frame;
 use crate::kinematics::vector::{Vector, add, column, cross, dot, scale, subtract, vector};
-use crate::model::{Block, Constraint, Equation, Evaluation, Model, Owner};
+use crate::model::{AdamsModel, Block, Constraint, Equation, Evaluation, Owner};
 use crate::{Error, Scalar};
 
 /// The force on every part, and the torque about its origin, in ground axes.
@@ -17,7 +17,7 @@ type Wrenches<T> = Vec<[Vector<T>; 2]>;
 /// The values of torn slots are in `on`. All other slots and the reactions are computed here and stored in
 /// `on`.
 pub(super) fn balance<T: Scalar>(
-    model: &Model,
+    model: &AdamsModel,
     parts: &[Frame<T>],
     on: &mut Evaluation<'_, T>,
     unknowns: &[Unknown],
@@ -58,7 +58,7 @@ pub(super) fn balance<T: Scalar>(
 }
 
 /// Computes all slots from the torn ones, and returns the errors of the torn ones. DIF1 is zero.
-fn slots<T: Scalar>(model: &Model, on: &mut Evaluation<'_, T>) -> Result<Vec<Option<T>>, Error> {
+fn slots<T: Scalar>(model: &AdamsModel, on: &mut Evaluation<'_, T>) -> Result<Vec<Option<T>>, Error> {
     let mut errors = vec![None; model.slots.len()];
     let rate = |slot: usize| matches!(model.slots[slot].owner, Owner::Rate(_));
     for block in &model.order {
@@ -99,7 +99,7 @@ fn add_wrench<T: Scalar>(
 /// Adds a force and torque at I to the part of I, and the opposite to the part of J unless the load acts on I
 /// only.
 fn apply<T: Scalar>(
-    model: &Model,
+    model: &AdamsModel,
     wrenches: &mut Wrenches<T>,
     parts: &[Frame<T>],
     on: &Evaluation<'_, T>,
@@ -151,8 +151,9 @@ fn constrain<T: Scalar>(
 
 /// The difference between an angle, given by its sine and cosine, and another angle, from -pi to pi.
 fn angle_difference<T: Scalar>(sin: &T, cos: &T, other: &T) -> T {
-    let one =
-        |unary: Unary| Function::Unary(unary).value(std::slice::from_ref(other)).unwrap_or(T::constant(0.0));
-    let (s, c) = (one(Unary::Sin), one(Unary::Cos));
+    let one = |unary: UnaryFunction| {
+        Function::Unary(unary).value(std::slice::from_ref(other)).unwrap_or(T::constant(0.0))
+    };
+    let (s, c) = (one(UnaryFunction::Sin), one(UnaryFunction::Cos));
     atan2(&sin.times(&c).minus(&cos.times(&s)), &cos.times(&c).plus(&sin.times(&s)))
 }

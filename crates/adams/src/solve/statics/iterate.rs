@@ -2,8 +2,8 @@
 
 use crate::kinematics::Frame;
 use crate::kinematics::vector::{Matrix, add, cross_columns, matrix, vector};
-use crate::model::{Block, Model, Owner};
-use crate::{Dual, Error, Pose, Scalar, State, StatementId};
+use crate::model::{AdamsModel, Block, Owner};
+use crate::{Dual, Error, ModelState, Pose, Scalar, StatementId};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ pub(super) enum Unknown {
 }
 
 /// The unknowns of a model.
-pub(super) fn unknowns(model: &Model) -> Vec<Unknown> {
+pub(super) fn unknowns(model: &AdamsModel) -> Vec<Unknown> {
     let mut out = Vec::new();
     for (k, _) in model.parts.iter().enumerate().filter(|(_, part)| !part.ground) {
         out.extend((0..3).map(|axis| Unknown::Translation(k, axis)));
@@ -64,7 +64,7 @@ impl Iterate {
     ///
     /// # Errors
     /// [`Error::State`] for a state without one of the parts or DIFFs.
-    pub fn new(model: &Model, state: &State) -> Result<Iterate, Error> {
+    pub fn new(model: &AdamsModel, state: &ModelState) -> Result<Iterate, Error> {
         let mut out = Iterate {
             time: state.time,
             origins: Vec::new(),
@@ -74,7 +74,7 @@ impl Iterate {
             reactions: model.constraints.iter().map(|one| vec![0.0; one.equations.len()]).collect(),
         };
         for part in &model.parts {
-            let ground = Pose::at(Vector3::zeros(), Matrix3::identity());
+            let ground = Pose::at_rest(Vector3::zeros(), Matrix3::identity());
             let pose = if part.ground { Some(&ground) } else { state.parts.get(&part.id) };
             let pose = pose.ok_or_else(|| Error::State { statement: StatementId::new("PART", part.id) })?;
             out.origins.push(pose.origin);
@@ -143,10 +143,10 @@ impl Iterate {
     }
 
     /// The state at this iterate.
-    pub fn state(&self, model: &Model) -> State {
+    pub fn state(&self, model: &AdamsModel) -> ModelState {
         let moving = model.parts.iter().enumerate().filter(|(_, part)| !part.ground);
-        let pose = |k: usize| Pose::at(self.origins[k], self.rotations[k]);
-        State {
+        let pose = |k: usize| Pose::at_rest(self.origins[k], self.rotations[k]);
+        ModelState {
             time: self.time,
             parts: moving.map(|(k, part)| (part.id, pose(k))).collect(),
             differentials: model

@@ -10,11 +10,11 @@ mod iterate;
 mod motion;
 mod search;
 
-use crate::{Error, Model, State};
-pub use equilibrium::{Equilibrium, Reaction};
+use crate::{AdamsModel, Error, ModelState};
+pub use equilibrium::{ConstraintReaction, Equilibrium};
 use search::search;
 
-impl Model {
+impl AdamsModel {
     /// The static equilibrium at a time, near a guess.
     ///
     /// The unknowns are the positions and finite rotations of all moving parts, the torn VARIABLEs of
@@ -55,8 +55,8 @@ impl Model {
     /// assert!((rest.reactions[&("JOINT", 1)].force.z - 3.0 * 9.81).abs() < 1e-9);
     /// # Ok::<(), adams::Error>(())
     /// ```
-    pub fn equilibrium(&self, time: f64, guess: &State) -> Result<Equilibrium, Error> {
-        search(self, &State { time, ..guess.clone() }, None)
+    pub fn equilibrium(&self, time: f64, guess: &ModelState) -> Result<Equilibrium, Error> {
+        search(self, &ModelState { time, ..guess.clone() }, None)
     }
 
     /// The static equilibria at several times, each found from the one before: the quasi-static path. The
@@ -64,12 +64,12 @@ impl Model {
     ///
     /// # Errors
     /// The errors of [`Model::equilibrium`].
-    pub fn path(&self, times: &[f64]) -> Result<Vec<Equilibrium>, Error> {
+    pub fn quasi_static_path(&self, times: &[f64]) -> Result<Vec<Equilibrium>, Error> {
         let mut out: Vec<Equilibrium> = Vec::with_capacity(times.len());
         for time in times {
             let before = out.last();
             let guess = before.map_or_else(|| self.initial(), |one| one.state.clone());
-            let next = search(self, &State { time: *time, ..guess }, before)?;
+            let next = search(self, &ModelState { time: *time, ..guess }, before)?;
             out.push(next);
         }
         Ok(out)

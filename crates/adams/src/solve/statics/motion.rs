@@ -1,7 +1,7 @@
 //! The displacements that motions prescribe.
 
 use crate::model::{Constraint, Evaluation};
-use crate::{Error, Fault, Scalar, StatementId};
+use crate::{AdamsFault, Error, Scalar, StatementId};
 
 /// Largest number of times that the interval of an integral is halved.
 const DEEPEST: usize = 30;
@@ -10,7 +10,7 @@ const DEEPEST: usize = 30;
 ///
 /// A prescribed velocity is integrated from time zero by adaptive Gauss quadrature.
 pub(super) fn prescribed<T: Scalar>(constraint: &Constraint, on: &mut Evaluation<'_, T>) -> Result<T, Error> {
-    let refuse = |fault: Fault| Error::In {
+    let refuse = |fault: AdamsFault| Error::In {
         statement: StatementId::new(constraint.keyword, constraint.id),
         argument: "FUNCTION",
         offset: 0,

@@ -11,12 +11,12 @@
 //! negligible, Newton's method starts again.
 
 use super::balance::balance;
-use super::equilibrium::{Equilibrium, Reaction};
+use super::equilibrium::{ConstraintReaction, Equilibrium};
 use super::iterate::{Iterate, Unknown, seed, unknowns};
 use crate::kinematics::Frame;
-use crate::model::{Configuration, Equation, Evaluation, Model, Owner};
+use crate::model::{AdamsModel, Configuration, Equation, Evaluation, Owner};
 use crate::solve::linear::FactoredMatrix;
-use crate::{Dual, Error, Scalar, State, StatementId};
+use crate::{Dual, Error, ModelState, Scalar, StatementId};
 use nalgebra::{DMatrix, Vector3};
 use std::collections::BTreeMap;
 
@@ -31,8 +31,8 @@ const RESIDUAL: f64 = 1e-9;
 
 /// Finds the equilibrium near a guess. Another equilibrium, if given, supplies the initial values of loops.
 pub(super) fn search(
-    model: &Model,
-    guess: &State,
+    model: &AdamsModel,
+    guess: &ModelState,
     before: Option<&Equilibrium>,
 ) -> Result<Equilibrium, Error> {
     let mut start = Iterate::new(model, guess)?;
@@ -56,7 +56,7 @@ pub(super) fn search(
 
 /// A search and the scales of its quantities.
 struct Search<'a> {
-    model: &'a Model,
+    model: &'a AdamsModel,
     unknowns: Vec<Unknown>,
     /// Typical length of the model.
     length: f64,
@@ -227,7 +227,7 @@ impl Search<'_> {
             .collect();
         let mut on = self.evaluation(at.time, &frames, differentials, values);
         let all = balance(self.model, &frames, &mut on, &self.unknowns, &reactions)?;
-        let matrix = DMatrix::from_fn(count, count, |i, j| all[i].slope(j));
+        let matrix = DMatrix::from_fn(count, count, |i, j| all[i].derivative(j));
         Ok((all.iter().map(Scalar::value).collect(), matrix))
     }
 
@@ -307,11 +307,17 @@ impl Search<'_> {
         let mut reactions = BTreeMap::new();
         for (constraint, reaction) in self.model.constraints.iter().zip(&solution.reactions) {
             if let Some([force, torque]) = reaction {
-                let reaction = Reaction { force: (*force).into(), torque: (*torque).into() };
+                let reaction = ConstraintReaction { force: (*force).into(), torque: (*torque).into() };
                 reactions.insert((constraint.keyword, constraint.id), reaction);
             }
         }
-        Ok(Equilibrium { state: at.state(self.model), solution, reactions, iterations, undetermined })
+        Ok(Equilibrium {
+            state: at.state(self.model),
+            solution,
+            reactions,
+            iterations,
+            rank_deficiency: undetermined,
+        })
     }
 }
 
@@ -332,7 +338,7 @@ fn largest(all: &[f64], scales: &[f64]) -> (usize, f64) {
 }
 
 /// The size of the model: the largest distance of a marker from its part, or of a part from the first one.
-fn model_length(model: &Model, at: &Iterate) -> f64 {
+fn model_length(model: &AdamsModel, at: &Iterate) -> f64 {
     let arms = model.markers.iter().map(|marker| Vector3::from(marker.position).norm());
     let first = at.origins.first().copied().unwrap_or_default();
     let parts = at.origins.iter().map(|origin| (origin - first).norm());
@@ -341,7 +347,7 @@ fn model_length(model: &Model, at: &Iterate) -> f64 {
 }
 
 /// The largest weight of a part.
-fn model_force(model: &Model) -> f64 {
+fn model_force(model: &AdamsModel) -> f64 {
     let g = Vector3::from(model.gravity).norm();
     let top = model.parts.iter().map(|part| part.mass.abs() * g).fold(0.0, f64::max);
     if top > 0.0 { top } else { 1.0 }

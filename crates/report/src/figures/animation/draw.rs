@@ -1,7 +1,7 @@
 //! A picture under construction, in pixels, with elements that move.
 
 use crate::chart::Svg;
-use crate::document::film::Track;
+use crate::document::animated::AnimationTrack;
 
 /// Width of the picture.
 pub(super) const WIDTH: f64 = 860.0;
@@ -16,15 +16,15 @@ pub(super) const ORANGE: &str = "#d65a0b";
 pub(super) const BLUE: &str = "#0b55a4";
 
 /// The picture.
-pub(super) struct Drawing {
+pub(super) struct PlanDrawing {
     body: String,
-    tracks: Vec<(usize, Track)>,
+    tracks: Vec<(usize, AnimationTrack)>,
     elements: usize,
 }
 
-impl Drawing {
-    pub fn new() -> Drawing {
-        Drawing { body: String::new(), tracks: Vec::new(), elements: 0 }
+impl PlanDrawing {
+    pub fn new() -> PlanDrawing {
+        PlanDrawing { body: String::new(), tracks: Vec::new(), elements: 0 }
     }
 
     fn add(&mut self, text: &str) {
@@ -33,7 +33,7 @@ impl Drawing {
     }
 
     /// The attribute of a new element that follows the tracks.
-    fn element(&mut self, tracks: impl IntoIterator<Item = Track>) -> String {
+    fn element(&mut self, tracks: impl IntoIterator<Item = AnimationTrack>) -> String {
         let element = self.elements;
         self.elements += 1;
         self.tracks.extend(tracks.into_iter().map(|track| (element, track)));
@@ -41,9 +41,9 @@ impl Drawing {
     }
 
     /// What `draw` adds moves along `places`; drawn as at the frame `still`.
-    pub fn moving(&mut self, places: Vec<[f64; 2]>, still: usize, draw: impl FnOnce(&mut Drawing)) {
+    pub fn moving(&mut self, places: Vec<[f64; 2]>, still: usize, draw: impl FnOnce(&mut PlanDrawing)) {
         let [x, y] = places.get(still).copied().unwrap_or_default();
-        let mark = self.element([Track::Move(places)]);
+        let mark = self.element([AnimationTrack::Displacement(places)]);
         self.add(&format!("<g {mark} transform=\"translate({x:.2} {y:.2})\">"));
         draw(self);
         self.add("</g>");
@@ -87,7 +87,7 @@ impl Drawing {
     ) {
         let now = values.get(still).copied().unwrap_or_default();
         let [x2, y2] = if end == "x2" { [now, y] } else { [x, now] };
-        let mark = self.element([Track::Set(end, values)]);
+        let mark = self.element([AnimationTrack::Attribute(end, values)]);
         let (colour, width) = style;
         self.add(&format!(
             "<line {mark} x1=\"{x:.2}\" y1=\"{y:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
@@ -99,10 +99,10 @@ impl Drawing {
         let now = ends.each_ref().map(|end| end.get(still).copied().unwrap_or_default());
         let part = |end: usize, k: usize| ends[end].iter().map(|place| place[k]).collect();
         let tracks = [
-            Track::Set("x1", part(0, 0)),
-            Track::Set("y1", part(0, 1)),
-            Track::Set("x2", part(1, 0)),
-            Track::Set("y2", part(1, 1)),
+            AnimationTrack::Attribute("x1", part(0, 0)),
+            AnimationTrack::Attribute("y1", part(0, 1)),
+            AnimationTrack::Attribute("x2", part(1, 0)),
+            AnimationTrack::Attribute("y2", part(1, 1)),
         ];
         let mark = self.element(tracks);
         let [[x1, y1], [x2, y2]] = now;
@@ -133,7 +133,7 @@ impl Drawing {
         let power = 10f64.powi(i32::try_from(digits).unwrap_or_default());
         // no minus before a zero
         let now = (now * power).round() / power + 0.0;
-        let mark = self.element([Track::Say(digits, values)]);
+        let mark = self.element([AnimationTrack::Number(digits, values)]);
         let (name, unit) = (escaped(name), escaped(unit));
         let end = x + 196.0;
         self.add(&format!(
@@ -143,7 +143,7 @@ impl Drawing {
     }
 
     /// The picture, and its tracks.
-    pub fn finish(self, width: f64, height: f64) -> (Svg, Vec<(usize, Track)>) {
+    pub fn finish(self, width: f64, height: f64) -> (Svg, Vec<(usize, AnimationTrack)>) {
         let svg =
             Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));
         (svg, self.tracks)

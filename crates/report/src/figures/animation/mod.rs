@@ -8,16 +8,16 @@ mod plan;
 mod section;
 mod view;
 
-use crate::document::film::Film;
+use crate::document::animated::Animation;
 
-use crate::figures::pictures::{Labelled, Plate};
+use crate::figures::pictures::{LabelledRun, RunFigure};
 use crate::{Picture, number};
-use draw::{Drawing, WIDTH};
+use draw::{PlanDrawing, WIDTH};
 use formats::motion::Cast;
 use formats::units::Dimension;
 use foundations::Error;
 use results::layout::ScenePositions;
-use view::{BAR, View};
+use view::{AnimationView, BAR};
 
 /// Largest number of frames.
 const FRAMES: usize = 400;
@@ -29,7 +29,7 @@ const FRAMES: usize = 400;
 ///
 /// # Errors
 /// A spec that no model can be made of.
-pub fn plate(run: &Labelled, cast: &Cast) -> Result<Option<Plate>, Error> {
+pub fn animation_figure(run: &LabelledRun, cast: &Cast) -> Result<Option<RunFigure>, Error> {
     let scene = run.scene;
     let rides = scene.structures.iter().any(|structure| structure.on.is_some());
     let hangs = scene.bodies.iter().any(|body| body.in_space);
@@ -52,8 +52,8 @@ pub fn plate(run: &Labelled, cast: &Cast) -> Result<Option<Plate>, Error> {
         }
     }
     let force = if most > 0.0 { BAR / most } else { 0.0 };
-    let view = View { scene, cast, layout, run, rows, still, force };
-    let mut drawing = Drawing::new();
+    let view = AnimationView { scene, cast, layout, run, rows, still, force };
+    let mut drawing = PlanDrawing::new();
     let top = plan::draw(&view, &mut drawing, 46.0);
     let bottom = section::draw(&view, &mut drawing, top + 34.0);
     let unit = scene.units.label(Dimension::FORCE);
@@ -67,6 +67,6 @@ pub fn plate(run: &Labelled, cast: &Cast) -> Result<Option<Plate>, Error> {
     );
     let times: Vec<f64> = view.rows.iter().map(|row| time[*row]).collect();
     let (svg, tracks) = drawing.finish(WIDTH, bottom);
-    let film = Film { svg, still: times[view.still], times, tracks };
-    Ok(Some(Plate { name: "crane".to_owned(), caption, picture: Picture::Film(Box::new(film)) }))
+    let film = Animation { svg, still_time: times[view.still], times, tracks };
+    Ok(Some(RunFigure { name: "crane".to_owned(), caption, picture: Picture::Animation(Box::new(film)) }))
 }

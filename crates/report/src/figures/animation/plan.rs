@@ -1,13 +1,13 @@
 //! The plan: x to the right, what lies to the right of the rails downwards.
 
-use super::draw::{BLUE, DARK, Drawing, GREY, INK, ORANGE, SIDE, STEEL, WIDTH};
-use super::view::{BAR, View};
+use super::draw::{BLUE, DARK, GREY, INK, ORANGE, PlanDrawing, SIDE, STEEL, WIDTH};
+use super::view::{AnimationView, BAR};
 
 /// Most pixels across.
 const ACROSS: f64 = 300.0;
 
 /// Draws the plan below `top`; gives where it ends.
-pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
+pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) -> f64 {
     let scene = view.scene;
     let rails = view.rails();
     let hull = |values: &mut dyn Iterator<Item = f64>| {

@@ -1,14 +1,14 @@
 //! The view along the runway: what lies to the right of the rails to the right, up is up; and numbers beside it.
 
-use super::draw::{DARK, Drawing, GREY, INK, ORANGE, STEEL, WIDTH};
-use super::view::{BAR, View};
+use super::draw::{DARK, GREY, INK, ORANGE, PlanDrawing, STEEL, WIDTH};
+use super::view::{AnimationView, BAR};
 use formats::units::Dimension;
 
 /// Room for the view; the numbers stand right of it.
 const ROOM: [f64; 2] = [600.0, 330.0];
 
 /// Draws the view below `top`; gives where it ends.
-pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
+pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) -> f64 {
     let scene = view.scene;
     let rails = view.rails();
     let origins: Vec<Vec<[f64; 3]>> = (0..scene.bodies.len()).map(|body| view.origins(body)).collect();
@@ -94,7 +94,7 @@ pub(super) fn draw(view: &View, drawing: &mut Drawing, top: f64) -> f64 {
 }
 
 /// Both ends of every rope at the frames: across and up.
-fn rope_ends(view: &View) -> Vec<[Vec<[f64; 2]>; 2]> {
+fn rope_ends(view: &AnimationView) -> Vec<[Vec<[f64; 2]>; 2]> {
     let end = |body: Option<usize>, at: [f64; 3]| -> Vec<[f64; 2]> {
         match body {
             None => vec![[at[2], at[1]]; view.rows.len()],
@@ -109,7 +109,7 @@ fn rope_ends(view: &View) -> Vec<[Vec<[f64; 2]>; 2]> {
 }
 
 /// Numbers beside the view.
-fn numbers(view: &View, drawing: &mut Drawing, top: f64) {
+fn numbers(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) {
     let units = view.scene.units;
     let column = |name: &str| -> Option<Vec<f64>> {
         let values = view.run.record.values(name);

@@ -1,6 +1,6 @@
 //! One run as both views of the animation need it.
 
-use crate::figures::pictures::Labelled;
+use crate::figures::pictures::LabelledRun;
 use formats::motion::Cast;
 use formats::scene::Scene;
 use results::layout::ScenePositions;
@@ -9,11 +9,11 @@ use results::layout::ScenePositions;
 pub(super) const BAR: f64 = 48.0;
 
 /// What both views need of one run.
-pub(super) struct View<'v> {
+pub(super) struct AnimationView<'v> {
     pub scene: &'v Scene,
     pub cast: &'v Cast,
     pub layout: ScenePositions<'v>,
-    pub run: &'v Labelled<'v>,
+    pub run: &'v LabelledRun<'v>,
     /// Rows of the record that are drawn as frames.
     pub rows: Vec<usize>,
     /// Index among them of the frame that is drawn where scripts do not run.
@@ -22,7 +22,7 @@ pub(super) struct View<'v> {
     pub force: f64,
 }
 
-impl View<'_> {
+impl AnimationView<'_> {
     /// A quantity of a wheel in each frame.
     pub fn wheel(&self, wheel: usize, part: &str) -> Vec<f64> {
         let values = self.run.record.part(&self.cast.wheels[wheel].name, part);

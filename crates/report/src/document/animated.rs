@@ -7,13 +7,13 @@ use crate::coded;
 
 /// What changes at an element of the picture, with one value for each frame.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Track {
+pub enum AnimationTrack {
     /// Its displacement (x, y) in pixels.
-    Move(Vec<[f64; 2]>),
+    Displacement(Vec<[f64; 2]>),
     /// An attribute with its values.
-    Set(&'static str, Vec<f64>),
+    Attribute(&'static str, Vec<f64>),
     /// The number that it shows, with so many digits after the point.
-    Say(usize, Vec<f64>),
+    Number(usize, Vec<f64>),
 }
 
 /// An animated picture; it is drawn as at one frame.
@@ -28,15 +28,15 @@ pub enum Track {
 /// assert!(film.data().is_some_and(|data| data.contains("transform")));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Film {
+pub struct Animation {
     /// The picture at that frame. Element `i` of the tracks has the attribute `data-m="i"`.
     pub svg: Svg,
     /// Time of the frame as which the picture is drawn, in seconds.
-    pub still: f64,
+    pub still_time: f64,
     /// Times of the frames in seconds, increasing.
     pub times: Vec<f64>,
     /// Elements with their tracks.
-    pub tracks: Vec<(usize, Track)>,
+    pub tracks: Vec<(usize, AnimationTrack)>,
 }
 
 /// Power of ten to which places are kept: a hundredth of a pixel is not seen.
@@ -44,7 +44,7 @@ const PIXEL: i32 = -2;
 /// Power of ten to which times are kept, in seconds.
 const INSTANT: i32 = -6;
 
-impl Film {
+impl Animation {
     /// Times and tracks as JSON; `None` where a number is not finite.
     #[must_use]
     pub fn data(&self) -> Option<String> {
@@ -52,19 +52,21 @@ impl Film {
         let mut tracks = Vec::new();
         for (element, track) in &self.tracks {
             let is_finite = match track {
-                Track::Move(places) => places.iter().all(|place| finite(place)),
-                Track::Set(_, values) | Track::Say(_, values) => finite(values),
+                AnimationTrack::Displacement(places) => places.iter().all(|place| finite(place)),
+                AnimationTrack::Attribute(_, values) | AnimationTrack::Number(_, values) => finite(values),
             };
             if !is_finite {
                 return None;
             }
             tracks.push(match track {
-                Track::Move(places) => {
+                AnimationTrack::Displacement(places) => {
                     let [x, y] = [0, 1].map(|k| places.iter().map(|place| place[k]).collect::<Vec<f64>>());
                     json!({"e": element, "a": "transform", "x": coded(&x, PIXEL), "y": coded(&y, PIXEL)})
                 }
-                Track::Set(name, values) => json!({"e": element, "a": name, "v": coded(values, PIXEL)}),
-                Track::Say(digits, values) => {
+                AnimationTrack::Attribute(name, values) => {
+                    json!({"e": element, "a": name, "v": coded(values, PIXEL)})
+                }
+                AnimationTrack::Number(digits, values) => {
                     let power = i32::try_from(*digits).unwrap_or(0);
                     json!({"e": element, "a": "text", "d": digits, "v": coded(values, -power)})
                 }
