@@ -21,7 +21,7 @@ pub(crate) struct Track {
 pub(crate) struct Span {
     /// First and last coordinate.
     pub x: [f64; 2],
-    /// 1/(x[1] - x[0]).
+    /// 1/(extent in x).
     pub scale: f64,
     /// Place of `x[0]` along the member, and the signed length from there to `x[1]`.
     pub start: f64,
