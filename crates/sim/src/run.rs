@@ -4,16 +4,17 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::energy::Audit;
-use crate::history::History;
-use crate::passage;
-use crate::recorder::Recorder;
-use crate::samples::Samples;
-use crate::scene::Analysis;
-use crate::solver::Solver;
-use crate::state::State;
-use crate::stepper::{Counts, Failure, Stepper};
-use crate::system::System;
+use crate::contact::solver::Solver;
+use crate::contact::system::System;
+use crate::mechanics::state::State;
+use crate::record::energy::Audit;
+use crate::record::history::History;
+use crate::record::recorder::Recorder;
+use crate::scene::model::Analysis;
+use crate::time::counts::Counts;
+use crate::time::passage::crossing;
+use crate::time::samples::Samples;
+use crate::time::stepper::{Failure, Stepper};
 use crate::{Action, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
@@ -95,16 +96,23 @@ pub fn run_by(
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
-    let mut state = State::new(&system);
+    let mut state = system.state();
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
     if method == Method::Series {
         if step.is_none()
             && scene.analysis == Analysis::Dynamic
-            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+            && let Some(crossed) = crossing::run(&system, &state, placed(&system), watch)?
         {
-            return Ok(run);
+            return Ok(Run {
+                status: if crossed.is_stopped { Status::Stopped } else { Status::Done },
+                history: crossed.history,
+                fired: Vec::new(),
+                audit: crossed.audit,
+                counts: crossed.counts,
+                method: Some(Method::Series),
+            });
         }
         method = Method::Radau;
     }
@@ -120,7 +128,7 @@ pub fn run_by(
 
 /// Sets the freedoms of every body to its six `values`.
 fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [f64; 6]) {
-    for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
+    for (body, numbers) in system.scene.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
         for (number, value) in numbers.iter().zip(values(body)) {
             if let Some(number) = *number {
                 freedoms[number] = value;
@@ -132,7 +140,7 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
 /// Whether some body on wheels starts where the scene puts it, not at rest.
 fn placed(system: &System) -> bool {
     system.scene.bodies.iter().enumerate().any(|(b, body)| {
-        system.wheels.iter().any(|wheel| wheel.body == b)
+        system.mechanics.wheels.iter().any(|wheel| wheel.body == b)
             && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
     })
 }
@@ -161,7 +169,7 @@ fn integrate(
         Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
     stepper.fixed = stepping.step;
     let mut status = Status::Done;
-    let mut breaks = breaks(scene);
+    let mut breaks = scene.breaks();
     let due = stepper.due()?;
     let (mut fired, ends) = stepper.act(due)?;
     if ends {
@@ -218,28 +226,6 @@ fn integrate(
     })
 }
 
-/// Times at which a step must end, in their order; the end of the scene is the last.
-fn breaks(scene: &Scene) -> Vec<f64> {
-    let mut breaks: Vec<f64> = scene
-        .bodies
-        .iter()
-        .filter_map(|body| body.motion.as_ref())
-        .flat_map(|profile| profile.breaks().iter().copied())
-        .chain(scene.actuators.breaks())
-        .filter(|&t| t > 0.0 && t < scene.end)
-        .collect();
-    breaks.push(scene.end);
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup();
-    breaks
-}
-
-/// Time of output `k`; the end itself where the product differs from it by rounding.
-pub(crate) fn output_time(scene: &Scene, k: u64) -> f64 {
-    let t = k as f64 * scene.output_dt;
-    if (t - scene.end).abs() <= 1e-12 * scene.end { scene.end } else { t }
-}
-
 /// The status after the first rule that ends the run.
 fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     let rules = &scene.actuators.rules;
@@ -254,7 +240,8 @@ fn sweep(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    if let Some(body) = (0..scene.bodies.len()).find(|&b| system.freedom[b][0].is_some()) {
+    if let Some(body) = (0..scene.bodies.len()).find(|&b| system.mechanics.kinematics.numbers[b][0].is_some())
+    {
         return Err(Error::NotPrescribed { body });
     }
     let mut recorder = Recorder::new(system);

@@ -1,0 +1,414 @@
+//! A step of force-form collocation: the contact forces at all nodes at once, from one linear system.
+//!
+//! Bodies answer to the forces by the collocation's double integrals, modes by their exact propagators, so that a
+//! step resolves the forces and not the modes: q(c_i h) = free motion - sum_j W_ij R_j^T F_j.
+
+use nalgebra::DVector;
+
+use crate::contact::geometry::Geometry;
+use crate::contact::solver::Solver;
+use crate::contact::system::System;
+use crate::mechanics::state::State;
+use crate::numerics::dense::{dot, solve_general};
+use crate::record::energy::power;
+use crate::time::nodes::Nodes;
+use crate::time::propagator::Propagator;
+use crate::{Dynamics, Error, Exchanged};
+
+/// Everything a step needs; n freedoms, m components, s nodes.
+pub(crate) struct Collocation {
+    nodes: Nodes,
+    /// omega and zeta of each freedom; omega 0: a body's.
+    modes: Vec<[f64; 2]>,
+    /// Answers for the lengths of step met last; the first is that of the step.
+    answers: Vec<Answers>,
+    /// The contacts at the nodes.
+    places: Vec<Geometry>,
+    /// What a force at a node does: M^-1 R^T, s x m x n; R M^-1 R^T where rows are the same everywhere, m x m.
+    spread: Vec<f64>,
+    mobile: Vec<f64>,
+    is_spread: bool,
+    /// Loads by M^-1 at the nodes, s x n: without contacts, and with them; and at the start.
+    weight: Vec<DVector<f64>>,
+    load: Vec<DVector<f64>>,
+    load_start: DVector<f64>,
+    /// Whether loads without contacts never change.
+    steady: bool,
+    /// Free approach and its rate as the damper feels it at (node, component), and what a force at another takes.
+    approach: Vec<f64>,
+    rate: Vec<f64>,
+    take: Vec<f64>,
+    take_rate: Vec<f64>,
+    matrix: Vec<f64>,
+    force: Vec<f64>,
+    index: Vec<usize>,
+    states: Vec<State>,
+    powers: Vec<Exchanged>,
+}
+
+/// Answers of every freedom over a step of length `h`.
+struct Answers {
+    h: f64,
+    /// Answers to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
+    free: Vec<[f64; 4]>,
+    /// Answers q and v to the load at every node; (s + 1) x s x n.
+    forced: Vec<[f64; 2]>,
+}
+
+/// Lengths of step whose answers are kept where there are modes.
+const KEPT: usize = 12;
+
+impl Answers {
+    fn new(nodes: &Nodes, n: usize) -> Self {
+        let s = nodes.count();
+        Answers { h: 0.0, free: vec![[0.0; 4]; (s + 1) * n], forced: vec![[0.0; 2]; (s + 1) * s * n] }
+    }
+
+    fn fill(&mut self, nodes: &Nodes, modes: &[[f64; 2]], h: f64) {
+        self.h = h;
+        let (s, n) = (nodes.count(), modes.len());
+        for (r, &[omega, zeta]) in modes.iter().enumerate() {
+            let mode = (omega > 0.0).then(|| Propagator::new(omega, zeta, h));
+            for i in 0..=s {
+                let c = nodes.c[i];
+                self.free[i * n + r] = mode.as_ref().map_or([1.0, c * h, 0.0, 1.0], |mode| mode.free(c));
+                let powers = mode.as_ref().map(|mode| mode.forced(c));
+                for b in 0..s {
+                    self.forced[(i * s + b) * n + r] = match powers {
+                        None => [h * h * nodes.a2[i * s + b], h * nodes.a[i * s + b]],
+                        Some(powers) => [0, 1].map(|part| nodes.load(b, &powers, part)),
+                    };
+                }
+            }
+        }
+    }
+}
+
+impl Collocation {
+    pub fn new(system: &System, nodes: Nodes, start: &State) -> Self {
+        let (n, m, s) = (system.mechanics.dofs, system.components(), nodes.count());
+        let mut modes = vec![[0.0; 2]; n];
+        for (range, foundation) in system.mechanics.structures.iter().zip(system.foundations) {
+            if let Some(Dynamics::Modes { omega, ratio }) = foundation.structure.as_ref().map(|s| &s.dynamics)
+            {
+                for (k, number) in range.clone().enumerate() {
+                    modes[number] = [omega[k], ratio[k]];
+                }
+            }
+        }
+        let size = s * m;
+        let moves = system.scene.bodies.iter().enumerate().filter(|(_, body)| body.motion.is_some());
+        let drags = moves.into_iter().any(|(b, _)| !system.mechanics.kinematics.travel_inertia(b).is_empty());
+        Collocation {
+            modes,
+            answers: vec![Answers::new(&nodes, n)],
+            places: vec![Geometry::new(system); s],
+            spread: vec![0.0; size * n],
+            mobile: vec![0.0; m * m],
+            is_spread: false,
+            weight: vec![DVector::zeros(n); s],
+            load: vec![DVector::zeros(n); s],
+            load_start: DVector::zeros(n),
+            steady: system.scene.actuators.loads.is_empty() && !drags,
+            approach: vec![0.0; size],
+            rate: vec![0.0; size],
+            take: vec![0.0; size * size],
+            take_rate: vec![0.0; size * size],
+            matrix: vec![0.0; size * size],
+            force: vec![0.0; size],
+            index: Vec::with_capacity(size),
+            states: vec![start.clone(); s],
+            powers: vec![Exchanged::default(); s],
+            nodes,
+        }
+    }
+
+    /// Whether some freedom is a mode.
+    pub fn is_modal(&self) -> bool {
+        self.modes.iter().any(|mode| mode[0] > 0.0)
+    }
+
+    /// Number of nodes.
+    pub fn count(&self) -> usize {
+        self.nodes.count()
+    }
+
+    /// Energy exchanged in the step, by the quadrature of the nodes.
+    pub fn booked(&self) -> Exchanged {
+        let s = self.count();
+        let mut booked = Exchanged::default();
+        for (power, weight) in self.powers.iter().zip(&self.nodes.a[s * s..]) {
+            booked.add(power, self.answers[0].h * weight);
+        }
+        booked
+    }
+
+    /// Takes a step of length `h` from `from` with the contacts that are active; false where it has no solution.
+    pub fn attempt(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        h: f64,
+        limit: f64,
+        to: &mut State,
+    ) -> Result<bool, Error> {
+        self.set_step(h);
+        let (s, n, m) = (self.count(), to.q.len(), solver.system.components());
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
+            self.load_start[r] = from.a[r] + omega * (2.0 * zeta * from.v[r] + omega * from.q[r]);
+        }
+        for a in 0..s {
+            let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
+            self.states[a].t = t;
+            self.places[a].update(solver.system, t, &from.q, &from.force)?;
+            if !(self.is_spread && self.steady) {
+                self.weight[a].copy_from(solver.accelerate(t));
+            }
+            if !(self.is_spread && solver.system.constant_rows) {
+                let rows = self.places[a].rows.chunks_exact(n.max(1));
+                for (row, spread) in rows.zip(self.spread[a * m * n..].chunks_exact_mut(n.max(1))) {
+                    solver.spread_row(row, spread);
+                }
+            }
+        }
+        if solver.system.constant_rows {
+            self.fill_body_answers(solver, from);
+        } else {
+            self.fill_answers(solver, from);
+        }
+        self.is_spread = true;
+        if !self.solve(solver, from) {
+            return Ok(false);
+        }
+        self.book(solver, from, to, limit)
+    }
+
+    /// Brings the answers over a step of length `h` to the front.
+    fn set_step(&mut self, h: f64) {
+        if let Some(known) = self.answers.iter().position(|answers| answers.h == h) {
+            self.answers[..=known].rotate_right(1);
+            return;
+        }
+        if self.is_modal() && self.answers.len() < KEPT {
+            self.answers.push(Answers::new(&self.nodes, self.modes.len()));
+        }
+        self.answers.rotate_right(1);
+        self.answers[0].fill(&self.nodes, &self.modes, h);
+    }
+
+    /// State of freedom `r` at target `i` under the loads at the nodes.
+    fn answer(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
+        let (s, n) = (self.count(), self.modes.len());
+        let answers = &self.answers[0];
+        let [qq, qv, vq, vv] = answers.free[i * n + r];
+        let mut out = [qq * from.q[r] + qv * from.v[r], vq * from.q[r] + vv * from.v[r]];
+        for (b, load) in load.iter().enumerate() {
+            let [q, v] = answers.forced[(i * s + b) * n + r];
+            out[0] += q * load[r];
+            out[1] += v * load[r];
+        }
+        out
+    }
+
+    /// Free approach and what forces take, by the answers of every freedom.
+    fn fill_answers(&mut self, solver: &Solver, from: &State) {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let size = s * m;
+        for a in 0..s {
+            for r in 0..n {
+                let [q, v] = self.answer(&self.weight, from, a, r);
+                (self.states[a].q[r], self.states[a].v[r]) = (q, v);
+            }
+            let place = &self.places[a];
+            for i in 0..m {
+                let row = &place.rows[i * n..(i + 1) * n];
+                let rate_row = &place.rate_rows[i * n..(i + 1) * n];
+                self.approach[a * m + i] = place.held[i] + dot(row, self.states[a].q.as_slice());
+                self.rate[a * m + i] = place.rate_held[i] + dot(rate_row, self.states[a].v.as_slice());
+                for b in 0..s {
+                    let answers = &self.answers[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
+                    for j in 0..m {
+                        let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
+                        let (mut q, mut v) = (0.0, 0.0);
+                        for (r, ([by_q, by_v], spread)) in answers.iter().zip(spread).enumerate() {
+                            q += row[r] * by_q * spread;
+                            v += rate_row[r] * by_v * spread;
+                        }
+                        let give = if a == b { place.compliance[i * m + j] } else { 0.0 };
+                        self.take[(a * m + i) * size + b * m + j] = give + q;
+                        self.take_rate[(a * m + i) * size + b * m + j] = v;
+                    }
+                }
+            }
+        }
+    }
+
+    /// [`Self::fill_answers`] where rows are the same everywhere and all freedoms are bodies'.
+    fn fill_body_answers(&mut self, solver: &Solver, from: &State) {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let (size, h) = (s * m, self.answers[0].h);
+        let rows = &self.places[0].rows;
+        if !self.is_spread {
+            for i in 0..m {
+                for j in 0..m {
+                    self.mobile[i * m + j] = dot(&rows[i * n..(i + 1) * n], &self.spread[j * n..(j + 1) * n]);
+                }
+            }
+        }
+        for i in 0..m {
+            let row = &rows[i * n..(i + 1) * n];
+            let start = self.places[0].held[i] + dot(row, from.q.as_slice());
+            let rate = dot(row, from.v.as_slice());
+            for a in 0..s {
+                self.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
+                self.rate[a * m + i] = rate;
+            }
+            for b in 0..s {
+                let weight = dot(row, self.weight[b].as_slice());
+                for a in 0..s {
+                    self.approach[a * m + i] += h * h * self.nodes.a2[a * s + b] * weight;
+                    self.rate[a * m + i] += h * self.nodes.a[a * s + b] * weight;
+                }
+            }
+        }
+        for a in 0..s {
+            let compliance = &self.places[a].compliance;
+            for b in 0..s {
+                let by_q = h * h * self.nodes.a2[a * s + b];
+                let by_v = h * self.nodes.a[a * s + b];
+                for i in 0..m {
+                    let line = (a * m + i) * size + b * m;
+                    for j in 0..m {
+                        let give = if a == b { compliance[i * m + j] } else { 0.0 };
+                        self.take[line + j] = give + by_q * self.mobile[i * m + j];
+                        self.take_rate[line + j] = by_v * self.mobile[i * m + j];
+                    }
+                }
+            }
+        }
+    }
+
+    /// F/k + p + (c/k) r = 0 at every node, p = approach - take F and r the rate of p or of the wheel.
+    fn solve(&mut self, solver: &Solver, from: &State) -> bool {
+        let system = solver.system;
+        let (s, m, size) = (self.count(), system.components(), self.force.len());
+        self.index.clear();
+        self.index.extend((0..size).filter(|at| solver.active[at % m]));
+        let count = self.index.len();
+        self.force.fill(0.0);
+        for (line, &at) in self.index.iter().enumerate() {
+            let (a, i) = (at / m, at % m);
+            let law = system.law(i);
+            let ratio = law.damping / law.stiffness;
+            let memory = solver.remembers(i);
+            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.answers[0].h;
+            let mut right = self.approach[at];
+            if memory {
+                right += (0..s).map(|l| by(l) * (self.approach[l * m + i] - from.p[i])).sum::<f64>();
+            } else {
+                right += ratio * self.rate[at];
+            }
+            for (column, &other) in self.index.iter().enumerate() {
+                let mut entry = self.take[at * size + other];
+                if memory {
+                    entry += (0..s).map(|l| by(l) * self.take[(l * m + i) * size + other]).sum::<f64>();
+                } else {
+                    entry += ratio * self.take_rate[at * size + other];
+                }
+                self.matrix[line * count + column] = entry;
+            }
+            self.matrix[line * count + line] += 1.0 / (law.stiffness * system.mechanics.groups[i].count());
+            self.force[line] = right;
+        }
+        if !solve_general(&mut self.matrix[..count * count], &mut self.force[..count]) {
+            return false;
+        }
+        // Spread over all components, from the last on: an index never lies before its line.
+        for line in (0..count).rev() {
+            let value = std::mem::take(&mut self.force[line]);
+            self.force[self.index[line]] = value;
+        }
+        true
+    }
+
+    /// States at the nodes and at the end, and the powers exchanged.
+    fn book(&mut self, solver: &mut Solver, from: &State, to: &mut State, limit: f64) -> Result<bool, Error> {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let size = s * m;
+        for (b, (load, weight)) in self.load.iter_mut().zip(&self.weight).enumerate() {
+            load.copy_from(weight);
+            for j in 0..m {
+                let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
+                let force = self.force[b * m + j];
+                load.iter_mut().zip(spread).for_each(|(load, spread)| *load -= spread * force);
+            }
+        }
+        for at in 0..size {
+            self.approach[at] -= dot(&self.take[at * size..(at + 1) * size], &self.force);
+            self.states[at / m].p[at % m] = self.approach[at];
+            self.states[at / m].force[at % m] = self.force[at];
+        }
+        let h = self.answers[0].h;
+        for a in 0..s {
+            for r in 0..n {
+                let [q, v] = self.answer(&self.load, from, a, r);
+                let [omega, zeta] = self.modes[r];
+                let state = &mut self.states[a];
+                (state.q[r], state.v[r]) = (q, v);
+                state.a[r] = self.load[a][r] - omega * (2.0 * zeta * v + omega * q);
+            }
+            let state = &mut self.states[a];
+            for i in 0..m {
+                let rates =
+                    (0..s).map(|l| self.nodes.rate[a * s + l] * (self.approach[l * m + i] - from.p[i]));
+                state.p_rate[i] = rates.sum::<f64>() / h;
+            }
+            self.places[a].update_rail_slope(solver.system, &state.q, &state.force);
+            self.powers[a] = power(solver.system, &self.places[a], state);
+        }
+        to.copy_from(&self.states[s - 1]);
+        if self.nodes.c[s - 1] < 1.0 {
+            to.t = (from.t + h).min(limit.next_down());
+            for r in 0..n {
+                let [q, v] = self.answer(&self.load, from, s, r);
+                (to.q[r], to.v[r]) = (q, v);
+            }
+            if !solver.instant(to)? {
+                return Ok(false);
+            }
+        } else {
+            std::mem::swap(&mut solver.geometry, &mut self.places[s - 1]);
+        }
+        Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    /// Modes of `at`, the share `share` of the step just taken from `from`: exact for the polynomials of time that the
+    /// loads are taken to be, since no polynomial follows a mode of many periods a step.
+    pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
+        let h = self.answers[0].h;
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
+            let mode = Propagator::new(omega, zeta, h);
+            let [qq, qv, vq, vv] = mode.free(share);
+            let powers = mode.forced(share);
+            let (q0, v0) = (from.q[r], from.v[r]);
+            let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
+            for (b, load) in self.load.iter().enumerate() {
+                q += load[r] * self.nodes.load(b, &powers, 0);
+                v += load[r] * self.nodes.load(b, &powers, 1);
+                now += load[r] * self.nodes.value(b, share);
+            }
+            (at.q[r], at.v[r]) = (q, v);
+            at.a[r] = now - omega * (2.0 * zeta * v + omega * q);
+        }
+    }
+
+    /// Error of q and v of freedom `r`: what the loads of the last node add to those of a degree less.
+    pub fn error(&self, r: usize) -> [f64; 2] {
+        let (s, n) = (self.count(), self.modes.len());
+        let mut jump = self.load[s - 1][r] - self.nodes.ahead[0] * self.load_start[r];
+        for b in 1..s {
+            jump -= self.nodes.ahead[b] * self.load[b - 1][r];
+        }
+        self.answers[0].forced[(s * s + s - 1) * n + r].map(|answer| answer * jump)
+    }
+}
