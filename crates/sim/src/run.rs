@@ -4,18 +4,20 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::contact::solver::Solver;
+use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
+use crate::instant::hang::{drop_below, equilibrate};
+use crate::instant::settle::settle;
+use crate::instant::uneven::{follow, locate};
 use crate::mechanics::state::State;
 use crate::record::energy::Audit;
 use crate::record::history::History;
 use crate::record::recorder::Recorder;
-use crate::scene::model::Analysis;
 use crate::time::counts::Counts;
 use crate::time::passage::crossing;
 use crate::time::samples::Samples;
 use crate::time::stepper::{Failure, Stepper};
-use crate::{Action, Body, Error, Fired, Foundation, Method, Scene, Stepping};
+use crate::{Action, Analysis, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -45,6 +47,24 @@ impl Status {
 }
 
 /// Everything a run found.
+/// ```
+/// use std::ops::ControlFlow;
+/// use sim::{Body, Contact, Damper, Foundation, NormalLaw, Scene, Wheel};
+///
+/// // A wheel dropped from 0.1 m onto a rigid rail.
+/// let mut scene = Scene {
+///     bodies: vec![Body { start: [0.0, 0.1, 0.0, 0.0, 0.0, 0.0], ..Body::new(1000.0, [1.0; 3]) }],
+///     wheels: vec![Wheel::new(0.5, NormalLaw::linear(1e7, 0.0, Damper::Rail))],
+///     contacts: vec![Contact::new(0, [0.0; 3])],
+///     ..Scene::default()
+/// };
+/// scene.bodies[0].free = [false, true, false, false, false, false];
+/// let run = sim::run(&scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()))?;
+/// assert!(run.status.is_complete() && run.counts.events > 0);
+/// // Nothing is lost but at rounding.
+/// assert!(run.audit.residual() < 1e-5);
+/// # Ok::<(), sim::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Run {
     /// How it ended.
@@ -116,22 +136,22 @@ pub fn run_by(
         }
         method = Method::Radau;
     }
-    let mut solver = Solver::new(&system)?;
-    solver.locate(&state)?;
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
+    locate(&mut solver, &state)?;
     state.v.fill(0.0);
-    solver.drop_below(&mut state)?;
+    drop_below(&mut solver, &mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
     }
 }
 
-/// Sets the freedoms of every body to its six `values`.
-fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [f64; 6]) {
+/// Sets the entries of every body's degrees of freedom to its six `of`.
+fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6]) {
     for (body, numbers) in system.scene.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
-        for (number, value) in numbers.iter().zip(values(body)) {
+        for (number, value) in numbers.iter().zip(of(body)) {
             if let Some(number) = *number {
-                freedoms[number] = value;
+                values[number] = value;
             }
         }
     }
@@ -154,20 +174,18 @@ fn integrate(
 ) -> Result<Run, Error> {
     let scene = system.scene;
     if !placed(system) {
-        solver.equilibrate(&mut state)?;
+        equilibrate(solver, &mut state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
-    if system.is_uneven {
-        solver.follow(&mut state);
+    if system.traits.is_uneven {
+        follow(solver, &mut state);
     }
-    if !solver.settle(&mut state)? {
+    if !settle(solver, &mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
     }
     let mut samples = Samples::new(solver, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
-    let mut stepper =
-        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
-    stepper.fixed = stepping.step;
+    let mut stepper = Stepper::new(solver, state, stepping, LOCAL_PER_GLOBAL * scene.accuracy, first)?;
     let mut status = Status::Done;
     let mut breaks = scene.breaks();
     let due = stepper.due()?;
@@ -177,20 +195,20 @@ fn integrate(
         breaks.clear();
     }
     'run: for limit in breaks {
-        while stepper.to.t < limit * (1.0 - 1e-14) {
-            samples.begin(&stepper);
+        while stepper.times()[1] < limit * (1.0 - 1e-14) {
+            samples.begin(&mut stepper);
             match stepper.advance(limit) {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => {
-                    status = Status::StepTooSmall(stepper.from.t);
+                    status = Status::StepTooSmall(stepper.times()[0]);
                     break 'run;
                 }
                 Err(Failure::Refused(error)) => {
-                    status = Status::Refused(stepper.from.t, error);
+                    status = Status::Refused(stepper.times()[0], error);
                     break 'run;
                 }
             }
-            let to = stepper.to.t;
+            let [_, to] = stepper.times();
             let due = stepper.due()?;
             samples.take(&mut stepper)?;
             if !due.is_empty() {
@@ -205,7 +223,7 @@ fn integrate(
                     }
                 };
                 if ends {
-                    samples.close(&stepper)?;
+                    samples.close(&mut stepper)?;
                     status = ended(scene, &fired);
                     break 'run;
                 }
@@ -220,8 +238,8 @@ fn integrate(
         status,
         history: samples.history(),
         fired,
-        audit: stepper.audit,
-        counts: stepper.counts,
+        audit: stepper.audit(),
+        counts: stepper.counts(),
         method: Some(stepping.method),
     })
 }
@@ -254,8 +272,8 @@ fn sweep(
     }
     for t in times {
         state.t = t;
-        solver.locate(&state)?;
-        match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
+        locate(solver, &state)?;
+        match equilibrate(solver, &mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
             Err(error) => {
@@ -264,12 +282,12 @@ fn sweep(
             }
         }
         counts.steps += 1;
-        recorder.record(system, &solver.geometry, &state)?;
+        recorder.record(system, solver.geometry(), &state)?;
         if watch(t).is_break() {
             status = Status::Stopped;
             break;
         }
     }
-    let (history, audit) = (recorder.history, Audit::default());
+    let (history, audit) = (recorder.into_history(), Audit::default());
     Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
 }

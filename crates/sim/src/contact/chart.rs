@@ -1,4 +1,4 @@
-//! Coordinates in which a stage sees hung bodies: the stretch of the rope and two angles of its direction.
+//! Coordinates in which a stage sees hanging bodies: the stretch of the rope and two angles of its direction.
 //!
 //! A stage solves Q = q + g V, V = v + g A. Over the X, Y and Z of a body on a taut rope it would cut corners: the chord
 //! of the arc is off the arc by g^2, the rope is made to pull that much more or less, and a stiff one takes tiny steps.
@@ -16,7 +16,6 @@
 
 use nalgebra::{DVector, Vector3};
 
-use crate::contact::link::Link;
 use crate::contact::switches::Switches;
 use crate::contact::system::System;
 use crate::mechanics::point::Point;
@@ -49,7 +48,7 @@ pub(crate) struct Anchor<'s> {
     pub point: &'s Point,
     /// Velocity and acceleration by prescribed motions.
     pub given: [Vector3<f64>; 2],
-    pub natural: [f64; 3],
+    pub unstretched: [f64; 3],
 }
 
 /// The tangents of a chart at one state.
@@ -80,11 +79,10 @@ impl Local {
 }
 
 impl Chart {
-    pub fn ends<'s>(&self, system: &'s System) -> Option<[&'s Point; 2]> {
-        match &system.links[self.rope] {
-            Link::Rope { from, to, .. } => Some(if self.forward { [from, to] } else { [to, from] }),
-            Link::Stop { .. } => None,
-        }
+    /// The end of the rope away from the body, then the end at the body.
+    fn ends<'s>(&self, system: &'s System) -> Option<[&'s Point; 2]> {
+        let [from, to] = system.rope(self.rope)?.1.ends()?;
+        Some(if self.forward { [from, to] } else { [to, from] })
     }
 
     pub fn anchor<'s>(&self, system: &'s System, switches: &Switches, t: f64) -> Option<Anchor<'s>> {
@@ -99,9 +97,9 @@ impl Chart {
             }
         }
         let actuators = &system.scene.actuators;
-        let [length, rate] = switches.natural(actuators, self.rope, t);
-        let natural = [length, rate, switches.natural_bend(actuators, self.rope, t)];
-        Some(Anchor { point, given, natural })
+        let [length, rate] = switches.unstretched(actuators, self.rope, t);
+        let unstretched = [length, rate, switches.unstretched_acceleration(actuators, self.rope, t)];
+        Some(Anchor { point, given, unstretched })
     }
 
     /// Position of the body in space less its X, Y and Z.
@@ -124,7 +122,7 @@ impl Chart {
         v: &DVector<f64>,
     ) -> Option<Local> {
         let [e0, e1, e2] = self.frame;
-        let [length, length_rate, length_bend] = anchor.natural;
+        let [length, length_rate, length_bend] = anchor.unstretched;
         let reach = self.vector(q) + self.offset(system)? - anchor.point.place(&system.mechanics, t, q);
         let speed = self.vector(v) - anchor.point.rate(v) - anchor.given[0];
         let r = reach.norm();
@@ -173,7 +171,7 @@ impl Chart {
         let anchor = chart.anchor(system, switches, from.t)?;
         let reach = chart.vector(&from.q) + chart.offset(system)?
             - anchor.point.place(&system.mechanics, from.t, &from.q);
-        if reach.norm() <= SHORTEST * anchor.natural[0] {
+        if reach.norm() <= SHORTEST * anchor.unstretched[0] {
             return None;
         }
         let along = reach.normalize();
@@ -199,11 +197,11 @@ impl Chart {
         let ((sa, ca), (sb, cb)) = (y[1].sin_cos(), y[2].sin_cos());
         let (radial, around) = (e0 * ca + e1 * sa, e1 * ca - e0 * sa);
         let (u, over) = (radial * cb + e2 * sb, e2 * cb - radial * sb);
-        let reach = anchor.natural[0] + y[0];
+        let reach = anchor.unstretched[0] + y[0];
         let q = anchor.point.place(&system.mechanics, at.t, &at.q) + u * reach - offset;
         let v = anchor.point.rate(&at.v)
             + anchor.given[0]
-            + u * (anchor.natural[1] + rate[0])
+            + u * (anchor.unstretched[1] + rate[0])
             + (around * (cb * rate[1]) + over * rate[2]) * reach;
         for (k, &number) in self.numbers.iter().enumerate() {
             (at.q[number], at.v[number]) = (q[k], v[k]);

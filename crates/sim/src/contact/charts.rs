@@ -1,9 +1,8 @@
-//! Charts of all hung bodies during one step.
+//! Charts of all hanging bodies during one step.
 
 use nalgebra::DVector;
 
 use crate::contact::chart::Chart;
-use crate::contact::link::Link;
 use crate::contact::switches::Switches;
 use crate::contact::system::System;
 use crate::mechanics::point::Point;
@@ -11,7 +10,7 @@ use crate::mechanics::state::{Known, State};
 
 /// The charts of one step, carriers before what hangs on them.
 #[derive(Clone, Default)]
-pub(crate) struct Charts(pub Vec<Chart>);
+pub(crate) struct Charts(Vec<Chart>);
 
 impl Charts {
     /// Charts of the bodies that hang on taut ropes at `from`, where `taut` says which do.
@@ -32,7 +31,7 @@ impl Charts {
         while grows {
             grows = false;
             left.retain(|&rope| {
-                let Link::Rope { from: a, to: b, .. } = &system.links[rope] else { return false };
+                let Some([a, b]) = system.rope(rope).and_then(|(_, rope)| rope.ends()) else { return false };
                 if a.is_carried() || b.is_carried() {
                     return false;
                 }
@@ -53,16 +52,22 @@ impl Charts {
         }
     }
 
+    /// The charts, in their order.
+    pub fn iter(&self) -> impl Iterator<Item = &Chart> {
+        self.0.iter()
+    }
+
+    /// Whether no body hangs on a taut rope.
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// Whether freedom `number` has coordinates of a chart.
+    /// Whether degree of freedom `number` has coordinates of a chart.
     pub fn has(&self, number: usize) -> bool {
         self.0.iter().any(|chart| chart.numbers.contains(&number))
     }
 
-    /// Sets the entries of hung bodies in `q` and `v` to their coordinates and rates at the start of the step.
+    /// Sets the entries of hanging bodies in `q` and `v` to their coordinates and rates at the start of the step.
     pub fn begun(&self, q: &mut DVector<f64>, v: &mut DVector<f64>) {
         for chart in &self.0 {
             for (k, &number) in chart.numbers.iter().enumerate() {
@@ -81,13 +86,13 @@ impl Charts {
         }
     }
 
-    /// Sets the known parts of hung bodies for X, Y and Z, about the guess `at`.
+    /// Sets the known parts of hanging bodies for X, Y and Z, about the guess `at`.
     pub fn flatten(&self, system: &System, switches: &Switches, g: f64, known: &mut Known, at: &State) {
         for chart in &self.0 {
             let Some(anchor) = chart.anchor(system, switches, at.t) else { continue };
             let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else { continue };
             let apart = std::array::from_fn(|k| chart.known[0][k] - local.y[k]);
-            let drift = anchor.given[0] + local.along[0] * anchor.natural[1];
+            let drift = anchor.given[0] + local.along[0] * anchor.unstretched[1];
             let reach = chart.vector(&at.q) - anchor.point.place(&system.mechanics, at.t, &at.q);
             let q =
                 anchor.point.place(&system.mechanics, at.t, &known.q) + reach + local.push(apart) - drift * g;
@@ -99,7 +104,7 @@ impl Charts {
         }
     }
 
-    /// Sets the entries of hung bodies in `v` and `a`, those of the stage that ended at `at`, to rates and second rates
+    /// Sets the entries of hanging bodies in `v` and `a`, those of the stage that ended at `at`, to rates and second rates
     /// of their coordinates.
     pub fn settle(
         &mut self,
@@ -119,7 +124,7 @@ impl Charts {
         }
     }
 
-    /// Calls `each` with the number of every freedom of hung bodies and its share of the errors of coordinates and rates
+    /// Calls `each` with the number of every degree of freedom of hanging bodies and its share of the errors of coordinates and rates
     /// that `of` gives by number.
     pub fn errors(
         &self,
@@ -141,7 +146,7 @@ impl Charts {
         }
     }
 
-    /// Moves the hung bodies of `at`, the interpolant between `from` and `to` at `share`, to where that of their
+    /// Moves the hanging bodies of `at`, the interpolant between `from` and `to` at `share`, to where that of their
     /// coordinates is.
     pub fn interpolate(
         &self,

@@ -46,7 +46,7 @@ impl Switches {
                 own.filter(|(_, drive)| drive.body == body).for_each(|(command, _)| *command = Some(speed));
             }
             Action::Hoist { rope, speed } => {
-                let left = self.natural(actuators, rope, t)[0];
+                let left = self.unstretched(actuators, rope, t)[0];
                 let found = left - speed * (scene.end - t);
                 if found <= 0.0 {
                     let what = "length of a rope that is hoisted";
@@ -62,18 +62,18 @@ impl Switches {
     }
 
     /// Whether brake `index` is on at `t`.
-    pub fn brakes(&self, actuators: &Actuators, index: usize, t: f64) -> bool {
+    pub fn is_braking(&self, actuators: &Actuators, index: usize, t: f64) -> bool {
         self.brakes[index].unwrap_or(t >= actuators.brakes[index].from)
     }
 
     /// Speed that drive `index` follows at `t`; `None` where it is off.
-    pub fn drives(&self, actuators: &Actuators, index: usize, t: f64) -> Option<f64> {
+    pub fn drive_speed(&self, actuators: &Actuators, index: usize, t: f64) -> Option<f64> {
         let drive = &actuators.drives[index];
         self.drives[index].unwrap_or_else(|| (t < drive.until).then(|| drive.speed.at(t)))
     }
 
     /// Unstretched length of a rope at `t`, and its rate.
-    pub fn natural(&self, actuators: &Actuators, rope: usize, t: f64) -> [f64; 2] {
+    pub fn unstretched(&self, actuators: &Actuators, rope: usize, t: f64) -> [f64; 2] {
         let given = &actuators.ropes[rope];
         match self.hoists[rope] {
             Some(hoist) => [given.length - hoist.taken - hoist.speed * (t - hoist.since), -hoist.speed],
@@ -82,12 +82,12 @@ impl Switches {
     }
 
     /// Second rate of the unstretched length of a rope at `t`.
-    pub fn natural_bend(&self, actuators: &Actuators, rope: usize, t: f64) -> f64 {
+    pub fn unstretched_acceleration(&self, actuators: &Actuators, rope: usize, t: f64) -> f64 {
         if self.hoists[rope].is_some() { 0.0 } else { -actuators.ropes[rope].speed.slope(t) }
     }
 
-    /// Whether link `index`, a rope, was let go.
-    pub fn is_released(&self, index: usize) -> bool {
-        self.released.get(index).copied().unwrap_or_default()
+    /// Whether rope `rope` was let go.
+    pub fn is_released(&self, rope: usize) -> bool {
+        self.released.get(rope).copied().unwrap_or_default()
     }
 }

@@ -1,152 +1,80 @@
-//! The numbered scene: the equations of motion without contact, and the contact components F with their probes.
+//! The numbered scene with its force elements: M q'' + C q' + K q = f(t) - B^T F.
 //!
-//! M q'' + C q' + K q = f(t) - R^T F. A component is a vertical contact (of one wheel, or of the wheels of
-//! equalisers), a flange, a wheel's friction, a drive, a brake, a rope or a stop,
-//! in this order.
-
-use std::ops::Range;
+//! Vertical contacts stand first among the elements, then come flanges, frictions, drives, brakes, ropes and stops.
 
 use splines::{Axis, Probe};
 
-use super::actuator::Pull;
-use super::link::Link;
+use super::element::{ElementProbe, Role};
+use super::elements::ForceElement;
+use super::probes::{Entry, Probes, TangentialContact};
+use super::rope::RopeForce;
+use super::vertical::Vertical;
 use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::state::State;
-use crate::scene::dof::arm_rows;
-use crate::{Error, Flange, Foundation, NormalLaw, Scene};
-
-/// One probe of a structure: which component it belongs to, and its signed weight there.
-pub(crate) struct Entry {
-    pub component: usize,
-    pub weight: f64,
-    pub wheel: usize,
-    pub probe: Probe,
-    /// Which of [`System::treads`] it belongs to.
-    pub tread: Option<usize>,
-}
-
-/// Wheels of one contact under a component along a rail that gives: they move alike.
-pub(crate) struct Tread {
-    pub component: usize,
-    /// The first of them.
-    pub wheel: usize,
-}
+use crate::{Error, Foundation, NormalLaw, Scene};
 
 /// The numbered scene.
 pub(crate) struct System<'a> {
     pub scene: &'a Scene,
     pub foundations: &'a [Foundation],
     pub mechanics: Mechanics<'a>,
-    /// Where components along the rails load structures that feel it.
-    pub treads: Vec<Tread>,
-    /// Wheels with a flange; component `normals.len() + i`.
-    pub laterals: Vec<usize>,
-    /// Wheels with friction; component `normals.len() + laterals.len() + i`.
-    pub tractions: Vec<usize>,
-    /// Drives and braked contacts; component `normals.len() + laterals.len() + tractions.len() + i`.
-    pub pulls: Vec<Pull>,
-    /// Ropes and stops, the last components.
-    pub links: Vec<Link<'a>>,
-    /// Probes of each structure.
-    pub entries: Vec<Vec<Entry>>,
-    /// Whether the probes of a structure are the components in their order, with weight -1 each: the compliance
-    /// of the components is then the structure's.
-    pub is_direct: Vec<bool>,
-    /// Largest stiffness of a wheel on its rail.
-    pub stiffest: f64,
-    /// Whether some structure is loaded along its rails.
-    pub is_dragged: bool,
+    pub elements: Vec<ForceElement<'a>>,
+    pub probes: Probes,
+    pub traits: Traits,
+    /// Elements that guide across the rails, and elements that join points by springs.
+    guides: Vec<usize>,
+    joints: Vec<usize>,
+    /// The element of each rope.
+    ropes: Vec<usize>,
+}
+
+/// Simplifications that hold for a scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Traits {
     /// Whether some wheel runs on an uneven rail.
     pub is_uneven: bool,
-    /// Whether some wheel's place along the rail depends on the freedoms.
-    pub moves_freely: bool,
-    /// Whether the rows of contact are the same at every time and place.
-    pub constant_rows: bool,
+    /// Whether the rows of all elements are the same at every time and place.
+    pub has_constant_rows: bool,
+    /// Whether vertical contacts are the only elements.
+    pub is_vertical: bool,
     /// Whether every vertical law is linear.
-    pub linear_normals: bool,
+    pub has_linear_laws: bool,
+    /// Whether some law depends on the heights of wheels.
+    pub uses_heights: bool,
+    /// Whether places or rows follow the motion within a stage, so that its matrices change with its solution.
+    pub follows_motion: bool,
     /// Whether the linear contact equations are symmetric: see [`crate::contact::forces`].
-    pub symmetric: bool,
+    pub is_symmetric: bool,
 }
 
 impl<'a> System<'a> {
     /// Numbers a scene.
+    ///
+    /// # Errors
+    /// What [`Mechanics::new`] refuses.
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         let mechanics = Mechanics::new(scene, foundations)?;
-        let wheels = &mechanics.wheels;
-        let laterals: Vec<usize> =
-            (0..wheels.len()).filter(|&w| scene.wheels[wheels[w].kind].flange.is_some()).collect();
-        let tractions: Vec<usize> =
-            (0..wheels.len()).filter(|&w| wheels[w].spin.is_some() || wheels[w].turn.is_some()).collect();
-        let mut system = System {
-            scene,
-            foundations,
-            mechanics,
-            treads: Vec::new(),
-            laterals,
-            tractions,
-            pulls: Vec::new(),
-            links: Vec::new(),
-            entries: Vec::new(),
-            is_direct: Vec::new(),
-            stiffest: scene.wheels.iter().fold(0.0, |max, wheel| wheel.normal.stiffness.max(max)),
-            is_dragged: foundations.iter().any(|foundation| foundation.is_dragged),
-            is_uneven: false,
-            moves_freely: false,
-            constant_rows: false,
-            linear_normals: false,
-            symmetric: false,
-        };
-        system.pulls = Pull::all(&system.mechanics);
-        system.links = Link::all(&system.mechanics);
-        system.treads = system.all_treads();
-        system.entries = (0..foundations.len()).map(|s| system.structure_entries(s)).collect();
-        system.is_direct = system
-            .entries
-            .iter()
-            .map(|entries| {
-                entries.len() == system.components()
-                    && entries.iter().enumerate().all(|(i, e)| e.component == i && e.weight == -1.0)
-            })
-            .collect();
-        system.judge();
-        Ok(system)
+        let elements = ForceElement::all(&mechanics);
+        let with = |role: Role| (0..elements.len()).filter(|&i| elements[i].role() == role).collect();
+        let (guides, joints) = (with(Role::Guides), with(Role::Joins));
+        let is_rope = |i: &usize| matches!(elements[*i], ForceElement::Rope(_));
+        let ropes = (0..elements.len()).filter(is_rope).collect();
+        let probes = find_probes(&mechanics, &elements);
+        let traits = find_traits(&mechanics, &elements);
+        Ok(System { scene, foundations, mechanics, elements, probes, traits, guides, joints, ropes })
     }
 
-    /// Finds which simplifications hold.
-    fn judge(&mut self) {
-        self.moves_freely =
-            self.mechanics.wheels.iter().any(|wheel| {
-                !self.mechanics.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty()
-            });
-        self.is_uneven = (0..self.mechanics.wheels.len()).any(|w| self.mechanics.irregularity(w).is_some());
-        self.constant_rows = !self.moves_freely
-            && !self.is_uneven
-            && self.laterals.is_empty()
-            && self.tractions.is_empty()
-            && self.pulls.is_empty()
-            && self.links.is_empty()
-            && self.foundations.iter().all(|foundation| foundation.structure.is_none());
-        let scene = self.scene;
-        let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
-        self.linear_normals = laws().all(NormalLaw::is_linear);
-        let ratio = |law: &NormalLaw| law.damping / law.stiffness;
-        let grounded = laws().find(|law| !law.has_memory());
-        self.symmetric = !self.moves_freely
-            && self.foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
-            && grounded.is_none_or(|first| {
-                laws().all(
-                    |law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) },
-                )
-            });
-    }
-
-    /// Number of contact components.
-    pub fn components(&self) -> usize {
+    /// Number of vertical contacts, the first of all elements.
+    pub fn verticals(&self) -> usize {
         self.mechanics.groups.len()
-            + self.laterals.len()
-            + self.tractions.len()
-            + self.pulls.len()
-            + self.links.len()
+    }
+
+    /// Vertical contact `i`.
+    pub fn vertical(&self, i: usize) -> &Vertical<'a> {
+        match &self.elements[i] {
+            ForceElement::Vertical(vertical) => vertical,
+            _ => unreachable!("vertical contacts are the first elements"),
+        }
     }
 
     /// Law of vertical contact `i`, of one wheel.
@@ -154,76 +82,29 @@ impl<'a> System<'a> {
         &self.scene.wheels[self.mechanics.groups[i].kind].normal
     }
 
-    /// The state zero.
-    pub fn state(&self) -> State {
-        let penetrations = self.mechanics.groups.len() + self.drags().len();
-        State::zeros(self.mechanics.dofs, penetrations, self.components())
+    /// Elements that guide across the rails.
+    pub fn guides(&self) -> &[usize] {
+        &self.guides
     }
 
-    /// Component of flange `i`.
-    pub fn lateral(&self, i: usize) -> usize {
-        self.mechanics.groups.len() + i
+    /// Elements that join points by springs: ropes and stops.
+    pub fn joints(&self) -> &[usize] {
+        &self.joints
     }
 
-    /// The law of flange `i`.
-    pub fn flange(&self, i: usize) -> Option<&'a Flange> {
-        self.scene.wheels[self.mechanics.wheels[self.laterals[i]].kind].flange.as_ref()
-    }
-
-    /// Component of friction `i`.
-    pub fn traction(&self, i: usize) -> usize {
-        self.mechanics.groups.len() + self.laterals.len() + i
-    }
-
-    /// Component of drive or brake `i`.
-    pub fn pull(&self, i: usize) -> usize {
-        self.mechanics.groups.len() + self.laterals.len() + self.tractions.len() + i
-    }
-
-    /// Components along the rails whose massless give is a state: frictions, drives and brakes, where some structure is
-    /// dragged.
-    pub fn drags(&self) -> Range<usize> {
-        if self.is_dragged { self.traction(0)..self.link(0) } else { 0..0 }
-    }
-
-    fn all_treads(&self) -> Vec<Tread> {
-        let mut treads: Vec<Tread> = Vec::new();
-        for component in self.drags() {
-            for wheel in self.wheels_of(component) {
-                let contact = self.mechanics.wheels[wheel].contact;
-                let is_dragged = self.foundations[self.scene.contacts[contact].structure].is_dragged;
-                if is_dragged && self.tread_of(&treads, component, contact).is_none() {
-                    treads.push(Tread { component, wheel });
-                }
-            }
-        }
-        treads
-    }
-
-    /// Which of `treads` is that of a contact under a component.
-    fn tread_of(&self, treads: &[Tread], component: usize, contact: usize) -> Option<usize> {
-        let is_own = |tread: &Tread| {
-            tread.component == component && self.mechanics.wheels[tread.wheel].contact == contact
-        };
-        treads.iter().position(is_own)
-    }
-
-    /// Wheels of component `i` along a rail: those of a friction, a drive, a brake.
-    pub fn wheels_of(&self, i: usize) -> Vec<usize> {
-        match i.checked_sub(self.pull(0)) {
-            None => i.checked_sub(self.traction(0)).map(|index| self.tractions[index]).into_iter().collect(),
-            Some(index) => {
-                let contacts = &self.pulls[index].contacts;
-                (0..self.mechanics.wheels.len())
-                    .filter(|&w| contacts.contains(&self.mechanics.wheels[w].contact))
-                    .collect()
-            }
+    /// Rope `index` of the scene with its element.
+    pub fn rope(&self, index: usize) -> Option<(usize, &RopeForce<'a>)> {
+        let element = *self.ropes.get(index)?;
+        match &self.elements[element] {
+            ForceElement::Rope(rope) => Some((element, rope)),
+            _ => None,
         }
     }
 
-    /// Component of rope or stop `i`.
-    pub fn link(&self, i: usize) -> usize {
-        self.pull(self.pulls.len()) + i
+    /// Force of the friction below wheel `w` at `at`; zero where it has none.
+    pub fn friction_of(&self, w: usize, at: &State) -> f64 {
+        let is_own = |element: &ForceElement| matches!(element, ForceElement::Traction(traction) if traction.wheel() == w);
+        self.elements.iter().position(is_own).map_or(0.0, |i| at.force[i])
     }
 
     /// Speed along the rail of the wheels of vertical contact `i`.
@@ -231,44 +112,107 @@ impl<'a> System<'a> {
         self.mechanics.speed_along(self.mechanics.groups[i].wheels.start, at)
     }
 
-    /// Probes of structure `s`. A vertical component is positive downwards, hence its weight is negative.
-    fn structure_entries(&self, s: usize) -> Vec<Entry> {
-        let mut entries = Vec::new();
-        let rail_of = |contact: usize, part: Option<usize>| {
-            let rail = self.scene.contacts[contact].rail;
-            match (&self.foundations[s].parts, part) {
-                (Some(chains), Some(part)) => chains[rail].rail(part),
-                _ => rail,
-            }
+    /// The state zero.
+    pub fn state(&self) -> State {
+        let slots = self.verticals() + self.probes.sliding.len();
+        State::zeros(self.mechanics.dofs, slots, self.elements.len())
+    }
+}
+
+/// Lists the probes of all elements.
+fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
+    let of_elements: Vec<Vec<ElementProbe>> =
+        elements.iter().map(|element| element.probes(mechanics)).collect();
+    let slides = mechanics.has_sliding_rails();
+    let sliding: Vec<usize> =
+        (0..elements.len()).filter(|&i| slides && elements[i].is_tangential()).collect();
+    let verticals = mechanics.groups.len();
+    let slot = |i: usize| {
+        let place = || sliding.iter().position(|&element| element == i).map(|k| verticals + k);
+        if i < verticals { Some(i) } else { place() }
+    };
+    let slots = (0..elements.len()).map(slot).collect();
+    let contact_of = |wheel: usize| mechanics.wheels[wheel].contact;
+    let structure_of = |wheel: usize| mechanics.scene.contacts[contact_of(wheel)].structure;
+    // Wheels of one contact move alike: one tangential contact serves them.
+    let mut tangential: Vec<TangentialContact> = Vec::new();
+    let find = |all: &[TangentialContact], element: usize, wheel: usize| {
+        let same = |known: &TangentialContact| {
+            known.element == element && contact_of(known.wheel) == contact_of(wheel)
         };
-        for (component, normal) in self.mechanics.groups.iter().enumerate() {
-            if self.scene.contacts[normal.contact].structure != s {
-                continue;
-            }
-            for wheel in normal.wheels.clone() {
-                let probe =
-                    Probe { rail: rail_of(normal.contact, normal.part), x: 0.0, axis: Axis::Vertical };
-                entries.push(Entry { component, weight: -1.0 / normal.count(), wheel, probe, tread: None });
-            }
-        }
-        for (i, &wheel) in self.laterals.iter().enumerate() {
-            let contact = self.mechanics.wheels[wheel].contact;
-            if self.scene.contacts[contact].structure == s && self.foundations[s].parts.is_none() {
-                let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Lateral };
-                entries.push(Entry { component: self.lateral(i), weight: 1.0, wheel, probe, tread: None });
+        all.iter().position(same)
+    };
+    for (element, probes) in of_elements.iter().enumerate() {
+        for &ElementProbe { wheel, axis, .. } in probes {
+            let is_dragged = mechanics.foundations[structure_of(wheel)].is_dragged;
+            if axis == Axis::Longitudinal && is_dragged && find(&tangential, element, wheel).is_none() {
+                tangential.push(TangentialContact { element, wheel });
             }
         }
-        for component in self.drags().filter(|_| self.foundations[s].is_dragged) {
-            let wheels = self.wheels_of(component);
-            for &wheel in &wheels {
-                let contact = self.mechanics.wheels[wheel].contact;
-                if self.scene.contacts[contact].structure == s {
-                    let probe = Probe { rail: rail_of(contact, None), x: 0.0, axis: Axis::Longitudinal };
-                    let tread = self.tread_of(&self.treads, component, contact);
-                    entries.push(Entry { component, weight: 1.0 / wheels.len() as f64, wheel, probe, tread });
+    }
+    let entries_of = |s: usize| {
+        let foundation = &mechanics.foundations[s];
+        let mut entries = Vec::new();
+        for (element, probes) in of_elements.iter().enumerate() {
+            for &ElementProbe { wheel, weight, axis, part } in probes {
+                let complies = match axis {
+                    Axis::Vertical => true,
+                    Axis::Lateral => foundation.parts.is_none(),
+                    Axis::Longitudinal => foundation.is_dragged,
+                };
+                if structure_of(wheel) != s || !complies {
+                    continue;
                 }
+                let rail = mechanics.scene.contacts[contact_of(wheel)].rail;
+                let rail = match (&foundation.parts, part) {
+                    (Some(chains), Some(part)) => chains[rail].rail(part),
+                    _ => rail,
+                };
+                let own = if axis == Axis::Longitudinal { find(&tangential, element, wheel) } else { None };
+                let probe = Probe { rail, x: 0.0, axis };
+                entries.push(Entry { element, weight, wheel, probe, tangential: own });
             }
         }
         entries
+    };
+    let entries: Vec<Vec<Entry>> = (0..mechanics.foundations.len()).map(entries_of).collect();
+    let is_direct = |entries: &Vec<Entry>| {
+        entries.len() == elements.len()
+            && entries.iter().enumerate().all(|(i, entry)| entry.element == i && entry.weight == -1.0)
+    };
+    let is_direct = entries.iter().map(is_direct).collect();
+    Probes { entries, is_direct, tangential, slots, sliding }
+}
+
+/// Finds which simplifications hold.
+fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
+    let is_uneven = (0..mechanics.wheels.len()).any(|w| mechanics.irregularity(w).is_some());
+    let is_vertical = elements.len() == mechanics.groups.len();
+    let has_constant_rows = !mechanics.moves_freely
+        && !is_uneven
+        && is_vertical
+        && mechanics.foundations.iter().all(|foundation| foundation.structure.is_none());
+    let scene = mechanics.scene;
+    let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
+    let ratio = |law: &NormalLaw| law.damping / law.stiffness;
+    let grounded = laws().find(|law| !law.has_memory());
+    let is_symmetric = !mechanics.moves_freely
+        && mechanics.foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
+        && grounded.is_none_or(|first| {
+            laws().all(|law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) })
+        });
+    let has_linear_laws = laws().all(NormalLaw::is_linear);
+    let uses_heights = elements.iter().any(|element| element.uses_height());
+    let follows_motion = mechanics.moves_freely
+        || !mechanics.carried.is_empty()
+        || elements.iter().any(|element| element.follows_motion());
+    Traits {
+        is_uneven,
+        has_constant_rows,
+        is_vertical,
+        has_linear_laws,
+        uses_heights,
+        follows_motion,
+        is_symmetric,
     }
 }

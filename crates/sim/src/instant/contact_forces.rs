@@ -1,14 +1,13 @@
 //! Contact forces at states that the caller gives: what another program's forces are compared with.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
-use crate::contact::solver::{RIGID, Solver};
+use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
+use crate::instant::rates::solve_rates_of;
+use crate::instant::uneven::locate;
 use crate::mechanics::state::State;
-use crate::{Error, Foundation, Scene};
-
-/// Newton iterations on the rates of penetration.
-const ITERATIONS: usize = 30;
+use crate::{Channel, Error, Foundation, Scene};
 
 /// A state of a scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,22 +36,22 @@ pub struct ContactForces {
     pub traction: Vec<f64>,
     /// Force that the slope of the deflected rail exerts on the wheel along +x, a wheel; of vertical forces alone.
     pub slope: Vec<f64>,
-    /// Approach of wheel and rail before the rail gives, a contact of the scene.
+    /// Approach of wheel and rail before the rail deflects, a contact of the scene.
     pub approach: Vec<f64>,
     /// Penetration, a contact of the scene; negative where it is open.
     pub penetration: Vec<f64>,
-    /// Give of the rails, contacts x contacts: downwards at the row per unit force down at the column.
+    /// Compliance of the rails, contacts x contacts: downwards at the row per unit force down at the column.
     pub compliance: DMatrix<f64>,
 }
 
 /// Contact forces of `scene` on `foundations` at each of `instants`.
 ///
 /// Vertical forces solve p + G F = e over the contacts that act, F the law of p and its rate; where p is given,
-/// its rate follows. Structures with freedoms of their own rest where they are unloaded.
+/// its rate follows. Structures with degrees of freedom of their own rest where they are unloaded.
 ///
 /// # Errors
 /// A scene that cannot be set up, foundations of parts with one force each, an instant of the wrong shape, and
-/// [`Error::NoForces`] where the equations have no solution: a penetration given where the rail cannot give.
+/// [`Error::NoForces`] where the equations have no solution: a penetration given where the rail cannot comply.
 pub fn contact_forces(
     scene: &Scene,
     foundations: &[Foundation],
@@ -62,162 +61,118 @@ pub fn contact_forces(
     if let Some(index) = foundations.iter().position(|foundation| foundation.parts.is_some()) {
         return Err(Error::NoSuch { what: "one force a wheel on structure", index });
     }
-    let mut solver = Solver::new(&system)?;
-    solver.keeps_rails = false;
+    let mut solver = Solver::new(&system, RailMemory::Unknown)?;
     let mut state = system.state();
-    instants.iter().map(|instant| solver.forces_at(instant, &mut state)).collect()
+    instants.iter().map(|instant| forces_at(&mut solver, instant, &mut state)).collect()
 }
 
-impl Solver<'_> {
-    fn forces_at(&mut self, instant: &Instant, at: &mut State) -> Result<ContactForces, Error> {
-        self.place(instant, at)?;
-        let count = self.system.mechanics.groups.len();
-        let none = Error::NoForces { time: at.t };
-        for i in 0..count {
-            self.active[i] = self.given(instant, i).is_some() || self.bilateral(i);
-        }
-        for _ in 0..4 * count + 8 {
-            if !self.solve_rates(instant, at)? {
-                return Err(none);
-            }
-            let free = |i: usize| !self.system.law(i).has_memory() || self.stands_on_rigid(i);
-            let weakest = (0..count)
-                .filter(|&i| free(i) && self.active[i] && self.opens(i, at))
-                .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
-            let deepest = (0..count)
-                .filter(|&i| free(i) && !self.active[i] && self.closing(i, at) > 0.0)
-                .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
-            match (weakest, deepest) {
-                (Some(i), _) => self.active[i] = false,
-                (None, Some(i)) => self.active[i] = true,
-                (None, None) => return Ok(self.answer(at)),
-            }
-        }
-        Err(none)
+fn forces_at(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<ContactForces, Error> {
+    place(solver, instant, at)?;
+    let system = solver.system();
+    let count = system.verticals();
+    let none = Error::NoForces { time: at.t };
+    for i in 0..count {
+        let is_given = given(solver, instant, i).is_some();
+        solver.set_active(i, is_given || system.law(i).bilateral);
     }
-
-    /// Puts the instant's numbers into the state.
-    fn place(&mut self, instant: &Instant, at: &mut State) -> Result<(), Error> {
-        let system = self.system;
-        for (what, found, expected) in [
-            ("displacements of an instant", instant.displacement.len(), system.scene.bodies.len()),
-            ("speeds of an instant", instant.speed.len(), system.scene.bodies.len()),
-            ("spins of an instant", instant.spin.len(), system.mechanics.wheels.len()),
-            ("penetrations of an instant", instant.penetration.len(), system.scene.contacts.len()),
-        ] {
-            if found != expected {
-                return Err(Error::Number { what, wanted: "one each", found: found as f64 });
-            }
+    for _ in 0..4 * count + 8 {
+        if !solve_rates(solver, instant, at)? {
+            return Err(none);
         }
-        at.t = instant.time;
-        at.force.fill(0.0);
-        for (b, numbers) in system.mechanics.kinematics.numbers.iter().enumerate() {
-            for (i, number) in numbers.iter().enumerate() {
-                if let Some(number) = *number {
-                    (at.q[number], at.v[number]) = (instant.displacement[b][i], instant.speed[b][i]);
-                }
-            }
+        let free = |i: usize| !system.law(i).has_memory() || solver.is_on_rigid_rail(i);
+        let weakest = (0..count)
+            .filter(|&i| free(i) && solver.active().has(i) && solver.opens(i, at))
+            .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
+        let deepest = (0..count)
+            .filter(|&i| free(i) && !solver.active().has(i) && solver.closing(i, at) > 0.0)
+            .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
+        match (weakest, deepest) {
+            (Some(i), _) => solver.set_active(i, false),
+            (None, Some(i)) => solver.set_active(i, true),
+            (None, None) => return Ok(answer(solver, at)),
         }
-        for (wheel, speed) in system.mechanics.wheels.iter().zip(&instant.spin) {
-            if let Some(number) = wheel.spin {
-                at.v[number] = *speed;
-            }
-        }
-        for i in 0..system.mechanics.groups.len() {
-            (at.p[i], at.p_rate[i]) = (self.given(instant, i).unwrap_or(0.0), 0.0);
-        }
-        self.geometry.height.clear();
-        self.geometry
-            .height
-            .extend(system.mechanics.wheels.iter().map(|wheel| system.scene.wheels[wheel.kind].radius));
-        self.locate(at)?;
-        self.geometry.update(system, at.t, &at.q, &at.force)
     }
+    Err(none)
+}
 
-    /// The penetration that the instant gives to vertical contact `i`.
-    fn given(&self, instant: &Instant, i: usize) -> Option<f64> {
-        let remembers = self.system.law(i).has_memory();
-        instant.penetration[self.system.mechanics.groups[i].contact].filter(|_| remembers)
-    }
-
-    pub(crate) fn stands_on_rigid(&self, i: usize) -> bool {
-        self.geometry.compliance[i * self.system.components() + i] * self.system.law(i).stiffness <= RIGID
-    }
-
-    /// Finds the rates of the penetrations that are given such that p + G F = e; a rigid rail takes the wheel's
-    /// own penetration and rate. Returns whether it converged.
-    fn solve_rates(&mut self, instant: &Instant, at: &mut State) -> Result<bool, Error> {
-        let system = self.system;
-        for i in (0..system.mechanics.groups.len())
-            .filter(|&i| system.law(i).has_memory() && self.stands_on_rigid(i))
-        {
-            at.p[i] = self.geometry.approach(i, &at.q);
-            at.p_rate[i] = self.approach_rate(i, at);
+/// Puts the instant's numbers into the state.
+fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    for (what, found, expected) in [
+        ("displacements of an instant", instant.displacement.len(), system.scene.bodies.len()),
+        ("speeds of an instant", instant.speed.len(), system.scene.bodies.len()),
+        ("spins of an instant", instant.spin.len(), system.mechanics.wheels.len()),
+        ("penetrations of an instant", instant.penetration.len(), system.scene.contacts.len()),
+    ] {
+        if found != expected {
+            return Err(Error::Number { what, wanted: "one each", found: found as f64 });
         }
-        let unknown: Vec<usize> = (0..system.mechanics.groups.len())
-            .filter(|&i| self.active[i] && self.given(instant, i).is_some() && !self.stands_on_rigid(i))
-            .collect();
-        self.solve_rates_of(&unknown, at)
     }
-
-    /// Finds the rates of the penetrations of the contacts `unknown` such that p + G F = e. Returns whether it converged.
-    pub(crate) fn solve_rates_of(&mut self, unknown: &[usize], at: &mut State) -> Result<bool, Error> {
-        let system = self.system;
-        let m = system.components();
-        let slope = |solver: &Self, at: &State, i: usize| {
-            let scale = system.mechanics.groups[i].count() * solver.geometry.share[i][0];
-            scale * system.law(i).at(at.p[i], at.p_rate[i]).by_rate
-        };
-        let mut last = f64::INFINITY;
-        for _ in 0..ITERATIONS {
-            if !self.instant(at)? {
-                return Ok(false);
-            }
-            let residual = DVector::from_iterator(
-                unknown.len(),
-                unknown.iter().map(|&i| at.p[i] - self.problem.penetration(i, &at.force)),
-            );
-            let size = residual.amax();
-            let scale = unknown.iter().map(|&i| at.p[i].abs()).fold(0.0, f64::max);
-            if size == 0.0 || (size >= 0.5 * last && size <= 1e-12 * scale) {
-                return Ok(true);
-            }
-            last = last.min(size);
-            let matrix = DMatrix::from_fn(unknown.len(), unknown.len(), |r, c| {
-                let (i, j) = (unknown[r], unknown[c]);
-                self.geometry.compliance[i * m + j] * slope(self, at, j)
-            });
-            let Some(change) = matrix.lu().solve(&residual) else { return Ok(false) };
-            for (&i, change) in unknown.iter().zip(change.iter()) {
-                at.p_rate[i] -= change;
+    at.t = instant.time;
+    at.force.fill(0.0);
+    for (b, numbers) in system.mechanics.kinematics.numbers.iter().enumerate() {
+        for (i, number) in numbers.iter().enumerate() {
+            if let Some(number) = *number {
+                (at.q[number], at.v[number]) = (instant.displacement[b][i], instant.speed[b][i]);
             }
         }
-        Ok(unknown.is_empty()
-            || last
-                <= 1e-9 * at.p[..system.mechanics.groups.len()].iter().fold(0.0, |max, p| p.abs().max(max)))
     }
-
-    fn answer(&self, at: &State) -> ContactForces {
-        let system = self.system;
-        let (m, count) = (system.components(), system.mechanics.groups.len());
-        let normal = |w: usize| system.mechanics.groups_of(w).next().unwrap_or(0);
-        let vertical = |w: usize| at.force[normal(w)] / system.mechanics.groups[normal(w)].count();
-        let of = |list: &[usize], w: usize| list.iter().position(|&one| one == w);
-        let wheels = 0..system.mechanics.wheels.len();
-        ContactForces {
-            vertical: wheels.clone().map(vertical).collect(),
-            lateral: wheels
-                .clone()
-                .map(|w| of(&system.laterals, w).map_or(0.0, |i| at.force[system.lateral(i)]))
-                .collect(),
-            traction: wheels
-                .clone()
-                .map(|w| of(&system.tractions, w).map_or(0.0, |i| at.force[system.traction(i)]))
-                .collect(),
-            slope: wheels.map(|w| self.geometry.rail_slope[normal(w)] * vertical(w)).collect(),
-            approach: (0..count).map(|i| self.geometry.approach(i, &at.q)).collect(),
-            penetration: at.p[..count].to_vec(),
-            compliance: DMatrix::from_fn(count, count, |i, j| self.geometry.compliance[i * m + j]),
+    for (wheel, speed) in system.mechanics.wheels.iter().zip(&instant.spin) {
+        if let Some(number) = wheel.spin {
+            at.v[number] = *speed;
         }
+    }
+    for i in 0..system.verticals() {
+        (at.p[i], at.p_rate[i]) = (given(solver, instant, i).unwrap_or(0.0), 0.0);
+    }
+    solver.reset_heights();
+    locate(solver, at)?;
+    solver.update(at)
+}
+
+/// The penetration that the instant gives to vertical contact `i`.
+fn given(solver: &Solver, instant: &Instant, i: usize) -> Option<f64> {
+    let remembers = solver.system().law(i).has_memory();
+    instant.penetration[solver.system().mechanics.groups[i].contact].filter(|_| remembers)
+}
+
+/// Finds the rates of the penetrations that are given such that p + G F = e; a rigid rail takes the wheel's
+/// own penetration and rate. Returns whether it converged.
+fn solve_rates(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<bool, Error> {
+    let system = solver.system();
+    for i in (0..system.verticals()).filter(|&i| system.law(i).has_memory() && solver.is_on_rigid_rail(i)) {
+        at.p[i] = solver.geometry().approach(i, &at.q);
+        at.p_rate[i] = solver.approach_rate(i, at);
+    }
+    let unknown: Vec<usize> = (0..system.verticals())
+        .filter(|&i| {
+            solver.active().has(i) && given(solver, instant, i).is_some() && !solver.is_on_rigid_rail(i)
+        })
+        .collect();
+    solve_rates_of(solver, &unknown, at)
+}
+
+fn answer(solver: &Solver, at: &State) -> ContactForces {
+    let system = solver.system();
+    let (m, count) = (system.elements.len(), system.verticals());
+    let normal = |w: usize| system.mechanics.groups_of(w).next().unwrap_or(0);
+    let vertical = |w: usize| at.force[normal(w)] / system.mechanics.groups[normal(w)].count();
+    let wheels = 0..system.mechanics.wheels.len();
+    let mut lateral = vec![0.0; wheels.len()];
+    for (element, force) in system.elements.iter().zip(&at.force) {
+        for (channel, divisor) in element.channels(&system.mechanics) {
+            if let Channel::Lateral(w) = channel {
+                lateral[w] += force / divisor;
+            }
+        }
+    }
+    ContactForces {
+        vertical: wheels.clone().map(vertical).collect(),
+        lateral,
+        traction: wheels.clone().map(|w| system.friction_of(w, at)).collect(),
+        slope: wheels.map(|w| solver.geometry().rail_slope(normal(w)) * vertical(w)).collect(),
+        approach: (0..count).map(|i| solver.geometry().approach(i, &at.q)).collect(),
+        penetration: at.p[..count].to_vec(),
+        compliance: DMatrix::from_fn(count, count, |i, j| solver.geometry().rails().value[i * m + j]),
     }
 }

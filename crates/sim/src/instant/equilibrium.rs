@@ -1,4 +1,4 @@
-//! Static equilibrium: weights, loads, wheels and the rail's give in balance.
+//! Static equilibrium: weights, loads, wheels and the deflection of the rail in balance.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -12,126 +12,143 @@ use crate::{Error, Freedom};
 const SWEEPS: usize = 60;
 /// Iterations on the forces of flanges.
 const FLANGES: usize = 60;
-/// Change of the freedoms, by the largest penetration, at which wheels are taken to be where they will stay.
+/// Change of the degrees of freedom, by the largest penetration, at which wheels are taken to be where they will stay.
 const SETTLED: f64 = 1e-9;
 /// Newton iterations on the laws of one active set.
 const ITERATIONS: usize = 50;
 /// Relative error of the balance beyond which the wheels cannot carry the weight.
 const BALANCE: f64 = 1e-6;
 
-impl Solver<'_> {
-    /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the freedoms of
-    /// the structures to static equilibrium at `at.t`, with the other freedoms where they are.
-    ///
-    /// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight and loads over the active set, in
-    /// sweeps that drop contacts that pull and add contacts that are pressed; again where wheels are at other places then, or
-    /// their rails' slopes turn the bodies.
-    ///
-    /// # Errors
-    /// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
-    pub fn carry(&mut self, at: &mut State) -> Result<(), Error> {
-        let system = self.system;
-        let none = Error::NoEquilibrium { time: at.t };
-        at.v.fill(0.0);
-        at.force[..system.link(0)].fill(0.0);
-        let flanges = system.lateral(0)..system.traction(0);
-        let mut relaxation = Relaxation::default();
-        // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
-        let links = at.force[system.link(0)..].to_vec();
-        for _ in 0..FLANGES {
-            let before = at.q.clone();
-            self.balance(at)?;
-            let rests = !system.moves_freely || self.is_settled(&before, at);
-            if flanges.is_empty() {
-                if rests {
-                    return Ok(());
-                }
-                continue;
-            }
-            let taken = at.force[flanges.clone()].to_vec();
-            if !self.instant(at)? {
-                return Err(none);
-            }
-            at.force[system.link(0)..].copy_from_slice(&links);
-            let largest =
-                at.force.iter().fold(self.system.mechanics.gravity.amax(), |max, force| max.max(force.abs()));
-            if relaxation.step(&taken, &mut at.force[flanges.clone()]) <= 1e-12 * largest && rests {
+/// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the degrees of freedom of
+/// the structures to static equilibrium at `at.t`, with the other degrees of freedom where they are.
+///
+/// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight and loads over the active set, in
+/// sweeps that drop contacts that pull and add contacts that are pressed; again where wheels are at other places then, or
+/// their rails' slopes turn the bodies.
+///
+/// # Errors
+/// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
+pub(crate) fn carry(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let none = Error::NoEquilibrium { time: at.t };
+    at.v.fill(0.0);
+    // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
+    let joints: Vec<f64> = system.joints().iter().map(|&i| at.force[i]).collect();
+    let restore = |force: &mut [f64]| {
+        system.joints().iter().zip(&joints).for_each(|(&i, joint)| force[i] = *joint);
+    };
+    at.force.fill(0.0);
+    restore(&mut at.force);
+    let guides = system.guides();
+    let mut relaxation = Relaxation::default();
+    for _ in 0..FLANGES {
+        let before = at.q.clone();
+        balance(solver, at)?;
+        let rests = !system.mechanics.moves_freely || is_settled(&before, at);
+        if guides.is_empty() {
+            if rests {
                 return Ok(());
             }
+            continue;
         }
-        Err(none)
-    }
-
-    /// Whether the freedoms have stayed where they were `before`.
-    pub fn is_settled(&self, before: &DVector<f64>, at: &State) -> bool {
-        let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
-        let pairs = before.iter().zip(at.q.iter());
-        pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
-    }
-
-    /// The balance under the flange forces of `at`.
-    fn balance(&mut self, at: &mut State) -> Result<(), Error> {
-        let system = self.system;
-        let none = Error::NoEquilibrium { time: at.t };
-        self.geometry.update(system, at.t, &at.q, &at.force)?;
-        let moving = self.balancing();
-        let mut balance = Balance::new(self, moving, at)?;
-        if !balance.solve() {
+        let taken: Vec<f64> = guides.iter().map(|&i| at.force[i]).collect();
+        if !solver.instant(at)? {
             return Err(none);
         }
-        for (&number, &q) in balance.moving.iter().zip(balance.q.iter()) {
-            at.q[number] = q;
+        restore(&mut at.force);
+        let largest =
+            at.force.iter().fold(system.mechanics.gravity.amax(), |max, force| max.max(force.abs()));
+        let mut followed: Vec<f64> = guides.iter().map(|&i| at.force[i]).collect();
+        let change = relaxation.step(&taken, &mut followed);
+        guides.iter().zip(followed).for_each(|(&i, force)| at.force[i] = force);
+        if change <= 1e-12 * largest && rests {
+            return Ok(());
         }
-        at.force[..system.mechanics.groups.len()].copy_from_slice(&balance.force);
-        at.p[..balance.p.len()].copy_from_slice(&balance.p);
-        at.p_rate.fill(0.0);
-        self.rest_rails(at);
-        self.active.fill(false);
-        for &i in &balance.active {
-            self.active[i] = true;
-        }
-        self.settle_structures(at)
     }
+    Err(none)
+}
 
-    /// Freedoms of the bodies that balance the weights: those of y, roll and pitch that some wheel resists.
-    fn balancing(&self) -> Vec<usize> {
-        let (n, count) = (self.system.mechanics.dofs, self.system.mechanics.groups.len());
-        let numbers = self.system.mechanics.kinematics.numbers.iter();
-        numbers
-            .flat_map(|numbers| [Freedom::Y, Freedom::Roll, Freedom::Pitch].map(|f| numbers[f as usize]))
-            .flatten()
-            .filter(|&number| (0..count).any(|i| self.geometry.rows[i * n + number] != 0.0))
-            .collect()
-    }
+/// Whether the degrees of freedom have stayed where they were `before`.
+pub(crate) fn is_settled(before: &DVector<f64>, at: &State) -> bool {
+    let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+    let pairs = before.iter().zip(at.q.iter());
+    pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
+}
 
-    /// G + Phi K^-1 Phi^T over the vertical contacts, then the flanges.
-    fn static_compliance(&self) -> Result<DMatrix<f64>, Error> {
-        let system = self.system;
-        let (n, m, count) = (system.mechanics.dofs, system.components(), system.traction(0));
-        let mut compliance = DMatrix::from_fn(count, count, |i, j| self.geometry.compliance[i * m + j]);
-        for block in &system.mechanics.blocks[1..] {
-            let first = block.range.start;
-            let phi =
-                DMatrix::from_fn(block.range.len(), count, |k, i| self.geometry.rows[i * n + first + k]);
-            compliance += phi.transpose() * block.rest(&phi)?;
-        }
-        Ok(compliance)
+/// The balance under the flange forces of `at`.
+fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let none = Error::NoEquilibrium { time: at.t };
+    solver.update(at)?;
+    let moving = balancing(solver);
+    let mut balance = Balance::new(solver, moving, at)?;
+    if !balance.solve() {
+        return Err(none);
     }
+    for (&number, &q) in balance.moving.iter().zip(balance.q.iter()) {
+        at.q[number] = q;
+    }
+    at.force[..system.verticals()].copy_from_slice(&balance.force);
+    at.p[..balance.p.len()].copy_from_slice(&balance.p);
+    at.p_rate.fill(0.0);
+    solver.rest_rails(at);
+    for i in 0..system.verticals() {
+        solver.set_active(i, balance.active.contains(&i));
+    }
+    settle_structures(solver, at)
+}
 
-    /// Structures' freedoms under the vertical and the flange forces of `at`.
-    fn settle_structures(&mut self, at: &mut State) -> Result<(), Error> {
-        let system = self.system;
-        let n = system.mechanics.dofs;
-        for block in &system.mechanics.blocks[1..] {
-            let (first, size) = (block.range.start, block.range.len());
-            let load = DMatrix::from_fn(size, 1, |k, _| {
-                let forces = at.force[..system.traction(0)].iter().enumerate();
-                -forces.map(|(i, force)| self.geometry.rows[i * n + first + k] * force).sum::<f64>()
-            });
-            at.q.rows_mut(first, size).copy_from(&block.rest(&load)?.column(0));
-        }
-        Ok(())
+/// Degrees of freedom of the bodies that balance the weights: those of y, roll and pitch that some wheel resists.
+fn balancing(solver: &Solver) -> Vec<usize> {
+    let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
+    let numbers = solver.system().mechanics.kinematics.numbers.iter();
+    numbers
+        .flat_map(|numbers| [Freedom::Y, Freedom::Roll, Freedom::Pitch].map(|f| numbers[f as usize]))
+        .flatten()
+        .filter(|&number| (0..count).any(|i| rows.approach_row(i)[number] != 0.0))
+        .collect()
+}
+
+/// Elements that press on rails at rest: the vertical contacts, then the guides.
+fn pressing(system: &System) -> Vec<usize> {
+    (0..system.verticals()).chain(system.guides().iter().copied()).collect()
+}
+
+/// G + Phi K^-1 Phi^T over the elements that press on rails at rest.
+fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
+    let system = solver.system();
+    let (m, pressing) = (system.elements.len(), pressing(system));
+    let count = pressing.len();
+    let (value, rows) = (&solver.geometry().rails().value, solver.geometry().rows());
+    let mut compliance = DMatrix::from_fn(count, count, |i, j| value[pressing[i] * m + pressing[j]]);
+    for block in &system.mechanics.blocks[1..] {
+        let first = block.range.start;
+        let phi =
+            DMatrix::from_fn(block.range.len(), count, |k, i| rows.approach_row(pressing[i])[first + k]);
+        compliance += phi.transpose() * block.rest(&phi)?;
     }
+    Ok(compliance)
+}
+
+/// Degrees of degree of freedom of structures under the vertical and the guiding forces of `at`.
+fn settle_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let (rows, pressing) = (solver.geometry().rows(), pressing(system));
+    for block in &system.mechanics.blocks[1..] {
+        let (first, size) = (block.range.start, block.range.len());
+        let load = DMatrix::from_fn(size, 1, |k, _| {
+            let loads = pressing.iter().map(|&i| rows.approach_row(i)[first + k] * at.force[i]);
+            -loads.sum::<f64>()
+        });
+        at.q.rows_mut(first, size).copy_from(&block.rest(&load)?.column(0));
+    }
+    Ok(())
+}
+
+/// Weight on degree of freedom `number` that ropes and stops take, at the forces of `at`.
+fn pull_of_joints(solver: &Solver, number: usize, at: &State) -> f64 {
+    let rows = solver.geometry().rows();
+    solver.system().joints().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
 }
 
 /// Aitken's relaxation of forces that follow from themselves.
@@ -165,11 +182,11 @@ struct Balance<'a> {
     system: &'a System<'a>,
     /// Share of each contact's law that acts, times its wheels.
     share: Vec<f64>,
-    /// Numbers of the freedoms q.
+    /// Numbers of the degrees of freedom q.
     moving: Vec<usize>,
     /// A, contacts x contacts.
     compliance: DMatrix<f64>,
-    /// Contacts x freedoms.
+    /// Contacts x degrees of freedom.
     rows: DMatrix<f64>,
     held: Vec<f64>,
     weight: DVector<f64>,
@@ -183,50 +200,46 @@ impl<'a> Balance<'a> {
     /// The balance of `moving` where the solver's geometry is; every wheel that may act is taken to carry alike.
     /// Where nothing moves, the wheels that reach into their rails carry.
     fn new(solver: &Solver<'a>, moving: Vec<usize>, at: &State) -> Result<Self, Error> {
-        let (system, geometry) = (solver.system, &solver.geometry);
-        let (n, count) = (system.mechanics.dofs, system.mechanics.groups.len());
+        let (system, geometry) = (solver.system(), solver.geometry());
+        let rows = geometry.rows();
+        let (n, count) = (system.mechanics.dofs, system.verticals());
         let stays = |k: usize| {
             !moving.contains(&k) && !system.mechanics.structures.iter().any(|range| range.contains(&k))
         };
         let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
-        let all = solver.static_compliance()?;
-        let flanges = || system.lateral(0)..system.traction(0);
+        let all = static_compliance(solver)?;
+        let guides = || system.guides().iter().enumerate().map(|(k, &l)| (system.verticals() + k, l));
         let held: Vec<f64> = (0..count)
             .map(|i| {
-                let staid = staying.iter().map(|&k| geometry.rows[i * n + k] * at.q[k]).sum::<f64>();
-                geometry.held[i] + staid - flanges().map(|l| all[(i, l)] * at.force[l]).sum::<f64>()
+                let staid = staying.iter().map(|&k| rows.approach_row(i)[k] * at.q[k]).sum::<f64>();
+                let taken = guides().map(|(place, l)| all[(i, place)] * at.force[l]).sum::<f64>();
+                rows.approach_offset[i] + staid - taken
             })
             .collect();
-        let share: Vec<f64> = system
-            .mechanics
-            .groups
-            .iter()
-            .zip(&geometry.share)
-            .map(|(normal, s)| normal.count() * s[0])
-            .collect();
+        let share: Vec<f64> =
+            (0..count).map(|i| system.mechanics.groups[i].count() * geometry.fraction(i)).collect();
         let reach = |i: usize| if moving.is_empty() { Some(held[i]) } else { None };
         let active: Vec<usize> =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
         let mut gravity = system.mechanics.gravity.clone();
         system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), &mut gravity);
         let mut weight =
-            DVector::from_fn(moving.len(), |j, _| gravity[moving[j]] + solver.pull_of_links(moving[j], at));
+            DVector::from_fn(moving.len(), |j, _| gravity[moving[j]] + pull_of_joints(solver, moving[j], at));
         for load in &system.scene.actuators.loads {
             if let Some(j) = moving.iter().position(|&k| system.mechanics.loaded(load) == Some(k)) {
                 weight[j] += load.value.at(at.t);
             }
         }
         // A rail pushes along itself where it slopes: on the hub, so that a body is turned.
-        let tilted =
-            |i: usize, k: usize| (geometry.force_rows[i * n + k] - geometry.rows[i * n + k]) * at.force[i];
+        let tilted = |i: usize, k: usize| (rows.force_row(i)[k] - rows.approach_row(i)[k]) * at.force[i];
         for (j, &k) in moving.iter().enumerate() {
             weight[j] -= (0..count).map(|i| tilted(i, k)).sum::<f64>();
-            weight[j] -= flanges().map(|l| geometry.force_rows[l * n + k] * at.force[l]).sum::<f64>();
+            weight[j] -= guides().map(|(_, l)| rows.force_row(l)[k] * at.force[l]).sum::<f64>();
         }
         let each = weight.amax() / active.len().max(1) as f64;
         Ok(Balance {
             compliance: all.view((0, 0), (count, count)).into_owned(),
-            rows: DMatrix::from_fn(count, moving.len(), |i, j| geometry.rows[i * n + moving[j]]),
+            rows: DMatrix::from_fn(count, moving.len(), |i, j| rows.approach_row(i)[moving[j]]),
             p: (0..count).map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each))).collect(),
             q: DVector::zeros(moving.len()),
             force: vec![0.0; count],

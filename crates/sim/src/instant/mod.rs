@@ -6,5 +6,6 @@ pub(crate) mod contact_forces;
 pub(crate) mod equilibrium;
 pub(crate) mod hang;
 pub(crate) mod natural;
+pub(crate) mod rates;
 pub(crate) mod settle;
 pub(crate) mod uneven;

@@ -1,18 +1,21 @@
-//! Natural modes of a scene that stands still: bodies on their contacts and ropes, on structures that give.
+//! Natural modes of a scene that stands still: bodies on their contacts and ropes, on structures that comply.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use crate::contact::solver::Solver;
+use crate::Analysis;
+use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
+use crate::instant::hang::{drop_below, equilibrate};
+use crate::instant::settle::settle;
+use crate::instant::uneven::locate;
 use crate::mechanics::state::State;
 use crate::record::energy::stored;
-use crate::scene::model::Analysis;
 use crate::{Actuators, Error, Foundation, Scene};
 
-/// Most freedoms of a scene whose modes are found.
+/// Most degrees of freedom of a scene whose modes are found.
 const MOST: usize = 300;
 
-/// Move of a freedom, beside what its wheels are pressed in at rest, over which forces are linear.
+/// Move of a degree of freedom, beside what its wheels are pressed in at rest, over which forces are linear.
 const MOVE: f64 = 1e-3;
 
 /// Square of a frequency, beside the largest, below which nothing holds a motion.
@@ -23,18 +26,18 @@ const LOOSE: f64 = 1e-10;
 pub struct NaturalMode {
     /// Circular frequency, > 0, radian/time.
     pub omega: f64,
-    /// Share of each body's six freedoms in the kinetic energy, phi_i (M phi)_i / phi^T M phi; together with
+    /// Share of each body's six degrees of freedom in the kinetic energy, phi_i (M phi)_i / phi^T M phi; together with
     /// `structures` they sum to 1.
     pub share: Vec<[f64; 6]>,
-    /// Share of the freedoms of structures with mass.
+    /// Share of the degrees of freedom of structures with mass.
     pub structures: f64,
 }
 
 /// Undamped natural modes of `scene` on `foundations` where its bodies stand at time `t`, lowest first; `place` is the x of
-/// each body then. None where it has too many freedoms.
+/// each body then. None where it has too many degrees of freedom.
 ///
 /// K phi = omega^2 M phi, with M from the kinetic energy and K from differences of the forces about static equilibrium: of
-/// vertical contacts, ropes that are taut and stops that are touched there, by which structures give, and of weights that
+/// vertical contacts, ropes that are taut and stops that are touched there, in which structures comply, and of weights that
 /// swing. Without dampers, friction, drives and brakes; flanges hold where they touch at rest. Motions that nothing holds
 /// are left out.
 ///
@@ -51,7 +54,7 @@ pub fn natural_modes(
     if system.mechanics.dofs > MOST {
         return Ok(None);
     }
-    let mut solver = Solver::new(&system)?;
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
     let mut state = system.state();
     state.t = t;
     for (body, numbers) in still.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
@@ -61,10 +64,10 @@ pub fn natural_modes(
             }
         }
     }
-    solver.locate(&state)?;
-    solver.drop_below(&mut state)?;
-    solver.equilibrate(&mut state)?;
-    if !solver.settle(&mut state)? {
+    locate(&mut solver, &state)?;
+    drop_below(&mut solver, &mut state)?;
+    equilibrate(&mut solver, &mut state)?;
+    if !settle(&mut solver, &mut state)? {
         return Err(Error::NoEquilibrium { time: t });
     }
     let mass = mass(&solver, &state);
@@ -99,12 +102,12 @@ fn stilled(scene: &Scene, place: &[f64]) -> Scene {
 
 /// M at `at`, from the kinetic energy T: M_ij = T(e_i + e_j) - T(e_i) - T(e_j) + T(0).
 fn mass(solver: &Solver, at: &State) -> DMatrix<f64> {
-    let n = solver.system.mechanics.dofs;
+    let n = solver.system().mechanics.dofs;
     let mut probe = at.clone();
     let mut energy = |moving: &[usize]| {
         probe.v.fill(0.0);
         moving.iter().for_each(|&i| probe.v[i] += 1.0);
-        stored(solver.system, &solver.geometry, &probe).kinetic
+        stored(solver.system(), solver.geometry(), &probe).kinetic
     };
     let rest = energy(&[]);
     let alone: Vec<f64> = (0..n).map(|i| energy(&[i])).collect();
@@ -121,7 +124,7 @@ fn mass(solver: &Solver, at: &State) -> DMatrix<f64> {
 
 /// K at `at`, by central differences of M a.
 fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
-    let n = solver.system.mechanics.dofs;
+    let n = solver.system().mechanics.dofs;
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(*p));
     let step = MOVE * if depth > 0.0 { depth } else { MOVE };
     let lost = Error::NoEquilibrium { time: at.t };

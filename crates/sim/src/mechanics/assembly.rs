@@ -39,6 +39,8 @@ pub(crate) struct Mechanics<'a> {
     pub structures: Vec<Range<usize>>,
     /// Number of all degrees of freedom.
     pub dofs: usize,
+    /// Whether some wheel's place along its rail depends on the degrees of freedom.
+    pub moves_freely: bool,
     /// M, C and K: the bodies and spins, then each structure; without bodies that are carried by others.
     pub blocks: Vec<Block>,
     /// Inertia between the bodies and structures on them.
@@ -96,11 +98,16 @@ impl<'a> Mechanics<'a> {
             carried,
             structures,
             dofs,
+            moves_freely: false,
             blocks: Vec::new(),
             couplings: Vec::new(),
             gravity: DVector::zeros(dofs),
         };
         mechanics.assemble()?;
+        mechanics.moves_freely = mechanics
+            .wheels
+            .iter()
+            .any(|wheel| !mechanics.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
         Ok(mechanics)
     }
 
@@ -112,6 +119,11 @@ impl<'a> Mechanics<'a> {
     /// Whether some structure has degrees of freedom of its own.
     pub fn has_structures(&self) -> bool {
         self.structures.iter().any(|range| !range.is_empty())
+    }
+
+    /// Whether some structure is loaded along its rails.
+    pub fn has_sliding_rails(&self) -> bool {
+        self.foundations.iter().any(|foundation| foundation.is_dragged)
     }
 
     /// The wheel groups that `wheel` belongs to: one, or one a rigid part.

@@ -1,10 +1,10 @@
-//! Bodies on structures that ride on bodies: a trolley on the girders of a bridge.
+//! Bodies on structures that are carried by bodies: a trolley on the girders of a bridge.
 //!
-//! Freedoms of a riding body are relative to its track. With r the place of a point of it from the carrier's
+//! Degrees of freedom of a carried body are relative to its track. With r the place of a point of it from the carrier's
 //! origin, e its rail's axis, R the turn from the rail's frame to the carrier's axes:
 //! p' = u_c' + theta_c' cross r(x) + R (u' + theta' cross at) + x' theta_c cross e = J q' + what is prescribed, and
 //! p'' = J q'' + 2 x' theta_c' cross e + X'' (e + theta_c cross e) + X_c''. Forces between the trolley's wheels and their rails
-//! act within carrier and trolley: their rows have entries over relative freedoms alone, and the carrier feels them
+//! act within carrier and trolley: their rows have entries over relative degrees of freedom alone, and the carrier feels them
 //! through J^T M J and J^T M g.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
@@ -16,7 +16,7 @@ use crate::{Axle, Error, Foundation};
 /// Slack allowed between directions of rails of one track.
 const SLACK: f64 = 1e-9;
 
-/// All bodies that ride on bodies.
+/// All bodies that are carried by bodies.
 pub(crate) struct CarriedBodies {
     /// The track of each body's tree, by its root.
     tracks: Vec<Option<Track>>,
@@ -25,11 +25,11 @@ pub(crate) struct CarriedBodies {
 }
 
 impl CarriedBodies {
-    /// The riders of `scene`, found by their contacts.
+    /// The carried bodies of a scene, found by their contacts.
     ///
     /// # Errors
     /// [`Error::Mounted`]: a tree with contacts on several carriers or rails of different directions, one that carries what it
-    /// rides on, loads on riders, and structures on riders.
+    /// rides on, loads on carried bodies, and structures on carried bodies.
     pub fn new(foundations: &[Foundation], kinematics: &Kinematics) -> Result<Self, Error> {
         let scene = kinematics.scene;
         let count = scene.bodies.len();
@@ -73,22 +73,22 @@ impl CarriedBodies {
         Ok(CarriedBodies { tracks, riders })
     }
 
-    /// Whether no body rides on another.
+    /// Whether no body is carried by another.
     pub fn is_empty(&self) -> bool {
         self.riders.is_empty()
     }
 
-    /// Whether body `b` rides.
+    /// Whether body `b` is carried.
     pub fn has(&self, b: usize) -> bool {
         self.tracks[b].is_some()
     }
 
-    /// The point `at` of body `b`, where it rides.
+    /// The point `at` of body `b`, where it is carried.
     pub fn point(&self, kinematics: &Kinematics, b: usize, at: [f64; 3]) -> Option<CarriedPoint> {
         self.tracks[b].as_ref().map(|track| CarriedPoint::new(kinematics, track, b, at))
     }
 
-    /// Adds to `mass` and `load` what the riders do at (t, q, v): J^T M J, and -J^T M (bias + g). `columns` is
+    /// Adds to `mass` and `load` what the carried bodies do at (t, q, v): J^T M J, and -J^T M (bias + g). `columns` is
     /// scratch.
     pub fn add(
         &self,
@@ -120,7 +120,7 @@ impl CarriedBodies {
         }
     }
 
-    /// Adds to `load` the weights of the riders at (t, q): -J^T M g.
+    /// Adds to `load` the weights of the carried bodies at (t, q): -J^T M g.
     pub fn weigh(&self, kinematics: &Kinematics, (t, q): (f64, &DVector<f64>), load: &mut DVector<f64>) {
         for rider in &self.riders {
             let pose = rider.pose(kinematics, t, q, q);
@@ -144,7 +144,7 @@ impl CarriedBodies {
         sum
     }
 
-    /// Force along its track that the riders ask of the prescribed x of root `b`, at accelerations `a`.
+    /// Force along its track that the carried bodies ask of the prescribed x of root `b`, at accelerations `a`.
     pub fn drive(&self, kinematics: &Kinematics, [q, v, a]: [&DVector<f64>; 3], t: f64, b: usize) -> f64 {
         let mut sum = 0.0;
         for rider in &self.riders {

@@ -1,5 +1,5 @@
 //! A point of a body that is carried by another body: where it is, how it moves, and its columns over the degrees of
-//! freedom.
+//! degree of freedom.
 
 use nalgebra::{DVector, Matrix3, SVector, Vector3};
 

@@ -32,7 +32,7 @@ pub(crate) struct Mobility<'a> {
 }
 
 impl<'a> Mobility<'a> {
-    /// M^-1; where bodies ride on others, what [`Mobility::set_mass`] makes it later.
+    /// M^-1; where bodies are carried by others, what [`Mobility::set_mass`] makes it later.
     ///
     /// # Errors
     /// A mass that is not positive definite.
@@ -66,7 +66,7 @@ impl<'a> Mobility<'a> {
         self.answer()
     }
 
-    /// Changes the coefficient g; where bodies ride on others, [`Mobility::set_mass`] must follow.
+    /// Changes the coefficient g; where bodies are carried by others, [`Mobility::set_mass`] must follow.
     ///
     /// # Errors
     /// A structure that is not positive definite.
@@ -133,7 +133,7 @@ impl<'a> Mobility<'a> {
         }
     }
 
-    /// Freedoms of a structure after those of the bodies.
+    /// Degrees of freedom of a structure after those of the bodies.
     fn own(&self, tie: &InertialCoupling) -> Range<usize> {
         let bodies = self.mass.nrows();
         tie.range.start - bodies..tie.range.end - bodies
@@ -168,7 +168,7 @@ impl BlockMobility {
         Ok(())
     }
 
-    /// `out` = Z `load` of the bodies alone, both over their freedoms.
+    /// `out` = Z `load` of the bodies alone, both over their degrees of freedom.
     pub fn apply_to_bodies(&self, load: &[f64], out: &mut [f64]) {
         if let Some((_, inverse)) = self.blocks.first() {
             inverse.apply(load, out);

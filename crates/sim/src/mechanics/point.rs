@@ -1,9 +1,9 @@
-//! A point of a body, or of space: where it is, how it moves, and its row over the freedoms.
+//! A point of a body, or of space: where it is, how it moves, and its row over the degrees of freedom.
 //!
 //! The space frame has X along the rails (the rail coordinate), Y up from the unloaded rail, Z to the right. A body
 //! on a track has its origin at Z = z and Y = y + radius - hub height, a pinned one at its pin, so that its wheels just touch at y = 0; a body
-//! that rides on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small: the rows are constant, but for
-//! points of bodies that ride on bodies.
+//! that stands on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small: the rows are constant, but for
+//! points of bodies that are carried by bodies.
 
 use nalgebra::{DVector, Vector3};
 
@@ -19,11 +19,11 @@ pub(crate) struct Point {
     pub body: Option<usize>,
     /// From the body's origin; in space, the place itself.
     pub at: [f64; 3],
-    /// Y and Z of the body's origin (of its carrier's, where it rides) where all displacements are zero.
+    /// Y and Z of the body's origin (of its carrier's, where it is carried) where all displacements are zero.
     origin: [f64; 2],
-    /// Its displacement over the freedoms, where it does not ride.
+    /// Its displacement over the degrees of freedom, where it is not carried.
     rows: [Terms; 3],
-    /// Where it rides.
+    /// Where it is carried.
     carried: Option<Box<CarriedPoint>>,
 }
 
@@ -41,7 +41,7 @@ impl Point {
         }
     }
 
-    /// A point in the frame of its body's track, which may ride.
+    /// A point in the frame of its body's track, which may be carried.
     pub fn on_track(mechanics: &Mechanics, end: &RopeEnd) -> Point {
         let origin = rest(mechanics, end.body);
         Point { body: end.body, at: end.at, origin, rows: rows(mechanics, end), carried: None }
@@ -75,12 +75,12 @@ impl Point {
         self.position(mechanics, t, q).into()
     }
 
-    /// Whether it rides on a body that moves: its rows change.
+    /// Whether a body that moves carries it: its rows change.
     pub fn is_carried(&self) -> bool {
         self.carried.is_some()
     }
 
-    /// Its displacement by the freedoms, or a rate of it by theirs; it does not ride.
+    /// Its displacement by the degrees of freedom, or a rate of it by theirs; it is not carried.
     pub fn rate(&self, of: &DVector<f64>) -> Vector3<f64> {
         let along = |terms: &Terms| terms.iter().map(|&(number, share)| share * of[number]).sum();
         Vector3::from(self.rows.each_ref().map(along))
@@ -111,7 +111,7 @@ impl Point {
         sum
     }
 
-    /// Adds `direction` times the rows of its displacement at (t, q) by the freedoms to `row`.
+    /// Adds `direction` times the rows of its displacement at (t, q) by the degrees of freedom to `row`.
     pub fn add_row(
         &self,
         mechanics: &Mechanics,
@@ -187,4 +187,55 @@ fn height_over(mechanics: &Mechanics, b: usize, root: usize) -> f64 {
         at = pin.to;
     }
     height
+}
+
+/// Two points that an element joins; without the first, the second and a plane in space.
+pub(crate) struct PointPair {
+    pub from: Option<Point>,
+    pub to: Point,
+    /// Whether their direction turns as they move across it.
+    pub swings: bool,
+}
+
+impl PointPair {
+    /// Whether one of the points is on body `b`.
+    pub fn is_on(&self, b: usize) -> bool {
+        self.to.body == Some(b) || self.from.as_ref().is_some_and(|from| from.body == Some(b))
+    }
+
+    /// Adds `direction` times the rows of the vector from `from` to `to` at (t, q) to `row`.
+    pub fn add_row(
+        &self,
+        mechanics: &Mechanics,
+        at: (f64, &DVector<f64>),
+        direction: [f64; 3],
+        row: &mut [f64],
+    ) {
+        self.to.add_row(mechanics, at, direction, row);
+        if let Some(from) = &self.from {
+            from.add_row(mechanics, at, direction.map(|d| -d), row);
+        }
+    }
+
+    /// Rate of the distance along `direction` by the x of root body `b`, at (t, q).
+    pub fn by_travel(
+        &self,
+        mechanics: &Mechanics,
+        b: usize,
+        (t, q): (f64, &DVector<f64>),
+        direction: [f64; 3],
+    ) -> f64 {
+        let by = |point: &Point| scalar(direction, point.by_travel(mechanics, b, t, q));
+        by(&self.to) - self.from.as_ref().map_or(0.0, by)
+    }
+}
+
+/// `a` - `b`.
+pub(crate) fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// Scalar product of two vectors.
+pub(crate) fn scalar(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

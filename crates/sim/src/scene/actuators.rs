@@ -6,12 +6,12 @@ use super::rope::{Rope, Stop};
 use super::rule::Rule;
 use super::schedule::Schedule;
 
-/// A force or a moment on one free freedom of a body, over time.
+/// A force or a moment on one free degree of freedom of a body, over time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Which body.
     pub body: usize,
-    /// On which freedom: a force at the origin along x, y or z, or a moment about them; positive as the freedom is.
+    /// On which freedom: a force at the origin along x, y or z, or a moment about them; positive as the degree of freedom is.
     pub freedom: Freedom,
     /// Its size.
     pub value: Schedule,

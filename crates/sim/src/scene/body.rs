@@ -17,6 +17,16 @@ pub struct Pin {
 ///
 /// Its y and z are measured from the position in which its wheels just touch the unloaded, straight rail,
 /// centred; its x is the rail coordinate of its origin.
+/// ```
+/// use sim::{Body, Freedom, Given, Profile};
+///
+/// // 20 t, driven at 2 m/s from x = 1 m, free to roll beside what a new body is free in.
+/// let mut body = Body::new(20e3, [5e3, 0.0, 40e3]);
+/// body.motion = Some(Profile::new(Given::Speed, &[[0.0, 2.0]], 1.0, 0.0)?);
+/// body.free[Freedom::Roll as usize] = true;
+/// assert_eq!(body.free, [false, true, false, true, false, true]);
+/// # Ok::<(), sim::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     /// Mass, > 0.
@@ -40,6 +50,22 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body of `mass` with the moments of `inertia` for roll, yaw and pitch about its centre of mass, which is its origin.
+    /// It is free in y and pitch, starts at rest at x = 0, and the track carries it.
+    #[must_use]
+    pub fn new(mass: f64, inertia: [f64; 3]) -> Self {
+        Body {
+            mass,
+            inertia,
+            cg: [0.0; 3],
+            free: [false, true, false, false, false, true],
+            start: [0.0; 6],
+            start_speed: [0.0; 6],
+            motion: None,
+            pinned: None,
+        }
+    }
+
     /// 6 x 6 mass matrix about the origin, m J^T J + diag(0, 0, 0, inertia), J the velocity of the centre of mass.
     #[must_use]
     pub(crate) fn mass_matrix(&self) -> [[f64; 6]; 6] {
@@ -79,6 +105,14 @@ pub(crate) fn parents_first(bodies: &[Body]) -> Result<Vec<usize>, Error> {
 
 /// One contact between a body and a rail: a wheel, or the wheels of massless equalisers, which share its
 /// force evenly.
+/// ```
+/// use sim::Contact;
+///
+/// // A wheel 1.5 m ahead of the origin of body 0, and a truck of two wheels behind it.
+/// let wheel = Contact::new(0, [1.5, 0.0, 0.0]);
+/// let truck = Contact { offsets: vec![-0.4, 0.4], ..Contact::new(0, [-1.5, 0.0, 0.0]) };
+/// assert_eq!((wheel.offsets.len(), truck.offsets.len()), (1, 2));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contact {
     /// Which body.
@@ -93,4 +127,12 @@ pub struct Contact {
     pub offsets: Vec<f64>,
     /// Which kind of wheel.
     pub wheel: usize,
+}
+
+impl Contact {
+    /// One wheel of kind 0 with its hub `at` a place from the origin of `body`, on the first rail of structure 0.
+    #[must_use]
+    pub fn new(body: usize, at: [f64; 3]) -> Self {
+        Contact { body, structure: 0, rail: 0, at, offsets: vec![0.0], wheel: 0 }
+    }
 }

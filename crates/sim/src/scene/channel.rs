@@ -7,9 +7,9 @@ use super::dof::Freedom;
 pub enum Channel {
     /// Time.
     Time,
-    /// Displacement of a body in one freedom.
+    /// Displacement of a body in one degree of freedom.
     Displacement(usize, Freedom),
-    /// Speed of a body in one freedom.
+    /// Speed of a body in one degree of freedom.
     Speed(usize, Freedom),
     /// Force along +x of a body's drive, or that its prescribed motion needs.
     Drive(usize),
@@ -41,7 +41,7 @@ pub enum Channel {
     Stop(usize),
     /// Displacement of a gauge along its axis.
     Gauge(usize),
-    /// One freedom of a structure that is [recorded](crate::Foundation::recorded): structure, freedom.
+    /// One degree of freedom of a structure that is [recorded](crate::Foundation::recorded): structure, degree of freedom.
     Coordinate(usize, usize),
     /// Its second derivative by time; zero in a quasi-static run.
     Acceleration(usize, usize),

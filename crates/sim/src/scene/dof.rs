@@ -1,6 +1,6 @@
 //! The six degrees of freedom of a rigid body, and the lever arms between them.
 
-/// Degree of freedom of a body on its track; rotations are small and right-handed about x, y and z.
+/// Degree of degree of freedom of a body on its track; rotations are small and right-handed about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Freedom {
     /// Along the rail.
@@ -24,7 +24,7 @@ impl Freedom {
 }
 
 /// Displacement of a point at `r` from a body's origin: row i gives component i per unit of each degree of
-/// freedom, u + theta cross r with theta = (roll, yaw, pitch).
+/// degree of freedom, u + theta cross r with theta = (roll, yaw, pitch).
 #[must_use]
 pub(crate) fn arm_rows(r: [f64; 3]) -> [[f64; 6]; 3] {
     let [rx, ry, rz] = r;

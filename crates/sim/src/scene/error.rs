@@ -14,12 +14,12 @@ pub enum Error {
         /// What it said.
         source: splines::Error,
     },
-    /// A mass or inertia of a free freedom that is not positive.
+    /// A mass or inertia of a free degree of freedom that is not positive.
     #[error("body {body}: freedom {freedom:?} is free but nothing has inertia there")]
     NoInertia {
         /// Which body.
         body: usize,
-        /// Which freedom.
+        /// Which degree of freedom.
         freedom: Freedom,
     },
     /// A body, structure or rail index beyond the scene's.
@@ -65,12 +65,12 @@ pub enum Error {
         /// Which body.
         body: usize,
     },
-    /// A load, drive or brake on a freedom that is held or prescribed.
+    /// A load, drive or brake on a degree of freedom that is held or prescribed.
     #[error("body {body}: freedom {freedom:?} is not free, nothing can push it")]
     NotFree {
         /// Which body.
         body: usize,
-        /// Which freedom.
+        /// Which degree of freedom.
         freedom: Freedom,
     },
     /// A driven or braked wheel that spins by itself.
@@ -90,7 +90,7 @@ pub enum Error {
     Method {
         /// Which method.
         method: Method,
-        /// What the scene lacks.
+        /// What is missing in the scene.
         wanted: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! What carries a rail: a compliance, and where its mass counts a structure with freedoms of its own.
+//! What carries a rail: a compliance, and where its mass counts a structure with degrees of freedom of its own.
 //!
 //! M q'' + C q' + K q = Phi^T F, (G + diag(1/k)) F = d - Phi q: rigid has neither G nor q, influence has G
 //! alone, parts have q alone (or, without mass, G = Phi K^-1 Phi^T).
@@ -15,14 +15,25 @@ use super::structure::Structure;
 pub struct Extent {
     /// First and last coordinate; `None`: without end.
     pub range: Option<[f64; 2]>,
-    /// Coordinates where the rail's give is less smooth: supports, hinges, stations, hand-overs.
+    /// Coordinates where the deflection of the rail is less smooth: supports, hinges, stations, hand-overs.
     pub breaks: Vec<f64>,
 }
 
 /// One structure as the wheels feel it.
+///
+/// [`Foundation::default`] is a rigid rail without end; [`Foundation::influence`] is a compliance without mass; with a
+/// [`structure`](Foundation::structure) it has mass.
+/// ```
+/// use sim::{Extent, Foundation};
+///
+/// // A rigid rail from 0 to 30 m with a joint at 12 m, where steps end.
+/// let extent = Extent { range: Some([0.0, 30.0]), breaks: vec![12.0] };
+/// let foundation = Foundation { rails: vec![extent], ..Foundation::rigid() };
+/// assert_eq!(foundation.freedoms(), 0);
+/// ```
 #[derive(Default)]
 pub struct Foundation {
-    /// G; `None`: rigid beside the freedoms of `structure`.
+    /// G; `None`: rigid beside the degrees of freedom of `structure`.
     pub compliance: Option<Box<dyn Compliance>>,
     /// Freedoms with mass.
     pub structure: Option<Structure>,
@@ -31,7 +42,7 @@ pub struct Foundation {
     pub parts: Option<Vec<PartChain>>,
     /// Extents of the rails; empty: rails without end or break.
     pub rails: Vec<Extent>,
-    /// Whether histories hold its freedoms and their accelerations.
+    /// Whether histories hold its degrees of freedom and their accelerations.
     pub recorded: bool,
     /// Whether friction, drives and brakes load the structure along its rails, and feel their speed.
     pub is_dragged: bool,
@@ -42,7 +53,7 @@ pub struct Foundation {
 }
 
 impl Foundation {
-    /// A rail that does not give.
+    /// A rigid rail.
     #[must_use]
     pub fn rigid() -> Self {
         Foundation::default()
@@ -69,7 +80,7 @@ impl Foundation {
         own.iter().filter(move |x| (low..=high).contains(*x)).chain(near).copied()
     }
 
-    /// Number of freedoms with mass.
+    /// Number of degrees of freedom with mass.
     #[must_use]
     pub fn freedoms(&self) -> usize {
         self.structure.as_ref().map_or(0, |structure| structure.dynamics.freedoms())

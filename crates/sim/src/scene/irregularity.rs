@@ -27,6 +27,17 @@ pub struct Wave {
 ///
 /// A sum of tables, linear between their rows and constant before the first and after the last (two rows at one x
 /// are a step), and of sinusoids. Steps of a run end at its corners.
+/// ```
+/// use sim::{Irregularity, Wave};
+/// use splines::Axis;
+///
+/// // A joint that is 1 mm low at 12 m, and waves of 2 mm from 20 m to 26 m.
+/// let joint = Irregularity::new(&[[11.9, 0.0], [12.0, -1e-3], [12.1, 0.0]], &[])?;
+/// let wave = Wave { amplitude: 2e-3, length: 1.5, phase: 0.0, range: [20.0, 26.0] };
+/// let shape = joint.plus(&Irregularity::wave(Axis::Vertical, wave)?);
+/// assert_eq!(shape.breaks(), [11.9, 12.0, 12.1, 20.0, 26.0]);
+/// # Ok::<(), sim::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Irregularity {
     /// Where the pieces after the first one start.

@@ -26,6 +26,23 @@ pub enum Analysis {
 }
 
 /// Everything that moves, and for how long.
+///
+/// [`Scene::default`] is an empty dynamic scene in SI units: gravity of 9.81 m/s^2, one second with an output every 0.01 s,
+/// a relative accuracy of 1e-6.
+/// ```
+/// use sim::{Body, Contact, Damper, NormalLaw, Scene, Wheel};
+///
+/// // A mass on one wheel.
+/// let scene = Scene {
+///     bodies: vec![Body::new(1000.0, [0.0; 3])],
+///     wheels: vec![Wheel::new(0.5, NormalLaw::linear(1e8, 0.0, Damper::Rail))],
+///     contacts: vec![Contact::new(0, [0.0; 3])],
+///     ..Scene::default()
+/// };
+/// assert!(scene.check(1).is_ok());
+/// // There must be the structure that its contact names.
+/// assert!(scene.check(0).is_err());
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
     /// Acceleration of gravity, downwards.
@@ -48,6 +65,23 @@ pub struct Scene {
     pub output_dt: f64,
     /// Relative accuracy asked of displacements and forces.
     pub accuracy: f64,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Scene {
+            gravity: 9.81,
+            bodies: Vec::new(),
+            wheels: Vec::new(),
+            contacts: Vec::new(),
+            gauges: Vec::new(),
+            actuators: Actuators::default(),
+            analysis: Analysis::default(),
+            end: 1.0,
+            output_dt: 0.01,
+            accuracy: 1e-6,
+        }
+    }
 }
 
 impl Scene {

@@ -155,11 +155,11 @@ impl Compliance for BlendedParts {
     }
 }
 
-/// Shapes of the parts' freedoms: the state of every part is `basis` times the freedoms.
+/// Shapes of the parts' degrees of freedom: the state of every part is `basis` times the degrees of freedom.
 pub struct PartShapes {
     /// The parts, each a rigid arm on a rail of its own.
     pub line: Arc<Line>,
-    /// States (six a part) x freedoms.
+    /// States (six a part) x degrees of freedom.
     pub basis: DMatrix<f64>,
     /// One chain a rail; the rail's datum is blended.
     pub chains: Vec<PartChain>,

@@ -27,6 +27,15 @@ pub enum Given {
 ///
 /// Between the rows of its table the quantity given is linear in time; before the first and after the last row
 /// it keeps the row's value. So x is piecewise linear, quadratic or cubic, and integrated exactly.
+/// ```
+/// use sim::{Given, Profile};
+///
+/// // From rest at x = 4 m to 2 m/s within 5 s, then at constant speed.
+/// let motion = Profile::new(Given::Speed, &[[0.0, 0.0], [5.0, 2.0]], 4.0, 0.0)?;
+/// assert_eq!((motion.at(5.0).x, motion.at(5.0).v), (9.0, 2.0));
+/// assert_eq!(motion.at(6.0).x, 11.0);
+/// # Ok::<(), sim::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
     pieces: Vec<Piece>,

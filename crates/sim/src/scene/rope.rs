@@ -15,6 +15,27 @@ pub struct RopeEnd {
 ///
 /// With the distance l of its ends and its unstretched length l0(t) = `length` - integral of `speed`, it pulls with
 /// T = max(0, EA (l - l0)/l0 + c (l' - l0')) where l > l0, and not at all where l <= l0.
+/// ```
+/// use std::ops::ControlFlow;
+/// use sim::{Body, Channel, Rope, RopeEnd, Scene, Schedule};
+///
+/// // 1 t hangs at rest on 10 m of rope below the origin of space.
+/// let rope = Rope {
+///     from: RopeEnd { body: None, at: [0.0; 3] },
+///     to: RopeEnd { body: Some(0), at: [0.0; 3] },
+///     stiffness: 1e7,
+///     damping: 0.0,
+///     length: 10.0,
+///     speed: Schedule::new(&[[0.0, 0.0]])?,
+/// };
+/// let free = [true, true, true, false, false, false];
+/// let mut scene = Scene { bodies: vec![Body { free, ..Body::new(1e3, [0.0; 3]) }], ..Scene::default() };
+/// scene.actuators.ropes = vec![rope];
+/// scene.actuators.hung = vec![0];
+/// let run = sim::run(&scene, &[], &mut |_| ControlFlow::Continue(()))?;
+/// assert!(run.history.values(Channel::Tension(0)).all(|tension| (tension / 9810.0 - 1.0).abs() < 1e-6));
+/// # Ok::<(), sim::Error>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rope {
     /// One end.
@@ -32,7 +53,7 @@ pub struct Rope {
 }
 
 /// A one-sided contact of a point of a body with a plane: an end stop of a rail, a floor, or another body. The plane of a body
-/// that rides on another is fixed to the rail it runs on.
+/// that is carried by another is fixed to the rail it runs on.
 ///
 /// With p = side (coordinate - place) > 0 it pushes back with max(0, k p + c p').
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +62,7 @@ pub struct Stop {
     pub body: usize,
     /// Point of the body that meets it, from its origin.
     pub at: [f64; 3],
-    /// Which coordinate of space, or of the track of a body that rides: 0 X, 1 Y, 2 Z.
+    /// Which coordinate of space, or of the track of a carried body: 0 X, 1 Y, 2 Z.
     pub axis: usize,
     /// Body that bears the plane, met at the height of `at`; `None`: it stands in space.
     pub against: Option<usize>,

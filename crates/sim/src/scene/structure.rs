@@ -3,17 +3,17 @@
 use nalgebra::DMatrix;
 use splines::Probe;
 
-/// Shapes Phi of a structure's freedoms along its rails.
+/// Shapes Phi of a structure's degrees of freedom along its rails.
 pub trait Shapes: Send + Sync {
-    /// Displacement at `at` along its axis per unit of each freedom, and its derivative along the rail,
-    /// into `value` and `slope`, of one entry a freedom.
+    /// Displacement at `at` along its axis per unit of each degree of freedom, and its derivative along the rail,
+    /// into `value` and `slope`, of one entry a degree of freedom.
     ///
     /// # Errors
     /// A probe beyond its rail.
     fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), splines::Error>;
 }
 
-/// Freedoms of a structure that has mass.
+/// Degrees of freedom of a structure that has mass.
 pub struct Structure {
     /// M, C and K.
     pub dynamics: Dynamics,
@@ -21,10 +21,10 @@ pub struct Structure {
     pub shapes: Box<dyn Shapes>,
 }
 
-/// How the freedoms of a structure move.
+/// How the degrees of freedom of a structure move.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dynamics {
-    /// Freedoms of any kind, n x n matrices.
+    /// Degrees of freedom of any kind, n x n matrices.
     Matrices {
         /// M, symmetric and positive definite.
         mass: DMatrix<f64>,
@@ -43,7 +43,7 @@ pub enum Dynamics {
 }
 
 impl Dynamics {
-    /// Frequencies of natural modes; empty for freedoms of any kind.
+    /// Frequencies of natural modes; empty for degrees of freedom of any kind.
     #[must_use]
     pub fn frequencies(&self) -> &[f64] {
         match self {
@@ -52,7 +52,7 @@ impl Dynamics {
         }
     }
 
-    /// Number of freedoms.
+    /// Number of degrees of freedom.
     #[must_use]
     pub fn freedoms(&self) -> usize {
         match self {

@@ -178,6 +178,14 @@ impl Friction {
 }
 
 /// One kind of wheel.
+/// ```
+/// use sim::{Damper, Flange, NormalLaw, Wheel};
+///
+/// let mut wheel = Wheel::new(0.4, NormalLaw::linear(1e9, 1e6, Damper::Rail));
+/// wheel.flange = Some(Flange { stiffness: 1e8, clearance: 0.01, release: None });
+/// // 200 kN press it in by 0.2 mm.
+/// assert!((wheel.normal.penetration(200e3) - 0.2e-3).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wheel {
     /// Radius, > 0.
@@ -190,6 +198,14 @@ pub struct Wheel {
     pub friction: Option<Friction>,
     /// Rotational inertia; `None`: the wheel rolls without inertia and takes no traction.
     pub spin_inertia: Option<f64>,
+}
+
+impl Wheel {
+    /// A wheel of `radius` with the vertical law `normal`, without flange and friction: it rolls without inertia.
+    #[must_use]
+    pub fn new(radius: f64, normal: NormalLaw) -> Self {
+        Wheel { radius, normal, flange: None, friction: None, spin_inertia: None }
+    }
 }
 
 #[cfg(test)]

@@ -10,14 +10,14 @@ use crate::{Analysis, Scene};
 
 /// Modes that are looked at where no more are needed to tell rigid, influence and two modes.
 const FEW: usize = 3;
-/// Chooses a rung for every structure with a tolerance (`None`: its foundation is given), those that ride on bodies first, the
+/// Chooses a fidelity for every structure with a tolerance (`None`: its foundation is given), those that are carried by bodies first, the
 /// others held at theirs (influence before their turn), and runs the scene. `watch` sees the time that every run reaches,
 /// and may stop the choice.
 ///
-/// First the errors of the rungs are predicted, see [`Predicted`]: rungs expected to err by much more than the tolerance are
+/// First the errors of the fidelities are predicted, see [`Predicted`]: fidelities expected to err by much more than the tolerance are
 /// skipped; one expected to err by much less is taken without a higher one to check it. What is left is compared: rigid and
 /// influence with the first [`Rung::Modal`] whose highest frequency exceeds three times that of the bodies on their contacts,
-/// a number of modes with the next of 2, 4, 6, 8, 12, 16 and full, full with half its mesh. The run of the rung chosen is
+/// a number of modes with the next of 2, 4, 6, 8, 12, 16 and full, full with half its mesh. The run of the fidelity chosen is
 /// kept. Where several structures climbed, all are checked together and raised together until the sum of their tolerances
 /// holds. Not controlled: pitch, roll, lateral motion and forces, gauges and what lies between output times.
 ///
@@ -34,7 +34,7 @@ pub fn choose<L: Ladder>(
         .collect::<Result<Vec<_>, _>>()?;
     let mut choices: Vec<Choice> = Vec::new();
     let (mut last, mut runs) = (None, 0);
-    // what rides on a body is small: it is tried on all that is still cheap
+    // what a body carries is small: it is tried on all that is still cheap
     let (riding, standing): (Vec<usize>, Vec<usize>) =
         (0..tolerances.len()).partition(|&structure| foundations[structure].on.is_some());
     for structure in riding.into_iter().chain(standing) {
@@ -48,7 +48,7 @@ pub fn choose<L: Ladder>(
                 choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
                 continue;
             }
-            // where they cannot be found, the rungs say why
+            // where they cannot be found, the fidelities say why
             few => few.ok().flatten(),
         };
         let climb = Climb::new(scene, tolerance, structure, &mut foundations, ladder, watch);

@@ -1,4 +1,4 @@
-//! One structure, from the lowest rung that may suffice to the first that does.
+//! One structure, from the lowest fidelity that may suffice to the first that does.
 
 use std::ops::ControlFlow;
 
@@ -12,21 +12,21 @@ use crate::{Foundation, Run, Scene, Status, Structure};
 const ABOVE_CONTACT: f64 = 3.0;
 /// Error of a mesh by its difference from one of half the elements, at most: order 4 in the elements' length makes it 1/15.
 const HALVED: f64 = 0.25;
-/// Errors predicted, by the tolerance, above which a rung is skipped: rigid, influence, modes.
+/// Errors predicted, by the tolerance, above which a fidelity is skipped: rigid, influence, modes.
 const SKIP: [f64; 3] = [1.5, 6.0, 10.0];
-/// Errors predicted, by the tolerance, below which a rung is taken unchecked: rigid, influence, modes.
+/// Errors predicted, by the tolerance, below which a fidelity is taken unchecked: rigid, influence, modes.
 const TAKE: [f64; 3] = [0.25, 0.2, 0.15];
 /// So many times as fast again where modes are taken unchecked.
 const FAR: f64 = 3.0;
 
-/// A rung, run.
+/// A fidelity, run.
 pub(super) struct Candidate {
     pub rung: Rung,
     pub foundation: Foundation,
     pub run: Run,
 }
 
-/// What came of a climb.
+/// What the search found.
 pub(super) struct Outcome {
     pub choice: Choice,
     pub found: Candidate,
@@ -34,7 +34,7 @@ pub(super) struct Outcome {
     pub runs: usize,
 }
 
-/// One climb.
+/// The search for one structure.
 pub(super) struct Climb<'a, L: Ladder> {
     scene: &'a Scene,
     finer: Scene,
@@ -195,7 +195,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
         Plan { lower, higher, taken: sure.is_some(), is_enough }
     }
 
-    /// Builds and runs a rung. One that cannot be built or started is noted.
+    /// Builds and runs a fidelity. One that cannot be built or started is noted.
     fn attempt(&mut self, rung: Rung) -> Option<Candidate> {
         let built = self.ladder.foundation(self.structure, rung);
         let ran = built.and_then(|foundation| {
@@ -242,7 +242,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
 }
 
 impl Candidate {
-    /// Whether the run ended where no other rung would go on.
+    /// Whether the run ended where no other fidelity would go on.
     fn is_final(&self) -> bool {
         matches!(self.run.status, Status::Stopped | Status::Refused(..))
     }

@@ -10,7 +10,7 @@ use crate::{Error, Foundation, Run, Scene, Structure};
 /// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
 /// thirty times what they are asked.
 pub const STEPPING: f64 = 0.03;
-/// Share of the tolerance that an estimate may reach: the higher rung errs too.
+/// Share of the tolerance that an estimate may reach: the higher fidelity errs too.
 pub(super) const SAFE: f64 = 0.8;
 
 /// What builds foundations on demand.
@@ -28,7 +28,7 @@ pub trait Ladder {
     /// `structure` at `rung`; a structure whose foundation is given ignores `rung`.
     ///
     /// # Errors
-    /// A rung that cannot be built.
+    /// A fidelity that cannot be built.
     fn foundation(&mut self, structure: usize, rung: Rung) -> Result<Foundation, Self::Error>;
 
     /// Runs the scene: [`run()`], unless it is to be integrated in another way.
@@ -45,25 +45,25 @@ pub trait Ladder {
     }
 }
 
-/// Why a rung was chosen.
+/// Why a fidelity was chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
     /// No mass is known: the error of leaving it out is not known either.
     NoMass,
     /// A sequence of equilibria has no inertia.
     QuasiStatic,
-    /// What it leaves out is predicted to be far below the tolerance: no higher rung was run.
+    /// What it leaves out is predicted to be far below the tolerance: no higher fidelity was run.
     Predicted,
     /// The estimate is within 0.8 of the tolerance.
     Sufficient,
     /// Nothing lower was sufficient. The estimate is that of the mesh with half as many elements: above the tolerance,
     /// or, where that mesh could not be run, none.
     Top,
-    /// No higher rung could be built or run to check it: its error is not known, or exceeds the tolerance.
+    /// No higher fidelity could be built or run to check it: its error is not known, or exceeds the tolerance.
     Unchecked,
 }
 
-/// A rung that was tried.
+/// A fidelity that was tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tried {
     /// Which.
@@ -81,13 +81,13 @@ pub struct Tried {
 pub struct Choice {
     /// Which structure.
     pub structure: usize,
-    /// Its rung.
+    /// Its fidelity.
     pub rung: Rung,
     /// Why.
     pub reason: Reason,
     /// Its error, where that is known.
     pub estimate: Option<f64>,
-    /// What was expected of the rungs; `None` where nothing was.
+    /// What was expected of the fidelities; `None` where nothing was.
     pub predicted: Option<Predicted>,
     /// Rungs left out, as they were expected to err by far more than is allowed.
     pub skipped: Vec<Rung>,

@@ -7,7 +7,7 @@ use super::fidelity::{Choice, Ladder, Reason, SAFE, STEPPING, Selection, Tried};
 use super::rung::{MODES, Rung};
 use crate::{Foundation, Scene};
 
-/// Raises all structures that climbed until the next rungs of all change the run by at most 0.8 of the sum of their
+/// Raises all structures that climbed until the next fidelities of all change the run by at most 0.8 of the sum of their
 /// tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they were held.
 pub(super) fn settle<L: Ladder>(
     scene: &Scene,
@@ -68,7 +68,7 @@ pub(super) fn settle<L: Ladder>(
     }
 }
 
-/// What checks a choice: what it was checked against, or else the next rung.
+/// What checks a choice: what it was checked against, or else the next fidelity.
 fn above(choice: &Choice) -> Rung {
     let checked = choice.tried.iter().rev().find(|tried| tried.rung == choice.rung);
     match (checked, choice.rung) {

@@ -1,4 +1,4 @@
-//! What a rung leaves out, from the scene alone, before anything is integrated.
+//! What a fidelity leaves out, from the scene alone, before anything is integrated.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -17,14 +17,14 @@ const PLACES: usize = 64;
 /// Largest error that is told apart from a larger one.
 const MOST: f64 = 10.0;
 
-/// Errors expected of the rungs of one structure, relative, as [`distance`] measures them.
+/// Errors expected of the fidelities of one structure, relative, as [`distance`] measures them.
 ///
 /// With alpha = v k / omega of a mode (k = max |phi'| / max |phi| along the rail; v / (2 L f_1) for a simply supported
-/// girder), r = (omega_b / omega)^2 (omega_b: a body on its contacts and the give of the rail), p the share of the
-/// give in the height of a wheel, s the share of the modes left out in the give, T the time of the run:
+/// girder), r = (omega_b / omega)^2 (omega_b: a body on its contacts and the deflection of the rail), p the share of the
+/// give in the height of a wheel, s the share of the modes left out in the deflection, T the time of the run:
 #[derive(Clone, Debug, PartialEq)]
 pub struct Predicted {
-    /// What rigid leaves out: the distance of quasi-static sweeps without and with the give.
+    /// What rigid leaves out: the distance of quasi-static sweeps without and with the deflection.
     pub give: f64,
     /// alpha / (1 - alpha) of the first mode, what influence leaves out of a crossing.
     pub speed: f64,
@@ -32,7 +32,7 @@ pub struct Predicted {
     pub ripple: f64,
     /// Steps of the loads by the weight, times T_1 / (pi ramp), at most 1, times r at most 1.
     pub step: f64,
-    /// 1 - sqrt(1 - theta^2), theta the largest alpha of a mode: the static give against that of a load that moves along a track.
+    /// 1 - sqrt(1 - theta^2), theta the largest alpha of a mode: the static deflection against that of a load that moves along a track.
     pub track: f64,
     /// Errors of rigid, influence and numbers of modes, from the cheapest.
     pub errors: Vec<(Rung, f64)>,
@@ -55,7 +55,7 @@ struct Mode {
     k: f64,
 }
 
-/// Errors expected of the rungs of `structure`; `foundations` has it at influence, `motion` has its lowest modes. `None`
+/// Errors expected of the fidelities of `structure`; `foundations` has it at influence, `motion` has its lowest modes. `None`
 /// where the sweep cannot be made, or wheels of the structure carry nothing in it.
 pub(super) fn predict(
     scene: &Scene,
@@ -79,7 +79,7 @@ pub(super) fn predict(
 
     let turn = crossing.speed * modes[0].k;
     let beta = (turn / crossing.omega).min(1.0);
-    // the give under a wheel that crosses a girder grows with the square of the time: it excites with beta^2
+    // the deflection under a wheel that crosses a girder grows with the square of the time: it excites with beta^2
     let oscillating =
         crossing.share * beta * beta + load.share * (2.0 / (crossing.omega * load.ramp)).min(1.0);
     let rigid = give * (1.0 + turn * crossing.damping);
@@ -144,10 +144,10 @@ fn sweep(scene: &Scene, foundations: &[Foundation]) -> Result<Run, Error> {
 struct Crossing {
     /// Largest speed of a wheel.
     speed: f64,
-    /// Largest share of the give in the height of a wheel, and largest give by penetration.
+    /// Largest share of the deflection in the height of a wheel, and largest deflection by penetration.
     share: f64,
     softness: f64,
-    /// Frequency of the fastest body on its contacts and the rail's give, and on its contacts alone.
+    /// Frequency of the fastest body on its contacts and the deflection of the rail, and on its contacts alone.
     omega: f64,
     contact: f64,
     /// Largest c / k of a damper between wheel and rail.
@@ -220,7 +220,7 @@ fn modes(motion: &Structure, rails: &[Extent]) -> Option<Vec<Mode>> {
     (n > 0).then(|| (0..n).map(|j| Mode { omega: omega[j], k: k(j) }).collect())
 }
 
-/// Largest give at `places` by the largest of all when so many modes are taken out, one entry a number. What lies beyond
+/// Largest deflection at `places` by the largest of all when so many modes are taken out, one entry a number. What lies beyond
 /// the modes is left out.
 fn shares(motion: &Structure, places: &[Probe]) -> Option<Vec<f64>> {
     let omega = motion.dynamics.frequencies();

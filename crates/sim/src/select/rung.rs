@@ -7,11 +7,11 @@ pub(super) const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
 /// How much of a structure is modelled, from the cheapest to the dearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Rung {
-    /// It does not give.
+    /// It is rigid.
     Rigid,
-    /// It gives without mass.
+    /// It complies without mass.
     Influence,
-    /// This many modes, and the static give of the others.
+    /// This many modes, and the static deflection of the others.
     Modal(usize),
     /// All modes of a mesh with half as many elements a member as the one at the top, which it checks.
     Half,

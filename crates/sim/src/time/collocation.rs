@@ -15,10 +15,10 @@ use crate::time::nodes::Nodes;
 use crate::time::propagator::Propagator;
 use crate::{Dynamics, Error, Exchanged};
 
-/// Everything a step needs; n freedoms, m components, s nodes.
+/// Everything a step needs; n degrees of freedom, m components, s nodes.
 pub(crate) struct Collocation {
     nodes: Nodes,
-    /// omega and zeta of each freedom; omega 0: a body's.
+    /// omega and zeta of each degree of freedom; omega 0: a body's.
     modes: Vec<[f64; 2]>,
     /// Answers for the lengths of step met last; the first is that of the step.
     answers: Vec<Answers>,
@@ -46,7 +46,7 @@ pub(crate) struct Collocation {
     powers: Vec<Exchanged>,
 }
 
-/// Answers of every freedom over a step of length `h`.
+/// Answers of every degree of freedom over a step of length `h`.
 struct Answers {
     h: f64,
     /// Answers to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
@@ -86,7 +86,7 @@ impl Answers {
 
 impl Collocation {
     pub fn new(system: &System, nodes: Nodes, start: &State) -> Self {
-        let (n, m, s) = (system.mechanics.dofs, system.components(), nodes.count());
+        let (n, m, s) = (system.mechanics.dofs, system.elements.len(), nodes.count());
         let mut modes = vec![[0.0; 2]; n];
         for (range, foundation) in system.mechanics.structures.iter().zip(system.foundations) {
             if let Some(Dynamics::Modes { omega, ratio }) = foundation.structure.as_ref().map(|s| &s.dynamics)
@@ -123,7 +123,7 @@ impl Collocation {
         }
     }
 
-    /// Whether some freedom is a mode.
+    /// Whether some degree of freedom is a mode.
     pub fn is_modal(&self) -> bool {
         self.modes.iter().any(|mode| mode[0] > 0.0)
     }
@@ -134,13 +134,13 @@ impl Collocation {
     }
 
     /// Energy exchanged in the step, by the quadrature of the nodes.
-    pub fn booked(&self) -> Exchanged {
+    pub fn exchanged(&self) -> Exchanged {
         let s = self.count();
-        let mut booked = Exchanged::default();
+        let mut sum = Exchanged::default();
         for (power, weight) in self.powers.iter().zip(&self.nodes.a[s * s..]) {
-            booked.add(power, self.answers[0].h * weight);
+            sum.add(power, self.answers[0].h * weight);
         }
-        booked
+        sum
     }
 
     /// Takes a step of length `h` from `from` with the contacts that are active; false where it has no solution.
@@ -153,25 +153,25 @@ impl Collocation {
         to: &mut State,
     ) -> Result<bool, Error> {
         self.set_step(h);
-        let (s, n, m) = (self.count(), to.q.len(), solver.system.components());
+        let (s, n, m) = (self.count(), to.q.len(), solver.system().elements.len());
         for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
             self.load_start[r] = from.a[r] + omega * (2.0 * zeta * from.v[r] + omega * from.q[r]);
         }
         for a in 0..s {
             let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
             self.states[a].t = t;
-            self.places[a].update(solver.system, t, &from.q, &from.force)?;
+            self.places[a].update(solver.system(), t, &from.q, &from.force)?;
             if !(self.is_spread && self.steady) {
-                self.weight[a].copy_from(solver.accelerate(t));
+                self.weight[a].copy_from(solver.free_accelerations(t));
             }
-            if !(self.is_spread && solver.system.constant_rows) {
-                let rows = self.places[a].rows.chunks_exact(n.max(1));
+            if !(self.is_spread && solver.system().traits.has_constant_rows) {
+                let rows = self.places[a].rows().approach.chunks_exact(n.max(1));
                 for (row, spread) in rows.zip(self.spread[a * m * n..].chunks_exact_mut(n.max(1))) {
-                    solver.spread_row(row, spread);
+                    solver.apply_inverse(row, spread);
                 }
             }
         }
-        if solver.system.constant_rows {
+        if solver.system().traits.has_constant_rows {
             self.fill_body_answers(solver, from);
         } else {
             self.fill_answers(solver, from);
@@ -196,7 +196,7 @@ impl Collocation {
         self.answers[0].fill(&self.nodes, &self.modes, h);
     }
 
-    /// State of freedom `r` at target `i` under the loads at the nodes.
+    /// State of degree of freedom `r` at target `i` under the loads at the nodes.
     fn answer(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
         let answers = &self.answers[0];
@@ -210,9 +210,9 @@ impl Collocation {
         out
     }
 
-    /// Free approach and what forces take, by the answers of every freedom.
+    /// Free approach and what forces take, by the answers of every degree of freedom.
     fn fill_answers(&mut self, solver: &Solver, from: &State) {
-        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let size = s * m;
         for a in 0..s {
             for r in 0..n {
@@ -221,10 +221,11 @@ impl Collocation {
             }
             let place = &self.places[a];
             for i in 0..m {
-                let row = &place.rows[i * n..(i + 1) * n];
-                let rate_row = &place.rate_rows[i * n..(i + 1) * n];
-                self.approach[a * m + i] = place.held[i] + dot(row, self.states[a].q.as_slice());
-                self.rate[a * m + i] = place.rate_held[i] + dot(rate_row, self.states[a].v.as_slice());
+                let (row, rate_row) = (place.rows().approach_row(i), place.rows().rate_row(i));
+                self.approach[a * m + i] =
+                    place.rows().approach_offset[i] + dot(row, self.states[a].q.as_slice());
+                self.rate[a * m + i] =
+                    place.rows().rate_offset[i] + dot(rate_row, self.states[a].v.as_slice());
                 for b in 0..s {
                     let answers = &self.answers[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
                     for j in 0..m {
@@ -234,7 +235,7 @@ impl Collocation {
                             q += row[r] * by_q * spread;
                             v += rate_row[r] * by_v * spread;
                         }
-                        let give = if a == b { place.compliance[i * m + j] } else { 0.0 };
+                        let give = if a == b { place.rails().value[i * m + j] } else { 0.0 };
                         self.take[(a * m + i) * size + b * m + j] = give + q;
                         self.take_rate[(a * m + i) * size + b * m + j] = v;
                     }
@@ -243,11 +244,11 @@ impl Collocation {
         }
     }
 
-    /// [`Self::fill_answers`] where rows are the same everywhere and all freedoms are bodies'.
+    /// [`Self::fill_answers`] where rows are the same everywhere and all degrees of freedom are bodies'.
     fn fill_body_answers(&mut self, solver: &Solver, from: &State) {
-        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let (size, h) = (s * m, self.answers[0].h);
-        let rows = &self.places[0].rows;
+        let rows = &self.places[0].rows().approach;
         if !self.is_spread {
             for i in 0..m {
                 for j in 0..m {
@@ -257,7 +258,7 @@ impl Collocation {
         }
         for i in 0..m {
             let row = &rows[i * n..(i + 1) * n];
-            let start = self.places[0].held[i] + dot(row, from.q.as_slice());
+            let start = self.places[0].rows().approach_offset[i] + dot(row, from.q.as_slice());
             let rate = dot(row, from.v.as_slice());
             for a in 0..s {
                 self.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
@@ -272,7 +273,7 @@ impl Collocation {
             }
         }
         for a in 0..s {
-            let compliance = &self.places[a].compliance;
+            let compliance = &self.places[a].rails().value;
             for b in 0..s {
                 let by_q = h * h * self.nodes.a2[a * s + b];
                 let by_v = h * self.nodes.a[a * s + b];
@@ -290,10 +291,10 @@ impl Collocation {
 
     /// F/k + p + (c/k) r = 0 at every node, p = approach - take F and r the rate of p or of the wheel.
     fn solve(&mut self, solver: &Solver, from: &State) -> bool {
-        let system = solver.system;
-        let (s, m, size) = (self.count(), system.components(), self.force.len());
+        let system = solver.system();
+        let (s, m, size) = (self.count(), system.elements.len(), self.force.len());
         self.index.clear();
-        self.index.extend((0..size).filter(|at| solver.active[at % m]));
+        self.index.extend((0..size).filter(|at| solver.active().has(at % m)));
         let count = self.index.len();
         self.force.fill(0.0);
         for (line, &at) in self.index.iter().enumerate() {
@@ -333,7 +334,7 @@ impl Collocation {
 
     /// States at the nodes and at the end, and the powers exchanged.
     fn book(&mut self, solver: &mut Solver, from: &State, to: &mut State, limit: f64) -> Result<bool, Error> {
-        let (s, n, m) = (self.count(), self.modes.len(), solver.system.components());
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let size = s * m;
         for (b, (load, weight)) in self.load.iter_mut().zip(&self.weight).enumerate() {
             load.copy_from(weight);
@@ -363,8 +364,8 @@ impl Collocation {
                     (0..s).map(|l| self.nodes.rate[a * s + l] * (self.approach[l * m + i] - from.p[i]));
                 state.p_rate[i] = rates.sum::<f64>() / h;
             }
-            self.places[a].update_rail_slope(solver.system, &state.q, &state.force);
-            self.powers[a] = power(solver.system, &self.places[a], state);
+            self.places[a].update_rail_slope(solver.system(), &state.q, &state.force);
+            self.powers[a] = power(solver.system(), &self.places[a], state);
         }
         to.copy_from(&self.states[s - 1]);
         if self.nodes.c[s - 1] < 1.0 {
@@ -377,7 +378,7 @@ impl Collocation {
                 return Ok(false);
             }
         } else {
-            std::mem::swap(&mut solver.geometry, &mut self.places[s - 1]);
+            solver.exchange_geometry(&mut self.places[s - 1]);
         }
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
@@ -402,7 +403,7 @@ impl Collocation {
         }
     }
 
-    /// Error of q and v of freedom `r`: what the loads of the last node add to those of a degree less.
+    /// Error of q and v of degree of freedom `r`: what the loads of the last node add to those of a degree less.
     pub fn error(&self, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
         let mut jump = self.load[s - 1][r] - self.nodes.ahead[0] * self.load_start[r];

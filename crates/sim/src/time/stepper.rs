@@ -1,31 +1,40 @@
-//! The adaptive force-form stepper: every stage of an SDIRK method is one contact solution.
+//! The adaptive stepper: steps that end where something happens.
 //!
-//! Within a step the set of wheels in contact is fixed, so that the solution is smooth and the method keeps
-//! its order; the instant at which a wheel leaves or meets the rail is located on the step's interpolant and
-//! the step is taken again to end there. Steps also end at the breaks of motions and rails.
+//! Within a step the set of active elements is fixed, so that the solution is smooth and the method keeps its order. A step
+//! is tried at the length that the error of those before allows. Then the reasons to cut it are asked in their order
+//! ([`Reason`]); the first that cuts gives a shorter length, at which the step is tried again. Where none cuts, the step is
+//! accepted: at its end active elements are found anew.
 
-use nalgebra::DVector;
-
+use super::books::Books;
+use super::counts::Counts;
+use super::events::{
+    OVERSHOOT, at_break, break_slack, can_predict, first_corner, first_switch, first_touch, guards,
+    prescribed_break, rolling_break,
+};
+use super::step::Step;
+use super::step_size::StepSize;
+use super::triggers::Triggers;
+use crate::contact::element::{Guard, GuardKind};
 use crate::contact::solver::Solver;
-use crate::mechanics::state::{Known, State};
-use crate::record::energy::{Exchanged, boundary, power, stored};
-use crate::time::collocation::Collocation;
-use crate::time::counts::Counts;
-use crate::time::nodes::Nodes;
-use crate::time::tableau::{SDIRK4, Tableau};
-use crate::time::triggers::Triggers;
-use crate::{Audit, Error, Method};
+use crate::instant::settle::settle;
+use crate::instant::uneven::cross;
+use crate::mechanics::state::State;
+use crate::record::energy::stored;
+use crate::{Audit, Error, Fired, Stepping};
 
-/// How often a step is taken again to end at an event.
+/// How often a step is tried again to end at a break or at a switch of elements.
 const REFINEMENTS: usize = 40;
 
-/// How many of these end where the event is guessed to be.
+/// How many of these end where the switch is guessed to be.
 const GUESSES: usize = 20;
 
-/// How often a step is taken again to end at a corner of a drive.
+/// How often a step is tried again to end at a touch or at a corner of a law.
 const CORNERS: usize = 12;
 
-/// Share of the step planned below which what happens is taken to happen where it starts: shorter steps have rounding
+/// How often a step is tried again to end where a rule acts.
+const TRIALS: usize = 20;
+
+/// Fraction of the step planned below which what happens is taken to happen where it starts: shorter steps have rounding
 /// for rates.
 const NOW: f64 = 1e-6;
 
@@ -36,29 +45,6 @@ const CHATTER: usize = 1000;
 /// secant always falls short of it.
 const SHORT: usize = 2;
 const WIDER: f64 = 16.0;
-
-/// What the passes of a stage may leave of the error a step may make.
-const SETTLED: f64 = 1e-6;
-
-/// Error of a step above which the passes of one stage tell those of the next all they need to know.
-const LOOSE: f64 = 1e-4;
-
-/// Way of a wheel, beside its radius and for each unit of the error a step may make, over which the slope of its rail
-/// stands for its compliance.
-const NEAR: f64 = 1e-3;
-
-/// Steps for which the way of the wheels is laid.
-const WAY: f64 = 4.0;
-
-/// Force by which a step may end beyond an event, relative to the largest contact force.
-pub(crate) const OVERSHOOT: f64 = 1e-9;
-
-/// Times as far before a break a step may start and cross it: what ends there has passed all breaks that near, and every
-/// stage is beyond them.
-pub(crate) const PASSED: f64 = 8.0;
-
-/// How often a step is taken again to end where a rule acts.
-const TRIALS: usize = 20;
 
 /// Why a step could not be taken.
 pub(crate) enum Failure {
@@ -72,506 +58,414 @@ impl From<Error> for Failure {
     }
 }
 
+/// Reasons to cut a step.
+#[derive(Clone, Copy)]
+enum Reason {
+    /// A wheel with prescribed motion would pass a break of its rail: known before the step is tried.
+    PrescribedBreak,
+    /// A wheel that rolls freely passes a break: beyond it the error says nothing of the step that ends before it.
+    RollingBreak,
+    /// A flange touches or lets go, which matters where the step errs by more than it may.
+    Touch,
+    /// The step errs by more than it may.
+    Error,
+    /// An element begins or ceases to act.
+    Switch,
+    /// A rule acts.
+    Trigger,
+    /// A law reaches or leaves a corner.
+    Corner,
+}
+
+/// Reasons that are asked before a step is tried, and those after, in their order.
+const BEFORE: [Reason; 1] = [Reason::PrescribedBreak];
+const AFTER: [Reason; 6] =
+    [Reason::RollingBreak, Reason::Touch, Reason::Error, Reason::Switch, Reason::Trigger, Reason::Corner];
+
+/// A step that is tried at shorter and shorter lengths.
+struct Trial {
+    h: f64,
+    /// Length below which there is none, and below which an event is taken to be at the start.
+    smallest: f64,
+    shortest: f64,
+    /// Error by the tolerance; infinite where the step did not converge.
+    error: f64,
+    ends_at_event: bool,
+    /// How often each kind of reason has cut.
+    breaks: usize,
+    corners: usize,
+    switches: usize,
+    triggers: usize,
+}
+
 /// A run in progress.
 pub(crate) struct Stepper<'a, 'b> {
-    pub solver: &'b mut Solver<'a>,
-    pub from: State,
-    pub to: State,
-    /// The end of the step as the step reached it, before a break or an event changed its forces.
-    pub arrived: State,
-    pub counts: Counts,
-    pub audit: Audit,
-    tableau: &'static Tableau,
-    /// In place of the tableau.
-    pub(crate) collocation: Option<Collocation>,
-    pub(crate) tolerance: f64,
-    /// Length of every step that no break or event ends; in place of the tolerance.
-    pub fixed: Option<f64>,
-    scale: DVector<f64>,
-    rate_scale: DVector<f64>,
-    /// Of the smallest wheel.
-    radius: f64,
-    h: f64,
-    last_error: f64,
+    step: Step<'a, 'b>,
+    size: StepSize,
+    triggers: Triggers,
+    books: Books,
+    counts: Counts,
     limit: f64,
     /// Largest contact force so far, at least the weight.
-    pub(crate) force_scale: f64,
-    /// Smallest steps in a row.
+    force_scale: f64,
+    /// Smallest steps in a row; steps in a row that ended at an event.
     stalled: usize,
-    /// Steps in a row that ended at an event.
     chatter: usize,
-    stage: State,
-    known: Known,
-    accelerations: Vec<DVector<f64>>,
-    rates: Vec<DVector<f64>>,
-    p_rates: Vec<Vec<f64>>,
-    forces: Vec<Vec<f64>>,
-    powers: Vec<Exchanged>,
-    pub(crate) probe: State,
-    /// Overlaps of the flanges where the next step starts.
-    pub(crate) overlaps: Vec<f64>,
-    pub(crate) triggers: Triggers,
-    begun: f64,
+    /// Touch guards where the next step starts.
+    touches: Vec<Guard>,
     /// The wheel that meets a break of its rail where the step ends.
-    pub(crate) meets: Option<usize>,
-    /// Boundary term of the grounded dampers where the next step starts.
-    pub(crate) boundary: f64,
+    meets: Option<usize>,
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
-    /// A run from `start`, in which the solver's active contacts are settled.
+    /// A run from `start`, in which the solver's active elements are settled, by steps of the relative error `tolerance` or
+    /// of the length that `stepping` fixes; the first is `first` long.
     ///
     /// # Errors
     /// A rule of something that is not recorded.
-    pub fn new(solver: &'b mut Solver<'a>, start: State, tolerance: f64, first: f64) -> Result<Self, Error> {
-        let system = solver.system;
-        let (n, count) = (system.mechanics.dofs, start.p.len());
-        let tableau = &SDIRK4;
-        let energy = stored(system, &solver.geometry, &start);
-        let (scale, rate_scale) = floors(solver, &start);
-        for i in 0..system.mechanics.groups.len() {
-            if !solver.active[i] && solver.kept[i].is_none() {
-                solver.keep(i, &start);
-            }
-        }
+    pub fn new(
+        solver: &'b mut Solver<'a>,
+        start: State,
+        stepping: Stepping,
+        tolerance: f64,
+        first: f64,
+    ) -> Result<Self, Error> {
+        let scene = solver.system().scene;
+        solver.store_open(&start);
         Ok(Stepper {
-            triggers: Triggers::new(system)?,
-            to: start.clone(),
-            arrived: start.clone(),
-            stage: start.clone(),
-            probe: start.clone(),
-            boundary: boundary(system, &solver.geometry, &start),
-            overlaps: solver.overlaps(&start),
-            from: start,
+            triggers: Triggers::new(solver.system())?,
+            books: Books::new(solver, &start),
+            touches: guards(solver, GuardKind::Touch, &start),
+            size: StepSize::new(solver, &start, tolerance, stepping.step, first),
+            step: Step::new(solver, start, stepping.method),
             counts: Counts::default(),
-            audit: Audit { start: energy, end: energy, ..Audit::default() },
-            tableau,
-            collocation: None,
-            tolerance,
-            fixed: None,
-            scale,
-            rate_scale,
-            radius: system.scene.wheels.iter().fold(f64::INFINITY, |min, wheel| min.min(wheel.radius)),
-            h: first,
-            last_error: 1.0,
             limit: f64::INFINITY,
-            force_scale: system.scene.bodies.iter().map(|body| body.mass * system.scene.gravity).sum(),
+            force_scale: scene.bodies.iter().map(|body| body.mass * scene.gravity).sum(),
             stalled: 0,
             chatter: 0,
-            known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
-            accelerations: vec![DVector::zeros(n); tableau.stages()],
-            rates: vec![DVector::zeros(n); tableau.stages()],
-            p_rates: vec![vec![0.0; count]; tableau.stages()],
-            forces: vec![vec![0.0; system.components()]; tableau.stages()],
-            powers: vec![Exchanged::default(); tableau.stages()],
-            begun: energy.total(),
             meets: None,
-            solver,
         })
     }
 
-    /// Takes the steps by `method`, which suits the scene.
-    pub fn by(mut self, method: Method) -> Self {
-        self.collocation =
-            Nodes::new(method).map(|nodes| Collocation::new(self.solver.system, nodes, &self.to));
-        self
+    /// The step taken last.
+    pub fn step(&mut self) -> &mut Step<'a, 'b> {
+        &mut self.step
     }
 
-    /// Lets the passes of a stage end where what is left of them is [`SETTLED`] of the error a step may make.
-    fn relax(&mut self) {
-        if self.fixed.is_some() || self.collocation.is_some() {
-            return;
-        }
-        let by_others = (self.tolerance / LOOSE).min(1.0).powi(2);
-        self.solver.settled = [1.0, by_others].map(|share| share * SETTLED * self.tolerance);
-        self.solver.geometry.near = NEAR * self.tolerance;
-        self.solver.geometry.reach = (NEAR * self.tolerance).sqrt() * self.radius;
-        match &mut self.solver.scales {
-            Some([scale, rate_scale]) => {
-                scale.copy_from(&self.scale);
-                rate_scale.copy_from(&self.rate_scale);
-            }
-            none => *none = Some([self.scale.clone(), self.rate_scale.clone()]),
-        }
+    /// Time at the start of the step taken last, and time reached.
+    pub fn times(&self) -> [f64; 2] {
+        [self.step.from.t, self.step.to.t]
     }
 
-    /// Takes one accepted step, at most to `limit`; `from` and `to` are its ends.
+    /// The audit so far.
+    pub fn audit(&self) -> Audit {
+        self.books.audit()
+    }
+
+    /// Work done so far.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Takes one accepted step, at most to `limit`.
+    ///
+    /// # Errors
+    /// No step is small enough, or what the rails refuse.
     pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
-        self.limit = limit;
-        self.relax();
-        let widest = if self.chatter > SHORT { WIDER * (self.to.t - self.from.t) } else { f64::INFINITY };
-        self.from.copy_from(&self.to);
-        let start = self.from.t;
-        let smallest = 1e-13 * limit.abs().max(1e-3);
-        let planned = self.fixed.unwrap_or(self.h.min(widest));
-        let shortest = (NOW * planned).max(2.0 * smallest);
-        let mut h = planned.min(limit - start);
-        // Do not leave a sliver before the limit.
-        if limit - start - h < if self.fixed.is_some() { 1e-9 } else { 0.1 } * h {
-            h = limit - start;
-        }
-        let mut ends_at_event = false;
-        self.meets = None;
-        let (mut refined, mut corners, mut breaks, mut trials) = (0, 0, 0, 0);
-        if let Some(share) = self.predicted_break(h).filter(|share| h * share > 2.0 * smallest) {
-            breaks += 1;
-            ends_at_event = true;
-            h *= share;
-        }
-        self.lay_way(h);
+        let mut trial = self.begin(limit);
         loop {
-            if h < smallest {
+            if trial.h < trial.smallest {
                 return Err(Failure::TooSmall);
             }
-            if let Some(shorter) = self.prescribed_break(start, h) {
-                h = shorter;
+            for reason in BEFORE {
+                trial.h = self.cut(reason, &mut trial)?.unwrap_or(trial.h);
             }
-            let error = match (self.attempt(h)?, self.fixed) {
-                (false, _) => f64::INFINITY,
-                (true, None) => self.error(),
-                (true, Some(_)) => 0.0,
-            };
-            // Beyond a break the error says nothing of the step that ends before it.
-            if error.is_finite()
-                && breaks < REFINEMENTS
-                && let Some(share) = self.rolling_break()
-            {
-                breaks += 1;
-                ends_at_event = true;
-                h = (h * share).max(2.0 * smallest);
-                continue;
-            }
-            // A flange that touches or lets go within a step matters where the step errs by more than it may.
-            let locates = error.is_finite() && (error > 1.0 || self.fixed.is_some()) && corners < CORNERS;
-            if locates
-                && h > shortest
-                && let Some(share) = self.first_touch()?
-            {
-                corners += 1;
-                ends_at_event = true;
-                h = (h * share).max(shortest);
-                continue;
-            }
-            if error > 1.0 {
-                self.counts.rejected += 1;
-                h *= if error.is_finite() { (0.9 * error.powf(-0.25)).clamp(0.1, 0.9) } else { 0.25 };
-                h = self.rounded(h);
-                ends_at_event = false;
-                continue;
-            }
-            if let Some((share, excess)) = self.first_event()? {
-                ends_at_event = true;
-                let is_beyond = excess > OVERSHOOT * self.largest_force();
-                if is_beyond && h > shortest && refined < REFINEMENTS {
-                    refined += 1;
-                    // Where guesses do not come nearer, half of the step does.
-                    h *= if refined < GUESSES { share } else { 0.5 };
-                    h = h.max(shortest);
-                    continue;
+            trial.error = self.attempt(trial.h)?;
+            let mut shorter = None;
+            for reason in AFTER {
+                shorter = self.cut(reason, &mut trial)?;
+                if shorter.is_some() {
+                    break;
                 }
             }
-            if trials < TRIALS
-                && let Some(shorter) = self.first_trigger(h)?
-            {
-                trials += 1;
-                ends_at_event = true;
-                h = shorter.max(2.0 * smallest);
-                continue;
+            match shorter {
+                Some(h) => trial.h = h,
+                None => break,
             }
-            if let Some(share) = self.first_corner().filter(|_| corners < CORNERS && h > shortest) {
-                corners += 1;
-                ends_at_event = true;
-                h = (h * share).max(shortest);
-                continue;
-            }
-            let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
-            // A step cut short says nothing of the error of longer ones.
-            if !ends_at_event {
-                self.last_error = error.max(1e-4);
-                let proposed = h * growth.clamp(0.2, 5.0);
-                // A step cut short by a limit says nothing against the longer one that was planned.
-                let wanted = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
-                self.h = self.rounded(wanted);
-            }
-            break;
         }
-        self.stalled = if h <= 4.0 * smallest { self.stalled + 1 } else { 0 };
-        self.chatter = if ends_at_event && breaks == 0 { self.chatter + 1 } else { 0 };
+        // A step cut short says nothing of the error of longer ones.
+        if !trial.ends_at_event {
+            let step = &self.step;
+            self.size.plan(trial.h, trial.error, |h| step.rounded(h));
+        }
+        self.stalled = if trial.h <= 4.0 * trial.smallest { self.stalled + 1 } else { 0 };
+        self.chatter = if trial.ends_at_event && trial.breaks == 0 { self.chatter + 1 } else { 0 };
         if self.stalled > REFINEMENTS || self.chatter > CHATTER {
             return Err(Failure::TooSmall);
         }
-        self.accept(h)?;
+        self.accept(trial.h)?;
         Ok(())
     }
 
-    /// Lays the way of the wheels in a step of length `h`, by the accelerations where it starts.
-    fn lay_way(&mut self, h: f64) {
-        if self.solver.geometry.reach == 0.0 {
-            return;
+    /// Plans a step from where the last one ended.
+    fn begin(&mut self, limit: f64) -> Trial {
+        self.limit = limit;
+        if !self.step.is_collocation() {
+            self.size.set_accuracy(self.step.solver);
         }
-        let (from, to, beyond) = (&self.from, &mut self.probe, &mut self.stage);
-        for (h, at) in [(h, &mut *to), (WAY * h, &mut *beyond)] {
-            at.t = from.t + h;
-            at.q.copy_from(&from.q);
-            at.q.axpy(h, &from.v, 1.0);
-            at.q.axpy(0.5 * h * h, &from.a, 1.0);
+        let widest = if self.chatter > SHORT { WIDER * self.step.length() } else { f64::INFINITY };
+        self.step.begin();
+        self.meets = None;
+        let smallest = 1e-13 * limit.abs().max(1e-3);
+        let planned = self.size.planned(widest);
+        let mut trial = Trial {
+            h: self.size.within(planned, limit - self.step.from.t),
+            smallest,
+            shortest: (NOW * planned).max(2.0 * smallest),
+            error: f64::INFINITY,
+            ends_at_event: false,
+            breaks: 0,
+            corners: 0,
+            switches: 0,
+            triggers: 0,
+        };
+        // A guess of where a wheel meets a break is near enough where the accuracy asked lets steps end beside a break.
+        let slack = self.break_slack();
+        if self.step.system().mechanics.moves_freely && can_predict(slack) {
+            self.step.guess_end(trial.h);
+            let share = self.rolling_break(slack).filter(|share| trial.h * share > 2.0 * smallest);
+            if let Some(share) = share {
+                trial.breaks += 1;
+                trial.ends_at_event = true;
+                trial.h *= share;
+            }
         }
-        let ends = [from, &*to, &*beyond].map(|at| (at.t, &at.q));
-        self.solver.geometry.lay(self.solver.system, ends);
+        self.step.set_paths(trial.h);
+        trial
     }
 
-    /// `h`, brought down to a power of 2^(1/4) where answers of modes are kept by the length of step.
-    fn rounded(&self, h: f64) -> f64 {
-        match &self.collocation {
-            Some(collocation) if collocation.is_modal() => ((4.0 * h.log2() + 1e-9).floor() / 4.0).exp2(),
-            _ => h,
+    /// Tries a step of length `h`; returns its error by the tolerance.
+    fn attempt(&mut self, h: f64) -> Result<f64, Error> {
+        if !self.step.attempt(h, self.limit, &mut self.counts.stages)? {
+            return Ok(f64::INFINITY);
         }
+        if self.size.fixed.is_some() {
+            return Ok(0.0);
+        }
+        let (step, length) = (&self.step, self.step.length());
+        let error = step.error(|k, errors| self.size.weigh(&step.to, length, k, errors));
+        Ok(error / self.size.tolerance)
     }
 
-    /// One step of the method with the active contacts; false where a stage does not converge.
-    fn attempt(&mut self, h: f64) -> Result<bool, Error> {
-        if let Some(collocation) = &mut self.collocation {
-            self.counts.stages += collocation.count();
-            let done = collocation.attempt(self.solver, &self.from, h, self.limit, &mut self.to)?;
-            self.stage.t = self.to.t;
-            self.end_at_limit(h);
-            return Ok(done);
-        }
-        let tableau = self.tableau;
-        let gamma_h = tableau.gamma * h;
-        self.stage.copy_from(&self.from);
-        self.solver.chart(&self.from);
-        self.solver.contraction = f64::INFINITY;
-        self.solver.factors_of = None;
-        for i in 0..tableau.stages() {
-            self.known.q.copy_from(&self.from.q);
-            self.known.v.copy_from(&self.from.v);
-            self.solver.charts.begun(&mut self.known.q, &mut self.known.v);
-            self.known.p.copy_from_slice(&self.from.p);
-            for (j, weight) in tableau.a[i].iter().enumerate() {
-                self.known.q.axpy(h * weight, &self.rates[j], 1.0);
-                self.known.v.axpy(h * weight, &self.accelerations[j], 1.0);
-                for (p, rate) in self.known.p.iter_mut().zip(&self.p_rates[j]) {
-                    *p += h * weight * rate;
+    /// Whether `reason` cuts the step of the trial, and to which length.
+    fn cut(&mut self, reason: Reason, trial: &mut Trial) -> Result<Option<f64>, Error> {
+        let has_converged = trial.error.is_finite();
+        let is_long = trial.h > trial.shortest;
+        let cut = match reason {
+            Reason::PrescribedBreak => {
+                return Ok(prescribed_break(self.step.system(), self.step.from.t, trial.h));
+            }
+            Reason::RollingBreak => {
+                if !(has_converged && trial.breaks < REFINEMENTS) {
+                    return Ok(None);
                 }
+                let share = self.rolling_break(self.break_slack());
+                trial.breaks += usize::from(share.is_some());
+                share.map(|share| (trial.h * share).max(2.0 * trial.smallest))
             }
-            // just before the end: a prescribed motion may jump there
-            self.stage.t = (self.from.t + tableau.c[i] * h).min(self.limit.next_down());
-            self.guess(i);
-            self.counts.stages += 1;
-            if !self.solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
-                return Ok(false);
+            Reason::Touch => {
+                let errs = has_converged && (trial.error > 1.0 || self.size.fixed.is_some());
+                if !(errs && trial.corners < CORNERS && is_long) {
+                    return Ok(None);
+                }
+                let largest = self.largest_force();
+                let share = first_touch(&mut self.step, &self.touches, largest)?;
+                trial.corners += usize::from(share.is_some());
+                share.map(|share| (trial.h * share).max(trial.shortest))
             }
-            self.forces[i].copy_from_slice(&self.stage.force);
-            self.accelerations[i].copy_from(&self.stage.a);
-            self.rates[i].copy_from(&self.stage.v);
-            let switches = &self.solver.geometry.switches;
-            let rates = [&mut self.rates[i], &mut self.accelerations[i]];
-            self.solver.charts.settle(self.solver.system, switches, &self.stage, rates);
-            self.p_rates[i].copy_from_slice(&self.stage.p_rate);
-            self.solver.geometry.update_rail_slope(self.solver.system, &self.stage.q, &self.stage.force);
-            self.powers[i] = power(self.solver.system, &self.solver.geometry, &self.stage);
-        }
-        self.to.copy_from(&self.stage);
-        self.end_at_limit(h);
-        Ok(self.to.q.iter().chain(self.to.v.iter()).all(|x| x.is_finite()))
-    }
-
-    /// Guesses accelerations and forces of stage `i` from the step's start and its stages before.
-    fn guess(&mut self, i: usize) {
-        if i == 0 || !self.solver.system.moves_freely {
-            return;
-        }
-        let c = self.tableau.c;
-        // Lagrange's weights of 0 and the abscissae before.
-        let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[j]);
-        let weight = |j: usize| {
-            let others = (0..=i).filter(|&k| k != j);
-            others.map(|k| (c[i] - node(k)) / (node(j) - node(k))).product::<f64>()
+            Reason::Error => {
+                if trial.error <= 1.0 {
+                    return Ok(None);
+                }
+                self.counts.rejected += 1;
+                trial.ends_at_event = false;
+                return Ok(Some(self.step.rounded(StepSize::shorter(trial.h, trial.error))));
+            }
+            Reason::Switch => {
+                let largest = self.largest_force();
+                let Some((share, excess)) = first_switch(&mut self.step, largest)? else { return Ok(None) };
+                // A step that ends near enough to the switch ends there all the same.
+                trial.ends_at_event = true;
+                let is_beyond = excess > OVERSHOOT * largest;
+                if !(is_beyond && is_long && trial.switches < REFINEMENTS) {
+                    return Ok(None);
+                }
+                trial.switches += 1;
+                // Where guesses do not come nearer, half of the step does.
+                let share = if trial.switches < GUESSES { share } else { 0.5 };
+                Some((trial.h * share).max(trial.shortest))
+            }
+            Reason::Trigger => {
+                if trial.triggers >= TRIALS {
+                    return Ok(None);
+                }
+                let shorter = self.triggers.first(&mut self.step, trial.h)?;
+                trial.triggers += usize::from(shorter.is_some());
+                shorter.map(|shorter| shorter.max(2.0 * trial.smallest))
+            }
+            Reason::Corner => {
+                let share = first_corner(&self.step, self.largest_force());
+                let share = share.filter(|_| trial.corners < CORNERS && is_long);
+                trial.corners += usize::from(share.is_some());
+                share.map(|share| (trial.h * share).max(trial.shortest))
+            }
         };
-        let charts = &self.solver.charts;
-        let guided = |k: &usize| !charts.has(*k);
-        let first = weight(0);
-        for k in (0..self.stage.a.len()).filter(guided) {
-            self.stage.a[k] = first * self.from.a[k];
-        }
-        self.stage.force.iter_mut().zip(&self.from.force).for_each(|(to, from)| *to = first * from);
-        for j in 0..i {
-            let share = weight(j + 1);
-            for k in (0..self.stage.a.len()).filter(guided) {
-                self.stage.a[k] += share * self.accelerations[j][k];
-            }
-            self.stage.force.iter_mut().zip(&self.forces[j]).for_each(|(to, from)| *to += share * from);
-        }
+        trial.ends_at_event |= cut.is_some();
+        Ok(cut)
     }
 
-    fn end_at_limit(&mut self, h: f64) {
-        self.to.t = (self.from.t + h).min(self.limit);
-        if self.limit - self.to.t < 1e-14 * self.limit {
-            self.to.t = self.limit;
-        }
+    /// Fraction of the step at which a freely rolling wheel meets a break; notes the wheel.
+    fn rolling_break(&mut self, slack: f64) -> Option<f64> {
+        let (share, wheel) = rolling_break(&mut self.step, slack)?;
+        self.meets = Some(wheel);
+        Some(share)
     }
 
-    /// Sets `at` to the interpolant of the step just taken, at its share `share`.
-    ///
-    /// # Errors
-    /// What the rail refuses.
-    pub fn sample(&mut self, share: f64, at: &mut State) -> Result<(), Error> {
-        interpolate(self.solver, self.collocation.as_ref(), [&self.from, &self.arrived], share, at)
+    fn break_slack(&self) -> f64 {
+        break_slack(self.size.tolerance, self.size.fixed.is_some())
     }
 
-    /// Embedded error relative to the tolerance.
-    fn error(&self) -> f64 {
-        let h = self.to.t - self.from.t;
-        let mut largest = 0.0_f64;
-        let of = |i: usize| {
-            let mut error = [0.0; 2];
-            if let Some(collocation) = &self.collocation {
-                return collocation.error(i).map(|error| error / h);
-            }
-            for (j, weight) in self.tableau.error.iter().enumerate() {
-                error[0] += weight * self.rates[j][i];
-                error[1] += weight * self.accelerations[j][i];
-            }
-            error
-        };
-        let mut weigh = |i: usize, [dq, dv]: [f64; 2]| {
-            let scale = self.scale[i].max(self.to.q[i].abs());
-            let rate_scale = self.rate_scale[i].max(self.to.v[i].abs());
-            largest = largest.max((h * dq / scale).abs()).max((h * dv / rate_scale).abs());
-        };
-        let charts = &self.solver.charts;
-        (0..self.to.q.len()).filter(|&i| !charts.has(i)).for_each(|i| weigh(i, of(i)));
-        charts.errors(self.solver.system, &self.solver.geometry.switches, &self.to, of, weigh);
-        largest / self.tolerance
-    }
-
-    /// Books the step: audit, scales, and the contacts that open or close at its end.
+    /// Accepts the step of length `h`. In this order: the energy exchanged is booked at the state that the step reached;
+    /// then its end is brought to where the next step starts: prescribed motions pass their break, wheels pass joints and
+    /// corners of their rails, and the active elements are found anew where one is due; last the books of the step are
+    /// closed.
     fn accept(&mut self, h: f64) -> Result<(), Error> {
-        let system = self.solver.system;
         self.counts.steps += 1;
-        self.arrived.copy_from(&self.to);
+        self.step.arrived.copy_from(&self.step.to);
         self.force_scale = self.largest_force();
-        let mut booked = Exchanged::default();
-        if let Some(collocation) = &self.collocation {
-            booked = collocation.booked();
-        } else {
-            for (i, power) in self.powers.iter().enumerate() {
-                booked.add(power, h * self.tableau.weight(i));
-            }
+        let exchanged = self.step.exchanged(h);
+        self.books.book_step(self.step.solver, &exchanged, &self.step.to);
+        self.step.reach_end()?;
+        self.size.grow(&self.step.to);
+        if self.step.to.t >= self.limit {
+            self.pass_break()?;
         }
-        self.audit.exchanged.add(&booked, 1.0);
-        // Before a turn or an event changes the forces: that is the next step's start.
-        let end = boundary(system, &self.solver.geometry, &self.to);
-        self.audit.exchanged.dampers += end - self.boundary;
-        self.reach_end()?;
-        for i in 0..self.to.q.len() {
-            self.scale[i] = self.scale[i].max(self.to.q[i].abs());
-            self.rate_scale[i] = self.rate_scale[i].max(self.to.v[i].abs());
-        }
-        if self.to.t >= self.limit {
-            self.turn()?;
-        }
-        self.audit.exchanged.steps += self.pass_joint()?;
-        let before = stored(system, &self.solver.geometry, &self.to);
-        let crosses = system.is_uneven && self.solver.cross(&mut self.to)?;
-        let due = crosses
-            || (0..system.mechanics.groups.len()).any(|i| {
-                (self.solver.active[i] && self.solver.opens(i, &self.to)) || self.event(i, &self.to) > 0.0
-            })
-            || (0..system.links.len()).any(|i| self.event(system.link(i), &self.to) > 0.0);
+        let by_joint = self.pass_joint()?;
+        self.books.book_rail(by_joint);
+        let before = self.stored();
+        let system = self.step.system();
+        let has_crossed = system.traits.is_uneven && cross(self.step.solver, &mut self.step.to)?;
         let mut after = before;
-        if due {
-            let flags = self.solver.active.clone();
-            let taut = self.solver.taut();
-            if self.solver.settle(&mut self.to)? {
-                self.counts.events += usize::from(flags != self.solver.active || taut != self.solver.taut());
-                after = stored(system, &self.solver.geometry, &self.to);
+        if has_crossed || self.is_switch_due() {
+            let active = self.step.solver.active().flags().to_vec();
+            if settle(self.step.solver, &mut self.step.to)? {
+                self.counts.events += usize::from(active != self.step.solver.active().flags());
+                after = self.stored();
                 let gained = after.total() - before.total();
-                let exchanged = &mut self.audit.exchanged;
-                *(if crosses { &mut exchanged.steps } else { &mut exchanged.switches }) +=
-                    if crosses { gained } else { -gained };
+                if has_crossed { self.books.book_rail(gained) } else { self.books.book_switch(-gained) }
             }
         }
-        self.boundary = boundary(system, &self.solver.geometry, &self.to);
-        self.overlaps = self.solver.overlaps(&self.to);
-        self.audit.end = after;
-        let mut elastic = after.contact + after.structure + after.ropes;
-        if !system.links.is_empty() {
-            elastic = elastic.max(after.kinetic);
-        }
-        self.audit.peak_stored = self.audit.peak_stored.max(elastic);
-        let imbalance = (after.total() + self.audit.exchanged.net_loss() - self.begun).abs();
-        self.audit.imbalance = self.audit.imbalance.max(imbalance);
+        self.books.close_step(self.step.solver, &self.step.to, after);
+        self.touches = guards(self.step.solver, GuardKind::Touch, &self.step.to);
         Ok(())
     }
 
-    /// Brings the geometry of grounded wheels from the last stage to the end of the step. It is there already where
-    /// places depend on time alone and the stage was not held just before a limit.
-    fn reach_end(&mut self) -> Result<(), Error> {
-        let system = self.solver.system;
-        let is_there = system.constant_rows && self.stage.t == self.to.t;
-        let grounded = system.scene.wheels.iter().any(|wheel| wheel.normal.is_grounded());
-        if grounded && !is_there {
-            self.solver.geometry.update(system, self.to.t, &self.to.q, &self.to.force)?;
-        }
-        Ok(())
+    /// Whether an element must begin or cease to act at the end of the step.
+    fn is_switch_due(&self) -> bool {
+        let (solver, to) = (&*self.step.solver, &self.step.to);
+        let system = solver.system();
+        let has_let_go = (0..system.verticals()).any(|i| solver.active().has(i) && solver.opens(i, to));
+        has_let_go
+            || (0..system.elements.len())
+                .any(|i| solver.switch_guard(i, to).is_some_and(|excess| excess > 0.0))
+    }
+
+    /// Energy stored at the end of the step.
+    fn stored(&self) -> crate::Stored {
+        stored(self.step.system(), self.step.solver.geometry(), &self.step.to)
     }
 
     /// Passes a break of the prescribed motions: what a jump of speed does to the energy is their work, and
     /// accelerations are those after the break.
-    fn turn(&mut self) -> Result<(), Error> {
-        let system = self.solver.system;
-        let after = stored(system, &self.solver.geometry, &self.to).kinetic;
-        let t = self.to.t;
-        self.to.t = t.next_down();
-        let before = stored(system, &self.solver.geometry, &self.to).kinetic;
-        self.to.t = t;
-        self.audit.exchanged.drives += after - before;
-        self.solver.instant(&mut self.to)?;
+    fn pass_break(&mut self) -> Result<(), Error> {
+        let after = self.stored().kinetic;
+        let t = self.step.to.t;
+        self.step.to.t = t.next_down();
+        let before = self.stored().kinetic;
+        self.step.to.t = t;
+        self.books.book_jump(after - before);
+        self.step.solver.instant(&mut self.step.to)?;
         Ok(())
     }
-}
 
-/// Sets `at` to the interpolant between the ends of the step last tried, at its share `share`; modes where `collocation`
-/// has them.
-///
-/// # Errors
-/// What the rail refuses.
-pub(crate) fn interpolate(
-    solver: &mut Solver,
-    collocation: Option<&Collocation>,
-    ends: [&State; 2],
-    share: f64,
-    at: &mut State,
-) -> Result<(), Error> {
-    solver.interpolate(ends, share, at)?;
-    if let Some(collocation) = collocation {
-        collocation.interpolate(ends[0], share, at);
+    /// Where the step has ended at a joint of a rail that complies along x, the wheel there goes over to another part,
+    /// which the same forces have displaced along x by another amount: the displacement jumps, and slides nowhere. What
+    /// pushes along x then pushes that part, so that the rail below all wheels jumps as well, by Maxwell's theorem with as
+    /// much work: penetrations follow. Returns the energy put in.
+    fn pass_joint(&mut self) -> Result<f64, Error> {
+        let slack = self.break_slack();
+        let Step { solver, to, probe, .. } = &mut self.step;
+        let system = solver.system();
+        let Some(w) = self.meets.take().filter(|_| system.mechanics.has_sliding_rails()) else {
+            return Ok(0.0);
+        };
+        let speed = system.mechanics.speed_along(w, to);
+        let Some(near) = at_break(solver, w, to, slack).filter(|_| speed != 0.0) else { return Ok(0.0) };
+        let before = stored(system, solver.geometry(), to);
+        let felt: Vec<usize> = (0..system.verticals()).filter(|&i| solver.remembers(i)).collect();
+        for &i in &felt {
+            to.p[i] += solver.geometry().deflection(i, &to.force);
+        }
+        probe.q.copy_from(&to.q);
+        probe.q.axpy(near / speed.abs(), &to.v, 1.0);
+        solver.clear_paths();
+        solver.update_to(to, &probe.q)?;
+        for i in felt {
+            to.p[i] -= solver.geometry().deflection(i, &to.force);
+        }
+        solver.move_rails(to);
+        Ok(stored(system, solver.geometry(), to).total() - before.total())
     }
-    Ok(())
-}
 
-/// Smallest displacements and rates that the error is measured against: the penetration at rest, carried
-/// to each freedom by its lever, and the bounce that belongs to it.
-fn floors(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
-    let system = solver.system;
-    let n = system.mechanics.dofs;
-    let depth = start.p[..system.mechanics.groups.len()].iter().fold(0.0_f64, |max, p| max.max(*p));
-    let radius = system.scene.wheels.iter().fold(1.0_f64, |max, wheel| max.max(wheel.radius));
-    let depth = if depth > 0.0 { depth } else { 1e-3 * radius };
-    let frequency = if system.scene.gravity > 0.0 { (system.scene.gravity / depth).sqrt() } else { 1.0 };
-    let lever = |k: usize| {
-        let rows = solver.geometry.rows.iter().chain(&solver.geometry.rate_rows).skip(k).step_by(n);
-        rows.fold(0.0_f64, |max, r| max.max(r.abs()))
-    };
-    let scale = DVector::from_fn(n, |k, _| {
-        let lever = lever(k);
-        if lever > 0.0 { depth / lever } else { depth }
-    });
-    let rates = &scale * frequency;
-    (scale, rates)
-}
+    /// Largest contact force so far.
+    fn largest_force(&self) -> f64 {
+        self.step.to.force.iter().fold(self.force_scale, |max, force| max.max(force.abs()))
+    }
 
-#[cfg(test)]
-mod tests;
+    /// Rules whose conditions are met where the last step ended.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn due(&mut self) -> Result<Vec<usize>, Error> {
+        self.triggers.due(&self.step)
+    }
+
+    /// Lets the rules that are `due` act, and those whose conditions are met then; books what switching does to the
+    /// energy. Returns the rules, and whether the run ends.
+    ///
+    /// # Errors
+    /// What the rails refuse, and [`Error::NoEquilibrium`] where no forces follow.
+    pub fn act(&mut self, mut due: Vec<usize>) -> Result<(Vec<Fired>, bool), Error> {
+        let scene = self.step.system().scene;
+        let (mut fired, mut ends) = (Vec::new(), false);
+        while !due.is_empty() {
+            self.step.solver.instant(&mut self.step.to)?;
+            let (before, time) = (self.stored(), self.step.to.t);
+            for &rule in &due {
+                self.triggers.take(rule);
+                fired.push(Fired { time, rule });
+                for action in &scene.actuators.rules[rule].actions {
+                    ends |= self.step.solver.switch(*action, time)?;
+                }
+            }
+            if !settle(self.step.solver, &mut self.step.to)? {
+                return Err(Error::NoEquilibrium { time });
+            }
+            let after = self.stored();
+            self.books.book_switch(before.total() - after.total());
+            self.books.turn_page(self.step.solver, &self.step.to, after);
+            due = self.due()?;
+        }
+        Ok((fired, ends))
+    }
+}

@@ -8,7 +8,7 @@ impl Method {
     /// Whether the method can integrate `scene` on `foundations`.
     ///
     /// # Errors
-    /// [`Error::Method`] where it cannot, with what the scene lacks; another for a scene that cannot be set up.
+    /// [`Error::Method`] where it cannot, with what is missing in the scene; another for a scene that cannot be set up.
     pub fn suits(self, scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
         self.check(&System::new(scene, foundations)?)
     }
@@ -37,13 +37,13 @@ impl Method {
                 Dynamics::Matrices { .. } => false,
                 Dynamics::Modes { ratio, .. } => ratio.iter().all(|ratio| *ratio < 1.0),
             });
-        let remembers = (0..system.mechanics.groups.len()).any(|i| system.law(i).has_memory());
+        let remembers = (0..system.verticals()).any(|i| system.law(i).has_memory());
         let trouble = [
-            (system.moves_freely, "places along the rail that are prescribed"),
-            (system.components() > system.mechanics.groups.len(), "vertical contacts alone"),
-            (!system.linear_normals, "linear contacts"),
+            (system.mechanics.moves_freely, "places along the rail that are prescribed"),
+            (!system.traits.is_vertical, "vertical contacts alone"),
+            (!system.traits.has_linear_laws, "linear contacts"),
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
-            (system.is_uneven, "even rails"),
+            (system.traits.is_uneven, "even rails"),
             (!system.mechanics.carried.is_empty(), "bodies that ride on the ground's rails"),
             (!system.mechanics.couplings.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),

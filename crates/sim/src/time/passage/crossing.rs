@@ -49,7 +49,7 @@ const LOBATTO: [[f64; 2]; 6] = [
 ];
 const ENDS: f64 = 1.0 / 56.0;
 
-/// What the scene lacks to be a crossing of this kind, beside what collocation asks.
+/// What is missing in the scene to be a crossing of this kind, beside what collocation asks.
 pub(crate) fn lacks(system: &System) -> Option<&'static str> {
     let scene = system.scene;
     let mut moving = scene.bodies.iter().enumerate().filter_map(|(b, body)| Some((b, body.motion.as_ref()?)));
@@ -66,11 +66,11 @@ pub(crate) fn lacks(system: &System) -> Option<&'static str> {
     let troubles = [
         (!together, "wheels that travel together"),
         (!uniform, "a uniform speed"),
-        (!system.constant_rows || mounted, "structures without mass, on the ground"),
+        (!system.traits.has_constant_rows || mounted, "structures without mass, on the ground"),
         (!symmetric, "a symmetric compliance"),
         (!scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(), "no loads or events"),
-        (system.components() > WIDEST, "eight contacts at most"),
-        (system.mechanics.dofs > system.components(), "no more freedoms than contacts"),
+        (system.elements.len() > WIDEST, "eight contacts at most"),
+        (system.mechanics.dofs > system.elements.len(), "no more freedoms than contacts"),
     ];
     troubles.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted)
 }
@@ -94,7 +94,7 @@ pub(crate) fn run(
     placed: bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Crossed>, Error> {
-    match system.components() {
+    match system.elements.len() {
         1..=2 => Passage::<2>::new(system, start)?.run(placed, watch),
         3..=4 => Passage::<4>::new(system, start)?.run(placed, watch),
         5..=WIDEST => Passage::<WIDEST>::new(system, start)?.run(placed, watch),
@@ -102,7 +102,7 @@ pub(crate) fn run(
     }
 }
 
-/// A crossing in progress; contacts and freedoms padded to P.
+/// A crossing in progress; contacts and degrees of freedom padded to P.
 struct Passage<'a, const P: usize> {
     system: &'a System<'a>,
     geometry: Geometry,
@@ -113,12 +113,12 @@ struct Passage<'a, const P: usize> {
     /// Places of the wheels at time 0.
     places: Vec<f64>,
     contacts: Contacts<P>,
-    /// R by columns of freedoms; M^-1 R^T by columns of contacts; M^-1 f.
+    /// R by columns of degrees of freedom; M^-1 R^T by columns of contacts; M^-1 f.
     rows: Matrix<P>,
     spread: Matrix<P>,
     fall: [f64; P],
     held: [f64; P],
-    /// M, and the impulse of the freedoms by the travel.
+    /// M, and the impulse of the degrees of freedom by the travel.
     mass: Matrix<P>,
     weight: [f64; P],
     drag: [f64; P],
@@ -137,7 +137,7 @@ struct Passage<'a, const P: usize> {
 
 impl<'a, const P: usize> Passage<'a, P> {
     fn new(system: &'a System<'a>, start: &State) -> Result<Self, Error> {
-        let (n, m) = (system.mechanics.dofs, system.components());
+        let (n, m) = (system.mechanics.dofs, system.elements.len());
         let mut geometry = Geometry::new(system);
         geometry.update(system, 0.0, &start.q, &start.force)?;
         let zero = [[0.0; P]; P];
@@ -146,7 +146,7 @@ impl<'a, const P: usize> Passage<'a, P> {
         let mut fall = [0.0; P];
         let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
         mobility.apply(system.mechanics.gravity.as_slice(), &mut fall[..n]);
-        for (j, row) in geometry.rows.chunks_exact(n).enumerate() {
+        for (j, row) in geometry.rows().approach.chunks_exact(n).enumerate() {
             mobility.apply(row, &mut spread[j][..n]);
             for (column, entry) in rows.iter_mut().zip(row) {
                 column[j] = *entry;
@@ -174,7 +174,7 @@ impl<'a, const P: usize> Passage<'a, P> {
             soft[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
         }
         let root = system.scene.bodies.iter().position(|body| body.motion.is_some());
-        let speed = root.map_or(0.0, |root| geometry.travel[root].v);
+        let speed = root.map_or(0.0, |root| geometry.places().travel[root].v);
         let mut drag = [0.0; P];
         for &(number, inertia) in
             root.iter().flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
@@ -182,8 +182,8 @@ impl<'a, const P: usize> Passage<'a, P> {
             drag[number] += inertia;
         }
         Ok(Passage {
-            places: geometry.x.clone(),
-            held: pad(&geometry.held),
+            places: geometry.places().x.clone(),
+            held: pad(&geometry.rows().approach_offset),
             weight: pad(system.mechanics.gravity.as_slice()),
             q: pad(start.q.as_slice()),
             v: pad(start.v.as_slice()),
@@ -214,14 +214,14 @@ impl<'a, const P: usize> Passage<'a, P> {
     ) -> Result<Option<Crossed>, Error> {
         let system = self.system;
         let scene = system.scene;
-        let soft = self.contacts.soft.iter().take(system.components()).fold(0.0_f64, |max, s| max.max(*s));
+        let soft = self.contacts.soft.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
         let allowed = LAST * scene.accuracy.min(COARSEST);
         let mut recorder = Recorder::new(system);
-        recorder.history.values.reserve((scene.end / scene.output_dt).min(1e6) as usize * recorder.width());
+        recorder.reserve((scene.end / scene.output_dt).min(1e6) as usize);
         let mut counts = Counts::default();
         let quick = |i: usize| self.contacts.soft[i] / self.contacts.mobile[i][i];
-        let quickest = (0..system.components()).map(quick).fold(f64::INFINITY, f64::min);
-        let carried = scene.bodies.iter().map(|body| body.mass).sum::<f64>() / system.components() as f64;
+        let quickest = (0..system.elements.len()).map(quick).fold(f64::INFINITY, f64::min);
+        let carried = scene.bodies.iter().map(|body| body.mass).sum::<f64>() / system.elements.len() as f64;
         if carried * soft > STIFF * quickest {
             return Ok(None);
         }
@@ -287,7 +287,7 @@ impl<'a, const P: usize> Passage<'a, P> {
         self.fill(t, &q, &v, &at);
         self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
         self.audit.end = stored(self.system, &self.geometry, &self.state);
-        let (history, audit) = (recorder.history, self.audit);
+        let (history, audit) = (recorder.into_history(), self.audit);
         Ok(Crossed { is_stopped, history, audit, counts })
     }
 
@@ -323,9 +323,9 @@ impl<'a, const P: usize> Passage<'a, P> {
         sum
     }
 
-    /// Moves the freedoms to rest: A F - R q = held, R^T F = f. False where nothing holds them.
+    /// Moves the degrees of freedom to rest: A F - R q = held, R^T F = f. False where nothing holds them.
     fn rest(&mut self, compliance: &Matrix<P>) -> bool {
-        let (n, m) = (self.system.mechanics.dofs, self.system.components());
+        let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
         let size = n + m;
         let mut matrix = vec![0.0; size * size];
         let mut right = vec![0.0; size];
@@ -353,7 +353,7 @@ impl<'a, const P: usize> Passage<'a, P> {
         let look = self.series.first();
         let (p, _) = self.penetration(&look);
         let presses = |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
-        if !(0..self.system.components()).all(presses) {
+        if !(0..self.system.elements.len()).all(presses) {
             return false;
         }
         let (q, v) = (self.q, self.v);
@@ -425,10 +425,10 @@ impl<'a, const P: usize> Passage<'a, P> {
         let imbalance = (total + self.audit.exchanged.net_loss() - self.begun).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
         let pulls = |i: usize| looks.iter().any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
-        total.is_finite() && !(0..self.system.components()).any(pulls)
+        total.is_finite() && !(0..self.system.elements.len()).any(pulls)
     }
 
-    /// What the dampers take and the travel puts in: c w' p' and -1/2 F dG/dt F, with u = w - p the give and
+    /// What the dampers take and the travel puts in: c w' p' and -1/2 F dG/dt F, with u = w - p the deflection and
     /// F dG/dt F = F u' - u F'.
     fn power(&self, at: &Values<P>) -> [f64; 2] {
         let (p, p_rate) = self.penetration(at);
@@ -457,13 +457,13 @@ impl<'a, const P: usize> Passage<'a, P> {
             subtract(matrix, &scaled, &mut slope);
             power *= s;
         }
-        let count = self.system.components();
-        self.geometry.rail_slope.copy_from_slice(&slope[..count]);
+        let count = self.system.elements.len();
+        self.geometry.set_rail_slope(&slope[..count]);
     }
 
     fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], look: &Values<P>) {
         let (p, p_rate) = self.penetration(look);
-        let (n, m) = (self.system.mechanics.dofs, self.system.components());
+        let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
         let mut a = self.fall;
         subtract(&self.spread, &look.force, &mut a);
         self.state.t = t;
@@ -473,21 +473,11 @@ impl<'a, const P: usize> Passage<'a, P> {
         self.state.p.copy_from_slice(&p[..m]);
         self.state.p_rate.copy_from_slice(&p_rate[..m]);
         self.state.force.copy_from_slice(&look.force[..m]);
-        for (x, place) in self.geometry.x.iter_mut().zip(&self.places) {
-            *x = place + self.speed * t;
-        }
-        if let Some(root) = self.root {
-            self.geometry.travel[root].x =
-                self.system.scene.bodies[root].motion.as_ref().map_or(0.0, |m| m.at(t).x);
-            self.geometry.travel[root].v = self.speed;
-        }
+        self.geometry.move_uniformly(self.system, &self.places, self.speed, t, self.root);
     }
 
     fn fill_compliance(&mut self, compliance: &Matrix<P>) {
-        let m = self.system.components();
-        for (i, row) in self.geometry.compliance.chunks_exact_mut(m).enumerate() {
-            row.copy_from_slice(&compliance[i][..m]);
-        }
+        self.geometry.set_compliance(compliance.iter());
     }
 }
 

@@ -10,7 +10,7 @@ use crate::mechanics::state::State;
 const PLACES: [f64; 4] =
     [-0.923_879_532_511_286_7, -0.382_683_432_365_089_8, 0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
 
-/// Largest coefficient of degree 7, relative to the give of rail and wheel, of what is taken for a polynomial of degree 6.
+/// Largest coefficient of degree 7, relative to the compliance of rail and wheel, of what is taken for a polynomial of degree 6.
 const ROUNDING: f64 = 1e-11;
 
 /// G over one stretch of time, by divided differences over [`PLACES`], each twice.
@@ -21,7 +21,7 @@ pub(super) struct Path<const P: usize> {
 }
 
 impl<const P: usize> Path<P> {
-    /// From `from` to `to`, at `speed`; `soft` is the give of the wheels. `None` where G is no polynomial of degree 6.
+    /// From `from` to `to`, at `speed`; `soft` is the compliance of the wheels. `None` where G is no polynomial of degree 6.
     ///
     /// # Errors
     /// What the structures refuse.
@@ -34,7 +34,7 @@ impl<const P: usize> Path<P> {
         soft: f64,
     ) -> Result<Option<Self>, Error> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-        let m = system.components();
+        let m = system.elements.len();
         let (mut value, mut rate) = ([[[0.0; P]; P]; 4], [[[0.0; P]; P]; 4]);
         let mut size = soft;
         for (place, (value, rate)) in PLACES.iter().zip(value.iter_mut().zip(&mut rate)) {
@@ -42,8 +42,9 @@ impl<const P: usize> Path<P> {
             for i in 0..m {
                 for j in 0..m {
                     let (there, back) = (i * m + j, j * m + i);
-                    value[i][j] = geometry.compliance[there];
-                    rate[i][j] = (geometry.slope[there] + geometry.slope[back]) * speed * half;
+                    value[i][j] = geometry.rails().value[there];
+                    rate[i][j] =
+                        (geometry.rails().slope[there] + geometry.rails().slope[back]) * speed * half;
                 }
                 size = size.max(value[i][i]);
             }

@@ -8,7 +8,7 @@ pub(super) type Matrix<const P: usize> = [[f64; P]; P];
 /// Coefficients that the compliance may have: that of a uniform beam is of degree 6 along the rail.
 pub(super) const TERMS: usize = 7;
 
-/// Coefficients of the forces that move the freedoms, at most.
+/// Coefficients of the forces that move the degrees of freedom, at most.
 pub(super) const MOST: usize = 24;
 
 /// Coefficients of the forces beyond those: what the law answers to the motion found, so that forces and energy do not

@@ -1,8 +1,8 @@
 //! Ropes that are too stiff for a step, on the interpolant of the step.
 
+use super::Solver;
 use crate::Error;
 use crate::contact::chart::{Chart, Local};
-use crate::contact::solver::Solver;
 use crate::mechanics::state::State;
 
 /// (omega h)^2 of a rope's stretch above which a step of length h does not resolve it.
@@ -14,23 +14,23 @@ impl Solver<'_> {
     ///
     /// # Errors
     /// What the rail refuses.
-    pub fn stretch_ropes(&mut self, h: f64, at: &mut State) -> Result<(), Error> {
+    pub(super) fn stretch_ropes(&mut self, h: f64, at: &mut State) -> Result<(), Error> {
         let charts = std::mem::take(&mut self.charts);
-        let done = charts.0.iter().try_for_each(|chart| self.stretch_rope(chart, h, at));
+        let done = charts.iter().try_for_each(|chart| self.stretch_rope(chart, h, at));
         self.charts = charts;
         done
     }
 
     fn stretch_rope(&mut self, chart: &Chart, h: f64, at: &mut State) -> Result<(), Error> {
         let system = self.system;
-        let Some(anchor) = chart.anchor(system, &self.geometry.switches, at.t) else { return Ok(()) };
+        let Some(anchor) = chart.anchor(system, self.geometry.switches(), at.t) else { return Ok(()) };
         let Some(Local { y, rate, reach, .. }) = chart.local(system, &anchor, at.t, &at.q, &at.v) else {
             return Ok(());
         };
         let mut bends = [0.0; 2];
         let step = 0.1 * y[0].abs() + 1e-12 * reach;
         for (bend, stretch) in bends.iter_mut().zip([y[0] + step, y[0]]) {
-            chart.put(system, &self.geometry.switches, [stretch, y[1], y[2]], rate, at);
+            chart.put(system, self.geometry.switches(), [stretch, y[1], y[2]], rate, at);
             if !self.instant(at)? {
                 return Ok(());
             }
@@ -41,17 +41,8 @@ impl Solver<'_> {
         let square = (bends[1] - bends[0]) / step;
         if square * h * h > UNRESOLVED {
             let stretch = y[0] + bends[1] / square;
-            chart.put(system, &self.geometry.switches, [stretch, y[1], y[2]], rate, at);
+            chart.put(system, self.geometry.switches(), [stretch, y[1], y[2]], rate, at);
         }
         Ok(())
-    }
-
-    /// Chooses the charts of a step from `from`.
-    pub fn chart(&mut self, from: &State) {
-        if self.system.links.is_empty() {
-            return;
-        }
-        let links = &self.geometry.links;
-        self.charts.begin(self.system, &self.geometry.switches, |rope| links[rope].taut, from);
     }
 }

@@ -2,10 +2,12 @@
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
-use super::Stepper;
-use crate::contact::solver::Solver;
+use super::Step;
+use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
+use crate::instant::settle::settle;
 use crate::mechanics::state::State;
+use crate::time::events::first_switch;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
@@ -55,15 +57,16 @@ fn scene() -> Scene {
     }
 }
 
-/// Runs `body` with a stepper that starts at height `y` with speed `v`.
-fn with<T>(y: f64, v: f64, body: impl FnOnce(&mut Stepper<'_, '_>) -> Result<T, Error>) -> Result<T, Error> {
+/// Runs `body` with a step that starts at height `y` with speed `v`.
+fn with<T>(y: f64, v: f64, body: impl FnOnce(&mut Step<'_, '_>) -> Result<T, Error>) -> Result<T, Error> {
     let (scene, foundations) = (scene(), [Foundation::rigid()]);
     let system = System::new(&scene, &foundations)?;
-    let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.mechanics.dofs, system.mechanics.groups.len(), system.components());
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
+    let mut state = system.state();
     (state.q[0], state.v[0]) = (y, v);
-    solver.settle(&mut state)?;
-    body(&mut Stepper::new(&mut solver, state, 1.0, 1.0)?)
+    settle(&mut solver, &mut state)?;
+    solver.store_open(&state);
+    body(&mut Step::new(&mut solver, state, Method::Sdirk4))
 }
 
 fn slope(errors: &[f64]) -> f64 {
@@ -74,12 +77,12 @@ fn slope(errors: &[f64]) -> f64 {
 fn error_of_an_oscillation_falls_with_the_fourth_power_of_the_step() -> Result<(), Error> {
     let mut errors = Vec::new();
     for steps in [40_u32, 80, 160, 320] {
-        let end = with(-0.05, 0.0, |stepper| {
+        let end = with(-0.05, 0.0, |step| {
             for _ in 0..steps {
-                stepper.from.copy_from(&stepper.to);
-                assert!(stepper.attempt(1.0 / f64::from(steps))?);
+                step.begin();
+                assert!(step.attempt(1.0 / f64::from(steps), f64::INFINITY, &mut 0)?);
             }
-            Ok(stepper.to.q[0])
+            Ok(step.to.q[0])
         })?;
         // Analytic: y = -0.1 + 0.05 cos(10 t).
         errors.push((end - (-0.1 + 0.05 * 10.0_f64.cos())).abs());
@@ -95,12 +98,12 @@ fn instant_at_which_a_wheel_leaves_converges_with_the_step() -> Result<(), Error
     let mut errors = Vec::new();
     for steps in [1_u32, 2, 4, 8] {
         let h = 0.05 / f64::from(steps);
-        errors.push(with(-0.1, 3.0, |stepper| {
+        errors.push(with(-0.1, 3.0, |step| {
             loop {
-                stepper.from.copy_from(&stepper.to);
-                assert!(stepper.attempt(h)?);
-                if let Some((share, _)) = stepper.first_event()? {
-                    return Ok((stepper.from.t + share * h - wanted).abs());
+                step.begin();
+                assert!(step.attempt(h, f64::INFINITY, &mut 0)?);
+                if let Some((share, _)) = first_switch(step, 10.0)? {
+                    return Ok((step.from.t + share * h - wanted).abs());
                 }
             }
         })?);
@@ -259,16 +262,17 @@ fn end(
     let foundations = [foundation];
     let system = System::new(&scene, &foundations)?;
     method.check(&system)?;
-    let mut solver = Solver::new(&system)?;
-    let mut state = State::zeros(system.mechanics.dofs, system.mechanics.groups.len(), system.components());
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
+    let mut state = system.state();
     state.q[0] = -0.12;
-    solver.settle(&mut state)?;
-    let mut stepper = Stepper::new(&mut solver, state, 1.0, 1.0)?.by(method);
+    settle(&mut solver, &mut state)?;
+    solver.store_open(&state);
+    let mut step = Step::new(&mut solver, state, method);
     for _ in 0..steps {
-        stepper.from.copy_from(&stepper.to);
-        assert!(stepper.attempt(1.0 / f64::from(steps))?);
+        step.begin();
+        assert!(step.attempt(1.0 / f64::from(steps), f64::INFINITY, &mut 0)?);
     }
-    Ok([stepper.to.q[0], stepper.to.v[0]])
+    Ok([step.to.q[0], step.to.v[0]])
 }
 
 /// Between the two finest of three steps; the reference is Gauss of order 6, or Radau where a damper forbids it.
@@ -299,7 +303,7 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
                 if law == "rail" && matches!(method, Method::Gauss2 | Method::Gauss3) {
                     continue;
                 }
-                // A rail's give relaxes against the damper within 0.02: only shorter steps resolve it.
+                // A rail's deflection relaxes against the damper within 0.02: only shorter steps resolve it.
                 let counts = match (method, law) {
                     (Method::Sdirk4, "rail") => [640, 1280, 2560],
                     (Method::Sdirk4, _) => [80, 160, 320],
@@ -333,19 +337,20 @@ fn gauss_conserves_the_energy_of_ten_thousand_cycles() -> Result<(), Error> {
     {
         let (scene, foundations) = (scene(), [Foundation::rigid()]);
         let system = System::new(&scene, &foundations)?;
-        let mut solver = Solver::new(&system)?;
+        let mut solver = Solver::new(&system, RailMemory::Known)?;
         let mut state = State::zeros(1, 1, 1);
         state.q[0] = -0.05;
-        solver.settle(&mut state)?;
-        let mut stepper = Stepper::new(&mut solver, state, 1.0, 1.0)?.by(method);
+        settle(&mut solver, &mut state)?;
+        solver.store_open(&state);
+        let mut step = Step::new(&mut solver, state, method);
         let h = 2.0 * std::f64::consts::PI / 120.0;
         let of = |at: &State| 0.5 * at.v[0].powi(2) + 50.0 * (at.q[0] + 0.1).powi(2);
-        let begun = of(&stepper.to);
+        let begun = of(&step.to);
         let mut drift = 0.0_f64;
         for _ in 0..120_000 {
-            stepper.from.copy_from(&stepper.to);
-            assert!(stepper.attempt(h)?);
-            drift = drift.max((of(&stepper.to) / begun - 1.0).abs());
+            step.begin();
+            assert!(step.attempt(h, f64::INFINITY, &mut 0)?);
+            drift = drift.max((of(&step.to) / begun - 1.0).abs());
         }
         println!("{method:?}: largest relative change of the energy {drift:.2e}");
         assert!(drift <= bound, "{method:?}: {drift}");
