@@ -1,11 +1,11 @@
 //! Scenes in motion: wheels, contact, bodies and what carries their rails.
 //!
-//! A [`Scene`] says which bodies move, on which wheels, along which rails. A [`Foundation`] carries the rails: rigid, by a
-//! compliance, or with mass. [`run()`] brings the scene from its start to its end and returns a [`Run`] with the
+//! A [`Scene`] says which bodies move, on which wheels, along which rails. A [`Foundation`] carries the rails: rigid,
+//! by a compliance, or with mass. [`run()`] brings the scene from its start to its end and returns a [`Run`] with the
 //! [`History`] of every channel and an energy [`Audit`]. [`choose`] finds the simplest foundation that suffices.
 //!
-//! The crate knows no section, material, unit or file. All quantities are in one consistent system of units, for example
-//! m, kg, s, N; x runs along the rail, y up, z to the right.
+//! The crate knows no section, material, unit or file. All quantities are in one consistent system of units, for
+//! example m, kg, s, N; x runs along the rail, y up, z to the right.
 //!
 //! # Example
 //! A bogie of 20 t on two wheels crosses a girder of 20 m span at 2 m/s.

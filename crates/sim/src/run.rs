@@ -6,9 +6,9 @@ use nalgebra::DVector;
 
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
-use crate::instant::hang::{drop_below, equilibrate};
+use crate::instant::hang::{equilibrate, place_below_ropes};
 use crate::instant::settle::settle;
-use crate::instant::uneven::{follow, locate};
+use crate::instant::uneven::{follow_rigid_rails, locate_wheels};
 use crate::mechanics::state::State;
 use crate::record::energy::Audit;
 use crate::record::history::History;
@@ -89,7 +89,7 @@ pub struct Run {
 /// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
 ///
 /// # Errors
-/// A scene that cannot be set up: see [`Error`]. Trouble on the way ends the run with a [`Status`] instead.
+/// A scene that cannot be set up: see [`Error`]. A failure during the run ends it with a [`Status`] instead.
 pub fn run(
     scene: &Scene,
     foundations: &[Foundation],
@@ -137,9 +137,9 @@ pub fn run_by(
         method = Method::Radau;
     }
     let mut solver = Solver::new(&system, RailMemory::Known)?;
-    locate(&mut solver, &state)?;
+    locate_wheels(&mut solver, &state)?;
     state.v.fill(0.0);
-    drop_below(&mut solver, &mut state)?;
+    place_below_ropes(&mut solver, &mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
@@ -178,7 +178,7 @@ fn integrate(
     }
     set(system, &mut state.v, |body| body.start_speed);
     if system.traits.is_uneven {
-        follow(solver, &mut state);
+        follow_rigid_rails(solver, &mut state);
     }
     if !settle(solver, &mut state)? {
         return Err(Error::NoEquilibrium { time: 0.0 });
@@ -272,7 +272,7 @@ fn sweep(
     }
     for t in times {
         state.t = t;
-        locate(solver, &state)?;
+        locate_wheels(solver, &state)?;
         match equilibrate(solver, &mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),

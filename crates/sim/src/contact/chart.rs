@@ -1,9 +1,9 @@
 //! Coordinates in which a stage sees hanging bodies: the stretch of the rope and two angles of its direction.
 //!
-//! A stage solves Q = q + g V, V = v + g A. Over the X, Y and Z of a body on a taut rope it would cut corners: the chord
-//! of the arc is off the arc by g^2, the rope is made to pull that much more or less, and a stiff one takes tiny steps.
-//! In the coordinates y = (s, alpha, beta) with s the stretch the arc is a straight line. With a the rope's other end, l
-//! its unstretched length and u its direction,
+//! A stage solves Q = q + g V, V = v + g A. Over the X, Y and Z of a body on a taut rope it would cut corners: the
+//! chord of the arc is off the arc by g^2, the rope is made to pull that much more or less, and a stiff one takes
+//! tiny steps. In the coordinates y = (s, alpha, beta) with s the stretch the arc is a straight line. With a the
+//! rope's other end, l its unstretched length and u its direction,
 //!
 //! x = a + (l + s) u,  x' = a' + l' u + J y',  x'' = a'' + J y'' + c,  J = [u, (l + s) u_alpha, (l + s) u_beta],
 //!
@@ -40,7 +40,7 @@ pub(crate) struct Chart {
     /// Known parts of the stage's coordinates and rates.
     pub known: [[f64; 3]; 2],
     /// Second rates of the last stage.
-    pub bend: [f64; 3],
+    pub acceleration: [f64; 3],
 }
 
 /// Where the rope's other end is, how it moves by prescribed motions, and the unstretched length with its rates.
@@ -55,26 +55,26 @@ pub(crate) struct Anchor<'s> {
 pub(crate) struct Local {
     pub y: [f64; 3],
     pub rate: [f64; 3],
-    pub reach: f64,
+    pub span: f64,
     /// u, u_alpha, u_beta.
     pub along: [Vector3<f64>; 3],
     /// cos beta squared.
-    pub narrow: f64,
+    pub cos_squared: f64,
     /// c of the module.
     pub curve: Vector3<f64>,
 }
 
 impl Local {
     /// J w.
-    pub fn push(&self, w: [f64; 3]) -> Vector3<f64> {
+    pub fn apply(&self, w: [f64; 3]) -> Vector3<f64> {
         let [u, across, over] = self.along;
-        u * w[0] + (across * w[1] + over * w[2]) * self.reach
+        u * w[0] + (across * w[1] + over * w[2]) * self.span
     }
 
     /// J^-1 w.
-    pub fn pull(&self, w: Vector3<f64>) -> [f64; 3] {
+    pub fn solve(&self, w: Vector3<f64>) -> [f64; 3] {
         let [u, across, over] = self.along;
-        [u.dot(&w), across.dot(&w) / (self.reach * self.narrow), over.dot(&w) / self.reach]
+        [u.dot(&w), across.dot(&w) / (self.span * self.cos_squared), over.dot(&w) / self.span]
     }
 }
 
@@ -122,12 +122,11 @@ impl Chart {
         v: &DVector<f64>,
     ) -> Option<Local> {
         let [e0, e1, e2] = self.frame;
-        let [length, length_rate, length_bend] = anchor.unstretched;
-        let reach = self.vector(q) + self.offset(system)? - anchor.point.place(&system.mechanics, t, q);
+        let [length, length_rate, length_acceleration] = anchor.unstretched;
+        let span = self.vector(q) + self.offset(system)? - anchor.point.place(&system.mechanics, t, q);
         let speed = self.vector(v) - anchor.point.rate(v) - anchor.given[0];
-        let r = reach.norm();
-        let (alpha, beta) =
-            (reach.dot(&e1).atan2(reach.dot(&e0)), (reach.dot(&e2) / r).clamp(-1.0, 1.0).asin());
+        let r = span.norm();
+        let (alpha, beta) = (span.dot(&e1).atan2(span.dot(&e0)), (span.dot(&e2) / r).clamp(-1.0, 1.0).asin());
         let ((sa, ca), (sb, cb)) = (alpha.sin_cos(), beta.sin_cos());
         let (radial, around) = (e0 * ca + e1 * sa, e1 * ca - e0 * sa);
         let u = radial * cb + e2 * sb;
@@ -135,15 +134,15 @@ impl Chart {
         let mut local = Local {
             y: [r - length, alpha, beta],
             rate: [0.0; 3],
-            reach: r,
+            span: r,
             along,
-            narrow: cb * cb,
+            cos_squared: cb * cb,
             curve: u,
         };
-        local.rate = local.pull(speed - u * length_rate);
+        local.rate = local.solve(speed - u * length_rate);
         let [s, a, b] = local.rate;
         let turn = along[1] * a + along[2] * b;
-        local.curve = u * length_bend + turn * (2.0 * (length_rate + s))
+        local.curve = u * length_acceleration + turn * (2.0 * (length_rate + s))
             - (radial * (cb * a * a) + around * (2.0 * sb * a * b) + u * (b * b)) * r;
         Some(local)
     }
@@ -166,15 +165,15 @@ impl Chart {
             frame: axes,
             start: [[0.0; 3]; 2],
             known: [[0.0; 3]; 2],
-            bend: [0.0; 3],
+            acceleration: [0.0; 3],
         };
         let anchor = chart.anchor(system, switches, from.t)?;
-        let reach = chart.vector(&from.q) + chart.offset(system)?
+        let span = chart.vector(&from.q) + chart.offset(system)?
             - anchor.point.place(&system.mechanics, from.t, &from.q);
-        if reach.norm() <= SHORTEST * anchor.unstretched[0] {
+        if span.norm() <= SHORTEST * anchor.unstretched[0] {
             return None;
         }
-        let along = reach.normalize();
+        let along = span.normalize();
         let speed = chart.vector(&from.v) - anchor.point.rate(&from.v) - anchor.given[0];
         let across = speed - along * along.dot(&speed);
         let least = axes[along.iamin()];
@@ -182,14 +181,14 @@ impl Chart {
         let across = across.normalize();
         chart.frame = [along, across, along.cross(&across)];
         let local = chart.local(system, &anchor, from.t, &from.q, &from.v)?;
-        let bend = chart.vector(&from.a) - anchor.point.rate(&from.a) - anchor.given[1] - local.curve;
+        let acceleration = chart.vector(&from.a) - anchor.point.rate(&from.a) - anchor.given[1] - local.curve;
         chart.start = [local.y, local.rate];
-        chart.bend = local.pull(bend);
+        chart.acceleration = local.solve(acceleration);
         Some(chart)
     }
 
     /// Puts the body at the coordinates `y` with their `rate`, about where `at` has the rope's other end.
-    pub fn put(&self, system: &System, switches: &Switches, y: [f64; 3], rate: [f64; 3], at: &mut State) {
+    pub fn place(&self, system: &System, switches: &Switches, y: [f64; 3], rate: [f64; 3], at: &mut State) {
         let (Some(anchor), Some(offset)) = (self.anchor(system, switches, at.t), self.offset(system)) else {
             return;
         };
@@ -197,12 +196,12 @@ impl Chart {
         let ((sa, ca), (sb, cb)) = (y[1].sin_cos(), y[2].sin_cos());
         let (radial, around) = (e0 * ca + e1 * sa, e1 * ca - e0 * sa);
         let (u, over) = (radial * cb + e2 * sb, e2 * cb - radial * sb);
-        let reach = anchor.unstretched[0] + y[0];
-        let q = anchor.point.place(&system.mechanics, at.t, &at.q) + u * reach - offset;
+        let span = anchor.unstretched[0] + y[0];
+        let q = anchor.point.place(&system.mechanics, at.t, &at.q) + u * span - offset;
         let v = anchor.point.rate(&at.v)
             + anchor.given[0]
             + u * (anchor.unstretched[1] + rate[0])
-            + (around * (cb * rate[1]) + over * rate[2]) * reach;
+            + (around * (cb * rate[1]) + over * rate[2]) * span;
         for (k, &number) in self.numbers.iter().enumerate() {
             (at.q[number], at.v[number]) = (q[k], v[k]);
         }

@@ -68,7 +68,7 @@ impl Charts {
     }
 
     /// Sets the entries of hanging bodies in `q` and `v` to their coordinates and rates at the start of the step.
-    pub fn begun(&self, q: &mut DVector<f64>, v: &mut DVector<f64>) {
+    pub fn set_start(&self, q: &mut DVector<f64>, v: &mut DVector<f64>) {
         for chart in &self.0 {
             for (k, &number) in chart.numbers.iter().enumerate() {
                 (q[number], v[number]) = (chart.start[0][k], chart.start[1][k]);
@@ -80,23 +80,23 @@ impl Charts {
     pub fn guess(&mut self, system: &System, switches: &Switches, g: f64, known: &Known, at: &mut State) {
         for chart in &mut self.0 {
             chart.known = [&known.q, &known.v].map(|of| chart.numbers.map(|number| of[number]));
-            let rate: [f64; 3] = std::array::from_fn(|k| chart.known[1][k] + g * chart.bend[k]);
+            let rate: [f64; 3] = std::array::from_fn(|k| chart.known[1][k] + g * chart.acceleration[k]);
             let y = std::array::from_fn(|k| chart.known[0][k] + g * rate[k]);
-            chart.put(system, switches, y, rate, at);
+            chart.place(system, switches, y, rate, at);
         }
     }
 
     /// Sets the known parts of hanging bodies for X, Y and Z, about the guess `at`.
-    pub fn flatten(&self, system: &System, switches: &Switches, g: f64, known: &mut Known, at: &State) {
+    pub fn linearise(&self, system: &System, switches: &Switches, g: f64, known: &mut Known, at: &State) {
         for chart in &self.0 {
             let Some(anchor) = chart.anchor(system, switches, at.t) else { continue };
             let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else { continue };
             let apart = std::array::from_fn(|k| chart.known[0][k] - local.y[k]);
             let drift = anchor.given[0] + local.along[0] * anchor.unstretched[1];
-            let reach = chart.vector(&at.q) - anchor.point.place(&system.mechanics, at.t, &at.q);
+            let span = chart.vector(&at.q) - anchor.point.place(&system.mechanics, at.t, &at.q);
             let q =
-                anchor.point.place(&system.mechanics, at.t, &known.q) + reach + local.push(apart) - drift * g;
-            let v = anchor.point.rate(&known.v) + drift + local.push(chart.known[1])
+                anchor.point.place(&system.mechanics, at.t, &known.q) + span + local.apply(apart) - drift * g;
+            let v = anchor.point.rate(&known.v) + drift + local.apply(chart.known[1])
                 - (anchor.given[1] + local.curve) * g;
             for (k, &number) in chart.numbers.iter().enumerate() {
                 (known.q[number], known.v[number]) = (q[k], v[k]);
@@ -104,9 +104,9 @@ impl Charts {
         }
     }
 
-    /// Sets the entries of hanging bodies in `v` and `a`, those of the stage that ended at `at`, to rates and second rates
-    /// of their coordinates.
-    pub fn settle(
+    /// Sets the entries of hanging bodies in `v` and `a`, those of the stage that ended at `at`, to rates and second
+    /// rates of their coordinates.
+    pub fn set_rates(
         &mut self,
         system: &System,
         switches: &Switches,
@@ -116,16 +116,16 @@ impl Charts {
         for chart in &mut self.0 {
             let Some(anchor) = chart.anchor(system, switches, at.t) else { continue };
             let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else { continue };
-            let bend = chart.vector(&at.a) - anchor.point.rate(&at.a) - anchor.given[1] - local.curve;
-            chart.bend = local.pull(bend);
+            let acceleration = chart.vector(&at.a) - anchor.point.rate(&at.a) - anchor.given[1] - local.curve;
+            chart.acceleration = local.solve(acceleration);
             for (k, &number) in chart.numbers.iter().enumerate() {
-                (v[number], a[number]) = (local.rate[k], chart.bend[k]);
+                (v[number], a[number]) = (local.rate[k], chart.acceleration[k]);
             }
         }
     }
 
-    /// Calls `each` with the number of every degree of freedom of hanging bodies and its share of the errors of coordinates and rates
-    /// that `of` gives by number.
+    /// Calls `each` with the number of every degree of freedom of hanging bodies and its part of the errors of
+    /// coordinates and rates that `of` gives by number.
     pub fn errors(
         &self,
         system: &System,
@@ -139,21 +139,21 @@ impl Charts {
             let Some(anchor) = chart.anchor(system, switches, t) else { continue };
             let Some(local) = chart.local(system, &anchor, t, &at.q, &at.v) else { continue };
             let errors = chart.numbers.map(&of);
-            let [dq, dv] = [0, 1].map(|i| local.push(errors.map(|error| error[i])));
+            let [dq, dv] = [0, 1].map(|i| local.apply(errors.map(|error| error[i])));
             for (k, &number) in chart.numbers.iter().enumerate() {
                 each(number, [dq[k], dv[k]]);
             }
         }
     }
 
-    /// Moves the hanging bodies of `at`, the interpolant between `from` and `to` at `share`, to where that of their
+    /// Moves the hanging bodies of `at`, the interpolant between `from` and `to` at `fraction`, to where that of their
     /// coordinates is.
     pub fn interpolate(
         &self,
         system: &System,
         switches: &Switches,
         [from, to]: [&State; 2],
-        share: f64,
+        fraction: f64,
         at: &mut State,
     ) {
         for chart in &self.0 {
@@ -162,17 +162,17 @@ impl Charts {
             for ((end, state), t) in ends.iter_mut().zip([from, to]).zip([from.t, to.t.next_down()]) {
                 let Some(anchor) = chart.anchor(system, switches, t) else { return };
                 let Some(local) = chart.local(system, &anchor, t, &state.q, &state.v) else { return };
-                let bend =
+                let acceleration =
                     chart.vector(&state.a) - anchor.point.rate(&state.a) - anchor.given[1] - local.curve;
                 end.t = state.t;
                 end.q.copy_from_slice(&local.y);
                 end.v.copy_from_slice(&local.rate);
-                end.a.copy_from_slice(&local.pull(bend));
+                end.a.copy_from_slice(&local.solve(acceleration));
             }
             let mut middle = State::zeros(3, 0, 0);
-            middle.interpolate(&ends[0], &ends[1], share);
+            middle.interpolate(&ends[0], &ends[1], fraction);
             let [y, rate] = [&middle.q, &middle.v].map(|of| [of[0], of[1], of[2]]);
-            chart.put(system, switches, y, rate, at);
+            chart.place(system, switches, y, rate, at);
         }
     }
 }

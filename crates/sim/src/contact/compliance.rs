@@ -1,8 +1,9 @@
 //! Compliance of the rails without mass where the wheels are, with as few evaluations as the accuracy asks.
 //!
 //! For each structure, in this order: 1. along a path that was set for the steps to come G is interpolated
-//! ([`CompliancePath`]); 2. where every wheel has moved by less than a distance from the place of the last evaluation,
-//! G is extrapolated by its slope, G + dG/dx dx; 3. else G is evaluated. Both distances are zero until an accuracy is set.
+//! ([`CompliancePath`]); 2. where every wheel has moved by less than a distance from the place of the last
+//! evaluation, G is extrapolated by its slope, G + dG/dx dx; 3. else G is evaluated. Both distances are zero until an
+//! accuracy is set.
 
 use splines::{Influence, Probe};
 

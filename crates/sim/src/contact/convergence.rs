@@ -44,7 +44,8 @@ pub(crate) struct Verdict {
 }
 
 impl Convergence {
-    /// Lets passes end within a fraction of the error `tolerance` of a step beside the scales of displacements and speeds.
+    /// Lets passes end within a fraction of the error `tolerance` of a step beside the scales of displacements and
+    /// speeds.
     pub fn set_accuracy(&mut self, tolerance: f64, [scale, rate_scale]: [&DVector<f64>; 2]) {
         let by_others = (tolerance / LOOSE).min(1.0).powi(2);
         self.allowed = [1.0, by_others].map(|share| share * LEFT * tolerance);

@@ -72,8 +72,9 @@ impl Element for DriveForce<'_> {
         true
     }
 
-    /// The force at the rate that it produces itself: where it is now `force` at the rate r, which every unit of force
-    /// lowers by `fall`, F = K (r - fall (F - force)); the limit beyond it. A stiff drive converges in one iteration so.
+    /// The force at the rate that it produces itself: where it is now `force` at the rate r, which every unit of
+    /// force lowers by `fall`, F = K (r - fall (F - force)); the limit beyond it. A stiff drive converges in one
+    /// iteration so.
     fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law> {
         if !query.local.is_on {
             return None;

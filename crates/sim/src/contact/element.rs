@@ -1,15 +1,15 @@
 //! What every force element answers.
 //!
-//! A force element is one unknown scalar force F_i of a stage: a vertical contact, a flange, friction below a wheel, a
-//! drive, a brake, a rope or a stop. With e = R q + offset its approach, G the compliance of rails without mass and W, Y
-//! the effect of all forces on penetrations and rates, a stage solves
+//! A force element is one unknown scalar force F_i of a stage: a vertical contact, a flange, friction below a wheel,
+//! a drive, a brake, a rope or a stop. With e = R q + offset its approach, G the compliance of rails without mass and
+//! W, Y the effect of all forces on penetrations and rates, a stage solves
 //!
 //! F = law(p, r),  p = e - W F,  r = r_0 - Y F
 //!
-//! by one Newton iteration that never asks what kind of element it solves for. All that differs between kinds is said by
-//! the trait [`Element`]: where an element acts (rows and probes), its law with slopes, the guards whose change of sign
-//! ends a step, its energy, and its channels. Every question has the answer "nothing" by default, so that a new law
-//! answers the few that concern it, in a file of its own and a line of `contact::elements`.
+//! by one Newton iteration that never asks what kind of element it solves for. All that differs between kinds is said
+//! by the trait [`Element`]: where an element acts (rows and probes), its law with slopes, the guards whose change of
+//! sign ends a step, its energy, and its channels. Every question has the answer "nothing" by default, so that a new
+//! law answers the few that concern it, in a file of its own and a line of `contact::elements`.
 
 use nalgebra::DVector;
 use splines::Axis;
@@ -52,8 +52,8 @@ pub(crate) trait Element {
         None
     }
 
-    /// Whether it acts along the rail: its rate rows load the degrees of freedom, and the displacement of a rail without
-    /// mass along x is a state.
+    /// Whether it acts along the rail: its rate rows load the degrees of freedom, and the displacement of a rail
+    /// without mass along x is a state.
     fn is_tangential(&self) -> bool {
         false
     }
@@ -115,8 +115,8 @@ pub(crate) trait Element {
         false
     }
 
-    /// Force by penetration and rate, with slopes; `None` where it does not act. Slopes by forces of other elements (and
-    /// by its own, where the law is implicit) go to `couplings`.
+    /// Force by penetration and rate, with slopes; `None` where it does not act. Slopes by forces of other elements
+    /// (and by its own, where the law is implicit) go to `couplings`.
     fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law>;
 
     // Its guards.

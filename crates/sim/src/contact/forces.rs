@@ -1,7 +1,7 @@
 //! The forces of all elements at one instant or one stage of a step: F = law(p, r), p = e - W F, r = r_0 - Y F.
 //!
-//! W holds the compliance G of the rails and, inside a step, the mobility of the bodies; Y is the mobility that the rates
-//! feel. Which elements are active is given; the caller checks that they push and that the others stay open.
+//! W holds the compliance G of the rails and, inside a step, the mobility of the bodies; Y is the mobility that the
+//! rates feel. Which elements are active is given; the caller checks that they push and that the others stay open.
 //!
 //! Newton's method on rho(F) = F - law(e - W F, r_0 - Y F), with the Jacobian I + law_p W + law_r Y less the slopes of
 //! the laws by other forces, over the elements whose laws act; those that do not have the row F_i = 0. Steps are halved
@@ -251,8 +251,8 @@ impl Problem {
         largest(&self.residuals.value)
     }
 
-    /// Fills the residuals F - law(p, r) under `force` at the penetrations and rates reached, the elements that act, and
-    /// the slopes of their laws. What does not act has its force for a residual.
+    /// Fills the residuals F - law(p, r) under `force` at the penetrations and rates reached, the elements that act,
+    /// and the slopes of their laws. What does not act has its force for a residual.
     fn evaluate_laws(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) {
         let Problem { effects, idle, residuals, .. } = self;
         residuals.clear();
@@ -324,8 +324,8 @@ impl Problem {
         factor_general(&mut jacobian[..count * count], &mut pivots[..count])
     }
 
-    /// Puts Newton's change of the forces in place of their residual, by the factors of the Jacobian. What does not act has
-    /// the rows of the identity.
+    /// Puts Newton's change of the forces in place of their residual, by the factors of the Jacobian. What does not
+    /// act has the rows of the identity.
     fn take_newton_step(&mut self) {
         let Problem { effects: Effects { w, y, .. }, residuals, factors, change, .. } = self;
         let (m, count) = (residuals.value.len(), factors.elements.len());

@@ -58,7 +58,8 @@ impl<'a> FreeMotion<'a> {
         &self.inverse
     }
 
-    /// Motion of a stage of the coefficient `g` about `at`: A = Z (f - C v* - K (q* + g v*)), V = v* + g A, Q = q* + g V.
+    /// Motion of a stage of the coefficient `g` about `at`: A = Z (f - C v* - K (q* + g v*)), V = v* + g A, Q = q* +
+    /// g V.
     ///
     /// # Errors
     /// A mass that is not positive definite.

@@ -226,8 +226,8 @@ impl Geometry {
         }
     }
 
-    /// Rows of the forces: those of the approach, or of the rate along the rail, less the rail's slope times the rows of
-    /// the wheel's x.
+    /// Rows of the forces: those of the approach, or of the rate along the rail, less the rail's slope times the rows
+    /// of the wheel's x.
     fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
         let n = system.mechanics.dofs;
         for (i, element) in system.elements.iter().enumerate() {
@@ -251,8 +251,8 @@ impl Geometry {
         }
     }
 
-    /// Heights of the wheels' centres above their rails by the penetrations of `at`; returns the largest relative change
-    /// where heights matter.
+    /// Heights of the wheels' centres above their rails by the penetrations of `at`; returns the largest relative
+    /// change where heights matter.
     pub fn update_heights(&mut self, system: &System, at: &State) -> f64 {
         if !system.traits.uses_heights {
             return 0.0;
@@ -300,8 +300,8 @@ impl Geometry {
         self.rails.wants_paths()
     }
 
-    /// Sets the paths along which the compliance is interpolated, from the first of three times and degrees of freedom to
-    /// the second or, where no rail element ends before it, to the third.
+    /// Sets the paths along which the compliance is interpolated, from the first of three times and degrees of
+    /// freedom to the second or, where no rail element ends before it, to the third.
     pub fn set_paths(&mut self, system: &System, ends: [(f64, &DVector<f64>); 3]) {
         let mechanics = &system.mechanics;
         let places = ends.map(|(t, q)| {
@@ -316,8 +316,8 @@ impl Geometry {
         self.rails.clear_paths();
     }
 
-    /// Puts the wheels of a crossing at uniform `speed` where they are at time `t`, from their `start`, without an update
-    /// of anything else.
+    /// Puts the wheels of a crossing at uniform `speed` where they are at time `t`, from their `start`, without an
+    /// update of anything else.
     pub fn move_uniformly(
         &mut self,
         system: &System,

@@ -1,9 +1,10 @@
 //! Where the contacts are, how rails and bodies comply there, and the forces of one stage.
 //!
-//! Every unknown scalar force is a force element. [`element`] says what an element answers, one file each holds the kinds
-//! ([`vertical`], [`flange`], [`traction`], [`drive`], [`brake`], [`rope`], [`stop`]), [`elements`] lists them, and
-//! [`system`] is a scene with its elements. [`geometry`] brings them to a state, [`forces`] solves for their forces, and
-//! [`solver`] puts both together at an instant and in a stage. The wing stands on `mechanics` and knows no step.
+//! Every unknown scalar force is a force element. [`element`] says what an element answers, one file each holds the
+//! kinds ([`vertical`], [`flange`], [`traction`], [`drive`], [`brake`], [`rope`], [`stop`]), [`elements`] lists them,
+//! and [`system`] is a scene with its elements. [`geometry`] brings them to a state, [`forces`] solves for their
+//! forces, and [`solver`] puts both together at an instant and in a stage. The wing stands on `mechanics` and knows
+//! no step.
 
 pub(crate) mod active;
 pub(crate) mod brake;

@@ -1,10 +1,10 @@
 //! Compliance of three and more wheels of one structure along their path.
 //!
 //! For structures with a symmetric G, the compliance is evaluated at both ends of a path of up to four steps and
-//! interpolated between them. Wheels of one contact move alike: a group is what they do to one element. With s in [0, 1]
-//! the fraction of the path, G(s) is the cubic by the values and the slopes at both ends; the slopes of single groups are
-//! the quadratics of least curvature that agree with it, dG/ds = G_x x' + G_y y', so that forces along the rail do the
-//! work that the rail stores. Beside the path G is extrapolated by its slopes.
+//! interpolated between them. Wheels of one contact move alike: a group is what they do to one element. With s in [0,
+//! 1] the fraction of the path, G(s) is the cubic by the values and the slopes at both ends; the slopes of single
+//! groups are the quadratics of least curvature that agree with it, dG/ds = G_x x' + G_y y', so that forces along the
+//! rail do the work that the rail stores. Beside the path G is extrapolated by its slopes.
 
 use splines::{Compliance, Influence, Probe};
 
@@ -68,8 +68,8 @@ pub(crate) struct CompliancePath {
 }
 
 impl CompliancePath {
-    /// The path of the probes `entries`, not set yet. `None` where evaluating the compliance is as fast, and where it is
-    /// not symmetric.
+    /// The path of the probes `entries`, not set yet. `None` where evaluating the compliance is as fast, and where it
+    /// is not symmetric.
     pub fn new(mechanics: &Mechanics, foundation: &Foundation, entries: &[Entry]) -> Option<CompliancePath> {
         let compliance = foundation.compliance.as_ref()?;
         if entries.len() < MANY || !compliance.is_symmetric() || foundation.parts.is_some() {
@@ -113,8 +113,8 @@ impl CompliancePath {
         })
     }
 
-    /// Sets the path between two places of all wheels, `from` and `to`; no rail element ends between them. It begins where
-    /// the last path ended, if `goes_on` and that is within the distance `reach`.
+    /// Sets the path between two places of all wheels, `from` and `to`; no rail element ends between them. It begins
+    /// where the last path ended, if `goes_on` and that is within the distance `reach`.
     ///
     /// # Errors
     /// What the compliance refuses.
@@ -217,8 +217,8 @@ impl CompliancePath {
         }
     }
 
-    /// Fraction of the path that is nearest to `places`, and the largest distance of a wheel from it; `offset` takes the
-    /// distance of each.
+    /// Fraction of the path that is nearest to `places`, and the largest distance of a wheel from it; `offset` takes
+    /// the distance of each.
     fn project(&mut self, places: &[f64]) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
         for ((group, offset), (start, length)) in
@@ -237,7 +237,8 @@ impl CompliancePath {
         (s, farthest)
     }
 
-    /// Brings values and slopes to where the wheels are, if the path is set and they are within the distance `reach` of it.
+    /// Brings values and slopes to where the wheels are, if the path is set and they are within the distance `reach`
+    /// of it.
     pub fn follow(&mut self, places: &[f64], reach: f64) -> bool {
         if !self.is_set {
             return false;

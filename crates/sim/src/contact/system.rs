@@ -103,7 +103,10 @@ impl<'a> System<'a> {
 
     /// Force of the friction below wheel `w` at `at`; zero where it has none.
     pub fn friction_of(&self, w: usize, at: &State) -> f64 {
-        let is_own = |element: &ForceElement| matches!(element, ForceElement::Traction(traction) if traction.wheel() == w);
+        let is_own = |element: &ForceElement| match element {
+            ForceElement::Traction(traction) => traction.wheel() == w,
+            _ => false,
+        };
         self.elements.iter().position(is_own).map_or(0.0, |i| at.force[i])
     }
 

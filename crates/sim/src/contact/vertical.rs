@@ -1,8 +1,8 @@
 //! Vertical contact of a wheel, or of the wheels of massless equalisers, with a rail: F = n s (k p^e + S(p) c r).
 //!
-//! p is the penetration, r its rate or that of the wheel alone, n the number of wheels and s the fraction of the law that
-//! acts where rigid parts hand a wheel over. The contact is one-sided: it opens where its force would pull, and closes
-//! where spring and damper would push.
+//! p is the penetration, r its rate or that of the wheel alone, n the number of wheels and s the fraction of the law
+//! that acts where rigid parts hand a wheel over. The contact is one-sided: it opens where its force would pull, and
+//! closes where spring and damper would push.
 
 use std::ops::Range;
 
@@ -82,8 +82,8 @@ impl<'a> Vertical<'a> {
     }
 
     /// Penetration that spring and damper of an open contact still have at `t`. Free of force they relax from the one
-    /// `stored` as it opened by k p + c p' = 0, and wheel and rail are apart until they meet there. `None` where that is
-    /// not known.
+    /// `stored` as it opened by k p + c p' = 0, and wheel and rail are apart until they meet there. `None` where that
+    /// is not known.
     fn relaxed(&self, stored: Option<[f64; 2]>, t: f64) -> Option<f64> {
         let law = self.law;
         let [p, since] = stored.filter(|_| law.has_memory() && law.is_linear())?;
@@ -166,8 +166,8 @@ impl Element for Vertical<'_> {
         })
     }
 
-    /// A contact closes where its spring is pressed and its law pushes: the lesser of the two, since the damper's force may
-    /// jump where wheel and rail meet, the spring's where a pressed contact begins to push.
+    /// A contact closes where its spring is pressed and its law pushes: the lesser of the two, since the damper's
+    /// force may jump where wheel and rail meet, the spring's where a pressed contact begins to push.
     fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {
         let i = at.index;
         if active.has(i) {

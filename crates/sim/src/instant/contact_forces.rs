@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
 use crate::instant::rates::solve_rates_of;
-use crate::instant::uneven::locate;
+use crate::instant::uneven::locate_wheels;
 use crate::mechanics::state::State;
 use crate::{Channel, Error, Foundation, Scene};
 
@@ -126,7 +126,7 @@ fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), E
         (at.p[i], at.p_rate[i]) = (given(solver, instant, i).unwrap_or(0.0), 0.0);
     }
     solver.reset_heights();
-    locate(solver, at)?;
+    locate_wheels(solver, at)?;
     solver.update(at)
 }
 

@@ -23,12 +23,12 @@ const BALANCE: f64 = 1e-6;
 /// the structures to static equilibrium at `at.t`, with the other degrees of freedom where they are.
 ///
 /// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight and loads over the active set, in
-/// sweeps that drop contacts that pull and add contacts that are pressed; again where wheels are at other places then, or
-/// their rails' slopes turn the bodies.
+/// sweeps that drop contacts that pull and add contacts that are pressed; again where wheels are at other places
+/// then, or their rails' slopes turn the bodies.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
-pub(crate) fn carry(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let none = Error::NoEquilibrium { time: at.t };
     at.v.fill(0.0);
@@ -44,7 +44,7 @@ pub(crate) fn carry(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     for _ in 0..FLANGES {
         let before = at.q.clone();
         balance(solver, at)?;
-        let rests = !system.mechanics.moves_freely || is_settled(&before, at);
+        let rests = !system.mechanics.moves_freely || has_settled(&before, at);
         if guides.is_empty() {
             if rests {
                 return Ok(());
@@ -69,7 +69,7 @@ pub(crate) fn carry(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
 }
 
 /// Whether the degrees of freedom have stayed where they were `before`.
-pub(crate) fn is_settled(before: &DVector<f64>, at: &State) -> bool {
+pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
     let pairs = before.iter().zip(at.q.iter());
     pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
@@ -95,7 +95,7 @@ fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     for i in 0..system.verticals() {
         solver.set_active(i, balance.active.contains(&i));
     }
-    settle_structures(solver, at)
+    rest_structures(solver, at)
 }
 
 /// Degrees of freedom of the bodies that balance the weights: those of y, roll and pitch that some wheel resists.
@@ -131,7 +131,7 @@ fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
 }
 
 /// Degrees of degree of freedom of structures under the vertical and the guiding forces of `at`.
-fn settle_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
+fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let (rows, pressing) = (solver.geometry().rows(), pressing(system));
     for block in &system.mechanics.blocks[1..] {
@@ -177,7 +177,7 @@ impl Relaxation {
     }
 }
 
-/// The balance of the vertical contacts at one place: p + A F = `held` + `rows` q, F = law(p), `rows`^T F = weight.
+/// The balance of the vertical contacts at one place: p + A F = `constant` + `rows` q, F = law(p), `rows`^T F = weight.
 struct Balance<'a> {
     system: &'a System<'a>,
     /// Share of each contact's law that acts, times its wheels.
@@ -188,7 +188,7 @@ struct Balance<'a> {
     compliance: DMatrix<f64>,
     /// Contacts x degrees of freedom.
     rows: DMatrix<f64>,
-    held: Vec<f64>,
+    constant: Vec<f64>,
     weight: DVector<f64>,
     active: Vec<usize>,
     q: DVector<f64>,
@@ -209,7 +209,7 @@ impl<'a> Balance<'a> {
         let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
         let all = static_compliance(solver)?;
         let guides = || system.guides().iter().enumerate().map(|(k, &l)| (system.verticals() + k, l));
-        let held: Vec<f64> = (0..count)
+        let constant: Vec<f64> = (0..count)
             .map(|i| {
                 let staid = staying.iter().map(|&k| rows.approach_row(i)[k] * at.q[k]).sum::<f64>();
                 let taken = guides().map(|(place, l)| all[(i, place)] * at.force[l]).sum::<f64>();
@@ -218,7 +218,7 @@ impl<'a> Balance<'a> {
             .collect();
         let share: Vec<f64> =
             (0..count).map(|i| system.mechanics.groups[i].count() * geometry.fraction(i)).collect();
-        let reach = |i: usize| if moving.is_empty() { Some(held[i]) } else { None };
+        let reach = |i: usize| if moving.is_empty() { Some(constant[i]) } else { None };
         let active: Vec<usize> =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
         let mut gravity = system.mechanics.gravity.clone();
@@ -246,7 +246,7 @@ impl<'a> Balance<'a> {
             system,
             share,
             moving,
-            held,
+            constant,
             weight,
             active,
         })
@@ -280,7 +280,7 @@ impl<'a> Balance<'a> {
         Some(false)
     }
 
-    /// Forces of the active contacts from (A + 1/k) F = R q + held - p + f/k, R^T F = weight, with f and k force
+    /// Forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k, R^T F = weight, with f and k force
     /// and stiffness of the laws at p; sets q.
     fn linearised(&mut self) -> Option<DVector<f64>> {
         let size = self.active.len();
@@ -290,7 +290,7 @@ impl<'a> Balance<'a> {
         for (r, &i) in self.active.iter().enumerate() {
             let point = self.system.law(i).at(self.p[i], 0.0);
             matrix[(r, r)] += 1.0 / (self.share[i] * point.by_penetration);
-            free[r] = self.held[i] - self.p[i] + point.force / point.by_penetration;
+            free[r] = self.constant[i] - self.p[i] + point.force / point.by_penetration;
         }
         let lever = DMatrix::from_fn(size, self.moving.len(), |r, j| self.rows[(self.active[r], j)]);
         let lu = matrix.lu();
@@ -338,7 +338,7 @@ impl<'a> Balance<'a> {
         for i in (0..self.share.len()).filter(|i| !before.contains(i) && self.share[*i] > 0.0) {
             let reach: f64 = self.rows.row(i).iter().zip(self.q.iter()).map(|(r, q)| r * q).sum();
             let give: f64 = self.compliance.row(i).iter().zip(&self.force).map(|(g, f)| g * f).sum();
-            self.p[i] = self.held[i] + reach - give;
+            self.p[i] = self.constant[i] + reach - give;
             if self.p[i] > 1e-13 * deepest {
                 self.active.push(i);
             }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::Error;
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
-use crate::instant::equilibrium::{carry, is_settled};
+use crate::instant::equilibrium::{balance_wheels, has_settled};
 use crate::mechanics::point::{Point, scalar};
 use crate::mechanics::state::State;
 
@@ -14,34 +14,34 @@ const ITERATIONS: usize = 200;
 const SWEEPS: usize = 100;
 
 /// Moves everything that may settle to static equilibrium at `at.t`: bodies on rails by
-/// [`carry`], hanging bodies below their ropes, until the tensions stay.
+/// [`balance_wheels`], hanging bodies below their ropes, until the tensions stay.
 ///
 /// # Errors
-/// [`Error::NoEquilibrium`] where the tensions do not come to rest, and what [`carry`] refuses.
+/// [`Error::NoEquilibrium`] where the tensions do not come to rest, and what [`balance_wheels`] refuses.
 pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     if system.joints().is_empty() {
-        return carry(solver, at);
+        return balance_wheels(solver, at);
     }
-    let hung = hung(system);
+    let hanging = hanging(system);
     let mut before = vec![f64::INFINITY; system.joints().len()];
     let mut places = at.q.clone();
     at.v.fill(0.0);
     for _ in 0..SWEEPS {
         // the carriers have moved: a rope that fell slack would say nothing
-        drop_below(solver, at)?;
-        hang(solver, &hung, at)?;
+        place_below_ropes(solver, at)?;
+        rest_hanging(solver, &hanging, at)?;
         let tensions: Vec<f64> = system.joints().iter().map(|&i| at.force[i]).collect();
         let scale = tensions.iter().fold(weight(solver), |max, force| max.max(force.abs()));
         let pairs = tensions.iter().zip(&before);
         let moved = pairs.fold(0.0_f64, |max, (now, then)| max.max((now - then).abs()));
         // A rope that leans with what it hangs from pulls as hard, to the first order, but not as it should.
-        if moved <= 1e-12 * scale && is_settled(&places, at) {
+        if moved <= 1e-12 * scale && has_settled(&places, at) {
             return Ok(());
         }
         before.copy_from_slice(&tensions);
         places.copy_from(&at.q);
-        carry(solver, at)?;
+        balance_wheels(solver, at)?;
     }
     Err(Error::NoEquilibrium { time: at.t })
 }
@@ -50,26 +50,26 @@ fn weight(solver: &Solver) -> f64 {
     solver.system().mechanics.gravity.amax()
 }
 
-/// Newton's method with step halving on the potential of the `hung` degrees of freedom, which is convex; sets the forces
-/// of the links.
-fn hang(solver: &mut Solver, hung: &[usize], at: &mut State) -> Result<(), Error> {
-    let mut potential = joints_at(solver, hung, at)?;
+/// Newton's method with step halving on the potential of the `hanging` degrees of freedom, which is convex; sets the
+/// forces of the links.
+fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<(), Error> {
+    let mut potential = joints_at(solver, hanging, at)?;
     for _ in 0..ITERATIONS {
-        let Some(step) = descent(solver, hung, at) else { break };
+        let Some(step) = descent(solver, hanging, at) else { break };
         let start = at.q.clone();
         let mut share = 1.0;
         loop {
-            for (&number, d) in hung.iter().zip(step.iter()) {
+            for (&number, d) in hanging.iter().zip(step.iter()) {
                 at.q[number] = start[number] + share * d;
             }
-            let now = joints_at(solver, hung, at)?;
+            let now = joints_at(solver, hanging, at)?;
             if now <= potential || share < 1e-6 {
                 potential = now;
                 break;
             }
             share *= 0.5;
         }
-        let size = hung.iter().fold(1.0_f64, |max, &k| max.max(at.q[k].abs()));
+        let size = hanging.iter().fold(1.0_f64, |max, &k| max.max(at.q[k].abs()));
         if share * step.amax() <= 1e-15 * size {
             break;
         }
@@ -79,10 +79,10 @@ fn hang(solver: &mut Solver, hung: &[usize], at: &mut State) -> Result<(), Error
 }
 
 /// Potential of weight, loads and links at `at`, whose link forces it sets.
-fn joints_at(solver: &mut Solver, hung: &[usize], at: &mut State) -> Result<f64, Error> {
+fn joints_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<f64, Error> {
     let system = solver.system();
     solver.update(at)?;
-    let mut potential = -hung.iter().map(|&k| static_load(solver, k, at.t) * at.q[k]).sum::<f64>();
+    let mut potential = -hanging.iter().map(|&k| static_load(solver, k, at.t) * at.q[k]).sum::<f64>();
     for &i in system.joints() {
         let hold = &solver.geometry().local()[i].spring;
         let p = solver.geometry().approach(i, &at.q).max(0.0);
@@ -99,12 +99,12 @@ fn static_load(solver: &Solver, number: usize, t: f64) -> f64 {
     system.mechanics.gravity[number] + loads.map(|load| load.value.at(t)).sum::<f64>()
 }
 
-/// Newton's step of the `hung` degrees of freedom; `None` where there is none to take.
-fn descent(solver: &Solver, hung: &[usize], at: &State) -> Option<DVector<f64>> {
+/// Newton's step of the `hanging` degrees of freedom; `None` where there is none to take.
+fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64>> {
     let system = solver.system();
     let n = system.mechanics.dofs;
-    let size = hung.len();
-    let mut force = DVector::from_fn(size, |r, _| static_load(solver, hung[r], at.t));
+    let size = hanging.len();
+    let mut force = DVector::from_fn(size, |r, _| static_load(solver, hanging[r], at.t));
     let mut matrix = DMatrix::zeros(size, size);
     let mut row = vec![0.0; n];
     for &i in system.joints() {
@@ -112,7 +112,7 @@ fn descent(solver: &Solver, hung: &[usize], at: &State) -> Option<DVector<f64>> 
         if at.force[i] <= 0.0 {
             continue;
         }
-        let pull = DVector::from_fn(size, |r, _| own[hung[r]]);
+        let pull = DVector::from_fn(size, |r, _| own[hanging[r]]);
         force -= &pull * at.force[i];
         matrix += &pull * pull.transpose() * hold.stiffness;
         if let Some(points) = system.elements[i].points().filter(|points| points.swings) {
@@ -122,7 +122,7 @@ fn descent(solver: &Solver, hung: &[usize], at: &State) -> Option<DVector<f64>> 
                 let lean = scalar(unit, hold.direction);
                 row.fill(0.0);
                 points.add_row(&system.mechanics, (at.t, &at.q), unit, &mut row);
-                let across = DVector::from_fn(size, |r, _| row[hung[r]] - lean * own[hung[r]]);
+                let across = DVector::from_fn(size, |r, _| row[hanging[r]] - lean * own[hanging[r]]);
                 matrix += &across * across.transpose() * (at.force[i] / hold.length);
             }
         }
@@ -138,7 +138,7 @@ fn descent(solver: &Solver, hung: &[usize], at: &State) -> Option<DVector<f64>> 
 }
 
 /// Puts hanging bodies below the ends of their ropes, stretched by their weight.
-pub(crate) fn drop_below(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     for &b in &system.scene.actuators.hung {
         let ropes = (0..system.scene.actuators.ropes.len()).filter_map(|index| Some(system.rope(index)?.1));
@@ -163,7 +163,7 @@ pub(crate) fn drop_below(solver: &mut Solver, at: &mut State) -> Result<(), Erro
 }
 
 /// Degrees of freedom of the hanging bodies that links reach.
-fn hung(system: &System) -> Vec<usize> {
+fn hanging(system: &System) -> Vec<usize> {
     let is_joined = |b: usize| {
         let mut points = system.joints().iter().filter_map(|&i| system.elements[i].points());
         points.any(|points| points.is_on(b))

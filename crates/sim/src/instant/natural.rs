@@ -5,9 +5,9 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use crate::Analysis;
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
-use crate::instant::hang::{drop_below, equilibrate};
+use crate::instant::hang::{equilibrate, place_below_ropes};
 use crate::instant::settle::settle;
-use crate::instant::uneven::locate;
+use crate::instant::uneven::locate_wheels;
 use crate::mechanics::state::State;
 use crate::record::energy::stored;
 use crate::{Actuators, Error, Foundation, Scene};
@@ -33,13 +33,13 @@ pub struct NaturalMode {
     pub structures: f64,
 }
 
-/// Undamped natural modes of `scene` on `foundations` where its bodies stand at time `t`, lowest first; `place` is the x of
-/// each body then. None where it has too many degrees of freedom.
+/// Undamped natural modes of `scene` on `foundations` where its bodies stand at time `t`, lowest first; `place` is
+/// the x of each body then. None where it has too many degrees of freedom.
 ///
-/// K phi = omega^2 M phi, with M from the kinetic energy and K from differences of the forces about static equilibrium: of
-/// vertical contacts, ropes that are taut and stops that are touched there, in which structures comply, and of weights that
-/// swing. Without dampers, friction, drives and brakes; flanges hold where they touch at rest. Motions that nothing holds
-/// are left out.
+/// K phi = omega^2 M phi, with M from the kinetic energy and K from differences of the forces about static
+/// equilibrium: of vertical contacts, ropes that are taut and stops that are touched there, in which structures
+/// comply, and of weights that swing. Without dampers, friction, drives and brakes; flanges hold where they touch at
+/// rest. Motions that nothing holds are left out.
 ///
 /// # Errors
 /// A scene that cannot be set up or has no equilibrium there.
@@ -64,8 +64,8 @@ pub fn natural_modes(
             }
         }
     }
-    locate(&mut solver, &state)?;
-    drop_below(&mut solver, &mut state)?;
+    locate_wheels(&mut solver, &state)?;
+    place_below_ropes(&mut solver, &mut state)?;
     equilibrate(&mut solver, &mut state)?;
     if !settle(&mut solver, &mut state)? {
         return Err(Error::NoEquilibrium { time: t });

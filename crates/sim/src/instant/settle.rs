@@ -8,10 +8,10 @@ use crate::numerics::complementarity::complementarity;
 
 /// Finds which elements act at (t, q, v), and the forces.
 ///
-/// Ropes and stops act where they would pull or push. For the vertical contacts this is a complementarity problem, solved
-/// by sweeps of the active set: with the forces of the contacts that act, the one that pulls hardest opens; where none
-/// pulls, the one that is pressed deepest of those that should push closes; where there is none either, the set is
-/// found. Returns whether that happened within a number of sweeps that grows with the contacts.
+/// Ropes and stops act where they would pull or push. For the vertical contacts this is a complementarity problem,
+/// solved by sweeps of the active set: with the forces of the contacts that act, the one that pulls hardest opens;
+/// where none pulls, the one that is pressed deepest of those that should push closes; where there is none either,
+/// the set is found. Returns whether that happened within a number of sweeps that grows with the contacts.
 ///
 /// # Errors
 /// What the rails refuse.
@@ -43,8 +43,8 @@ pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error>
     Ok(false)
 }
 
-/// Rate of penetration of a contact that closes now. Where the rail complies, its penetration and so its force go
-/// on without a jump: the force starts at zero, on the side where the contact presses. On a rigid rail it is the rate of
+/// Rate of penetration of a contact that closes now. Where the rail complies, its penetration and so its force go on
+/// without a jump: the force starts at zero, on the side where the contact presses. On a rigid rail it is the rate of
 /// the wheel itself.
 fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {
     let system = solver.system();

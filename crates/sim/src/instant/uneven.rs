@@ -12,7 +12,7 @@ use crate::numerics::step::step_integral;
 
 /// Puts every wheel on the piece of its rail where it is at (t, q), moving at the speeds v; where it rests, where
 /// its prescribed acceleration takes it, or ahead.
-pub(crate) fn locate(solver: &mut Solver, at: &State) -> Result<(), Error> {
+pub(crate) fn locate_wheels(solver: &mut Solver, at: &State) -> Result<(), Error> {
     let system = solver.system();
     if !system.traits.is_uneven {
         return Ok(());
@@ -32,7 +32,7 @@ pub(crate) fn locate(solver: &mut Solver, at: &State) -> Result<(), Error> {
 }
 
 /// Moves wheels that have reached the end of their piece to the next one; returns whether some have.
-pub(crate) fn cross(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
+pub(crate) fn pass_corners(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
     let system = solver.system();
     let mut jump = vec![0.0; system.verticals()];
     let mut crosses = false;
@@ -53,7 +53,7 @@ pub(crate) fn cross(solver: &mut Solver, at: &mut State) -> Result<bool, Error> 
     }
     if crosses {
         solver.update(at)?;
-        push(solver, &jump, at);
+        strike(solver, &jump, at);
         let felt: Vec<usize> =
             (0..system.verticals()).filter(|&i| solver.remembers(i) && !solver.is_on_rigid_rail(i)).collect();
         // Rates only: a guess is enough.
@@ -63,7 +63,7 @@ pub(crate) fn cross(solver: &mut Solver, at: &mut State) -> Result<bool, Error> 
 }
 
 /// Penetrations, impulses and rates of dampers on rigid rails whose approach has jumped.
-fn push(solver: &Solver, jump: &[f64], at: &mut State) {
+fn strike(solver: &Solver, jump: &[f64], at: &mut State) {
     let system = solver.system();
     let mut response = vec![0.0; system.mechanics.dofs];
     for (i, _) in jump.iter().enumerate().filter(|(_, jump)| **jump != 0.0) {
@@ -83,11 +83,11 @@ fn push(solver: &Solver, jump: &[f64], at: &mut State) {
         solver.apply_inverse(solver.geometry().rows().force_row(i), &mut response);
         at.v.iter_mut().zip(&response).for_each(|(v, by)| *v -= by * impulse);
     }
-    follow(solver, at);
+    follow_rigid_rails(solver, at);
 }
 
 /// Rates of penetration under dampers on rigid rails: those of the approach.
-pub(crate) fn follow(solver: &Solver, at: &mut State) {
+pub(crate) fn follow_rigid_rails(solver: &Solver, at: &mut State) {
     for i in (0..solver.system().verticals()).filter(|&i| is_rigid(solver, i)) {
         at.p_rate[i] = solver.approach_rate(i, at);
     }

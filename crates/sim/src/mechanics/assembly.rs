@@ -1,4 +1,5 @@
-//! The equations of motion without forces between wheels and rails: numbered degrees of freedom, kinematics and inertia.
+//! The equations of motion without forces between wheels and rails: numbered degrees of freedom, kinematics and
+//! inertia.
 //!
 //! M q'' + C q' + K q = f(t) - R^T F. The degrees of freedom are numbered body by body, then come the spins of wheels,
 //! then those of each structure. M, C and K are block diagonal but for the couplings between bodies and the structures
@@ -53,7 +54,7 @@ impl<'a> Mechanics<'a> {
     /// Numbers a scene and adds up its inertia.
     ///
     /// # Errors
-    /// What the checks of the scene refuse, carried bodies in a way that is not known, and degrees of freedom without
+    /// What the checks of the scene refuse, carried bodies in an unknown arrangement, and degrees of freedom without
     /// inertia.
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         scene.check(foundations.len())?;

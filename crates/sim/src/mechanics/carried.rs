@@ -1,11 +1,13 @@
 //! Bodies on structures that are carried by bodies: a trolley on the girders of a bridge.
 //!
-//! Degrees of freedom of a carried body are relative to its track. With r the place of a point of it from the carrier's
-//! origin, e its rail's axis, R the turn from the rail's frame to the carrier's axes:
-//! p' = u_c' + theta_c' cross r(x) + R (u' + theta' cross at) + x' theta_c cross e = J q' + what is prescribed, and
-//! p'' = J q'' + 2 x' theta_c' cross e + X'' (e + theta_c cross e) + X_c''. Forces between the trolley's wheels and their rails
-//! act within carrier and trolley: their rows have entries over relative degrees of freedom alone, and the carrier feels them
-//! through J^T M J and J^T M g.
+//! The degrees of freedom of a carried body are relative to its track. Let r be the place of a point of it from the
+//! carrier's origin, e the axis of its rail, and R the turn from the rail's frame to the carrier's axes. Then
+//!
+//! p' = u_c' + theta_c' cross r(x) + R (u' + theta' cross at) + x' theta_c cross e = J q' + prescribed parts,
+//! p'' = J q'' + 2 x' theta_c' cross e + X'' (e + theta_c cross e) + X_c''.
+//!
+//! Forces between the trolley's wheels and their rails act within carrier and trolley: their rows have entries for
+//! relative degrees of freedom alone, and the carrier feels them through J^T M J and J^T M g.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 
@@ -20,16 +22,16 @@ const SLACK: f64 = 1e-9;
 pub(crate) struct CarriedBodies {
     /// The track of each body's tree, by its root.
     tracks: Vec<Option<Track>>,
-    /// Their centres of mass.
-    riders: Vec<CarriedPoint>,
+    /// The centres of mass of the carried bodies.
+    centres: Vec<CarriedPoint>,
 }
 
 impl CarriedBodies {
     /// The carried bodies of a scene, found by their contacts.
     ///
     /// # Errors
-    /// [`Error::Mounted`]: a tree with contacts on several carriers or rails of different directions, one that carries what it
-    /// rides on, loads on carried bodies, and structures on carried bodies.
+    /// [`Error::Mounted`]: a tree with contacts on several carriers or rails of different directions, one that
+    /// carries what it rides on, loads on carried bodies, and structures on carried bodies.
     pub fn new(foundations: &[Foundation], kinematics: &Kinematics) -> Result<Self, Error> {
         let scene = kinematics.scene;
         let count = scene.bodies.len();
@@ -60,22 +62,22 @@ impl CarriedBodies {
                 return Err(Error::Mounted { body: mount.body });
             }
         }
-        let mut riders = Vec::new();
+        let mut centres = Vec::new();
         for (b, body) in scene.bodies.iter().enumerate() {
             let Some(track) = &tracks[root(b)] else { continue };
             let loaded = scene.actuators.loads.iter().any(|load| load.body == b);
             if grounded[root(b)] || root(track.carrier) == root(b) || loaded {
                 return Err(Error::Mounted { body: b });
             }
-            riders.push(CarriedPoint::new(kinematics, track, b, body.cg));
+            centres.push(CarriedPoint::new(kinematics, track, b, body.cg));
         }
         tracks = (0..count).map(|b| tracks[root(b)].clone()).collect();
-        Ok(CarriedBodies { tracks, riders })
+        Ok(CarriedBodies { tracks, centres })
     }
 
     /// Whether no body is carried by another.
     pub fn is_empty(&self) -> bool {
-        self.riders.is_empty()
+        self.centres.is_empty()
     }
 
     /// Whether body `b` is carried.
@@ -97,20 +99,20 @@ impl CarriedBodies {
         (mass, load): (&mut DMatrix<f64>, &mut DVector<f64>),
         columns: &mut Vec<SVector<f64, 6>>,
     ) {
-        for rider in &self.riders {
-            let pose = rider.pose(kinematics, t, q, v);
-            let body = &kinematics.scene.bodies[rider.body];
+        for point in &self.centres {
+            let pose = point.pose(kinematics, t, q, v);
+            let body = &kinematics.scene.bodies[point.body];
             let weights = inertias(body);
             let force =
-                (rider.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity) * body.mass;
+                (point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity) * body.mass;
             columns.clear();
-            columns.extend((0..rider.count()).map(|i| rider.column(i, &pose)));
+            columns.extend((0..point.count()).map(|i| point.column(i, &pose)));
             for (i, column) in columns.iter().enumerate() {
-                let row = rider.number(i);
+                let row = point.number(i);
                 load[row] -= column.fixed_rows::<3>(0).dot(&force);
                 let weighted = column.component_mul(&weights);
                 for (j, other) in columns[..=i].iter().enumerate() {
-                    let (sum, number) = (weighted.dot(other), rider.number(j));
+                    let (sum, number) = (weighted.dot(other), point.number(j));
                     mass[(row, number)] += sum;
                     if i != j {
                         mass[(number, row)] += sum;
@@ -122,11 +124,11 @@ impl CarriedBodies {
 
     /// Adds to `load` the weights of the carried bodies at (t, q): -J^T M g.
     pub fn weigh(&self, kinematics: &Kinematics, (t, q): (f64, &DVector<f64>), load: &mut DVector<f64>) {
-        for rider in &self.riders {
-            let pose = rider.pose(kinematics, t, q, q);
-            let weight = kinematics.scene.bodies[rider.body].mass * kinematics.scene.gravity;
-            for i in 0..rider.count() {
-                load[rider.number(i)] -= weight * rider.column(i, &pose)[1];
+        for point in &self.centres {
+            let pose = point.pose(kinematics, t, q, q);
+            let weight = kinematics.scene.bodies[point.body].mass * kinematics.scene.gravity;
+            for i in 0..point.count() {
+                load[point.number(i)] -= weight * point.column(i, &pose)[1];
             }
         }
     }
@@ -134,12 +136,12 @@ impl CarriedBodies {
     /// Kinetic energy and energy of weight at (t, q, v).
     pub fn energy(&self, kinematics: &Kinematics, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
         let mut sum = [0.0; 2];
-        for rider in &self.riders {
-            let pose = rider.pose(kinematics, t, q, v);
-            let body = &kinematics.scene.bodies[rider.body];
-            let speed = rider.speed(&pose);
+        for point in &self.centres {
+            let pose = point.pose(kinematics, t, q, v);
+            let body = &kinematics.scene.bodies[point.body];
+            let speed = point.speed(&pose);
             sum[0] += 0.5 * speed.component_mul(&inertias(body)).dot(&speed);
-            sum[1] += body.mass * kinematics.scene.gravity * rider.shift(&pose)[1];
+            sum[1] += body.mass * kinematics.scene.gravity * point.shift(&pose)[1];
         }
         sum
     }
@@ -147,18 +149,18 @@ impl CarriedBodies {
     /// Force along its track that the carried bodies ask of the prescribed x of root `b`, at accelerations `a`.
     pub fn drive(&self, kinematics: &Kinematics, [q, v, a]: [&DVector<f64>; 3], t: f64, b: usize) -> f64 {
         let mut sum = 0.0;
-        for rider in &self.riders {
-            let roots = [rider.body, rider.carrier].map(|body| kinematics.root(body));
+        for point in &self.centres {
+            let roots = [point.body, point.carrier].map(|body| kinematics.root(body));
             if !roots.contains(&b) {
                 continue;
             }
-            let pose = rider.pose(kinematics, t, q, v);
-            let mut acceleration = rider.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity;
-            for i in 0..rider.count() {
-                acceleration += rider.column(i, &pose).fixed_rows::<3>(0) * a[rider.number(i)];
+            let pose = point.pose(kinematics, t, q, v);
+            let mut acceleration = point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity;
+            for i in 0..point.count() {
+                acceleration += point.column(i, &pose).fixed_rows::<3>(0) * a[point.number(i)];
             }
-            let along = if roots[0] == b { acceleration.dot(&rider.along(&pose)) } else { acceleration[0] };
-            sum += kinematics.scene.bodies[rider.body].mass * along;
+            let along = if roots[0] == b { acceleration.dot(&point.along(&pose)) } else { acceleration[0] };
+            sum += kinematics.scene.bodies[point.body].mass * along;
         }
         sum
     }

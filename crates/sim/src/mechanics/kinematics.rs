@@ -1,8 +1,8 @@
 //! How bodies move with the degrees of freedom: the six displacements of every body as a linear map of them.
 //!
-//! u_b = J_b q + c_b + e_x x(t): the degrees of freedom of the body itself and of the bodies it is pinned to, a constant
-//! part from starting values that do not change, and the prescribed travel of the body at the root of its tree.
-//! M = sum of J_b^T M_b J_b.
+//! u_b = J_b q + c_b + e_x x(t): the degrees of freedom of the body itself and of the bodies it is pinned to, a
+//! constant part from starting values that do not change, and the prescribed travel of the body at the root of its
+//! tree. M = sum of J_b^T M_b J_b.
 
 use std::ops::Range;
 

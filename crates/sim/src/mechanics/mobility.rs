@@ -1,4 +1,5 @@
-//! The mobility Z = (M + g C + g^2 K)^-1: accelerations per unit load inside a step with the coefficient g; M^-1 for g = 0.
+//! The mobility Z = (M + g C + g^2 K)^-1: accelerations per unit load inside a step with the coefficient g; M^-1 for
+//! g = 0.
 //!
 //! The bodies and every structure are inverted block by block. Where a body carries a structure with mass, B couples
 //! the two blocks ([`InertialCoupling`]): with Z_s = (M_s + g C_s + g^2 K_s)^-1 the bodies respond through the inverse

@@ -1,9 +1,9 @@
 //! A point of a body, or of space: where it is, how it moves, and its row over the degrees of freedom.
 //!
 //! The space frame has X along the rails (the rail coordinate), Y up from the unloaded rail, Z to the right. A body
-//! on a track has its origin at Z = z and Y = y + radius - hub height, a pinned one at its pin, so that its wheels just touch at y = 0; a body
-//! that stands on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small: the rows are constant, but for
-//! points of bodies that are carried by bodies.
+//! on a track has its origin at Z = z and Y = y + radius - hub height, a pinned one at its pin, so that its wheels
+//! just touch at y = 0; a body that stands on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small:
+//! the rows are constant, but for points of bodies that are carried by bodies.
 
 use nalgebra::{DVector, Vector3};
 

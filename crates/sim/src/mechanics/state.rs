@@ -9,14 +9,15 @@ pub(crate) struct State {
     pub q: DVector<f64>,
     pub v: DVector<f64>,
     pub a: DVector<f64>,
-    /// Penetration of each vertical contact, negative where it is open; then the displacements of massless rails along x
-    /// (see `contact::tangential`).
+    /// Penetration of each vertical contact, negative where it is open; then the displacements of massless rails
+    /// along x (see `contact::tangential`).
     pub p: Vec<f64>,
     /// Rate of penetration, where a damper between wheel and rail makes it a state; then those of the rails.
     pub p_rate: Vec<f64>,
     /// Force of each component.
     pub force: Vec<f64>,
-    /// Whether it is an interpolant: rates of penetration are as near as the places, penetrations are not, for stiff wheels.
+    /// Whether it is an interpolant: rates of penetration are as near as the places, penetrations are not, for stiff
+    /// wheels.
     pub is_between: bool,
 }
 
@@ -46,7 +47,7 @@ impl State {
         self.is_between = other.is_between;
     }
 
-    /// Sets this state to the interpolant between `from` and `to` at the share `s` of the step: quintic in q
+    /// Sets this state to the interpolant between `from` and `to` at the fraction `s` of the step: quintic in q
     /// (from q, v and a at both ends), cubic in the penetrations. Forces keep those of `from` as a first guess.
     pub fn interpolate(&mut self, from: &State, to: &State, s: f64) {
         let h = to.t - from.t;

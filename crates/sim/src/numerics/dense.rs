@@ -116,8 +116,8 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
-/// Puts the factors of A (n x n, row-major) in its place, P A = L U with partial pivoting: L below the diagonal, its own
-/// diagonal left out; `pivots` are the rows exchanged.
+/// Puts the factors of A (n x n, row-major) in its place, P A = L U with partial pivoting: L below the diagonal, its
+/// own diagonal left out; `pivots` are the rows exchanged.
 ///
 /// Returns false where A is singular.
 #[must_use]

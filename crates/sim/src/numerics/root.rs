@@ -1,7 +1,8 @@
 //! Roots of functions of one variable that change their sign between two places.
 
-/// Narrows [0, 1], at whose ends `f` has the values `ends` of different sign, to `width` or to rounding; returns the last
-/// place with the sign of the value at 0 and the first with that of the value at 1. `f` may end the search by `None`.
+/// Narrows [0, 1], at whose ends `f` has the values `ends` of different sign, to `width` or to rounding; returns the
+/// last place with the sign of the value at 0 and the first with that of the value at 1. `f` may end the search by
+/// `None`.
 ///
 /// At most one evaluation more than bisection needs; on smooth functions a few in all.
 ///

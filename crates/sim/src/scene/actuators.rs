@@ -11,7 +11,8 @@ use super::schedule::Schedule;
 pub struct Load {
     /// Which body.
     pub body: usize,
-    /// On which freedom: a force at the origin along x, y or z, or a moment about them; positive as the degree of freedom is.
+    /// On which freedom: a force at the origin along x, y or z, or a moment about them; positive as the degree of
+    /// freedom is.
     pub freedom: Freedom,
     /// Its size.
     pub value: Schedule,
@@ -84,7 +85,7 @@ pub struct Actuators {
     pub turns: Vec<Turn>,
     /// Bodies without wheels that start at rest below their ropes or on their floors.
     pub hung: Vec<usize>,
-    /// What switches drives, brakes and ropes on the way.
+    /// What switches drives, brakes and ropes during the run.
     pub rules: Vec<Rule>,
 }
 

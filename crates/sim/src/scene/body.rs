@@ -50,8 +50,8 @@ pub struct Body {
 }
 
 impl Body {
-    /// A body of `mass` with the moments of `inertia` for roll, yaw and pitch about its centre of mass, which is its origin.
-    /// It is free in y and pitch, starts at rest at x = 0, and the track carries it.
+    /// A body of `mass` with the moments of `inertia` for roll, yaw and pitch about its centre of mass, which is its
+    /// origin. It is free in y and pitch, starts at rest at x = 0, and the track carries it.
     #[must_use]
     pub fn new(mass: f64, inertia: [f64; 3]) -> Self {
         Body {

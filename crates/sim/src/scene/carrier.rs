@@ -9,11 +9,11 @@ pub struct Mount {
     pub body: usize,
     /// Its rails, in their order.
     pub rails: Vec<Axle>,
-    /// Mass of the structure moving as one with the body, 6 x 6 over x, y, z, roll, yaw, pitch of the body's origin, in the
-    /// order of [`crate::Freedom`]; zeros where it is part of the body's.
+    /// Mass of the structure moving as one with the body, 6 x 6 over x, y, z, roll, yaw, pitch of the body's origin,
+    /// in the order of [`crate::Freedom`]; zeros where it is part of the body's.
     pub mass: [[f64; 6]; 6],
-    /// Momentum of each of the structure's degrees of freedom by the six motions of the body's origin, phi^T M r; empty where the
-    /// structure has none.
+    /// Momentum of each of the structure's degrees of freedom by the six motions of the body's origin, phi^T M r;
+    /// empty where the structure has none.
     pub coupling: Vec<[f64; 6]>,
 }
 

@@ -41,7 +41,8 @@ pub enum Channel {
     Stop(usize),
     /// Displacement of a gauge along its axis.
     Gauge(usize),
-    /// One degree of freedom of a structure that is [recorded](crate::Foundation::recorded): structure, degree of freedom.
+    /// One degree of freedom of a structure that is [recorded](crate::Foundation::recorded): structure, degree of
+    /// freedom.
     Coordinate(usize, usize),
     /// Its second derivative by time; zero in a quasi-static run.
     Acceleration(usize, usize),

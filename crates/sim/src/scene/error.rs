@@ -14,7 +14,7 @@ pub enum Error {
         /// What it said.
         source: splines::Error,
     },
-    /// A mass or inertia of a free degree of freedom that is not positive.
+    /// The mass or inertia of a free degree of freedom that is not positive.
     #[error("body {body}: freedom {freedom:?} is free but nothing has inertia there")]
     NoInertia {
         /// Which body.
@@ -58,14 +58,15 @@ pub enum Error {
         /// Which body.
         body: usize,
     },
-    /// A body on a structure that rides on a body, in a way that is not known: on several carriers or on rails of
-    /// different directions, itself a carrier of its carrier, loaded, held by a rope or stop, or on a structure with mass or parts of its own.
+    /// A body on a structure that rides on a body, in an unknown arrangement: on several carriers or on rails of
+    /// different directions, itself a carrier of its carrier, loaded, held by a rope or stop, or on a structure with
+    /// mass or parts of its own.
     #[error("body {body}: not a way to ride on another body, or to carry a structure")]
     Mounted {
         /// Which body.
         body: usize,
     },
-    /// A load, drive or brake on a degree of freedom that is held or prescribed.
+    /// A load, drive or brake on a degree of freedom that is fixed or prescribed.
     #[error("body {body}: freedom {freedom:?} is not free, nothing can push it")]
     NotFree {
         /// Which body.

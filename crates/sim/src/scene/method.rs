@@ -14,9 +14,9 @@ pub enum Method {
     Gauss2,
     /// Gauss collocation of order 6 with exact modes: conserves the energy of undamped linear contacts.
     Gauss3,
-    /// Power series of time, of an order that grows with the accuracy: wheels without a damper to their rail that travel
-    /// together at uniform speed over structures without mass. Where it meets its limits, as where a contact opens, Radau
-    /// takes the whole run.
+    /// Power series of time, of an order that grows with the accuracy: wheels without a damper to their rail that
+    /// travel together at uniform speed over structures without mass. Where it meets its limits, as where a contact
+    /// opens, Radau takes the whole run.
     Series,
 }
 

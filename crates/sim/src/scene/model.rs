@@ -27,8 +27,8 @@ pub enum Analysis {
 
 /// Everything that moves, and for how long.
 ///
-/// [`Scene::default`] is an empty dynamic scene in SI units: gravity of 9.81 m/s^2, one second with an output every 0.01 s,
-/// a relative accuracy of 1e-6.
+/// [`Scene::default`] is an empty dynamic scene in SI units: gravity of 9.81 m/s^2, one second with an output every
+/// 0.01 s, a relative accuracy of 1e-6.
 /// ```
 /// use sim::{Body, Contact, Damper, NormalLaw, Scene, Wheel};
 ///

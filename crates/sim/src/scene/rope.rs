@@ -52,8 +52,8 @@ pub struct Rope {
     pub speed: Schedule,
 }
 
-/// A one-sided contact of a point of a body with a plane: an end stop of a rail, a floor, or another body. The plane of a body
-/// that is carried by another is fixed to the rail it runs on.
+/// A one-sided contact of a point of a body with a plane: an end stop of a rail, a floor, or another body. The plane
+/// of a body that is carried by another is fixed to the rail it runs on.
 ///
 /// With p = side (coordinate - place) > 0 it pushes back with max(0, k p + c p').
 #[derive(Clone, Debug, PartialEq)]

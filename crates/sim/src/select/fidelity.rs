@@ -18,8 +18,8 @@ pub trait Ladder {
     /// What can go wrong.
     type Error: From<Error>;
 
-    /// About the lowest `count` modes that vertical forces on the rails of `structure` excite, from the lowest, where it has
-    /// so many: frequencies to a few parts in a hundred will do. `None`: its mass is not known.
+    /// About the lowest `count` modes that vertical forces on the rails of `structure` excite, from the lowest, where
+    /// it has so many: frequencies to a few parts in a hundred will do. `None`: its mass is not known.
     ///
     /// # Errors
     /// A structure whose modes cannot be found.

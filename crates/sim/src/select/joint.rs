@@ -7,21 +7,22 @@ use super::fidelity::{Choice, Ladder, Reason, SAFE, STEPPING, Selection, Tried};
 use super::rung::{MODES, Rung};
 use crate::{Foundation, Scene};
 
-/// Raises all structures that climbed until the next fidelities of all change the run by at most 0.8 of the sum of their
-/// tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they were held.
+/// Raises all structures that were refined until the next fidelities of all change the run by at most 0.8 of the sum
+/// of their tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they
+/// were held.
 pub(super) fn settle<L: Ladder>(
     scene: &Scene,
     tolerances: &[Option<f64>],
     mut foundations: Vec<Foundation>,
-    ladder: &mut L,
+    provider: &mut L,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     mut selection: Selection,
 ) -> Selection {
     let is_open = |choice: &Choice| !matches!(choice.reason, Reason::NoMass | Reason::QuasiStatic);
-    let climbed: Vec<usize> =
+    let searched: Vec<usize> =
         (0..selection.choices.len()).filter(|&c| is_open(&selection.choices[c])).collect();
-    let all: Vec<f64> = climbed.iter().filter_map(|&c| tolerances[selection.choices[c].structure]).collect();
-    let kept = climbed.iter().skip(1).all(|&c| selection.choices[c].rung == Rung::Influence);
+    let all: Vec<f64> = searched.iter().filter_map(|&c| tolerances[selection.choices[c].structure]).collect();
+    let kept = searched.iter().skip(1).all(|&c| selection.choices[c].rung == Rung::Influence);
     if kept || !selection.run.status.is_complete() {
         return selection;
     }
@@ -30,26 +31,26 @@ pub(super) fn settle<L: Ladder>(
     let tolerance: f64 = all.iter().sum();
     let mut is_raised = false;
     loop {
-        let raised: Vec<Rung> = climbed.iter().map(|&c| above(&selection.choices[c])).collect();
-        if climbed.iter().zip(&raised).all(|(&c, rung)| selection.choices[c].rung == *rung) {
-            return doubted(selection, &climbed, is_raised, Reason::Top);
+        let raised: Vec<Rung> = searched.iter().map(|&c| above(&selection.choices[c])).collect();
+        if searched.iter().zip(&raised).all(|(&c, rung)| selection.choices[c].rung == *rung) {
+            return doubted(selection, &searched, is_raised, Reason::Top);
         }
-        for (&c, &rung) in climbed.iter().zip(&raised) {
+        for (&c, &rung) in searched.iter().zip(&raised) {
             let structure = selection.choices[c].structure;
-            match ladder.foundation(structure, rung) {
+            match provider.foundation(structure, rung) {
                 Ok(foundation) => foundations[structure] = foundation,
-                Err(_) => return doubted(selection, &climbed, true, Reason::Unchecked),
+                Err(_) => return doubted(selection, &searched, true, Reason::Unchecked),
             }
         }
-        let higher = match ladder.run(&finer, &foundations, watch) {
+        let higher = match provider.run(&finer, &foundations, watch) {
             Ok(higher) if higher.status.is_complete() => higher,
-            _ => return doubted(selection, &climbed, true, Reason::Unchecked),
+            _ => return doubted(selection, &searched, true, Reason::Unchecked),
         };
         selection.runs += 1;
         let estimate = distance(&selection.run, &higher, scene);
         let stages = selection.run.counts.stages as u64;
         let is_enough = estimate <= SAFE * tolerance;
-        for (&c, &against) in climbed.iter().zip(&raised) {
+        for (&c, &against) in searched.iter().zip(&raised) {
             let choice = &mut selection.choices[c];
             choice.tried.push(Tried { rung: choice.rung, estimate, against, stages });
             if !is_enough {
@@ -81,9 +82,9 @@ fn above(choice: &Choice) -> Rung {
 }
 
 /// The error of what was chosen is not known.
-fn doubted(mut selection: Selection, climbed: &[usize], is_lost: bool, reason: Reason) -> Selection {
+fn doubted(mut selection: Selection, searched: &[usize], is_lost: bool, reason: Reason) -> Selection {
     if is_lost {
-        for &c in climbed {
+        for &c in searched {
             let choice = &mut selection.choices[c];
             (choice.reason, choice.estimate) = (reason, None);
         }

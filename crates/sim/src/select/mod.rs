@@ -4,9 +4,9 @@
 //! The top wing: it stands on `run` and sees results alone.
 
 pub(crate) mod choose;
-pub(crate) mod climb;
 pub(crate) mod distance;
 pub(crate) mod fidelity;
 pub(crate) mod joint;
 pub(crate) mod predict;
 pub(crate) mod rung;
+pub(crate) mod search;

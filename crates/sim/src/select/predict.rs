@@ -19,9 +19,10 @@ const MOST: f64 = 10.0;
 
 /// Errors expected of the fidelities of one structure, relative, as [`distance`] measures them.
 ///
-/// With alpha = v k / omega of a mode (k = max |phi'| / max |phi| along the rail; v / (2 L f_1) for a simply supported
-/// girder), r = (omega_b / omega)^2 (omega_b: a body on its contacts and the deflection of the rail), p the share of the
-/// give in the height of a wheel, s the share of the modes left out in the deflection, T the time of the run:
+/// With alpha = v k / omega of a mode (k = max |phi'| / max |phi| along the rail; v / (2 L f_1) for a simply
+/// supported girder), r = (omega_b / omega)^2 (omega_b: a body on its contacts and the deflection of the rail), p the
+/// share of the give in the height of a wheel, s the share of the modes left out in the deflection, T the time of the
+/// run:
 #[derive(Clone, Debug, PartialEq)]
 pub struct Predicted {
     /// What rigid leaves out: the distance of quasi-static sweeps without and with the deflection.
@@ -32,7 +33,8 @@ pub struct Predicted {
     pub ripple: f64,
     /// Steps of the loads by the weight, times T_1 / (pi ramp), at most 1, times r at most 1.
     pub step: f64,
-    /// 1 - sqrt(1 - theta^2), theta the largest alpha of a mode: the static deflection against that of a load that moves along a track.
+    /// 1 - sqrt(1 - theta^2), theta the largest alpha of a mode: the static deflection against that of a load that
+    /// moves along a track.
     pub track: f64,
     /// Errors of rigid, influence and numbers of modes, from the cheapest.
     pub errors: Vec<(Rung, f64)>,
@@ -55,8 +57,8 @@ struct Mode {
     k: f64,
 }
 
-/// Errors expected of the fidelities of `structure`; `foundations` has it at influence, `motion` has its lowest modes. `None`
-/// where the sweep cannot be made, or wheels of the structure carry nothing in it.
+/// Errors expected of the fidelities of `structure`; `foundations` has it at influence, `motion` has its lowest
+/// modes. `None` where the sweep cannot be made, or wheels of the structure carry nothing in it.
 pub(super) fn predict(
     scene: &Scene,
     foundations: &mut [Foundation],
@@ -220,8 +222,8 @@ fn modes(motion: &Structure, rails: &[Extent]) -> Option<Vec<Mode>> {
     (n > 0).then(|| (0..n).map(|j| Mode { omega: omega[j], k: k(j) }).collect())
 }
 
-/// Largest deflection at `places` by the largest of all when so many modes are taken out, one entry a number. What lies beyond
-/// the modes is left out.
+/// Largest deflection at `places` by the largest of all when so many modes are taken out, one entry a number. What
+/// lies beyond the modes is left out.
 fn shares(motion: &Structure, places: &[Probe]) -> Option<Vec<f64>> {
     let omega = motion.dynamics.frequencies();
     let n = omega.len();

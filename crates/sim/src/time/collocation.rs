@@ -1,6 +1,6 @@
 //! A step of force-form collocation: the contact forces at all nodes at once, from one linear system.
 //!
-//! Bodies answer to the forces by the collocation's double integrals, modes by their exact propagators, so that a
+//! Bodies respond to the forces by the collocation's double integrals, modes by their exact propagators, so that a
 //! step resolves the forces and not the modes: q(c_i h) = free motion - sum_j W_ij R_j^T F_j.
 
 use nalgebra::DVector;
@@ -15,15 +15,15 @@ use crate::time::nodes::Nodes;
 use crate::time::propagator::Propagator;
 use crate::{Dynamics, Error, Exchanged};
 
-/// Everything a step needs; n degrees of freedom, m components, s nodes.
+/// Everything a step needs; n degrees of freedom, m elements, s nodes.
 pub(crate) struct Collocation {
     nodes: Nodes,
     /// omega and zeta of each degree of freedom; omega 0: a body's.
     modes: Vec<[f64; 2]>,
-    /// Answers for the lengths of step met last; the first is that of the step.
-    answers: Vec<Answers>,
+    /// Responses for the lengths of step met last; the first is that of the step.
+    responses: Vec<Responses>,
     /// The contacts at the nodes.
-    places: Vec<Geometry>,
+    geometries: Vec<Geometry>,
     /// What a force at a node does: M^-1 R^T, s x m x n; R M^-1 R^T where rows are the same everywhere, m x m.
     spread: Vec<f64>,
     mobile: Vec<f64>,
@@ -33,12 +33,12 @@ pub(crate) struct Collocation {
     load: Vec<DVector<f64>>,
     load_start: DVector<f64>,
     /// Whether loads without contacts never change.
-    steady: bool,
-    /// Free approach and its rate as the damper feels it at (node, component), and what a force at another takes.
+    is_steady: bool,
+    /// Free approach and its rate as the damper feels it at (node, element), and the effect of a force at another.
     approach: Vec<f64>,
     rate: Vec<f64>,
-    take: Vec<f64>,
-    take_rate: Vec<f64>,
+    effect: Vec<f64>,
+    rate_effect: Vec<f64>,
     matrix: Vec<f64>,
     force: Vec<f64>,
     index: Vec<usize>,
@@ -46,22 +46,22 @@ pub(crate) struct Collocation {
     powers: Vec<Exchanged>,
 }
 
-/// Answers of every degree of freedom over a step of length `h`.
-struct Answers {
+/// Responses of every degree of freedom over a step of length `h`.
+struct Responses {
     h: f64,
-    /// Answers to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
+    /// Responses to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
     free: Vec<[f64; 4]>,
-    /// Answers q and v to the load at every node; (s + 1) x s x n.
+    /// Responses q and v to the load at every node; (s + 1) x s x n.
     forced: Vec<[f64; 2]>,
 }
 
-/// Lengths of step whose answers are kept where there are modes.
-const KEPT: usize = 12;
+/// Lengths of step whose responses are kept where there are modes.
+const STORED: usize = 12;
 
-impl Answers {
+impl Responses {
     fn new(nodes: &Nodes, n: usize) -> Self {
         let s = nodes.count();
-        Answers { h: 0.0, free: vec![[0.0; 4]; (s + 1) * n], forced: vec![[0.0; 2]; (s + 1) * s * n] }
+        Responses { h: 0.0, free: vec![[0.0; 4]; (s + 1) * n], forced: vec![[0.0; 2]; (s + 1) * s * n] }
     }
 
     fn fill(&mut self, nodes: &Nodes, modes: &[[f64; 2]], h: f64) {
@@ -101,19 +101,19 @@ impl Collocation {
         let drags = moves.into_iter().any(|(b, _)| !system.mechanics.kinematics.travel_inertia(b).is_empty());
         Collocation {
             modes,
-            answers: vec![Answers::new(&nodes, n)],
-            places: vec![Geometry::new(system); s],
+            responses: vec![Responses::new(&nodes, n)],
+            geometries: vec![Geometry::new(system); s],
             spread: vec![0.0; size * n],
             mobile: vec![0.0; m * m],
             is_spread: false,
             weight: vec![DVector::zeros(n); s],
             load: vec![DVector::zeros(n); s],
             load_start: DVector::zeros(n),
-            steady: system.scene.actuators.loads.is_empty() && !drags,
+            is_steady: system.scene.actuators.loads.is_empty() && !drags,
             approach: vec![0.0; size],
             rate: vec![0.0; size],
-            take: vec![0.0; size * size],
-            take_rate: vec![0.0; size * size],
+            effect: vec![0.0; size * size],
+            rate_effect: vec![0.0; size * size],
             matrix: vec![0.0; size * size],
             force: vec![0.0; size],
             index: Vec::with_capacity(size),
@@ -138,7 +138,7 @@ impl Collocation {
         let s = self.count();
         let mut sum = Exchanged::default();
         for (power, weight) in self.powers.iter().zip(&self.nodes.a[s * s..]) {
-            sum.add(power, self.answers[0].h * weight);
+            sum.add(power, self.responses[0].h * weight);
         }
         sum
     }
@@ -160,95 +160,95 @@ impl Collocation {
         for a in 0..s {
             let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
             self.states[a].t = t;
-            self.places[a].update(solver.system(), t, &from.q, &from.force)?;
-            if !(self.is_spread && self.steady) {
+            self.geometries[a].update(solver.system(), t, &from.q, &from.force)?;
+            if !(self.is_spread && self.is_steady) {
                 self.weight[a].copy_from(solver.free_accelerations(t));
             }
             if !(self.is_spread && solver.system().traits.has_constant_rows) {
-                let rows = self.places[a].rows().approach.chunks_exact(n.max(1));
+                let rows = self.geometries[a].rows().approach.chunks_exact(n.max(1));
                 for (row, spread) in rows.zip(self.spread[a * m * n..].chunks_exact_mut(n.max(1))) {
                     solver.apply_inverse(row, spread);
                 }
             }
         }
         if solver.system().traits.has_constant_rows {
-            self.fill_body_answers(solver, from);
+            self.fill_body_responses(solver, from);
         } else {
-            self.fill_answers(solver, from);
+            self.fill_responses(solver, from);
         }
         self.is_spread = true;
         if !self.solve(solver, from) {
             return Ok(false);
         }
-        self.book(solver, from, to, limit)
+        self.finish(solver, from, to, limit)
     }
 
-    /// Brings the answers over a step of length `h` to the front.
+    /// Brings the responses over a step of length `h` to the front.
     fn set_step(&mut self, h: f64) {
-        if let Some(known) = self.answers.iter().position(|answers| answers.h == h) {
-            self.answers[..=known].rotate_right(1);
+        if let Some(known) = self.responses.iter().position(|responses| responses.h == h) {
+            self.responses[..=known].rotate_right(1);
             return;
         }
-        if self.is_modal() && self.answers.len() < KEPT {
-            self.answers.push(Answers::new(&self.nodes, self.modes.len()));
+        if self.is_modal() && self.responses.len() < STORED {
+            self.responses.push(Responses::new(&self.nodes, self.modes.len()));
         }
-        self.answers.rotate_right(1);
-        self.answers[0].fill(&self.nodes, &self.modes, h);
+        self.responses.rotate_right(1);
+        self.responses[0].fill(&self.nodes, &self.modes, h);
     }
 
     /// State of degree of freedom `r` at target `i` under the loads at the nodes.
-    fn answer(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
+    fn response(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
-        let answers = &self.answers[0];
-        let [qq, qv, vq, vv] = answers.free[i * n + r];
+        let responses = &self.responses[0];
+        let [qq, qv, vq, vv] = responses.free[i * n + r];
         let mut out = [qq * from.q[r] + qv * from.v[r], vq * from.q[r] + vv * from.v[r]];
         for (b, load) in load.iter().enumerate() {
-            let [q, v] = answers.forced[(i * s + b) * n + r];
+            let [q, v] = responses.forced[(i * s + b) * n + r];
             out[0] += q * load[r];
             out[1] += v * load[r];
         }
         out
     }
 
-    /// Free approach and what forces take, by the answers of every degree of freedom.
-    fn fill_answers(&mut self, solver: &Solver, from: &State) {
+    /// Free approach and the effect of forces, by the responses of every degree of freedom.
+    fn fill_responses(&mut self, solver: &Solver, from: &State) {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let size = s * m;
         for a in 0..s {
             for r in 0..n {
-                let [q, v] = self.answer(&self.weight, from, a, r);
+                let [q, v] = self.response(&self.weight, from, a, r);
                 (self.states[a].q[r], self.states[a].v[r]) = (q, v);
             }
-            let place = &self.places[a];
+            let geometry = &self.geometries[a];
             for i in 0..m {
-                let (row, rate_row) = (place.rows().approach_row(i), place.rows().rate_row(i));
+                let (row, rate_row) = (geometry.rows().approach_row(i), geometry.rows().rate_row(i));
                 self.approach[a * m + i] =
-                    place.rows().approach_offset[i] + dot(row, self.states[a].q.as_slice());
+                    geometry.rows().approach_offset[i] + dot(row, self.states[a].q.as_slice());
                 self.rate[a * m + i] =
-                    place.rows().rate_offset[i] + dot(rate_row, self.states[a].v.as_slice());
+                    geometry.rows().rate_offset[i] + dot(rate_row, self.states[a].v.as_slice());
                 for b in 0..s {
-                    let answers = &self.answers[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
+                    let responses = &self.responses[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
                     for j in 0..m {
                         let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
                         let (mut q, mut v) = (0.0, 0.0);
-                        for (r, ([by_q, by_v], spread)) in answers.iter().zip(spread).enumerate() {
+                        for (r, ([by_q, by_v], spread)) in responses.iter().zip(spread).enumerate() {
                             q += row[r] * by_q * spread;
                             v += rate_row[r] * by_v * spread;
                         }
-                        let give = if a == b { place.rails().value[i * m + j] } else { 0.0 };
-                        self.take[(a * m + i) * size + b * m + j] = give + q;
-                        self.take_rate[(a * m + i) * size + b * m + j] = v;
+                        let compliance_here = if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
+                        self.effect[(a * m + i) * size + b * m + j] = compliance_here + q;
+                        self.rate_effect[(a * m + i) * size + b * m + j] = v;
                     }
                 }
             }
         }
     }
 
-    /// [`Self::fill_answers`] where rows are the same everywhere and all degrees of freedom are bodies'.
-    fn fill_body_answers(&mut self, solver: &Solver, from: &State) {
+    /// [`Self::fill_responses`] where rows are the same everywhere and all degrees of freedom are bodies'.
+    fn fill_body_responses(&mut self, solver: &Solver, from: &State) {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
-        let (size, h) = (s * m, self.answers[0].h);
-        let rows = &self.places[0].rows().approach;
+        let (size, h) = (s * m, self.responses[0].h);
+        let rows = &self.geometries[0].rows().approach;
         if !self.is_spread {
             for i in 0..m {
                 for j in 0..m {
@@ -258,7 +258,7 @@ impl Collocation {
         }
         for i in 0..m {
             let row = &rows[i * n..(i + 1) * n];
-            let start = self.places[0].rows().approach_offset[i] + dot(row, from.q.as_slice());
+            let start = self.geometries[0].rows().approach_offset[i] + dot(row, from.q.as_slice());
             let rate = dot(row, from.v.as_slice());
             for a in 0..s {
                 self.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
@@ -273,23 +273,23 @@ impl Collocation {
             }
         }
         for a in 0..s {
-            let compliance = &self.places[a].rails().value;
+            let compliance = &self.geometries[a].rails().value;
             for b in 0..s {
                 let by_q = h * h * self.nodes.a2[a * s + b];
                 let by_v = h * self.nodes.a[a * s + b];
                 for i in 0..m {
                     let line = (a * m + i) * size + b * m;
                     for j in 0..m {
-                        let give = if a == b { compliance[i * m + j] } else { 0.0 };
-                        self.take[line + j] = give + by_q * self.mobile[i * m + j];
-                        self.take_rate[line + j] = by_v * self.mobile[i * m + j];
+                        let compliance_here = if a == b { compliance[i * m + j] } else { 0.0 };
+                        self.effect[line + j] = compliance_here + by_q * self.mobile[i * m + j];
+                        self.rate_effect[line + j] = by_v * self.mobile[i * m + j];
                     }
                 }
             }
         }
     }
 
-    /// F/k + p + (c/k) r = 0 at every node, p = approach - take F and r the rate of p or of the wheel.
+    /// F/k + p + (c/k) r = 0 at every node, p = approach - effect F and r the rate of p or of the wheel.
     fn solve(&mut self, solver: &Solver, from: &State) -> bool {
         let system = solver.system();
         let (s, m, size) = (self.count(), system.elements.len(), self.force.len());
@@ -302,7 +302,7 @@ impl Collocation {
             let law = system.law(i);
             let ratio = law.damping / law.stiffness;
             let memory = solver.remembers(i);
-            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.answers[0].h;
+            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.responses[0].h;
             let mut right = self.approach[at];
             if memory {
                 right += (0..s).map(|l| by(l) * (self.approach[l * m + i] - from.p[i])).sum::<f64>();
@@ -310,11 +310,11 @@ impl Collocation {
                 right += ratio * self.rate[at];
             }
             for (column, &other) in self.index.iter().enumerate() {
-                let mut entry = self.take[at * size + other];
+                let mut entry = self.effect[at * size + other];
                 if memory {
-                    entry += (0..s).map(|l| by(l) * self.take[(l * m + i) * size + other]).sum::<f64>();
+                    entry += (0..s).map(|l| by(l) * self.effect[(l * m + i) * size + other]).sum::<f64>();
                 } else {
-                    entry += ratio * self.take_rate[at * size + other];
+                    entry += ratio * self.rate_effect[at * size + other];
                 }
                 self.matrix[line * count + column] = entry;
             }
@@ -324,7 +324,7 @@ impl Collocation {
         if !solve_general(&mut self.matrix[..count * count], &mut self.force[..count]) {
             return false;
         }
-        // Spread over all components, from the last on: an index never lies before its line.
+        // Spread over all elements, from the last on: an index never lies before its line.
         for line in (0..count).rev() {
             let value = std::mem::take(&mut self.force[line]);
             self.force[self.index[line]] = value;
@@ -333,7 +333,13 @@ impl Collocation {
     }
 
     /// States at the nodes and at the end, and the powers exchanged.
-    fn book(&mut self, solver: &mut Solver, from: &State, to: &mut State, limit: f64) -> Result<bool, Error> {
+    fn finish(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        to: &mut State,
+        limit: f64,
+    ) -> Result<bool, Error> {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let size = s * m;
         for (b, (load, weight)) in self.load.iter_mut().zip(&self.weight).enumerate() {
@@ -345,14 +351,14 @@ impl Collocation {
             }
         }
         for at in 0..size {
-            self.approach[at] -= dot(&self.take[at * size..(at + 1) * size], &self.force);
+            self.approach[at] -= dot(&self.effect[at * size..(at + 1) * size], &self.force);
             self.states[at / m].p[at % m] = self.approach[at];
             self.states[at / m].force[at % m] = self.force[at];
         }
-        let h = self.answers[0].h;
+        let h = self.responses[0].h;
         for a in 0..s {
             for r in 0..n {
-                let [q, v] = self.answer(&self.load, from, a, r);
+                let [q, v] = self.response(&self.load, from, a, r);
                 let [omega, zeta] = self.modes[r];
                 let state = &mut self.states[a];
                 (state.q[r], state.v[r]) = (q, v);
@@ -364,21 +370,21 @@ impl Collocation {
                     (0..s).map(|l| self.nodes.rate[a * s + l] * (self.approach[l * m + i] - from.p[i]));
                 state.p_rate[i] = rates.sum::<f64>() / h;
             }
-            self.places[a].update_rail_slope(solver.system(), &state.q, &state.force);
-            self.powers[a] = power(solver.system(), &self.places[a], state);
+            self.geometries[a].update_rail_slope(solver.system(), &state.q, &state.force);
+            self.powers[a] = power(solver.system(), &self.geometries[a], state);
         }
         to.copy_from(&self.states[s - 1]);
         if self.nodes.c[s - 1] < 1.0 {
             to.t = (from.t + h).min(limit.next_down());
             for r in 0..n {
-                let [q, v] = self.answer(&self.load, from, s, r);
+                let [q, v] = self.response(&self.load, from, s, r);
                 (to.q[r], to.v[r]) = (q, v);
             }
             if !solver.instant(to)? {
                 return Ok(false);
             }
         } else {
-            solver.exchange_geometry(&mut self.places[s - 1]);
+            solver.exchange_geometry(&mut self.geometries[s - 1]);
         }
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
@@ -386,7 +392,7 @@ impl Collocation {
     /// Modes of `at`, the share `share` of the step just taken from `from`: exact for the polynomials of time that the
     /// loads are taken to be, since no polynomial follows a mode of many periods a step.
     pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
-        let h = self.answers[0].h;
+        let h = self.responses[0].h;
         for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
             let mode = Propagator::new(omega, zeta, h);
             let [qq, qv, vq, vv] = mode.free(share);
@@ -410,6 +416,6 @@ impl Collocation {
         for b in 1..s {
             jump -= self.nodes.ahead[b] * self.load[b - 1][r];
         }
-        self.answers[0].forced[(s * s + s - 1) * n + r].map(|answer| answer * jump)
+        self.responses[0].forced[(s * s + s - 1) * n + r].map(|response| response * jump)
     }
 }

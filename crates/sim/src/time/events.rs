@@ -1,4 +1,5 @@
-//! Where within a step something happens at which it must end: breaks of rails, changes of sign of the elements' guards.
+//! Where within a step something happens at which it must end: breaks of rails, changes of sign of the elements'
+//! guards.
 
 use super::step::Step;
 use crate::Error;
@@ -11,13 +12,13 @@ use crate::numerics::root::narrow;
 /// Force by which a step may end beyond an event, relative to the largest contact force.
 pub(crate) const OVERSHOOT: f64 = 1e-9;
 
-/// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it; the least, and for each unit
-/// of the error that a step may make.
+/// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it; the least, and for each
+/// unit of the error that a step may make.
 const SLACK: f64 = 1e-11;
 const SLACK_BY_ERROR: f64 = 1e-4;
 
-/// A step may start as many times as far before a break and cross it: what ends there has passed all breaks that near, and
-/// every stage is beyond them.
+/// A step may start as many times as far before a break and cross it: what ends there has passed all breaks that
+/// near, and every stage is beyond them.
 const PASSED: f64 = 8.0;
 
 /// Fraction of a step to which the place of a touch is found.
@@ -33,8 +34,8 @@ pub(crate) fn can_predict(slack: f64) -> bool {
     slack > SLACK
 }
 
-/// Length of the step from time `start` that ends where a wheel with prescribed motion meets a break of its rail, if the
-/// step of length `h` would pass it.
+/// Length of the step from time `start` that ends where a wheel with prescribed motion meets a break of its rail, if
+/// the step of length `h` would pass it.
 pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f64> {
     let mechanics = &system.mechanics;
     let mut best: Option<f64> = None;
@@ -64,9 +65,9 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
     best
 }
 
-/// Fraction of the step just taken at which a freely rolling wheel meets a break of its rail, and the wheel, if the step
-/// passes one: the root of the wheel's place on the interpolant, less half of the `slack`. Repeated, the step ends before
-/// the break, where the rail's slope is still that of the rail element the wheel comes from.
+/// Fraction of the step just taken at which a freely rolling wheel meets a break of its rail, and the wheel, if the
+/// step passes one: the root of the wheel's place on the interpolant, less half of the `slack`. Repeated, the step
+/// ends before the break, where the rail's slope is still that of the rail element the wheel comes from.
 pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)> {
     let system = step.system();
     let mechanics = &system.mechanics;
@@ -90,12 +91,12 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
             }
             let aim = place - 0.5 * slack * (x1 - x0).signum();
             let (from, to, probe) = (&step.from, &step.to, &mut step.probe);
-            let share = root(|share| {
-                probe.interpolate(from, to, share);
+            let fraction = root(|fraction| {
+                probe.interpolate(from, to, fraction);
                 places.of_wheel(mechanics, w, &probe.q) - aim
             });
-            if first.is_none_or(|(known, _)| share < known) {
-                first = Some((share, w));
+            if first.is_none_or(|(known, _)| fraction < known) {
+                first = Some((fraction, w));
             }
         }
     }
@@ -149,8 +150,8 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
         return Ok(None);
     }
     let mut failure = None;
-    let [_, first] = narrow(ends, TOUCH_WIDTH, |share| {
-        let is_solved = step.look_at(share).unwrap_or_else(|error| {
+    let [_, first] = narrow(ends, TOUCH_WIDTH, |fraction| {
+        let is_solved = step.look_at(fraction).unwrap_or_else(|error| {
             failure = Some(error);
             false
         });
@@ -170,9 +171,9 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
 /// The first element that must begin or cease to act within the step, if one must: the fraction of the step at which it
 /// does, and the force by which the step has gone too far; `largest` is the largest force.
 ///
-/// Forces of contacts that remember their penetration relax faster than the interpolant follows: for them the fraction is
-/// the secant of the forces at both ends, for all others the root on the interpolant. Repeated, both end within
-/// [`OVERSHOOT`] beyond the event.
+/// Forces of contacts that remember their penetration relax faster than the interpolant follows: for them the
+/// fraction is the secant of the forces at both ends, for all others the root on the interpolant. Repeated, both end
+/// within [`OVERSHOOT`] beyond the event.
 ///
 /// # Errors
 /// What the rails refuse.
@@ -185,15 +186,15 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
             continue;
         };
         let noise = step.solver.geometry().local()[i].spring.noise;
-        let share = if step.solver.remembers(i) {
+        let fraction = if step.solver.remembers(i) {
             let start = step.from.force[i].max(0.0);
             ((start + aim) / (start + excess)).min(1.0)
         } else {
             has_looked = true;
             root_on_interpolant(step, i, aim + noise)?
         };
-        if first.is_none_or(|(known, _)| share < known) {
-            first = Some((share, excess - 2.0 * noise));
+        if first.is_none_or(|(known, _)| fraction < known) {
+            first = Some((fraction, excess - 2.0 * noise));
         }
     }
     if has_looked {
@@ -211,14 +212,14 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
         return Ok(1.0);
     }
     let mut failure = None;
-    let [_, share] = narrow([start.min(-aim), end], 1e-12, |share| {
-        let value = step.look_at(share).map(|solved| solved.then(|| beyond(step.solver, &step.probe)));
+    let [_, fraction] = narrow([start.min(-aim), end], 1e-12, |fraction| {
+        let value = step.look_at(fraction).map(|solved| solved.then(|| beyond(step.solver, &step.probe)));
         value.unwrap_or_else(|error| {
             failure = Some(error);
             None
         })
     });
-    failure.map_or(Ok(share), Err)
+    failure.map_or(Ok(fraction), Err)
 }
 
 /// Fraction of the step at which a law reaches or leaves a corner, if one does by more than [`OVERSHOOT`] of the force
@@ -226,12 +227,12 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
 pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
     let slack = OVERSHOOT * largest;
     let [from, to] = [&step.from, &step.to].map(|at| guards(step.solver, GuardKind::Corner, at));
-    let shares = from.iter().zip(&to).filter_map(|(from, to)| {
+    let fractions = from.iter().zip(&to).filter_map(|(from, to)| {
         let (from, to) = (from.value, to.value);
         let passes = from * to < 0.0 && from.abs() > slack && to.abs() > slack;
         passes.then(|| (from.abs() + 0.5 * slack) / (from.abs() + to.abs()))
     });
-    shares.min_by(f64::total_cmp)
+    fractions.min_by(f64::total_cmp)
 }
 
 /// Root in (0, 1) of a function with opposite signs at the ends, from the side of 0.

@@ -1,4 +1,4 @@
-//! Exact answers of a natural mode to its start and to a load that is a polynomial of time.
+//! Exact responses of a natural mode to its start and to a load that is a polynomial of time.
 
 use nalgebra::Complex;
 
@@ -47,12 +47,12 @@ impl Propagator {
 
     /// q and v at `c` h under the load (t/h)^k, one pair a power: k! c^(k+1) h Im(phi_(k+1)) / omega_d.
     pub fn forced(&self, c: f64) -> [[f64; 2]; 3] {
-        let answers = phi(self.rate * (c * self.h));
+        let responses = phi(self.rate * (c * self.h));
         let mut scale = self.h / self.rate.im;
         let mut out = [[0.0; 2]; 3];
-        for (k, (out, answer)) in out.iter_mut().zip(answers).enumerate() {
+        for (k, (out, response)) in out.iter_mut().zip(responses).enumerate() {
             scale *= c * if k == 0 { 1.0 } else { k as f64 };
-            *out = [scale * answer.im, scale * (self.rate * answer).im];
+            *out = [scale * response.im, scale * (self.rate * response).im];
         }
         out
     }

@@ -74,8 +74,8 @@ impl Samples {
                 self.sample.copy_from(&step.to);
             } else {
                 self.begun.restore(step.solver);
-                let share = (t - from) / (to - from);
-                step.sample(share, &mut self.sample)?;
+                let fraction = (t - from) / (to - from);
+                step.sample(fraction, &mut self.sample)?;
             }
             settle(step.solver, &mut self.sample)?;
             self.recorder.record(system, step.solver.geometry(), &self.sample)?;

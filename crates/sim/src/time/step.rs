@@ -73,8 +73,8 @@ impl<'a, 'b> Step<'a, 'b> {
         self.from.copy_from(&self.to);
     }
 
-    /// Takes a step of length `h` with the active elements, at most to `limit`; false where it does not converge. `stages`
-    /// counts the stages.
+    /// Takes a step of length `h` with the active elements, at most to `limit`; false where it does not converge.
+    /// `stages` counts the stages.
     ///
     /// # Errors
     /// What the rails refuse.
@@ -111,8 +111,8 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// Embedded error of the step just taken, the largest that `weigh` makes of the number, and the errors of displacement
-    /// and speed per unit of the step, of each degree of freedom.
+    /// Embedded error of the step just taken, the largest that `weigh` makes of the number, and the errors of
+    /// displacement and speed per unit of the step, of each degree of freedom.
     pub fn error(&self, weigh: impl Fn(usize, [f64; 2]) -> f64) -> f64 {
         let (h, mut largest) = (self.length(), 0.0_f64);
         let of = |k: usize| match &self.integrator {
@@ -131,27 +131,27 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// Sets `at` to the interpolant of the step just taken, at its fraction `share`.
+    /// Sets `at` to the interpolant of the step just taken, at this fraction.
     ///
     /// # Errors
     /// What the rails refuse.
-    pub fn sample(&mut self, share: f64, at: &mut State) -> Result<(), Error> {
-        self.solver.interpolate([&self.from, &self.arrived], share, at)?;
+    pub fn sample(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
+        self.solver.interpolate([&self.from, &self.arrived], fraction, at)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
-            collocation.interpolate(&self.from, share, at);
+            collocation.interpolate(&self.from, fraction, at);
         }
         Ok(())
     }
 
-    /// Brings `probe` to the fraction `share` of the step just tried, with its forces; returns whether they converged.
+    /// Brings `probe` to a fraction of the step just tried, with its forces; returns whether they converged.
     ///
     /// # Errors
     /// What the rails refuse.
-    pub fn look_at(&mut self, share: f64) -> Result<bool, Error> {
+    pub fn look_at(&mut self, fraction: f64) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
-        self.solver.interpolate([&self.from, &self.to], share, &mut self.probe)?;
+        self.solver.interpolate([&self.from, &self.to], fraction, &mut self.probe)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
-            collocation.interpolate(&self.from, share, &mut self.probe);
+            collocation.interpolate(&self.from, fraction, &mut self.probe);
         }
         self.solver.instant(&mut self.probe)
     }

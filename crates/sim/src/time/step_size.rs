@@ -1,9 +1,9 @@
 //! Lengths of steps from their errors.
 //!
-//! The error of a step is the largest embedded error of a displacement or a speed beside its scale: the largest value so
-//! far, at least the penetration at rest carried to each degree of freedom by its lever, and the bounce that belongs to
-//! it. A step of error e (by the tolerance) is rejected where e > 1 and followed by one of 0.9 e^(-1/4) of its length;
-//! else the next is longer by 0.9 e^(-0.175) e_last^0.1, within a factor of 5.
+//! The error of a step is the largest embedded error of a displacement or a speed beside its scale: the largest value
+//! so far, at least the penetration at rest carried to each degree of freedom by its lever, and the bounce that
+//! belongs to it. A step of error e (by the tolerance) is rejected where e > 1 and followed by one of 0.9 e^(-1/4) of
+//! its length; else the next is longer by 0.9 e^(-0.175) e_last^0.1, within a factor of 5.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.2: a PI controller of step sizes.
@@ -96,8 +96,8 @@ impl StepSize {
     }
 }
 
-/// Smallest displacements and speeds that the error is measured against: the penetration at rest, carried to each degree
-/// of degree of freedom by its lever, and the bounce that belongs to it.
+/// Smallest displacements and speeds that the error is measured against: the penetration at rest, carried to each
+/// degree of degree of freedom by its lever, and the bounce that belongs to it.
 fn least_scales(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system();
     let n = system.mechanics.dofs;

@@ -1,9 +1,9 @@
 //! The adaptive stepper: steps that end where something happens.
 //!
-//! Within a step the set of active elements is fixed, so that the solution is smooth and the method keeps its order. A step
-//! is tried at the length that the error of those before allows. Then the reasons to cut it are asked in their order
-//! ([`Reason`]); the first that cuts gives a shorter length, at which the step is tried again. Where none cuts, the step is
-//! accepted: at its end active elements are found anew.
+//! Within a step the set of active elements is fixed, so that the solution is smooth and the method keeps its order.
+//! A step is tried at the length that the error of those before allows. Then the reasons to cut it are asked in their
+//! order ([`Reason`]); the first that cuts gives a shorter length, at which the step is tried again. Where none cuts,
+//! the step is accepted: at its end active elements are found anew.
 
 use super::books::Books;
 use super::counts::Counts;
@@ -17,7 +17,7 @@ use super::triggers::Triggers;
 use crate::contact::element::{Guard, GuardKind};
 use crate::contact::solver::Solver;
 use crate::instant::settle::settle;
-use crate::instant::uneven::cross;
+use crate::instant::uneven::pass_corners;
 use crate::mechanics::state::State;
 use crate::record::energy::stored;
 use crate::{Audit, Error, Fired, Stepping};
@@ -34,15 +34,15 @@ const CORNERS: usize = 12;
 /// How often a step is tried again to end where a rule acts.
 const TRIALS: usize = 20;
 
-/// Fraction of the step planned below which what happens is taken to happen where it starts: shorter steps have rounding
-/// for rates.
+/// Fraction of the step planned below which what happens is taken to happen where it starts: shorter steps have
+/// rounding for rates.
 const NOW: f64 = 1e-6;
 
 /// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
 const CHATTER: usize = 1000;
 
-/// Steps in a row that may end at events before the next is at most [`WIDER`] times the last: from far beyond an event a
-/// secant always falls short of it.
+/// Steps in a row that may end at events before the next is at most [`WIDER`] times the last: from far beyond an
+/// event a secant always falls short of it.
 const SHORT: usize = 2;
 const WIDER: f64 = 16.0;
 
@@ -118,8 +118,8 @@ pub(crate) struct Stepper<'a, 'b> {
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
-    /// A run from `start`, in which the solver's active elements are settled, by steps of the relative error `tolerance` or
-    /// of the length that `stepping` fixes; the first is `first` long.
+    /// A run from `start`, in which the solver's active elements are settled, by steps of the relative error
+    /// `tolerance` or of the length that `stepping` fixes; the first is `first` long.
     ///
     /// # Errors
     /// A rule of something that is not recorded.
@@ -233,11 +233,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let slack = self.break_slack();
         if self.step.system().mechanics.moves_freely && can_predict(slack) {
             self.step.guess_end(trial.h);
-            let share = self.rolling_break(slack).filter(|share| trial.h * share > 2.0 * smallest);
-            if let Some(share) = share {
+            let fraction = self.rolling_break(slack).filter(|fraction| trial.h * fraction > 2.0 * smallest);
+            if let Some(fraction) = fraction {
                 trial.breaks += 1;
                 trial.ends_at_event = true;
-                trial.h *= share;
+                trial.h *= fraction;
             }
         }
         self.step.set_paths(trial.h);
@@ -269,9 +269,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 if !(has_converged && trial.breaks < REFINEMENTS) {
                     return Ok(None);
                 }
-                let share = self.rolling_break(self.break_slack());
-                trial.breaks += usize::from(share.is_some());
-                share.map(|share| (trial.h * share).max(2.0 * trial.smallest))
+                let fraction = self.rolling_break(self.break_slack());
+                trial.breaks += usize::from(fraction.is_some());
+                fraction.map(|fraction| (trial.h * fraction).max(2.0 * trial.smallest))
             }
             Reason::Touch => {
                 let errs = has_converged && (trial.error > 1.0 || self.size.fixed.is_some());
@@ -279,9 +279,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
                     return Ok(None);
                 }
                 let largest = self.largest_force();
-                let share = first_touch(&mut self.step, &self.touches, largest)?;
-                trial.corners += usize::from(share.is_some());
-                share.map(|share| (trial.h * share).max(trial.shortest))
+                let fraction = first_touch(&mut self.step, &self.touches, largest)?;
+                trial.corners += usize::from(fraction.is_some());
+                fraction.map(|fraction| (trial.h * fraction).max(trial.shortest))
             }
             Reason::Error => {
                 if trial.error <= 1.0 {
@@ -293,7 +293,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
             Reason::Switch => {
                 let largest = self.largest_force();
-                let Some((share, excess)) = first_switch(&mut self.step, largest)? else { return Ok(None) };
+                let Some((fraction, excess)) = first_switch(&mut self.step, largest)? else {
+                    return Ok(None);
+                };
                 // A step that ends near enough to the switch ends there all the same.
                 trial.ends_at_event = true;
                 let is_beyond = excess > OVERSHOOT * largest;
@@ -302,8 +304,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 }
                 trial.switches += 1;
                 // Where guesses do not come nearer, half of the step does.
-                let share = if trial.switches < GUESSES { share } else { 0.5 };
-                Some((trial.h * share).max(trial.shortest))
+                let fraction = if trial.switches < GUESSES { fraction } else { 0.5 };
+                Some((trial.h * fraction).max(trial.shortest))
             }
             Reason::Trigger => {
                 if trial.triggers >= TRIALS {
@@ -314,10 +316,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 shorter.map(|shorter| shorter.max(2.0 * trial.smallest))
             }
             Reason::Corner => {
-                let share = first_corner(&self.step, self.largest_force());
-                let share = share.filter(|_| trial.corners < CORNERS && is_long);
-                trial.corners += usize::from(share.is_some());
-                share.map(|share| (trial.h * share).max(trial.shortest))
+                let fraction = first_corner(&self.step, self.largest_force());
+                let fraction = fraction.filter(|_| trial.corners < CORNERS && is_long);
+                trial.corners += usize::from(fraction.is_some());
+                fraction.map(|fraction| (trial.h * fraction).max(trial.shortest))
             }
         };
         trial.ends_at_event |= cut.is_some();
@@ -326,19 +328,19 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Fraction of the step at which a freely rolling wheel meets a break; notes the wheel.
     fn rolling_break(&mut self, slack: f64) -> Option<f64> {
-        let (share, wheel) = rolling_break(&mut self.step, slack)?;
+        let (fraction, wheel) = rolling_break(&mut self.step, slack)?;
         self.meets = Some(wheel);
-        Some(share)
+        Some(fraction)
     }
 
     fn break_slack(&self) -> f64 {
         break_slack(self.size.tolerance, self.size.fixed.is_some())
     }
 
-    /// Accepts the step of length `h`. In this order: the energy exchanged is booked at the state that the step reached;
-    /// then its end is brought to where the next step starts: prescribed motions pass their break, wheels pass joints and
-    /// corners of their rails, and the active elements are found anew where one is due; last the books of the step are
-    /// closed.
+    /// Accepts the step of length `h`. In this order: the energy exchanged is booked at the state that the step
+    /// reached; then its end is brought to where the next step starts: prescribed motions pass their break, wheels
+    /// pass joints and corners of their rails, and the active elements are found anew where one is due; last the
+    /// books of the step are closed.
     fn accept(&mut self, h: f64) -> Result<(), Error> {
         self.counts.steps += 1;
         self.step.arrived.copy_from(&self.step.to);
@@ -354,7 +356,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.books.book_rail(by_joint);
         let before = self.stored();
         let system = self.step.system();
-        let has_crossed = system.traits.is_uneven && cross(self.step.solver, &mut self.step.to)?;
+        let has_crossed = system.traits.is_uneven && pass_corners(self.step.solver, &mut self.step.to)?;
         let mut after = before;
         if has_crossed || self.is_switch_due() {
             let active = self.step.solver.active().flags().to_vec();
@@ -398,10 +400,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(())
     }
 
-    /// Where the step has ended at a joint of a rail that complies along x, the wheel there goes over to another part,
-    /// which the same forces have displaced along x by another amount: the displacement jumps, and slides nowhere. What
-    /// pushes along x then pushes that part, so that the rail below all wheels jumps as well, by Maxwell's theorem with as
-    /// much work: penetrations follow. Returns the energy put in.
+    /// Where the step has ended at a joint of a rail that complies along x, the wheel there goes over to another
+    /// part, which the same forces have displaced along x by another amount: the displacement jumps, and slides
+    /// nowhere. What pushes along x then pushes that part, so that the rail below all wheels jumps as well, by
+    /// Maxwell's theorem with as much work: penetrations follow. Returns the energy put in.
     fn pass_joint(&mut self) -> Result<f64, Error> {
         let slack = self.break_slack();
         let Step { solver, to, probe, .. } = &mut self.step;

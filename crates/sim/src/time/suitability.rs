@@ -1,7 +1,7 @@
 //! Which methods of integration suit a scene.
 
 use crate::contact::system::System;
-use crate::time::passage::crossing::lacks;
+use crate::time::passage::crossing::missing;
 use crate::{Dynamics, Error, Foundation, Method, Scene};
 
 impl Method {
@@ -50,7 +50,7 @@ impl Method {
             (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
         ];
         let found = trouble.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted);
-        match found.or_else(|| lacks(system).filter(|_| self == Method::Series)) {
+        match found.or_else(|| missing(system).filter(|_| self == Method::Series)) {
             Some(wanted) => Err(Error::Method { method: self, wanted }),
             None => Ok(()),
         }

@@ -23,8 +23,9 @@ impl Solver<'_> {
         is_factored && !self.system.mechanics.has_structures() && self.charts.is_empty()
     }
 
-    /// Corrects the stage at `at`. Returns the largest changes beside the degrees of freedom themselves and beside their
-    /// scales; `None` where other laws act than those whose slopes are factored: only the accelerations are better then.
+    /// Corrects the stage at `at`. Returns the largest changes beside the degrees of freedom themselves and beside
+    /// their scales; `None` where other laws act than those whose slopes are factored: only the accelerations are
+    /// better then.
     pub(super) fn correct(
         &mut self,
         g: f64,
@@ -52,8 +53,8 @@ impl Solver<'_> {
         Ok(Some([moved, beside.max(largest / size)]))
     }
 
-    /// Penetrations and rates of all elements at the free motion under the forces of `at`; false where an element touches
-    /// that is taken as idle.
+    /// Penetrations and rates of all elements at the free motion under the forces of `at`; false where an element
+    /// touches that is taken as idle.
     fn reach(&mut self, g: f64, known: &[f64], at: &State) -> bool {
         let system = self.system;
         for (i, element) in system.elements.iter().enumerate() {

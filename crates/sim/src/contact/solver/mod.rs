@@ -1,5 +1,5 @@
-//! Everything needed to solve a scene again and again without allocation: at one instant here, in one stage of a step in
-//! [`stage`].
+//! Everything needed to solve a scene again and again without allocation: at one instant here, in one stage of a step
+//! in [`stage`].
 
 mod correct;
 mod ropes;
@@ -334,18 +334,23 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Sets `at` to the interpolant between the ends of the step just tried, at its fraction `share`.
+    /// Sets `at` to the interpolant between the ends of the step just tried, at this fraction.
     ///
     /// # Errors
     /// What the rail refuses.
-    pub fn interpolate(&mut self, [from, to]: [&State; 2], share: f64, at: &mut State) -> Result<(), Error> {
-        at.interpolate(from, to, share);
-        self.charts.interpolate(self.system, self.geometry.switches(), [from, to], share, at);
+    pub fn interpolate(
+        &mut self,
+        [from, to]: [&State; 2],
+        fraction: f64,
+        at: &mut State,
+    ) -> Result<(), Error> {
+        at.interpolate(from, to, fraction);
+        self.charts.interpolate(self.system, self.geometry.switches(), [from, to], fraction, at);
         self.stretch_ropes(to.t - from.t, at)
     }
 
-    /// Calls `each` with the number of every degree of freedom and its errors of displacement and speed, which `of` gives
-    /// by number; those of hanging bodies are errors of their coordinates.
+    /// Calls `each` with the number of every degree of freedom and its errors of displacement and speed, which `of`
+    /// gives by number; those of hanging bodies are errors of their coordinates.
     pub fn for_errors(
         &self,
         at: &State,

@@ -9,8 +9,8 @@ use crate::mechanics::state::State;
 const UNRESOLVED: f64 = 100.0;
 
 impl Solver<'_> {
-    /// Stretches ropes that are far stiffer than a step of length `h` resolves so that they are in balance at `at`: rates
-    /// of their stretch say nothing between the ends of the step.
+    /// Stretches ropes that are far stiffer than a step of length `h` resolves so that they are in balance at `at`:
+    /// rates of their stretch say nothing between the ends of the step.
     ///
     /// # Errors
     /// What the rail refuses.
@@ -24,24 +24,24 @@ impl Solver<'_> {
     fn stretch_rope(&mut self, chart: &Chart, h: f64, at: &mut State) -> Result<(), Error> {
         let system = self.system;
         let Some(anchor) = chart.anchor(system, self.geometry.switches(), at.t) else { return Ok(()) };
-        let Some(Local { y, rate, reach, .. }) = chart.local(system, &anchor, at.t, &at.q, &at.v) else {
+        let Some(Local { y, rate, span, .. }) = chart.local(system, &anchor, at.t, &at.q, &at.v) else {
             return Ok(());
         };
-        let mut bends = [0.0; 2];
-        let step = 0.1 * y[0].abs() + 1e-12 * reach;
-        for (bend, stretch) in bends.iter_mut().zip([y[0] + step, y[0]]) {
-            chart.put(system, self.geometry.switches(), [stretch, y[1], y[2]], rate, at);
+        let mut accelerations = [0.0; 2];
+        let step = 0.1 * y[0].abs() + 1e-12 * span;
+        for (acceleration, stretch) in accelerations.iter_mut().zip([y[0] + step, y[0]]) {
+            chart.place(system, self.geometry.switches(), [stretch, y[1], y[2]], rate, at);
             if !self.instant(at)? {
                 return Ok(());
             }
             let Some(local) = chart.local(system, &anchor, at.t, &at.q, &at.v) else { return Ok(()) };
-            let pull = chart.vector(&at.a) - anchor.point.rate(&at.a) - anchor.given[1] - local.curve;
-            *bend = local.pull(pull)[0];
+            let total = chart.vector(&at.a) - anchor.point.rate(&at.a) - anchor.given[1] - local.curve;
+            *acceleration = local.solve(total)[0];
         }
-        let square = (bends[1] - bends[0]) / step;
+        let square = (accelerations[1] - accelerations[0]) / step;
         if square * h * h > UNRESOLVED {
-            let stretch = y[0] + bends[1] / square;
-            chart.put(system, self.geometry.switches(), [stretch, y[1], y[2]], rate, at);
+            let stretch = y[0] + accelerations[1] / square;
+            chart.place(system, self.geometry.switches(), [stretch, y[1], y[2]], rate, at);
         }
         Ok(())
     }

@@ -1,16 +1,17 @@
 //! One stage of a step: Q = q* + g V, V = v* + g A and the forces that belong to them.
 //!
 //! Unknowns are the accelerations A and the forces F. With the mobility Z = (M + g C + g^2 K)^-1 the motion without
-//! forces is a_0 = Z (f - C v* - K (q* + g v*)), and A = a_0 - Z B^T F. The elements see W = G + g^2 R Z B^T and, in their
-//! rates, Y = W/g where the rate is that of the penetration, g R' Z B^T where it is that of the degrees of freedom.
+//! forces is a_0 = Z (f - C v* - K (q* + g v*)), and A = a_0 - Z B^T F. The elements see W = G + g^2 R Z B^T and, in
+//! their rates, Y = W/g where the rate is that of the penetration, g R' Z B^T where it is that of the degrees of
+//! freedom.
 //!
-//! A pass brings the geometry to the guess of the stage, forms W and Y there, solves F = law(e - W F, r - Y F), and moves
-//! the guess to the accelerations found. Passes repeat until they change nothing, or less than the step's accuracy asks
-//! ([`Convergence`](super::Convergence)); later passes of a step correct the stage by the factors of an earlier one
-//! ([`correct`](super::correct)). Where no row follows the motion, the first pass is the solution.
+//! A pass brings the geometry to the guess of the stage, forms W and Y there, solves F = law(e - W F, r - Y F), and
+//! moves the guess to the accelerations found. Passes repeat until they change nothing, or less than the step's
+//! accuracy asks ([`Convergence`](super::Convergence)); later passes of a step correct the stage by the factors of an
+//! earlier one ([`correct`](super::correct)). Where no row follows the motion, the first pass is the solution.
 //!
-//! Order of a pass: motion without forces; geometry; idle elements (in the first pass); mobility by the rows; rows of the
-//! problem; forces; elements that begin to touch, which repeat the pass; accelerations; displacements, speeds and
+//! Order of a pass: motion without forces; geometry; idle elements (in the first pass); mobility by the rows; rows of
+//! the problem; forces; elements that begin to touch, which repeat the pass; accelerations; displacements, speeds and
 //! penetrations of the state; heights of the wheels.
 
 use super::{PASSES, RowKind, Solver};
@@ -31,8 +32,8 @@ enum Pass {
 }
 
 impl Solver<'_> {
-    /// Lets stages, compliance and forces err as far as steps of the relative error `tolerance` allow, beside the scales
-    /// of displacements and speeds; `radius` is that of the smallest wheel.
+    /// Lets stages, compliance and forces err as far as steps of the relative error `tolerance` allow, beside the
+    /// scales of displacements and speeds; `radius` is that of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, scales: [&nalgebra::DVector<f64>; 2], radius: f64) {
         self.convergence.set_accuracy(tolerance, scales);
         self.geometry.set_accuracy(tolerance, radius);
@@ -51,7 +52,7 @@ impl Solver<'_> {
 
     /// Sets hanging bodies in the known parts of a stage to their coordinates at the start of the step.
     pub fn begin_stage(&self, known: &mut Known) {
-        self.charts.begun(&mut known.q, &mut known.v);
+        self.charts.set_start(&mut known.q, &mut known.v);
     }
 
     /// Whether degree of freedom `k` is of a hanging body, in coordinates of its own during the step.
@@ -59,9 +60,10 @@ impl Solver<'_> {
         self.charts.has(k)
     }
 
-    /// Speeds and accelerations of the stage that ended at `at` into `rates`, those of hanging bodies in their coordinates.
+    /// Speeds and accelerations of the stage that ended at `at` into `rates`, those of hanging bodies in their
+    /// coordinates.
     pub fn end_stage(&mut self, at: &State, rates: [&mut nalgebra::DVector<f64>; 2]) {
-        self.charts.settle(self.system, self.geometry.switches(), at, rates);
+        self.charts.set_rates(self.system, self.geometry.switches(), at, rates);
     }
 
     /// Solves the stage of the coefficient `g` at `at.t` with the elements that are active; `at` brings the previous
@@ -88,7 +90,7 @@ impl Solver<'_> {
         let mut last = f64::INFINITY;
         for pass in 0..PASSES {
             if hangs {
-                self.charts.flatten(system, self.geometry.switches(), g, known, at);
+                self.charts.linearise(system, self.geometry.switches(), g, known, at);
             }
             let mut corrected = None;
             if self.may_correct(g) {
@@ -119,8 +121,8 @@ impl Solver<'_> {
         Ok(false)
     }
 
-    /// A pass of a stage: all matrices at the places of `at`, and the forces that they give. `begins`: nothing is known of
-    /// the stage but the guess in `at`.
+    /// A pass of a stage: all matrices at the places of `at`, and the forces that they give. `begins`: nothing is
+    /// known of the stage but the guess in `at`.
     fn pass(&mut self, g: f64, known: &mut Known, at: &mut State, begins: bool) -> Result<Pass, Error> {
         let system = self.system;
         let changes_mass = !system.mechanics.carried.is_empty();
@@ -203,9 +205,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Adds to the rate of element `i` along a rail what the rail without mass moves, `known` before the stage:
-    /// s = x' + h omega - du/dt at a place of the rail, where du/dt = (G F - u*)/g along the wheel's path, less x' dG/dx F
-    /// for the path itself.
+    /// Adds to the rate of element `i` along a rail what the rail without mass moves, `known` before the stage: s =
+    /// x' + h omega - du/dt at a place of the rail, where du/dt = (G F - u*)/g along the wheel's path, less x' dG/dx
+    /// F for the path itself.
     fn fill_sliding(&mut self, i: usize, g: f64, known: f64, at: &State) {
         let m = at.force.len();
         let effects = &mut self.problem.effects;

@@ -1,9 +1,10 @@
 //! Crossings at uniform speed by power series of time: bodies on linear wheels over a rail without mass.
 //!
-//! Where wheels travel together at uniform speed, G is a polynomial of time between two breaks of the rails ([`path`]), and so
-//! the forces and motions are power series ([`series`]) whose coefficients cost a few products each: no evaluation of G, no
-//! iteration, samples and powers from the same series. The step follows from the last terms, so that none is rejected; forces
-//! and energy are read off two terms more, which leave nearly no jump between steps.
+//! Where wheels travel together at uniform speed, G is a polynomial of time between two breaks of the rails
+//! ([`path`]), and so the forces and motions are power series ([`series`]) whose coefficients cost a few products
+//! each: no evaluation of G, no iteration, samples and powers from the same series. The step follows from the last
+//! terms, so that none is rejected; forces and energy are read off two terms more, which leave nearly no jump between
+//! steps.
 
 use std::ops::ControlFlow;
 
@@ -31,8 +32,8 @@ const FORCES: f64 = 50.0;
 /// Accuracy beyond which a step is no longer.
 const COARSEST: f64 = 1e-3;
 
-/// Square of the quickest frequency by that of the bodies at rest on their wheels, beyond which the scene is too stiff for
-/// a series.
+/// Square of the quickest frequency by that of the bodies at rest on their wheels, beyond which the scene is too
+/// stiff for a series.
 const STIFF: f64 = 20.0;
 
 /// Steps, judged by the last, beyond which a series is not worth its while.
@@ -50,7 +51,7 @@ const LOBATTO: [[f64; 2]; 6] = [
 const ENDS: f64 = 1.0 / 56.0;
 
 /// What is missing in the scene to be a crossing of this kind, beside what collocation asks.
-pub(crate) fn lacks(system: &System) -> Option<&'static str> {
+pub(crate) fn missing(system: &System) -> Option<&'static str> {
     let scene = system.scene;
     let mut moving = scene.bodies.iter().enumerate().filter_map(|(b, body)| Some((b, body.motion.as_ref()?)));
     let first = moving.next();
@@ -83,8 +84,8 @@ pub(crate) struct Crossed {
     pub counts: Counts,
 }
 
-/// The run of a scene that [`lacks`] nothing; `None` where a contact opens, wheels are too stiff or G is no polynomial of
-/// low degree between breaks: then another method has to take the run.
+/// The run of a scene in which nothing is [`missing`]; `None` where a contact opens, wheels are too stiff or G is no
+/// polynomial of low degree between breaks: then another method has to take the run.
 ///
 /// # Errors
 /// As [`crate::run`].
@@ -95,15 +96,15 @@ pub(crate) fn run(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Crossed>, Error> {
     match system.elements.len() {
-        1..=2 => Passage::<2>::new(system, start)?.run(placed, watch),
-        3..=4 => Passage::<4>::new(system, start)?.run(placed, watch),
-        5..=WIDEST => Passage::<WIDEST>::new(system, start)?.run(placed, watch),
+        1..=2 => Crossing::<2>::new(system, start)?.run(placed, watch),
+        3..=4 => Crossing::<4>::new(system, start)?.run(placed, watch),
+        5..=WIDEST => Crossing::<WIDEST>::new(system, start)?.run(placed, watch),
         _ => Ok(None),
     }
 }
 
 /// A crossing in progress; contacts and degrees of freedom padded to P.
-struct Passage<'a, const P: usize> {
+struct Crossing<'a, const P: usize> {
     system: &'a System<'a>,
     geometry: Geometry,
     state: State,
@@ -116,12 +117,12 @@ struct Passage<'a, const P: usize> {
     /// R by columns of degrees of freedom; M^-1 R^T by columns of contacts; M^-1 f.
     rows: Matrix<P>,
     spread: Matrix<P>,
-    fall: [f64; P],
-    held: [f64; P],
+    free_fall: [f64; P],
+    constant: [f64; P],
     /// M, and the impulse of the degrees of freedom by the travel.
     mass: Matrix<P>,
     weight: [f64; P],
-    drag: [f64; P],
+    travel_inertia: [f64; P],
     q: [f64; P],
     v: [f64; P],
     series: Series<P>,
@@ -129,13 +130,13 @@ struct Passage<'a, const P: usize> {
     length: f64,
     audit: Audit,
     /// Largest approach so far.
-    largest: f64,
+    largest_approach: f64,
     /// Largest force so far.
-    strongest: f64,
-    begun: f64,
+    largest_force: f64,
+    energy_at_start: f64,
 }
 
-impl<'a, const P: usize> Passage<'a, P> {
+impl<'a, const P: usize> Crossing<'a, P> {
     fn new(system: &'a System<'a>, start: &State) -> Result<Self, Error> {
         let (n, m) = (system.mechanics.dofs, system.elements.len());
         let mut geometry = Geometry::new(system);
@@ -143,9 +144,9 @@ impl<'a, const P: usize> Passage<'a, P> {
         let zero = [[0.0; P]; P];
         let (mut rows, mut spread, mut mobile, mut mass) = (zero, zero, zero, zero);
         let mobility = Mobility::new(&system.mechanics)?;
-        let mut fall = [0.0; P];
+        let mut free_fall = [0.0; P];
         let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
-        mobility.apply(system.mechanics.gravity.as_slice(), &mut fall[..n]);
+        mobility.apply(system.mechanics.gravity.as_slice(), &mut free_fall[..n]);
         for (j, row) in geometry.rows().approach.chunks_exact(n).enumerate() {
             mobility.apply(row, &mut spread[j][..n]);
             for (column, entry) in rows.iter_mut().zip(row) {
@@ -155,7 +156,7 @@ impl<'a, const P: usize> Passage<'a, P> {
         let mut free = [0.0; P];
         for i in 0..P {
             for k in 0..n {
-                free[i] += rows[k][i] * fall[k];
+                free[i] += rows[k][i] * free_fall[k];
                 for (j, column) in mobile.iter_mut().enumerate() {
                     column[i] += rows[k][i] * spread[j][k];
                 }
@@ -166,44 +167,44 @@ impl<'a, const P: usize> Passage<'a, P> {
                 column[..n].copy_from_slice(matrix.column(j).as_slice());
             }
         }
-        let (mut ratio, mut damping, mut soft) = ([0.0; P], [0.0; P], [1.0; P]);
+        let (mut ratio, mut damping, mut softness) = ([0.0; P], [0.0; P], [1.0; P]);
         for i in 0..m {
             let law = system.law(i);
             ratio[i] = law.damping / law.stiffness;
             damping[i] = law.damping * system.mechanics.groups[i].count();
-            soft[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
+            softness[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
         }
         let root = system.scene.bodies.iter().position(|body| body.motion.is_some());
         let speed = root.map_or(0.0, |root| geometry.places().travel[root].v);
-        let mut drag = [0.0; P];
+        let mut travel_inertia = [0.0; P];
         for &(number, inertia) in
             root.iter().flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
         {
-            drag[number] += inertia;
+            travel_inertia[number] += inertia;
         }
-        Ok(Passage {
+        Ok(Crossing {
             places: geometry.places().x.clone(),
-            held: pad(&geometry.rows().approach_offset),
+            constant: pad(&geometry.rows().approach_offset),
             weight: pad(system.mechanics.gravity.as_slice()),
             q: pad(start.q.as_slice()),
             v: pad(start.v.as_slice()),
             series: Series::new(order(system.scene.accuracy)),
-            contacts: Contacts { mobile, free, ratio, damping, soft },
+            contacts: Contacts { mobile, free, ratio, damping, softness },
             state: start.clone(),
             audit: Audit::default(),
             length: 0.0,
-            largest: 0.0,
-            strongest: 0.0,
-            begun: 0.0,
+            largest_approach: 0.0,
+            largest_force: 0.0,
+            energy_at_start: 0.0,
             system,
             geometry,
             root,
             speed,
             rows,
             spread,
-            fall,
+            free_fall,
             mass,
-            drag,
+            travel_inertia,
         })
     }
 
@@ -214,20 +215,21 @@ impl<'a, const P: usize> Passage<'a, P> {
     ) -> Result<Option<Crossed>, Error> {
         let system = self.system;
         let scene = system.scene;
-        let soft = self.contacts.soft.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
+        let softness =
+            self.contacts.softness.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
         let allowed = LAST * scene.accuracy.min(COARSEST);
         let mut recorder = Recorder::new(system);
         recorder.reserve((scene.end / scene.output_dt).min(1e6) as usize);
         let mut counts = Counts::default();
-        let quick = |i: usize| self.contacts.soft[i] / self.contacts.mobile[i][i];
+        let quick = |i: usize| self.contacts.softness[i] / self.contacts.mobile[i][i];
         let quickest = (0..system.elements.len()).map(quick).fold(f64::INFINITY, f64::min);
         let carried = scene.bodies.iter().map(|body| body.mass).sum::<f64>() / system.elements.len() as f64;
-        if carried * soft > STIFF * quickest {
+        if carried * softness > STIFF * quickest {
             return Ok(None);
         }
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
         for end in self.breaks() {
-            let path = Path::new(system, &mut self.geometry, &self.state, [t, end], self.speed, soft)?;
+            let path = Path::new(system, &mut self.geometry, &self.state, [t, end], self.speed, softness)?;
             let Some(path) = path else { return Ok(None) };
             if t == 0.0 && !(placed || self.rest(&path.about(0.0, 1.0)[0])) {
                 return Ok(None);
@@ -236,14 +238,17 @@ impl<'a, const P: usize> Passage<'a, P> {
                 let compliance = path.about(t, scale);
                 let approach = self.approach(&self.q, true);
                 let rate = self.approach(&self.v, false);
-                self.largest = approach.iter().fold(self.largest, |max, w| max.max(w.abs()));
+                self.largest_approach =
+                    approach.iter().fold(self.largest_approach, |max, w| max.max(w.abs()));
                 if self.series.expand(&self.contacts, &compliance, scale, [&approach, &rate]).is_none() {
                     return Ok(None);
                 }
                 let force = self.series.first().force;
-                self.strongest = force.iter().fold(self.strongest, |max, force| max.max(force.abs()));
-                let wanted =
-                    scale * self.series.reach(allowed * self.largest, FORCES * allowed * self.strongest);
+                self.largest_force = force.iter().fold(self.largest_force, |max, force| max.max(force.abs()));
+                let wanted = scale
+                    * self
+                        .series
+                        .reach(allowed * self.largest_approach, FORCES * allowed * self.largest_force);
                 let count = ((end - t) / wanted).ceil().max(1.0);
                 let worthwhile = scene.end < MANY * wanted;
                 if !worthwhile {
@@ -312,9 +317,9 @@ impl<'a, const P: usize> Passage<'a, P> {
         times
     }
 
-    /// held + R q, or R v.
-    fn approach(&self, freedoms: &[f64; P], with_held: bool) -> [f64; P] {
-        let mut sum = if with_held { self.held } else { [0.0; P] };
+    /// constant + R q, or R v.
+    fn approach(&self, freedoms: &[f64; P], with_constant: bool) -> [f64; P] {
+        let mut sum = if with_constant { self.constant } else { [0.0; P] };
         for (column, q) in self.rows.iter().zip(freedoms) {
             for (sum, entry) in sum.iter_mut().zip(column) {
                 *sum += entry * q;
@@ -323,7 +328,7 @@ impl<'a, const P: usize> Passage<'a, P> {
         sum
     }
 
-    /// Moves the degrees of freedom to rest: A F - R q = held, R^T F = f. False where nothing holds them.
+    /// Moves the degrees of freedom to rest: A F - R q = constant, R^T F = f. False where nothing holds them.
     fn rest(&mut self, compliance: &Matrix<P>) -> bool {
         let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
         let size = n + m;
@@ -333,12 +338,12 @@ impl<'a, const P: usize> Passage<'a, P> {
             for j in 0..m {
                 matrix[i * size + j] = compliance[i][j];
             }
-            matrix[i * size + i] += self.contacts.soft[i];
+            matrix[i * size + i] += self.contacts.softness[i];
             for k in 0..n {
                 matrix[i * size + m + k] = -self.rows[k][i];
                 matrix[(m + k) * size + i] = self.rows[k][i];
             }
-            right[i] = self.held[i];
+            right[i] = self.constant[i];
         }
         right[m..].copy_from_slice(&self.weight[..n]);
         if !solve_general(&mut matrix, &mut right) || right.iter().any(|x| !x.is_finite()) {
@@ -360,18 +365,18 @@ impl<'a, const P: usize> Passage<'a, P> {
         self.fill(0.0, &q, &v, &look);
         self.fill_compliance(compliance);
         self.audit.start = stored(self.system, &self.geometry, &self.state);
-        self.begun = self.energy(&q, &v, &look)[0];
+        self.energy_at_start = self.energy(&q, &v, &look)[0];
         true
     }
 
     /// p = F/k - r w' and its rate.
     fn penetration(&self, at: &Values<P>) -> ([f64; P], [f64; P]) {
-        let Contacts { mobile, free, ratio, soft, .. } = &self.contacts;
+        let Contacts { mobile, free, ratio, softness, .. } = &self.contacts;
         let mut lift = *free;
         subtract(mobile, &at.force, &mut lift);
         (
-            std::array::from_fn(|i| at.force[i] * soft[i] - ratio[i] * at.rate[i]),
-            std::array::from_fn(|i| at.force_rate[i] * soft[i] - ratio[i] * lift[i]),
+            std::array::from_fn(|i| at.force[i] * softness[i] - ratio[i] * at.rate[i]),
+            std::array::from_fn(|i| at.force_rate[i] * softness[i] - ratio[i] * lift[i]),
         )
     }
 
@@ -379,8 +384,8 @@ impl<'a, const P: usize> Passage<'a, P> {
     fn moved(&self, s: f64) -> [[f64; P]; 2] {
         let time = s * self.series.scale;
         let [once, twice] = self.series.impulse(s);
-        let mut q = std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.fall[k]));
-        let mut v = std::array::from_fn(|k| self.v[k] + time * self.fall[k]);
+        let mut q = std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.free_fall[k]));
+        let mut v = std::array::from_fn(|k| self.v[k] + time * self.free_fall[k]);
         subtract(&self.spread, &twice, &mut q);
         subtract(&self.spread, &once, &mut v);
         [q, v]
@@ -391,11 +396,11 @@ impl<'a, const P: usize> Passage<'a, P> {
         let (p, _) = self.penetration(at);
         let (mut elastic, mut rest) = (0.0, 0.0);
         for (i, p) in p.iter().enumerate() {
-            elastic += 0.5 * (p * p / self.contacts.soft[i] + at.force[i] * (at.approach[i] - p));
+            elastic += 0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
         }
         for (k, column) in self.mass.iter().enumerate() {
             let momentum: f64 = column.iter().zip(v).map(|(entry, v)| entry * v).sum();
-            rest += (0.5 * momentum + self.speed * self.drag[k]) * v[k] - self.weight[k] * q[k];
+            rest += (0.5 * momentum + self.speed * self.travel_inertia[k]) * v[k] - self.weight[k] * q[k];
         }
         [elastic + rest, elastic]
     }
@@ -422,7 +427,7 @@ impl<'a, const P: usize> Passage<'a, P> {
         [self.q, self.v] = self.moved(end);
         let [total, elastic] = self.energy(&self.q, &self.v, at);
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
-        let imbalance = (total + self.audit.exchanged.net_loss() - self.begun).abs();
+        let imbalance = (total + self.audit.exchanged.net_loss() - self.energy_at_start).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
         let pulls = |i: usize| looks.iter().any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
@@ -464,7 +469,7 @@ impl<'a, const P: usize> Passage<'a, P> {
     fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], look: &Values<P>) {
         let (p, p_rate) = self.penetration(look);
         let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
-        let mut a = self.fall;
+        let mut a = self.free_fall;
         subtract(&self.spread, &look.force, &mut a);
         self.state.t = t;
         self.state.q.as_mut_slice().copy_from_slice(&q[..n]);
@@ -481,8 +486,8 @@ impl<'a, const P: usize> Passage<'a, P> {
     }
 }
 
-/// Number of coefficients of the forces that suits an accuracy: 2 more than a multiple of 4. Other orders of Taylor need
-/// shorter steps along the imaginary axis, where the oscillations are.
+/// Number of coefficients of the forces that suits an accuracy: 2 more than a multiple of 4. Other orders of Taylor
+/// need shorter steps along the imaginary axis, where the oscillations are.
 fn order(accuracy: f64) -> usize {
     let more = ((-accuracy.log10() - 2.5) / 2.5).clamp(0.0, 3.0) as usize;
     10 + 4 * more

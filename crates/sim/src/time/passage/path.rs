@@ -1,4 +1,5 @@
-//! The compliance of contacts that travel together at uniform speed, as a polynomial of time between two breaks of their rails.
+//! The compliance of contacts that travel together at uniform speed, as a polynomial of time between two breaks of
+//! their rails.
 
 use super::series::{Matrix, TERMS};
 use crate::Error;
@@ -10,7 +11,8 @@ use crate::mechanics::state::State;
 const PLACES: [f64; 4] =
     [-0.923_879_532_511_286_7, -0.382_683_432_365_089_8, 0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
 
-/// Largest coefficient of degree 7, relative to the compliance of rail and wheel, of what is taken for a polynomial of degree 6.
+/// Largest coefficient of degree 7, relative to the compliance of rail and wheel, of what is taken for a polynomial
+/// of degree 6.
 const ROUNDING: f64 = 1e-11;
 
 /// G over one stretch of time, by divided differences over [`PLACES`], each twice.
@@ -21,7 +23,8 @@ pub(super) struct Path<const P: usize> {
 }
 
 impl<const P: usize> Path<P> {
-    /// From `from` to `to`, at `speed`; `soft` is the compliance of the wheels. `None` where G is no polynomial of degree 6.
+    /// From `from` to `to`, at `speed`; `softness` is the compliance of the wheels. `None` where G is no polynomial
+    /// of degree 6.
     ///
     /// # Errors
     /// What the structures refuse.
@@ -31,12 +34,12 @@ impl<const P: usize> Path<P> {
         at: &State,
         [from, to]: [f64; 2],
         speed: f64,
-        soft: f64,
+        softness: f64,
     ) -> Result<Option<Self>, Error> {
         let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
         let m = system.elements.len();
         let (mut value, mut rate) = ([[[0.0; P]; P]; 4], [[[0.0; P]; P]; 4]);
-        let mut size = soft;
+        let mut size = softness;
         for (place, (value, rate)) in PLACES.iter().zip(value.iter_mut().zip(&mut rate)) {
             geometry.update(system, middle + half * place, &at.q, &at.force)?;
             for i in 0..m {

@@ -1,6 +1,7 @@
 //! Power series of the contact forces over one step.
 //!
-//! A(t) F = w + r w', w'' = w_g - B F: each coefficient of F needs those of w up to the next, each of w that of F two before.
+//! A(t) F = w + r w', w'' = w_g - B F: each coefficient of F needs those of w up to the next, each of w that of F two
+//! before.
 
 /// P x P, by columns.
 pub(super) type Matrix<const P: usize> = [[f64; P]; P];
@@ -26,7 +27,7 @@ pub(super) struct Contacts<const P: usize> {
     /// c of all wheels of a contact.
     pub damping: [f64; P],
     /// 1/k of all wheels of a contact; 1 beyond the contacts.
-    pub soft: [f64; P],
+    pub softness: [f64; P],
 }
 
 /// Series over (t - start)/`scale`.
@@ -50,8 +51,8 @@ impl<const P: usize> Series<P> {
         Series { scale: 1.0, order, force: [[0.0; P]; MOST + MORE], approach: [[0.0; P]; MOST + MORE + 1] }
     }
 
-    /// The series of the step that starts with the approach `start` at the rate `rate`; `compliance` are the coefficients of
-    /// G over time by `scale`. `None` where A is not positive definite.
+    /// The series of the step that starts with the approach `start` at the rate `rate`; `compliance` are the
+    /// coefficients of G over time by `scale`. `None` where A is not positive definite.
     pub fn expand(
         &mut self,
         contacts: &Contacts<P>,
@@ -60,8 +61,8 @@ impl<const P: usize> Series<P> {
         [start, rate]: [&[f64; P]; 2],
     ) -> Option<()> {
         let mut law = compliance[0];
-        for (i, soft) in contacts.soft.iter().enumerate() {
-            law[i][i] += soft;
+        for (i, softness) in contacts.softness.iter().enumerate() {
+            law[i][i] += softness;
         }
         let inverse = inverse(law)?;
         self.scale = scale;
@@ -70,10 +71,10 @@ impl<const P: usize> Series<P> {
         for (k, second) in SECOND.iter().enumerate().take(self.order) {
             let force = self.answer(contacts, compliance, &inverse, k);
             self.force[k] = force;
-            let mut fall = if k == 0 { contacts.free } else { [0.0; P] };
-            subtract(&contacts.mobile, &force, &mut fall);
+            let mut free_fall = if k == 0 { contacts.free } else { [0.0; P] };
+            subtract(&contacts.mobile, &force, &mut free_fall);
             let factor = scale * scale * second;
-            self.approach[k + 2] = fall.map(|fall| factor * fall);
+            self.approach[k + 2] = free_fall.map(|free_fall| factor * free_fall);
         }
         self.approach[self.order + 2..].fill([0.0; P]);
         for k in self.order..self.order + MORE {

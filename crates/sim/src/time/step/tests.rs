@@ -157,7 +157,8 @@ fn modal() -> Foundation {
     Foundation { structure: Some(Structure { dynamics, shapes: Box::new(Sines) }), ..Foundation::default() }
 }
 
-/// Two rigid parts on springs that are joined by a beam, their datum handed over from 1.5 to 6.5: the wheel stays between.
+/// Two rigid parts on springs that are joined by a beam, their datum handed over from 1.5 to 6.5: the wheel stays
+/// between.
 fn parts() -> Foundation {
     let cells = [2.0, 6.0].iter().enumerate().map(|(j, centre)| Cell {
         rail: j,

@@ -10,7 +10,8 @@ use crate::{Foundation, Run, Scene, Status, Structure};
 
 /// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
 const ABOVE_CONTACT: f64 = 3.0;
-/// Error of a mesh by its difference from one of half the elements, at most: order 4 in the elements' length makes it 1/15.
+/// Error of a mesh by its difference from one of half the elements, at most: order 4 in the elements' length makes it
+/// 1/15.
 const HALVED: f64 = 0.25;
 /// Errors predicted, by the tolerance, above which a fidelity is skipped: rigid, influence, modes.
 const SKIP: [f64; 3] = [1.5, 6.0, 10.0];
@@ -35,13 +36,13 @@ pub(super) struct Outcome {
 }
 
 /// The search for one structure.
-pub(super) struct Climb<'a, L: Ladder> {
+pub(super) struct Search<'a, L: Ladder> {
     scene: &'a Scene,
     finer: Scene,
     tolerance: f64,
     structure: usize,
     foundations: &'a mut [Foundation],
-    ladder: &'a mut L,
+    provider: &'a mut L,
     watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     choice: Choice,
     error: Option<L::Error>,
@@ -68,22 +69,33 @@ fn of_class<T: Copy>(table: [T; 3], rung: Rung) -> T {
     }
 }
 
-impl<'a, L: Ladder> Climb<'a, L> {
+impl<'a, L: Ladder> Search<'a, L> {
     pub fn new(
         scene: &'a Scene,
         tolerance: f64,
         structure: usize,
         foundations: &'a mut [Foundation],
-        ladder: &'a mut L,
+        provider: &'a mut L,
         watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Self {
         let mut finer = scene.clone();
         finer.accuracy = finer.accuracy.min(STEPPING * tolerance);
         let choice = Choice::new(structure, Rung::Influence, Reason::Unchecked);
-        Climb { scene, finer, tolerance, structure, foundations, ladder, watch, choice, error: None, runs: 0 }
+        Search {
+            scene,
+            finer,
+            tolerance,
+            structure,
+            foundations,
+            provider,
+            watch,
+            choice,
+            error: None,
+            runs: 0,
+        }
     }
 
-    pub fn climb(mut self, few: Option<Structure>) -> Result<Outcome, L::Error> {
+    pub fn run(mut self, few: Option<Structure>) -> Result<Outcome, L::Error> {
         let Plan { lower, higher, taken, .. } = self.plan(few);
         let mut below: Vec<Candidate> = Vec::new();
         for rung in lower {
@@ -154,7 +166,7 @@ impl<'a, L: Ladder> Climb<'a, L> {
         if few.is_none() || plan.is_enough {
             return plan;
         }
-        let more = self.ladder.modes(self.structure, MODES[MODES.len() - 1] + 1).ok().flatten();
+        let more = self.provider.modes(self.structure, MODES[MODES.len() - 1] + 1).ok().flatten();
         self.plan_by(more.as_ref(), needed)
     }
 
@@ -197,10 +209,10 @@ impl<'a, L: Ladder> Climb<'a, L> {
 
     /// Builds and runs a fidelity. One that cannot be built or started is noted.
     fn attempt(&mut self, rung: Rung) -> Option<Candidate> {
-        let built = self.ladder.foundation(self.structure, rung);
+        let built = self.provider.foundation(self.structure, rung);
         let ran = built.and_then(|foundation| {
             self.foundations[self.structure] = foundation;
-            Ok(self.ladder.run(&self.finer, self.foundations, self.watch)?)
+            Ok(self.provider.run(&self.finer, self.foundations, self.watch)?)
         });
         match ran {
             Ok(run) => {
