@@ -89,7 +89,7 @@ pub use scene::rope::{Rope, RopeEnd, Stop};
 pub use scene::rule::{Action, Compare, Condition, Fired, Rule};
 pub use scene::schedule::Schedule;
 pub use scene::structure::{Dynamics, Shapes, Structure};
-pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, NormalLaw, Wheel};
+pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, LawPoint, NormalLaw, Wheel};
 pub use select::choose::choose;
 pub use select::distance::distance;
 pub use select::fidelity::{Choice, Ladder, Reason, STEPPING, Selection, Tried};

@@ -165,6 +165,7 @@ fn placed(system: &System) -> bool {
     })
 }
 
+/// Integrates the equations of motion from `state`, where the scene puts its bodies.
 fn integrate(
     stepping: Stepping,
     system: &System,
@@ -173,67 +174,12 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    if !placed(system) {
-        equilibrate(solver, &mut state)?;
-    }
-    set(system, &mut state.v, |body| body.start_speed);
-    if system.traits.is_uneven {
-        follow_rigid_rails(solver, &mut state);
-    }
-    if !settle(solver, &mut state)? {
-        return Err(Error::NoEquilibrium { time: 0.0 });
-    }
+    begin(system, solver, &mut state)?;
     let mut samples = Samples::new(solver, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
     let mut stepper = Stepper::new(solver, state, stepping, LOCAL_PER_GLOBAL * scene.accuracy, first)?;
-    let mut status = Status::Done;
-    let mut breaks = scene.breaks();
-    let due = stepper.due()?;
-    let (mut fired, ends) = stepper.act(due)?;
-    if ends {
-        status = ended(scene, &fired);
-        breaks.clear();
-    }
-    'run: for limit in breaks {
-        while stepper.times()[1] < limit * (1.0 - 1e-14) {
-            samples.begin(&mut stepper);
-            match stepper.advance(limit) {
-                Ok(()) => {}
-                Err(Failure::TooSmall) => {
-                    status = Status::StepTooSmall(stepper.times()[0]);
-                    break 'run;
-                }
-                Err(Failure::Refused(error)) => {
-                    status = Status::Refused(stepper.times()[0], error);
-                    break 'run;
-                }
-            }
-            let [_, to] = stepper.times();
-            let due = stepper.due()?;
-            samples.take(&mut stepper)?;
-            if !due.is_empty() {
-                let ends = match stepper.act(due) {
-                    Ok((now, ends)) => {
-                        fired.extend(now);
-                        ends
-                    }
-                    Err(error) => {
-                        status = Status::Refused(to, error);
-                        break 'run;
-                    }
-                };
-                if ends {
-                    samples.close(&mut stepper)?;
-                    status = ended(scene, &fired);
-                    break 'run;
-                }
-            }
-            if watch(to).is_break() {
-                status = Status::Stopped;
-                break 'run;
-            }
-        }
-    }
+    let mut fired = Vec::new();
+    let status = advance(scene, &mut stepper, &mut samples, &mut fired, watch)?;
     Ok(Run {
         status,
         history: samples.history(),
@@ -244,6 +190,64 @@ fn integrate(
     })
 }
 
+/// Brings `state` to the start of a dynamic run: static equilibrium, unless a body is placed, with the starting speeds
+/// and the elements that act then.
+fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), Error> {
+    if !placed(system) {
+        equilibrate(solver, state)?;
+    }
+    set(system, &mut state.v, |body| body.start_speed);
+    if system.traits.is_uneven {
+        follow_rigid_rails(solver, state);
+    }
+    if settle(solver, state)? { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0 }) }
+}
+
+/// Takes steps to the end of the scene, with samples at the output times and rules that act; returns how it ended.
+fn advance(
+    scene: &Scene,
+    stepper: &mut Stepper,
+    samples: &mut Samples,
+    fired: &mut Vec<Fired>,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Status, Error> {
+    let due = stepper.due()?;
+    let (now, ends) = stepper.act(due)?;
+    fired.extend(now);
+    if ends {
+        return Ok(ended(scene, fired));
+    }
+    for limit in scene.breaks() {
+        while stepper.times()[1] < limit * (1.0 - 1e-14) {
+            samples.begin(stepper);
+            let done = stepper.advance(limit);
+            let [from, to] = stepper.times();
+            match done {
+                Ok(()) => {}
+                Err(Failure::TooSmall) => return Ok(Status::StepTooSmall(from)),
+                Err(Failure::Refused(error)) => return Ok(Status::Refused(from, error)),
+            }
+            let due = stepper.due()?;
+            samples.take(stepper)?;
+            if !due.is_empty() {
+                let (now, ends) = match stepper.act(due) {
+                    Ok(acted) => acted,
+                    Err(error) => return Ok(Status::Refused(to, error)),
+                };
+                fired.extend(now);
+                if ends {
+                    samples.close(stepper)?;
+                    return Ok(ended(scene, fired));
+                }
+            }
+            if watch(to).is_break() {
+                return Ok(Status::Stopped);
+            }
+        }
+    }
+    Ok(Status::Done)
+}
+
 /// The status after the first rule that ends the run.
 fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     let rules = &scene.actuators.rules;
@@ -251,6 +255,7 @@ fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
+/// Static equilibria at the output times.
 fn sweep(
     system: &System,
     solver: &mut Solver,

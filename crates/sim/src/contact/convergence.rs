@@ -20,6 +20,10 @@ const POOR: f64 = 0.2;
 /// The contraction of the fixed-point iteration of a stage, and the error that it may leave.
 ///
 /// Where a pass changes the stage by d and the next one by r d, what is left after it is at most d r/(1 - r).
+///
+/// # Source
+/// Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: stopping criterion of simplified
+/// Newton iterations.
 pub(crate) struct Convergence {
     /// Scales of displacements and speeds; without them passes end at rounding.
     scales: Option<[DVector<f64>; 2]>,

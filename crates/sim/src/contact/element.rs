@@ -174,7 +174,7 @@ pub(crate) enum Role {
     /// It guides across the rails.
     Guides,
     /// It joins two points by a spring.
-    Joins,
+    Spring,
     /// It has no force at rest.
     Absent,
 }

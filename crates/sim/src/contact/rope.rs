@@ -70,7 +70,7 @@ impl Element for RopeForce<'_> {
     }
 
     fn role(&self) -> Role {
-        Role::Joins
+        Role::Spring
     }
 
     fn is_released(&self, switches: &Switches) -> bool {

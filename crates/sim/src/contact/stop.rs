@@ -64,7 +64,7 @@ impl Element for StopForce<'_> {
     }
 
     fn role(&self) -> Role {
-        Role::Joins
+        Role::Spring
     }
 
     fn begins_active(&self) -> bool {

@@ -23,7 +23,7 @@ pub(crate) struct System<'a> {
     pub traits: Traits,
     /// Elements that guide across the rails, and elements that join points by springs.
     guides: Vec<usize>,
-    joints: Vec<usize>,
+    springs: Vec<usize>,
     /// The element of each rope.
     ropes: Vec<usize>,
 }
@@ -56,12 +56,12 @@ impl<'a> System<'a> {
         let mechanics = Mechanics::new(scene, foundations)?;
         let elements = ForceElement::all(&mechanics);
         let with = |role: Role| (0..elements.len()).filter(|&i| elements[i].role() == role).collect();
-        let (guides, joints) = (with(Role::Guides), with(Role::Joins));
+        let (guides, springs) = (with(Role::Guides), with(Role::Spring));
         let is_rope = |i: &usize| matches!(elements[*i], ForceElement::Rope(_));
         let ropes = (0..elements.len()).filter(is_rope).collect();
         let probes = find_probes(&mechanics, &elements);
         let traits = find_traits(&mechanics, &elements);
-        Ok(System { scene, foundations, mechanics, elements, probes, traits, guides, joints, ropes })
+        Ok(System { scene, foundations, mechanics, elements, probes, traits, guides, springs, ropes })
     }
 
     /// Number of vertical contacts, the first of all elements.
@@ -88,8 +88,8 @@ impl<'a> System<'a> {
     }
 
     /// Elements that join points by springs: ropes and stops.
-    pub fn joints(&self) -> &[usize] {
-        &self.joints
+    pub fn springs(&self) -> &[usize] {
+        &self.springs
     }
 
     /// Rope `index` of the scene with its element.

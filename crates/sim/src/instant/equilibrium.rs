@@ -20,11 +20,13 @@ const ITERATIONS: usize = 50;
 const BALANCE: f64 = 1e-6;
 
 /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the degrees of freedom of
-/// the structures to static equilibrium at `at.t`, with the other degrees of freedom where they are.
+/// the structures to static equilibrium at `at.t`; the other degrees of freedom stay.
 ///
-/// Newton's method on p + (G + Phi K^-1 Phi^T) F = R q, F = law(p), R^T F = weight and loads over the active set, in
-/// sweeps that drop contacts that pull and add contacts that are pressed; again where wheels are at other places
-/// then, or their rails' slopes turn the bodies.
+/// Unknowns are the penetrations p and forces F of the vertical contacts and the degrees of freedom q. With the active
+/// contacts, p + (G + Phi K^-1 Phi^T) F = R q + constant, F = law(p) and R^T F = weights and loads are solved by Newton's
+/// method; sweeps over the active set drop contacts that pull and add contacts that are pressed until it stays. The
+/// balance is repeated with the slopes of the rails and the places of the wheels that it leads to, and with the forces
+/// of flanges, which are relaxed by Aitken's method, until nothing changes.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
@@ -33,9 +35,9 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
     let none = Error::NoEquilibrium { time: at.t };
     at.v.fill(0.0);
     // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
-    let joints: Vec<f64> = system.joints().iter().map(|&i| at.force[i]).collect();
+    let springs: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
     let restore = |force: &mut [f64]| {
-        system.joints().iter().zip(&joints).for_each(|(&i, joint)| force[i] = *joint);
+        system.springs().iter().zip(&springs).for_each(|(&i, pull)| force[i] = *pull);
     };
     at.force.fill(0.0);
     restore(&mut at.force);
@@ -146,12 +148,16 @@ fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
 }
 
 /// Weight on degree of freedom `number` that ropes and stops take, at the forces of `at`.
-fn pull_of_joints(solver: &Solver, number: usize, at: &State) -> f64 {
+fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
     let rows = solver.geometry().rows();
-    solver.system().joints().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
+    solver.system().springs().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
 }
 
-/// Aitken's relaxation of forces that follow from themselves.
+/// Aitken's relaxation of a fixed-point iteration on forces: omega <- -omega r_old . (r - r_old) / |r - r_old|^2, r the
+/// change of the forces by one iteration.
+///
+/// # Source
+/// Irons, Tuck, Int. J. Numer. Meth. Engng 1 (1969) 275-277.
 #[derive(Default)]
 struct Relaxation {
     share: Option<f64>,
@@ -223,8 +229,9 @@ impl<'a> Balance<'a> {
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
         let mut gravity = system.mechanics.gravity.clone();
         system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), &mut gravity);
-        let mut weight =
-            DVector::from_fn(moving.len(), |j, _| gravity[moving[j]] + pull_of_joints(solver, moving[j], at));
+        let mut weight = DVector::from_fn(moving.len(), |j, _| {
+            gravity[moving[j]] + pull_of_springs(solver, moving[j], at)
+        });
         for load in &system.scene.actuators.loads {
             if let Some(j) = moving.iter().position(|&k| system.mechanics.loaded(load) == Some(k)) {
                 weight[j] += load.value.at(at.t);

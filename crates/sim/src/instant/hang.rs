@@ -20,18 +20,18 @@ const SWEEPS: usize = 100;
 /// [`Error::NoEquilibrium`] where the tensions do not come to rest, and what [`balance_wheels`] refuses.
 pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
-    if system.joints().is_empty() {
+    if system.springs().is_empty() {
         return balance_wheels(solver, at);
     }
     let hanging = hanging(system);
-    let mut before = vec![f64::INFINITY; system.joints().len()];
+    let mut before = vec![f64::INFINITY; system.springs().len()];
     let mut places = at.q.clone();
     at.v.fill(0.0);
     for _ in 0..SWEEPS {
         // the carriers have moved: a rope that fell slack would say nothing
         place_below_ropes(solver, at)?;
         rest_hanging(solver, &hanging, at)?;
-        let tensions: Vec<f64> = system.joints().iter().map(|&i| at.force[i]).collect();
+        let tensions: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
         let scale = tensions.iter().fold(weight(solver), |max, force| max.max(force.abs()));
         let pairs = tensions.iter().zip(&before);
         let moved = pairs.fold(0.0_f64, |max, (now, then)| max.max((now - then).abs()));
@@ -53,7 +53,7 @@ fn weight(solver: &Solver) -> f64 {
 /// Newton's method with step halving on the potential of the `hanging` degrees of freedom, which is convex; sets the
 /// forces of the links.
 fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<(), Error> {
-    let mut potential = joints_at(solver, hanging, at)?;
+    let mut potential = springs_at(solver, hanging, at)?;
     for _ in 0..ITERATIONS {
         let Some(step) = descent(solver, hanging, at) else { break };
         let start = at.q.clone();
@@ -62,7 +62,7 @@ fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Resul
             for (&number, d) in hanging.iter().zip(step.iter()) {
                 at.q[number] = start[number] + share * d;
             }
-            let now = joints_at(solver, hanging, at)?;
+            let now = springs_at(solver, hanging, at)?;
             if now <= potential || share < 1e-6 {
                 potential = now;
                 break;
@@ -74,16 +74,16 @@ fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Resul
             break;
         }
     }
-    solver.settle_joints(at);
+    solver.settle_springs(at);
     Ok(())
 }
 
 /// Potential of weight, loads and links at `at`, whose link forces it sets.
-fn joints_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<f64, Error> {
+fn springs_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<f64, Error> {
     let system = solver.system();
     solver.update(at)?;
     let mut potential = -hanging.iter().map(|&k| static_load(solver, k, at.t) * at.q[k]).sum::<f64>();
-    for &i in system.joints() {
+    for &i in system.springs() {
         let hold = &solver.geometry().local()[i].spring;
         let p = solver.geometry().approach(i, &at.q).max(0.0);
         at.force[i] = hold.stiffness * p;
@@ -107,7 +107,7 @@ fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64
     let mut force = DVector::from_fn(size, |r, _| static_load(solver, hanging[r], at.t));
     let mut matrix = DMatrix::zeros(size, size);
     let mut row = vec![0.0; n];
-    for &i in system.joints() {
+    for &i in system.springs() {
         let (hold, own) = (&solver.geometry().local()[i].spring, solver.geometry().rows().approach_row(i));
         if at.force[i] <= 0.0 {
             continue;
@@ -165,7 +165,7 @@ pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(
 /// Degrees of freedom of the hanging bodies that links reach.
 fn hanging(system: &System) -> Vec<usize> {
     let is_joined = |b: usize| {
-        let mut points = system.joints().iter().filter_map(|&i| system.elements[i].points());
+        let mut points = system.springs().iter().filter_map(|&i| system.elements[i].points());
         points.any(|points| points.is_on(b))
     };
     let bodies = system.scene.actuators.hung.iter();

@@ -17,9 +17,9 @@ use crate::numerics::complementarity::complementarity;
 /// What the rails refuse.
 pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
     let count = solver.system().verticals();
-    if !solver.system().joints().is_empty() {
+    if !solver.system().springs().is_empty() {
         solver.update(at)?;
-        solver.settle_joints(at);
+        solver.settle_springs(at);
     }
     guess_active(solver, at)?;
     for _ in 0..4 * count + 8 {

@@ -56,7 +56,7 @@ impl Books {
     pub fn close_step(&mut self, solver: &Solver, to: &State, after: Stored) {
         self.turn_page(solver, to, after);
         let mut elastic = after.contact + after.structure + after.ropes;
-        if !solver.system().joints().is_empty() {
+        if !solver.system().springs().is_empty() {
             elastic = elastic.max(after.kinetic);
         }
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);

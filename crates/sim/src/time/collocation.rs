@@ -24,16 +24,35 @@ pub(crate) struct Collocation {
     responses: Vec<Responses>,
     /// The contacts at the nodes.
     geometries: Vec<Geometry>,
-    /// What a force at a node does: M^-1 R^T, s x m x n; R M^-1 R^T where rows are the same everywhere, m x m.
+    projection: NodeProjection,
+    loads: NodeLoads,
+    problem: NodeProblem,
+    states: Vec<State>,
+    powers: Vec<Exchanged>,
+}
+
+/// What a force at a node does.
+struct NodeProjection {
+    /// M^-1 R^T, s x m x n.
     spread: Vec<f64>,
+    /// R M^-1 R^T where rows are the same everywhere, m x m.
     mobile: Vec<f64>,
-    is_spread: bool,
-    /// Loads by M^-1 at the nodes, s x n: without contacts, and with them; and at the start.
-    weight: Vec<DVector<f64>>,
-    load: Vec<DVector<f64>>,
-    load_start: DVector<f64>,
+    is_filled: bool,
+}
+
+/// Loads by M^-1, n each.
+struct NodeLoads {
+    /// At the nodes without forces of contacts, and with them.
+    free: Vec<DVector<f64>>,
+    whole: Vec<DVector<f64>>,
+    /// At the start of the step, with the forces of contacts.
+    start: DVector<f64>,
     /// Whether loads without contacts never change.
     is_steady: bool,
+}
+
+/// The linear system of the forces at all nodes.
+struct NodeProblem {
     /// Free approach and its rate as the damper feels it at (node, element), and the effect of a force at another.
     approach: Vec<f64>,
     rate: Vec<f64>,
@@ -41,9 +60,8 @@ pub(crate) struct Collocation {
     rate_effect: Vec<f64>,
     matrix: Vec<f64>,
     force: Vec<f64>,
+    /// Places of the unknown forces among all.
     index: Vec<usize>,
-    states: Vec<State>,
-    powers: Vec<Exchanged>,
 }
 
 /// Responses of every degree of freedom over a step of length `h`.
@@ -103,20 +121,26 @@ impl Collocation {
             modes,
             responses: vec![Responses::new(&nodes, n)],
             geometries: vec![Geometry::new(system); s],
-            spread: vec![0.0; size * n],
-            mobile: vec![0.0; m * m],
-            is_spread: false,
-            weight: vec![DVector::zeros(n); s],
-            load: vec![DVector::zeros(n); s],
-            load_start: DVector::zeros(n),
-            is_steady: system.scene.actuators.loads.is_empty() && !drags,
-            approach: vec![0.0; size],
-            rate: vec![0.0; size],
-            effect: vec![0.0; size * size],
-            rate_effect: vec![0.0; size * size],
-            matrix: vec![0.0; size * size],
-            force: vec![0.0; size],
-            index: Vec::with_capacity(size),
+            projection: NodeProjection {
+                spread: vec![0.0; size * n],
+                mobile: vec![0.0; m * m],
+                is_filled: false,
+            },
+            loads: NodeLoads {
+                free: vec![DVector::zeros(n); s],
+                whole: vec![DVector::zeros(n); s],
+                start: DVector::zeros(n),
+                is_steady: system.scene.actuators.loads.is_empty() && !drags,
+            },
+            problem: NodeProblem {
+                approach: vec![0.0; size],
+                rate: vec![0.0; size],
+                effect: vec![0.0; size * size],
+                rate_effect: vec![0.0; size * size],
+                matrix: vec![0.0; size * size],
+                force: vec![0.0; size],
+                index: Vec::with_capacity(size),
+            },
             states: vec![start.clone(); s],
             powers: vec![Exchanged::default(); s],
             nodes,
@@ -155,18 +179,19 @@ impl Collocation {
         self.set_step(h);
         let (s, n, m) = (self.count(), to.q.len(), solver.system().elements.len());
         for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
-            self.load_start[r] = from.a[r] + omega * (2.0 * zeta * from.v[r] + omega * from.q[r]);
+            self.loads.start[r] = from.a[r] + omega * (2.0 * zeta * from.v[r] + omega * from.q[r]);
         }
         for a in 0..s {
             let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
             self.states[a].t = t;
             self.geometries[a].update(solver.system(), t, &from.q, &from.force)?;
-            if !(self.is_spread && self.is_steady) {
-                self.weight[a].copy_from(solver.free_accelerations(t));
+            if !(self.projection.is_filled && self.loads.is_steady) {
+                self.loads.free[a].copy_from(solver.free_accelerations(t));
             }
-            if !(self.is_spread && solver.system().traits.has_constant_rows) {
+            if !(self.projection.is_filled && solver.system().traits.has_constant_rows) {
                 let rows = self.geometries[a].rows().approach.chunks_exact(n.max(1));
-                for (row, spread) in rows.zip(self.spread[a * m * n..].chunks_exact_mut(n.max(1))) {
+                for (row, spread) in rows.zip(self.projection.spread[a * m * n..].chunks_exact_mut(n.max(1)))
+                {
                     solver.apply_inverse(row, spread);
                 }
             }
@@ -176,7 +201,7 @@ impl Collocation {
         } else {
             self.fill_responses(solver, from);
         }
-        self.is_spread = true;
+        self.projection.is_filled = true;
         if !self.solve(solver, from) {
             return Ok(false);
         }
@@ -216,28 +241,28 @@ impl Collocation {
         let size = s * m;
         for a in 0..s {
             for r in 0..n {
-                let [q, v] = self.response(&self.weight, from, a, r);
+                let [q, v] = self.response(&self.loads.free, from, a, r);
                 (self.states[a].q[r], self.states[a].v[r]) = (q, v);
             }
             let geometry = &self.geometries[a];
             for i in 0..m {
                 let (row, rate_row) = (geometry.rows().approach_row(i), geometry.rows().rate_row(i));
-                self.approach[a * m + i] =
+                self.problem.approach[a * m + i] =
                     geometry.rows().approach_offset[i] + dot(row, self.states[a].q.as_slice());
-                self.rate[a * m + i] =
+                self.problem.rate[a * m + i] =
                     geometry.rows().rate_offset[i] + dot(rate_row, self.states[a].v.as_slice());
                 for b in 0..s {
                     let responses = &self.responses[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
                     for j in 0..m {
-                        let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
+                        let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
                         let (mut q, mut v) = (0.0, 0.0);
                         for (r, ([by_q, by_v], spread)) in responses.iter().zip(spread).enumerate() {
                             q += row[r] * by_q * spread;
                             v += rate_row[r] * by_v * spread;
                         }
                         let compliance_here = if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
-                        self.effect[(a * m + i) * size + b * m + j] = compliance_here + q;
-                        self.rate_effect[(a * m + i) * size + b * m + j] = v;
+                        self.problem.effect[(a * m + i) * size + b * m + j] = compliance_here + q;
+                        self.problem.rate_effect[(a * m + i) * size + b * m + j] = v;
                     }
                 }
             }
@@ -249,10 +274,11 @@ impl Collocation {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let (size, h) = (s * m, self.responses[0].h);
         let rows = &self.geometries[0].rows().approach;
-        if !self.is_spread {
+        if !self.projection.is_filled {
             for i in 0..m {
                 for j in 0..m {
-                    self.mobile[i * m + j] = dot(&rows[i * n..(i + 1) * n], &self.spread[j * n..(j + 1) * n]);
+                    self.projection.mobile[i * m + j] =
+                        dot(&rows[i * n..(i + 1) * n], &self.projection.spread[j * n..(j + 1) * n]);
                 }
             }
         }
@@ -261,14 +287,14 @@ impl Collocation {
             let start = self.geometries[0].rows().approach_offset[i] + dot(row, from.q.as_slice());
             let rate = dot(row, from.v.as_slice());
             for a in 0..s {
-                self.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
-                self.rate[a * m + i] = rate;
+                self.problem.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
+                self.problem.rate[a * m + i] = rate;
             }
             for b in 0..s {
-                let weight = dot(row, self.weight[b].as_slice());
+                let weight = dot(row, self.loads.free[b].as_slice());
                 for a in 0..s {
-                    self.approach[a * m + i] += h * h * self.nodes.a2[a * s + b] * weight;
-                    self.rate[a * m + i] += h * self.nodes.a[a * s + b] * weight;
+                    self.problem.approach[a * m + i] += h * h * self.nodes.a2[a * s + b] * weight;
+                    self.problem.rate[a * m + i] += h * self.nodes.a[a * s + b] * weight;
                 }
             }
         }
@@ -281,8 +307,9 @@ impl Collocation {
                     let line = (a * m + i) * size + b * m;
                     for j in 0..m {
                         let compliance_here = if a == b { compliance[i * m + j] } else { 0.0 };
-                        self.effect[line + j] = compliance_here + by_q * self.mobile[i * m + j];
-                        self.rate_effect[line + j] = by_v * self.mobile[i * m + j];
+                        self.problem.effect[line + j] =
+                            compliance_here + by_q * self.projection.mobile[i * m + j];
+                        self.problem.rate_effect[line + j] = by_v * self.projection.mobile[i * m + j];
                     }
                 }
             }
@@ -292,42 +319,44 @@ impl Collocation {
     /// F/k + p + (c/k) r = 0 at every node, p = approach - effect F and r the rate of p or of the wheel.
     fn solve(&mut self, solver: &Solver, from: &State) -> bool {
         let system = solver.system();
-        let (s, m, size) = (self.count(), system.elements.len(), self.force.len());
-        self.index.clear();
-        self.index.extend((0..size).filter(|at| solver.active().has(at % m)));
-        let count = self.index.len();
-        self.force.fill(0.0);
-        for (line, &at) in self.index.iter().enumerate() {
+        let (s, m, size) = (self.count(), system.elements.len(), self.problem.force.len());
+        self.problem.index.clear();
+        self.problem.index.extend((0..size).filter(|at| solver.active().has(at % m)));
+        let count = self.problem.index.len();
+        self.problem.force.fill(0.0);
+        for (line, &at) in self.problem.index.iter().enumerate() {
             let (a, i) = (at / m, at % m);
             let law = system.law(i);
             let ratio = law.damping / law.stiffness;
             let memory = solver.remembers(i);
             let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.responses[0].h;
-            let mut right = self.approach[at];
+            let mut right = self.problem.approach[at];
             if memory {
-                right += (0..s).map(|l| by(l) * (self.approach[l * m + i] - from.p[i])).sum::<f64>();
+                right += (0..s).map(|l| by(l) * (self.problem.approach[l * m + i] - from.p[i])).sum::<f64>();
             } else {
-                right += ratio * self.rate[at];
+                right += ratio * self.problem.rate[at];
             }
-            for (column, &other) in self.index.iter().enumerate() {
-                let mut entry = self.effect[at * size + other];
+            for (column, &other) in self.problem.index.iter().enumerate() {
+                let mut entry = self.problem.effect[at * size + other];
                 if memory {
-                    entry += (0..s).map(|l| by(l) * self.effect[(l * m + i) * size + other]).sum::<f64>();
+                    entry +=
+                        (0..s).map(|l| by(l) * self.problem.effect[(l * m + i) * size + other]).sum::<f64>();
                 } else {
-                    entry += ratio * self.rate_effect[at * size + other];
+                    entry += ratio * self.problem.rate_effect[at * size + other];
                 }
-                self.matrix[line * count + column] = entry;
+                self.problem.matrix[line * count + column] = entry;
             }
-            self.matrix[line * count + line] += 1.0 / (law.stiffness * system.mechanics.groups[i].count());
-            self.force[line] = right;
+            self.problem.matrix[line * count + line] +=
+                1.0 / (law.stiffness * system.mechanics.groups[i].count());
+            self.problem.force[line] = right;
         }
-        if !solve_general(&mut self.matrix[..count * count], &mut self.force[..count]) {
+        if !solve_general(&mut self.problem.matrix[..count * count], &mut self.problem.force[..count]) {
             return false;
         }
         // Spread over all elements, from the last on: an index never lies before its line.
         for line in (0..count).rev() {
-            let value = std::mem::take(&mut self.force[line]);
-            self.force[self.index[line]] = value;
+            let value = std::mem::take(&mut self.problem.force[line]);
+            self.problem.force[self.problem.index[line]] = value;
         }
         true
     }
@@ -342,32 +371,33 @@ impl Collocation {
     ) -> Result<bool, Error> {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let size = s * m;
-        for (b, (load, weight)) in self.load.iter_mut().zip(&self.weight).enumerate() {
+        for (b, (load, weight)) in self.loads.whole.iter_mut().zip(&self.loads.free).enumerate() {
             load.copy_from(weight);
             for j in 0..m {
-                let spread = &self.spread[(b * m + j) * n..(b * m + j + 1) * n];
-                let force = self.force[b * m + j];
+                let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
+                let force = self.problem.force[b * m + j];
                 load.iter_mut().zip(spread).for_each(|(load, spread)| *load -= spread * force);
             }
         }
         for at in 0..size {
-            self.approach[at] -= dot(&self.effect[at * size..(at + 1) * size], &self.force);
-            self.states[at / m].p[at % m] = self.approach[at];
-            self.states[at / m].force[at % m] = self.force[at];
+            self.problem.approach[at] -=
+                dot(&self.problem.effect[at * size..(at + 1) * size], &self.problem.force);
+            self.states[at / m].p[at % m] = self.problem.approach[at];
+            self.states[at / m].force[at % m] = self.problem.force[at];
         }
         let h = self.responses[0].h;
         for a in 0..s {
             for r in 0..n {
-                let [q, v] = self.response(&self.load, from, a, r);
+                let [q, v] = self.response(&self.loads.whole, from, a, r);
                 let [omega, zeta] = self.modes[r];
                 let state = &mut self.states[a];
                 (state.q[r], state.v[r]) = (q, v);
-                state.a[r] = self.load[a][r] - omega * (2.0 * zeta * v + omega * q);
+                state.a[r] = self.loads.whole[a][r] - omega * (2.0 * zeta * v + omega * q);
             }
             let state = &mut self.states[a];
             for i in 0..m {
-                let rates =
-                    (0..s).map(|l| self.nodes.rate[a * s + l] * (self.approach[l * m + i] - from.p[i]));
+                let rates = (0..s)
+                    .map(|l| self.nodes.rate[a * s + l] * (self.problem.approach[l * m + i] - from.p[i]));
                 state.p_rate[i] = rates.sum::<f64>() / h;
             }
             self.geometries[a].update_rail_slope(solver.system(), &state.q, &state.force);
@@ -377,7 +407,7 @@ impl Collocation {
         if self.nodes.c[s - 1] < 1.0 {
             to.t = (from.t + h).min(limit.next_down());
             for r in 0..n {
-                let [q, v] = self.response(&self.load, from, s, r);
+                let [q, v] = self.response(&self.loads.whole, from, s, r);
                 (to.q[r], to.v[r]) = (q, v);
             }
             if !solver.instant(to)? {
@@ -399,7 +429,7 @@ impl Collocation {
             let powers = mode.forced(share);
             let (q0, v0) = (from.q[r], from.v[r]);
             let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
-            for (b, load) in self.load.iter().enumerate() {
+            for (b, load) in self.loads.whole.iter().enumerate() {
                 q += load[r] * self.nodes.load(b, &powers, 0);
                 v += load[r] * self.nodes.load(b, &powers, 1);
                 now += load[r] * self.nodes.value(b, share);
@@ -412,9 +442,9 @@ impl Collocation {
     /// Error of q and v of degree of freedom `r`: what the loads of the last node add to those of a degree less.
     pub fn error(&self, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
-        let mut jump = self.load[s - 1][r] - self.nodes.ahead[0] * self.load_start[r];
+        let mut jump = self.loads.whole[s - 1][r] - self.nodes.ahead[0] * self.loads.start[r];
         for b in 1..s {
-            jump -= self.nodes.ahead[b] * self.load[b - 1][r];
+            jump -= self.nodes.ahead[b] * self.loads.whole[b - 1][r];
         }
         self.responses[0].forced[(s * s + s - 1) * n + r].map(|response| response * jump)
     }

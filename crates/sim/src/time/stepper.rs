@@ -20,7 +20,7 @@ use crate::instant::settle::settle;
 use crate::instant::uneven::pass_corners;
 use crate::mechanics::state::State;
 use crate::record::energy::stored;
-use crate::{Audit, Error, Fired, Stepping};
+use crate::{Audit, Error, Fired, Stepping, Stored};
 
 /// How often a step is tried again to end at a break or at a switch of elements.
 const REFINEMENTS: usize = 40;
@@ -383,7 +383,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     }
 
     /// Energy stored at the end of the step.
-    fn stored(&self) -> crate::Stored {
+    fn stored(&self) -> Stored {
         stored(self.step.system(), self.step.solver.geometry(), &self.step.to)
     }
 

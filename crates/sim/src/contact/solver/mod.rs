@@ -17,6 +17,7 @@ use super::geometry::Geometry;
 use super::projection::Projection;
 use super::system::System;
 use crate::mechanics::state::State;
+use crate::numerics::dense::along;
 use crate::{Action, Error};
 
 /// Compliance of a rail, relative to that of the wheel, below which it counts as rigid.
@@ -170,8 +171,8 @@ impl<'a> Solver<'a> {
     }
 
     /// Finds which ropes and stops act at `at`, where the geometry is.
-    pub fn settle_joints(&mut self, at: &State) {
-        for &i in self.system.joints() {
+    pub fn settle_springs(&mut self, at: &State) {
+        for &i in self.system.springs() {
             let spring = &self.geometry.local()[i].spring;
             let margin = spring.margin(self.geometry.approach(i, &at.q), self.geometry.rate(i, &at.v));
             let is_released = self.system.elements[i].is_released(self.geometry.switches());
@@ -213,7 +214,7 @@ impl<'a> Solver<'a> {
     /// Rate at which wheel and unloaded rail approach each other at vertical contact `i`.
     pub fn approach_rate(&self, i: usize, at: &State) -> f64 {
         let rows = self.geometry.rows();
-        let own = crate::numerics::dense::along(&rows.approach, i, at.v.as_slice());
+        let own = along(&rows.approach, i, at.v.as_slice());
         if !self.system.traits.is_uneven {
             return own;
         }

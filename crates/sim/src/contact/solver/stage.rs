@@ -14,6 +14,8 @@
 //! the problem; forces; elements that begin to touch, which repeat the pass; accelerations; displacements, speeds and
 //! penetrations of the state; heights of the wheels.
 
+use nalgebra::DVector;
+
 use super::{PASSES, RowKind, Solver};
 use crate::Error;
 use crate::mechanics::state::{Known, State};
@@ -34,14 +36,14 @@ enum Pass {
 impl Solver<'_> {
     /// Lets stages, compliance and forces err as far as steps of the relative error `tolerance` allow, beside the
     /// scales of displacements and speeds; `radius` is that of the smallest wheel.
-    pub fn set_accuracy(&mut self, tolerance: f64, scales: [&nalgebra::DVector<f64>; 2], radius: f64) {
+    pub fn set_accuracy(&mut self, tolerance: f64, scales: [&DVector<f64>; 2], radius: f64) {
         self.convergence.set_accuracy(tolerance, scales);
         self.geometry.set_accuracy(tolerance, radius);
     }
 
     /// Begins a step at `from`: chooses the coordinates of hanging bodies, and keeps nothing of earlier stages.
     pub fn begin_step(&mut self, from: &State) {
-        if !self.system.joints().is_empty() {
+        if !self.system.springs().is_empty() {
             let (system, active) = (self.system, &self.active);
             let is_taut = |rope: usize| system.rope(rope).is_some_and(|(i, _)| active.has(i));
             self.charts.begin(system, self.geometry.switches(), is_taut, from);
@@ -62,7 +64,7 @@ impl Solver<'_> {
 
     /// Speeds and accelerations of the stage that ended at `at` into `rates`, those of hanging bodies in their
     /// coordinates.
-    pub fn end_stage(&mut self, at: &State, rates: [&mut nalgebra::DVector<f64>; 2]) {
+    pub fn end_stage(&mut self, at: &State, rates: [&mut DVector<f64>; 2]) {
         self.charts.set_rates(self.system, self.geometry.switches(), at, rates);
     }
 

@@ -108,32 +108,42 @@ struct Crossing<'a, const P: usize> {
     system: &'a System<'a>,
     geometry: Geometry,
     state: State,
-    /// The body whose travel is prescribed, and its speed.
-    root: Option<usize>,
-    speed: f64,
-    /// Places of the wheels at time 0.
-    places: Vec<f64>,
+    travel: UniformTravel,
     contacts: Contacts<P>,
-    /// R by columns of degrees of freedom; M^-1 R^T by columns of contacts; M^-1 f.
-    rows: Matrix<P>,
-    spread: Matrix<P>,
-    free_fall: [f64; P],
-    constant: [f64; P],
-    /// M, and the impulse of the degrees of freedom by the travel.
-    mass: Matrix<P>,
-    weight: [f64; P],
-    travel_inertia: [f64; P],
+    matrices: Matrices<P>,
     q: [f64; P],
     v: [f64; P],
     series: Series<P>,
     /// Length of the last step.
     length: f64,
     audit: Audit,
-    /// Largest approach so far.
-    largest_approach: f64,
-    /// Largest force so far.
-    largest_force: f64,
     energy_at_start: f64,
+    /// Largest approach and largest force so far.
+    largest_approach: f64,
+    largest_force: f64,
+}
+
+/// The uniform travel of a crossing.
+struct UniformTravel {
+    /// The body whose travel is prescribed, and its speed.
+    root: Option<usize>,
+    speed: f64,
+    /// Places of the wheels at time 0.
+    places: Vec<f64>,
+}
+
+/// What stays the same over a crossing, by the degrees of freedom.
+struct Matrices<const P: usize> {
+    /// R by columns of degrees of freedom, and the offset of the approaches.
+    rows: Matrix<P>,
+    constant: [f64; P],
+    /// M^-1 R^T by columns of contacts; M^-1 f.
+    spread: Matrix<P>,
+    free_fall: [f64; P],
+    /// M, the weights f, and the momentum of the degrees of freedom by the travel.
+    mass: Matrix<P>,
+    weight: [f64; P],
+    travel_inertia: [f64; P],
 }
 
 impl<'a, const P: usize> Crossing<'a, P> {
@@ -182,29 +192,30 @@ impl<'a, const P: usize> Crossing<'a, P> {
         {
             travel_inertia[number] += inertia;
         }
+        let constant = pad(&geometry.rows().approach_offset);
         Ok(Crossing {
-            places: geometry.places().x.clone(),
-            constant: pad(&geometry.rows().approach_offset),
-            weight: pad(system.mechanics.gravity.as_slice()),
+            travel: UniformTravel { root, speed, places: geometry.places().x.clone() },
+            matrices: Matrices {
+                rows,
+                constant,
+                spread,
+                free_fall,
+                mass,
+                weight: pad(system.mechanics.gravity.as_slice()),
+                travel_inertia,
+            },
             q: pad(start.q.as_slice()),
             v: pad(start.v.as_slice()),
             series: Series::new(order(system.scene.accuracy)),
             contacts: Contacts { mobile, free, ratio, damping, softness },
             state: start.clone(),
             audit: Audit::default(),
+            energy_at_start: 0.0,
             length: 0.0,
             largest_approach: 0.0,
             largest_force: 0.0,
-            energy_at_start: 0.0,
             system,
             geometry,
-            root,
-            speed,
-            rows,
-            spread,
-            free_fall,
-            mass,
-            travel_inertia,
         })
     }
 
@@ -229,7 +240,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         }
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
         for end in self.breaks() {
-            let path = Path::new(system, &mut self.geometry, &self.state, [t, end], self.speed, softness)?;
+            let path =
+                Path::new(system, &mut self.geometry, &self.state, [t, end], self.travel.speed, softness)?;
             let Some(path) = path else { return Ok(None) };
             if t == 0.0 && !(placed || self.rest(&path.about(0.0, 1.0)[0])) {
                 return Ok(None);
@@ -301,11 +313,13 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let system = self.system;
         let end = system.scene.end;
         let mut times = vec![end];
-        for (wheel, x) in system.mechanics.wheels.iter().zip(&self.places).filter(|_| self.speed != 0.0) {
+        for (wheel, x) in
+            system.mechanics.wheels.iter().zip(&self.travel.places).filter(|_| self.travel.speed != 0.0)
+        {
             let contact = &system.scene.contacts[wheel.contact];
             let foundation = &system.foundations[contact.structure];
-            let places = foundation.breaks_between(contact.rail, *x, x + self.speed * end);
-            times.extend(places.map(|place| (place - x) / self.speed));
+            let places = foundation.breaks_between(contact.rail, *x, x + self.travel.speed * end);
+            times.extend(places.map(|place| (place - x) / self.travel.speed));
         }
         let sliver = 1e-12 * end;
         times.retain(|t| *t > sliver && (*t < end - sliver || *t == end));
@@ -319,8 +333,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
 
     /// constant + R q, or R v.
     fn approach(&self, freedoms: &[f64; P], with_constant: bool) -> [f64; P] {
-        let mut sum = if with_constant { self.constant } else { [0.0; P] };
-        for (column, q) in self.rows.iter().zip(freedoms) {
+        let mut sum = if with_constant { self.matrices.constant } else { [0.0; P] };
+        for (column, q) in self.matrices.rows.iter().zip(freedoms) {
             for (sum, entry) in sum.iter_mut().zip(column) {
                 *sum += entry * q;
             }
@@ -340,12 +354,12 @@ impl<'a, const P: usize> Crossing<'a, P> {
             }
             matrix[i * size + i] += self.contacts.softness[i];
             for k in 0..n {
-                matrix[i * size + m + k] = -self.rows[k][i];
-                matrix[(m + k) * size + i] = self.rows[k][i];
+                matrix[i * size + m + k] = -self.matrices.rows[k][i];
+                matrix[(m + k) * size + i] = self.matrices.rows[k][i];
             }
-            right[i] = self.constant[i];
+            right[i] = self.matrices.constant[i];
         }
-        right[m..].copy_from_slice(&self.weight[..n]);
+        right[m..].copy_from_slice(&self.matrices.weight[..n]);
         if !solve_general(&mut matrix, &mut right) || right.iter().any(|x| !x.is_finite()) {
             return false;
         }
@@ -384,10 +398,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
     fn moved(&self, s: f64) -> [[f64; P]; 2] {
         let time = s * self.series.scale;
         let [once, twice] = self.series.impulse(s);
-        let mut q = std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.free_fall[k]));
-        let mut v = std::array::from_fn(|k| self.v[k] + time * self.free_fall[k]);
-        subtract(&self.spread, &twice, &mut q);
-        subtract(&self.spread, &once, &mut v);
+        let mut q =
+            std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.matrices.free_fall[k]));
+        let mut v = std::array::from_fn(|k| self.v[k] + time * self.matrices.free_fall[k]);
+        subtract(&self.matrices.spread, &twice, &mut q);
+        subtract(&self.matrices.spread, &once, &mut v);
         [q, v]
     }
 
@@ -398,9 +413,10 @@ impl<'a, const P: usize> Crossing<'a, P> {
         for (i, p) in p.iter().enumerate() {
             elastic += 0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
         }
-        for (k, column) in self.mass.iter().enumerate() {
+        for (k, column) in self.matrices.mass.iter().enumerate() {
             let momentum: f64 = column.iter().zip(v).map(|(entry, v)| entry * v).sum();
-            rest += (0.5 * momentum + self.speed * self.travel_inertia[k]) * v[k] - self.weight[k] * q[k];
+            rest += (0.5 * momentum + self.travel.speed * self.matrices.travel_inertia[k]) * v[k]
+                - self.matrices.weight[k] * q[k];
         }
         [elastic + rest, elastic]
     }
@@ -451,12 +467,12 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let [look] = self.series.at([s]);
         let [q, v] = self.moved(s);
         self.fill(t, &q, &v, &look);
-        if self.root.is_none() {
+        if self.travel.root.is_none() {
             return;
         }
         // Half of dG/dx by the forces: its product with them is the force along the rail of all wheels.
         let mut slope = [0.0; P];
-        let mut power = -0.5 / (self.series.scale * self.speed);
+        let mut power = -0.5 / (self.series.scale * self.travel.speed);
         for (k, matrix) in compliance.iter().enumerate().skip(1) {
             let scaled = look.force.map(|force| force * power * k as f64);
             subtract(matrix, &scaled, &mut slope);
@@ -469,8 +485,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
     fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], look: &Values<P>) {
         let (p, p_rate) = self.penetration(look);
         let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
-        let mut a = self.free_fall;
-        subtract(&self.spread, &look.force, &mut a);
+        let mut a = self.matrices.free_fall;
+        subtract(&self.matrices.spread, &look.force, &mut a);
         self.state.t = t;
         self.state.q.as_mut_slice().copy_from_slice(&q[..n]);
         self.state.v.as_mut_slice().copy_from_slice(&v[..n]);
@@ -478,7 +494,13 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.state.p.copy_from_slice(&p[..m]);
         self.state.p_rate.copy_from_slice(&p_rate[..m]);
         self.state.force.copy_from_slice(&look.force[..m]);
-        self.geometry.move_uniformly(self.system, &self.places, self.speed, t, self.root);
+        self.geometry.move_uniformly(
+            self.system,
+            &self.travel.places,
+            self.travel.speed,
+            t,
+            self.travel.root,
+        );
     }
 
     fn fill_compliance(&mut self, compliance: &Matrix<P>) {
