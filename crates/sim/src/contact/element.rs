@@ -166,6 +166,27 @@ pub(crate) trait Element {
     }
 }
 
+/// Answers of an element that never change, kept at hand for the innermost loops.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Fixed {
+    pub feels_rates: bool,
+    pub has_memory: bool,
+    pub is_followed: bool,
+    pub is_tangential: bool,
+}
+
+impl Fixed {
+    /// The answers of `element`.
+    pub fn of(element: &dyn Element) -> Self {
+        Fixed {
+            feels_rates: element.feels_rates(),
+            has_memory: element.has_memory(),
+            is_followed: element.is_followed(),
+            is_tangential: element.is_tangential(),
+        }
+    }
+}
+
 /// Part of an element in static equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {

@@ -242,7 +242,7 @@ impl Problem {
     /// Residual of the laws under `force`, by W and Y; returns its largest entry.
     fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
         for i in 0..force.len() {
-            if !self.idle[i] || system.elements[i].is_followed() {
+            if !self.idle[i] || system.fixed[i].is_followed {
                 self.residuals.reached[i] =
                     [self.effects.penetration(i, force), self.effects.rate_under(i, force)];
             }

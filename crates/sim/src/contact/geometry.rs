@@ -147,9 +147,9 @@ impl Geometry {
     pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         self.places.move_to(mechanics, t, q);
-        for (element, local) in system.elements.iter().zip(&mut self.local) {
-            if let Some(fraction) = element.fraction(mechanics, &self.places) {
-                local.fraction = fraction;
+        if system.traits.has_parts {
+            for (element, local) in system.elements.iter().zip(&mut self.local) {
+                local.fraction = element.fraction(mechanics, &self.places).unwrap_or(local.fraction);
             }
         }
         self.rails.update(mechanics, &system.probes, &self.places.x)?;
@@ -195,7 +195,7 @@ impl Geometry {
                     .row(at, value, slope)
                     .map_err(|source| Error::Compliance { structure: s, source })?;
                 let span = entry.element * n + range.start..entry.element * n + range.end;
-                let is_along = system.elements[entry.element].is_tangential();
+                let is_along = system.fixed[entry.element].is_tangential;
                 let rows = if is_along { &mut self.rows.rate } else { &mut self.rows.approach };
                 for (target, shape) in rows[span.clone()].iter_mut().zip(value.iter()) {
                     *target -= entry.weight * shape;
@@ -230,9 +230,9 @@ impl Geometry {
     /// of the wheel's x.
     fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
         let n = system.mechanics.dofs;
-        for (i, element) in system.elements.iter().enumerate() {
+        for (i, fixed) in system.fixed.iter().enumerate() {
             let span = i * n..(i + 1) * n;
-            let own = if element.is_tangential() { &self.rows.rate } else { &self.rows.approach };
+            let own = if fixed.is_tangential { &self.rows.rate } else { &self.rows.approach };
             self.rows.force[span.clone()].copy_from_slice(&own[span]);
         }
         if !system.mechanics.moves_freely {

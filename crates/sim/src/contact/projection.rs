@@ -73,10 +73,10 @@ impl Projection {
             }
         }
         let spread = &self.spread[..self.answer.len() * count];
-        for (i, element) in system.elements.iter().enumerate() {
+        for (i, fixed) in system.fixed.iter().enumerate() {
             let span = i * count..(i + 1) * count;
             product(rows.approach_row(i), spread, &mut self.approach[span.clone()]);
-            if element.feels_rates() {
+            if fixed.feels_rates {
                 product(rows.rate_row(i), spread, &mut self.rate[span]);
             }
         }

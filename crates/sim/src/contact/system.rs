@@ -4,7 +4,7 @@
 
 use splines::{Axis, Probe};
 
-use super::element::{ElementProbe, Role};
+use super::element::{ElementProbe, Fixed, Role};
 use super::elements::ForceElement;
 use super::probes::{Entry, Probes, TangentialContact};
 use super::rope::RopeForce;
@@ -19,6 +19,8 @@ pub(crate) struct System<'a> {
     pub foundations: &'a [Foundation],
     pub mechanics: Mechanics<'a>,
     pub elements: Vec<ForceElement<'a>>,
+    /// What never changes about each element.
+    pub fixed: Vec<Fixed>,
     pub probes: Probes,
     pub traits: Traits,
     /// Elements that guide across the rails, and elements that join points by springs.
@@ -35,6 +37,8 @@ pub(crate) struct Traits {
     pub is_uneven: bool,
     /// Whether the rows of all elements are the same at every time and place.
     pub has_constant_rows: bool,
+    /// Whether rigid parts hand wheels over, one force a part.
+    pub has_parts: bool,
     /// Whether vertical contacts are the only elements.
     pub is_vertical: bool,
     /// Whether every vertical law is linear.
@@ -61,7 +65,8 @@ impl<'a> System<'a> {
         let ropes = (0..elements.len()).filter(is_rope).collect();
         let probes = find_probes(&mechanics, &elements);
         let traits = find_traits(&mechanics, &elements);
-        Ok(System { scene, foundations, mechanics, elements, probes, traits, guides, springs, ropes })
+        let fixed = elements.iter().map(|element| Fixed::of(&**element)).collect();
+        Ok(System { scene, foundations, mechanics, elements, fixed, probes, traits, guides, springs, ropes })
     }
 
     /// Number of vertical contacts, the first of all elements.
@@ -212,6 +217,7 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
     Traits {
         is_uneven,
         has_constant_rows,
+        has_parts: mechanics.foundations.iter().any(|foundation| foundation.parts.is_some()),
         is_vertical,
         has_linear_laws,
         uses_heights,

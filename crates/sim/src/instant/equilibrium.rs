@@ -22,11 +22,11 @@ const BALANCE: f64 = 1e-6;
 /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the degrees of freedom of
 /// the structures to static equilibrium at `at.t`; the other degrees of freedom stay.
 ///
-/// Unknowns are the penetrations p and forces F of the vertical contacts and the degrees of freedom q. With the active
-/// contacts, p + (G + Phi K^-1 Phi^T) F = R q + constant, F = law(p) and R^T F = weights and loads are solved by Newton's
-/// method; sweeps over the active set drop contacts that pull and add contacts that are pressed until it stays. The
-/// balance is repeated with the slopes of the rails and the places of the wheels that it leads to, and with the forces
-/// of flanges, which are relaxed by Aitken's method, until nothing changes.
+/// Unknowns are the penetrations p and forces F of the vertical contacts and the degrees of freedom q. With the
+/// active contacts, p + (G + Phi K^-1 Phi^T) F = R q + constant, F = law(p) and R^T F = weights and loads are solved
+/// by Newton's method; sweeps over the active set drop contacts that pull and add contacts that are pressed until it
+/// stays. The balance is repeated with the slopes of the rails and the places of the wheels that it leads to, and
+/// with the forces of flanges, which are relaxed by Aitken's method, until nothing changes.
 ///
 /// # Errors
 /// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.

@@ -48,7 +48,8 @@ impl State {
     }
 
     /// Sets this state to the interpolant between `from` and `to` at the fraction `s` of the step: quintic in q
-    /// (Hermite, from q, v and a at both ends), cubic in the penetrations. Forces keep those of `from` as a first guess.
+    /// (Hermite, from q, v and a at both ends), cubic in the penetrations. Forces keep those of `from` as a first
+    /// guess.
     pub fn interpolate(&mut self, from: &State, to: &State, s: f64) {
         let h = to.t - from.t;
         self.is_between = true;

@@ -163,13 +163,16 @@ impl Recorder {
 
 /// All channels of a scene, in the order of each sample.
 fn channels_of(system: &System) -> Vec<Channel> {
-    let mut channels = vec![Channel::Time];
-    for b in 0..system.scene.bodies.len() {
+    let (bodies, wheels) = (system.scene.bodies.len(), system.mechanics.wheels.len());
+    let others = 2 * system.elements.len() + system.scene.gauges.len();
+    let mut channels = Vec::with_capacity(1 + 14 * bodies + 9 * wheels + others);
+    channels.push(Channel::Time);
+    for b in 0..bodies {
         channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
         channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
         channels.extend([Channel::Drive(b), Channel::Brake(b)]);
     }
-    for w in 0..system.mechanics.wheels.len() {
+    for w in 0..wheels {
         channels.extend([
             Channel::Place(w),
             Channel::Vertical(w),

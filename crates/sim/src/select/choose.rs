@@ -15,13 +15,13 @@ const FEW: usize = 3;
 /// by bodies first, the others held at theirs (influence before their turn), and runs the scene. `watch` sees the
 /// time that every run reaches, and may stop the choice.
 ///
-/// First the errors of the fidelities are predicted, see [`Predicted`]: fidelities expected to err by much more than
-/// the tolerance are skipped; one expected to err by much less is taken without a higher one to check it. What is
-/// left is compared: rigid and influence with the first [`Rung::Modal`] whose highest frequency exceeds three times
-/// that of the bodies on their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16 and full, full with
-/// half its mesh. The run of the fidelity chosen is kept. Where several structures were refined, all are checked
-/// together and raised together until the sum of their tolerances holds. Not controlled: pitch, roll, lateral motion
-/// and forces, gauges and what lies between output times.
+/// First the errors of the fidelities are predicted, see [`Predicted`](crate::Predicted): fidelities expected to err
+/// by much more than the tolerance are skipped; one expected to err by much less is taken without a higher one to
+/// check it. What is left is compared: rigid and influence with the first [`Rung::Modal`] whose highest frequency
+/// exceeds three times that of the bodies on their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16
+/// and full, full with half its mesh. The run of the fidelity chosen is kept. Where several structures were refined,
+/// all are checked together and raised together until the sum of their tolerances holds. Not controlled: pitch, roll,
+/// lateral motion and forces, gauges and what lies between output times.
 ///
 /// # Errors
 /// A foundation that is given or influence that cannot be built; a scene that starts on no foundation.

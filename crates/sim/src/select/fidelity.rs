@@ -68,7 +68,8 @@ pub enum Reason {
 pub struct Tried {
     /// Which.
     pub rung: Rung,
-    /// Its error against `against`, see [`distance`]; infinite where the two runs cannot be compared.
+    /// Its error against `against`, see [`distance`](crate::distance()); infinite where the two runs cannot be
+    /// compared.
     pub estimate: f64,
     /// What it was checked against.
     pub against: Rung,

@@ -13,7 +13,8 @@ const SLACK: [f64; 2] = [1e-9, 1e-13];
 /// The rules that have not acted yet.
 pub(crate) struct Triggers {
     pending: Vec<Trigger>,
-    recorder: Recorder,
+    /// Where there are rules.
+    recorder: Option<Recorder>,
     row: Vec<f64>,
     /// Whether the last step was cut to end where a rule acts.
     has_cut: bool,
@@ -33,10 +34,10 @@ impl Triggers {
     /// # Errors
     /// A channel that the history does not have.
     pub fn new(system: &System) -> Result<Self, Error> {
-        let recorder = Recorder::new(system);
         let rules = &system.scene.actuators.rules;
+        let recorder = (!rules.is_empty()).then(|| Recorder::new(system));
         let column = |channel, rule| {
-            let position = recorder.history().position(channel);
+            let position = recorder.as_ref().and_then(|recorder| recorder.history().position(channel));
             position.ok_or(Error::NoSuch { what: "quantity of rule", index: rule })
         };
         let mut pending = Vec::new();
@@ -52,12 +53,12 @@ impl Triggers {
 
     /// Rules whose conditions are met at `at`, where the solver's geometry belongs to it.
     fn met(&mut self, solver: &Solver, at: &State) -> Result<Vec<usize>, Error> {
-        if self.pending.is_empty() {
+        let Some(recorder) = self.recorder.as_mut().filter(|_| !self.pending.is_empty()) else {
             return Ok(Vec::new());
-        }
+        };
         let system = solver.system();
         self.row.clear();
-        self.recorder.row(system, solver.geometry(), at, &mut self.row)?;
+        recorder.row(system, solver.geometry(), at, &mut self.row)?;
         let is_met = |trigger: &&Trigger| {
             let sum = trigger.columns.iter().map(|&(column, factor)| factor * self.row[column]).sum();
             system.scene.actuators.rules[trigger.rule].when.is_met(sum)

@@ -58,8 +58,8 @@ impl Solver<'_> {
     fn reach(&mut self, g: f64, known: &[f64], at: &State) -> bool {
         let system = self.system;
         for (i, element) in system.elements.iter().enumerate() {
-            let is_idle = self.problem.idle[i];
-            if is_idle && !element.is_followed() {
+            let (is_idle, fixed) = (self.problem.idle[i], system.fixed[i]);
+            if is_idle && !fixed.is_followed {
                 continue;
             }
             let deflection = self.geometry.deflection(i, &at.force);
@@ -67,10 +67,10 @@ impl Solver<'_> {
             let mut rate = 0.0;
             if self.remembers(i) {
                 rate = (penetration - known[i]) / g;
-            } else if element.feels_rates() {
+            } else if fixed.feels_rates {
                 rate = self.geometry.rate(i, &self.free.v);
             }
-            if element.is_tangential()
+            if fixed.is_tangential
                 && let Some(slot) = system.probes.slots[i]
             {
                 rate -= (deflection - known[slot]) / g;

@@ -182,7 +182,7 @@ impl<'a> Solver<'a> {
 
     /// Whether element `i` keeps its penetration as a state while it acts.
     pub fn remembers(&self, i: usize) -> bool {
-        self.active.has(i) && self.system.elements[i].has_memory()
+        self.active.has(i) && self.system.fixed[i].has_memory
     }
 
     /// Whether active vertical contact `i` must open.

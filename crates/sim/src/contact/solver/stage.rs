@@ -170,7 +170,7 @@ impl Solver<'_> {
         let mut is_found = false;
         for (i, element) in self.system.elements.iter().enumerate() {
             if self.problem.idle[i]
-                && element.is_followed()
+                && self.system.fixed[i].is_followed
                 && element.touches(self.problem.effects.penetration(i, force))
             {
                 self.problem.idle[i] = false;
@@ -199,7 +199,7 @@ impl Solver<'_> {
             y.iter_mut().zip(w).for_each(|(y, w)| *y = *w / g);
             effects.rate[i] = (approach - known[i]) / g;
             effects.kind[i] = RowKind::Memory(1.0 / g);
-        } else if self.system.elements[i].feels_rates() {
+        } else if self.system.fixed[i].feels_rates {
             for (&j, mobile) in self.projection.columns().iter().zip(self.projection.rate_row(i)) {
                 y[j] = g * mobile;
             }

@@ -1,10 +1,10 @@
 //! Crossings at uniform speed by power series of time: bodies on linear wheels over a rail without mass.
 //!
 //! Where wheels travel together at uniform speed, G is a polynomial of time between two breaks of the rails
-//! ([`path`]), and so the forces and motions are power series ([`series`]) whose coefficients cost a few products
-//! each: no evaluation of G, no iteration, samples and powers from the same series. The step follows from the last
-//! terms, so that none is rejected; forces and energy are read off two terms more, which leave nearly no jump between
-//! steps.
+//! ([`path`](super::path)), and so the forces and motions are power series ([`series`](super::series)) whose
+//! coefficients cost a few products each: no evaluation of G, no iteration, samples and powers from the same series.
+//! The step follows from the last terms, so that none is rejected; forces and energy are read off two terms more,
+//! which leave nearly no jump between steps.
 
 use std::ops::ControlFlow;
 
@@ -88,7 +88,7 @@ pub(crate) struct Crossed {
 /// polynomial of low degree between breaks: then another method has to take the run.
 ///
 /// # Errors
-/// As [`crate::run`].
+/// As [`crate::run()`].
 pub(crate) fn run(
     system: &System,
     start: &State,
