@@ -93,11 +93,12 @@ impl Element for DriveForce<'_> {
         Some(Law { force: limit.copysign(wanted), ..Law::default() })
     }
 
+    fn guard_kind(&self) -> Option<GuardKind> {
+        Some(GuardKind::Corner)
+    }
+
     /// The force wanted beyond the limit, and where it is limited the traction beyond the drive's own limit.
-    fn guards(&self, kind: GuardKind, at: &At, put: &mut dyn FnMut(Guard)) {
-        if kind != GuardKind::Corner {
-            return;
-        }
+    fn guards(&self, at: &At, put: &mut dyn FnMut(Guard)) {
         let Drive { gain, max_force, body, .. } = *self.drive;
         let (state, mechanics) = (at.state, at.mechanics);
         let reference = at.switches.drive_speed(&mechanics.scene.actuators, self.index, state.t);

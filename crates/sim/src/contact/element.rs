@@ -11,6 +11,8 @@
 //! sign ends a step, its energy, and its channels. Every question has the answer "nothing" by default, so that a new
 //! law answers the few that concern it, in a file of its own and a line of `contact::elements`.
 
+use std::ops::Deref;
+
 use nalgebra::DVector;
 use splines::Axis;
 
@@ -127,8 +129,13 @@ pub(crate) trait Element {
         None
     }
 
-    /// Quantities of its law of one kind, at whose change of sign the next step should begin.
-    fn guards(&self, _kind: GuardKind, _at: &At, _put: &mut dyn FnMut(Guard)) {}
+    /// The kind of its guards, where it has some.
+    fn guard_kind(&self) -> Option<GuardKind> {
+        None
+    }
+
+    /// Quantities of its law of that kind, at whose change of sign the next step should begin.
+    fn guards(&self, _at: &At, _put: &mut dyn FnMut(Guard)) {}
 
     // Its energy.
 
@@ -173,6 +180,7 @@ pub(crate) struct Fixed {
     pub has_memory: bool,
     pub is_followed: bool,
     pub is_tangential: bool,
+    pub guard_kind: Option<GuardKind>,
 }
 
 impl Fixed {
@@ -183,6 +191,7 @@ impl Fixed {
             has_memory: element.has_memory(),
             is_followed: element.is_followed(),
             is_tangential: element.is_tangential(),
+            guard_kind: element.guard_kind(),
         }
     }
 }
@@ -311,10 +320,8 @@ pub(crate) enum GuardKind {
     Corner,
 }
 
-/// An element at one state, to which rows and matrices belong.
-pub(crate) struct At<'c> {
-    /// Index of the element.
-    pub index: usize,
+/// A scene at one state, to which rows and matrices belong.
+pub(crate) struct Frame<'c> {
     pub mechanics: &'c Mechanics<'c>,
     pub probes: &'c Probes,
     pub state: &'c State,
@@ -322,17 +329,50 @@ pub(crate) struct At<'c> {
     pub rails: &'c RailMatrices,
     pub places: &'c Places,
     pub switches: &'c Switches,
-    pub local: &'c Local,
-    /// Slope of the deflected rail at the element.
-    pub rail_slope: f64,
+    /// What changes about every element beside its row.
+    pub local: &'c [Local],
+    /// Slope of the deflected rail at every element.
+    pub rail_slope: &'c [f64],
     /// Whether some rail is uneven.
     pub is_uneven: bool,
+}
+
+/// One element of a frame.
+pub(crate) struct At<'c> {
+    /// Index of the element.
+    pub index: usize,
+    frame: &'c Frame<'c>,
+}
+
+impl<'c> Frame<'c> {
+    /// Element `index` at this state.
+    pub fn at(&'c self, index: usize) -> At<'c> {
+        At { index, frame: self }
+    }
+}
+
+impl<'c> Deref for At<'c> {
+    type Target = Frame<'c>;
+
+    fn deref(&self) -> &Frame<'c> {
+        self.frame
+    }
 }
 
 impl At<'_> {
     /// Its force.
     pub fn force(&self) -> f64 {
         self.state.force[self.index]
+    }
+
+    /// What changes about it beside its row.
+    pub fn local(&self) -> &Local {
+        &self.frame.local[self.index]
+    }
+
+    /// Slope of the deflected rail there.
+    pub fn rail_slope(&self) -> f64 {
+        self.frame.rail_slope[self.index]
     }
 
     /// Its approach, before the deflection of the rail.

@@ -108,11 +108,12 @@ impl Element for FlangeContact<'_> {
         })
     }
 
+    fn guard_kind(&self) -> Option<GuardKind> {
+        Some(GuardKind::Touch)
+    }
+
     /// The overlap with the rail, negative where the flange is free.
-    fn guards(&self, kind: GuardKind, at: &At, put: &mut dyn FnMut(Guard)) {
-        if kind != GuardKind::Touch {
-            return;
-        }
+    fn guards(&self, at: &At, put: &mut dyn FnMut(Guard)) {
         let e = at.approach() - at.deflection();
         put(Guard { value: e.abs() - self.flange.clearance, stiffness: self.flange.stiffness });
     }
@@ -146,7 +147,7 @@ impl Element for FlangeContact<'_> {
 
     fn resistance(&self, at: &At, b: usize) -> f64 {
         let body = at.mechanics.wheels[self.wheel].body;
-        if at.mechanics.kinematics.root(body) == b { -(at.rail_slope * at.force()) } else { 0.0 }
+        if at.mechanics.kinematics.root(body) == b { -(at.rail_slope() * at.force()) } else { 0.0 }
     }
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {

@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use splines::Probe;
 
 use super::compliance::RailCompliance;
-use super::element::{At, Local, Where};
+use super::element::{Frame, Local, Where};
 use super::matrices::RailMatrices;
 use super::places::Places;
 use super::rows::Rows;
@@ -123,10 +123,9 @@ impl Geometry {
         self.rails().value[i * self.local.len() + i]
     }
 
-    /// Element `i` at `state`, to which this geometry belongs.
-    pub fn at<'c>(&'c self, system: &'c System<'c>, state: &'c State, i: usize) -> At<'c> {
-        At {
-            index: i,
+    /// The scene at `state`, to which this geometry belongs.
+    pub fn frame<'c>(&'c self, system: &'c System<'c>, state: &'c State) -> Frame<'c> {
+        Frame {
             mechanics: &system.mechanics,
             probes: &system.probes,
             state,
@@ -134,8 +133,8 @@ impl Geometry {
             rails: self.rails(),
             places: &self.places,
             switches: &self.switches,
-            local: &self.local[i],
-            rail_slope: self.rail_slope[i],
+            local: &self.local,
+            rail_slope: &self.rail_slope,
             is_uneven: system.traits.is_uneven,
         }
     }

@@ -101,7 +101,7 @@ impl Element for RopeForce<'_> {
         if at.force() == 0.0 {
             return;
         }
-        let spring = &at.local.spring;
+        let spring = &at.local().spring;
         let p = at.approach();
         spring::dissipate(at, power);
         if spring.unstretched[1] != 0.0 {

@@ -36,7 +36,7 @@ pub(crate) fn law(query: &Query) -> Option<Law> {
 
 /// Guard of a spring: its force beyond the noise of its places.
 pub(crate) fn switch(at: &At, active: &ActiveSet) -> f64 {
-    let spring = &at.local.spring;
+    let spring = &at.local().spring;
     let margin = spring.margin(at.approach(), at.rate());
     if active.has(at.index) { -margin - spring.noise } else { margin - spring.noise }
 }
@@ -45,19 +45,19 @@ pub(crate) fn switch(at: &At, active: &ActiveSet) -> f64 {
 pub(crate) fn stored(at: &At, energy: &mut Stored) {
     if at.force() != 0.0 {
         let p = at.approach();
-        energy.ropes += 0.5 * at.local.spring.stiffness * p * p;
+        energy.ropes += 0.5 * at.local().spring.stiffness * p * p;
     }
 }
 
 /// Adds what the damper of an active spring dissipates.
 pub(crate) fn dissipate(at: &At, power: &mut Exchanged) {
-    power.dampers += at.local.spring.damping * at.rate() * at.rate();
+    power.dampers += at.local().spring.damping * at.rate() * at.rate();
 }
 
 /// What an active spring asks of the prescribed motion of root body `b`.
 pub(crate) fn resistance(points: &PointPair, at: &At, b: usize) -> f64 {
     let state = at.state;
-    let by_travel = points.by_travel(at.mechanics, b, (state.t, &state.q), at.local.spring.direction);
+    let by_travel = points.by_travel(at.mechanics, b, (state.t, &state.q), at.local().spring.direction);
     by_travel * at.force()
 }
 

@@ -173,13 +173,13 @@ impl Element for Vertical<'_> {
         if active.has(i) {
             return Some(if self.law.bilateral { -1.0 } else { -at.force() });
         }
-        let closing = self.closing(i, at.local.fraction[0], active, at.state, || at.rate());
+        let closing = self.closing(i, at.local().fraction[0], active, at.state, || at.rate());
         Some(if closing > 0.0 { closing.min(self.law.spring(at.state.p[i])) } else { closing })
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {
         if at.force() != 0.0 {
-            energy.contact += self.count() * at.local.fraction[0] * self.law.energy(at.state.p[at.index]);
+            energy.contact += self.count() * at.local().fraction[0] * self.law.energy(at.state.p[at.index]);
         }
         energy.structure += at.rail_energy();
     }
@@ -189,7 +189,7 @@ impl Element for Vertical<'_> {
             return;
         }
         let (law, i) = (self.law, at.index);
-        let [fraction, slope] = at.local.fraction;
+        let [fraction, slope] = at.local().fraction;
         let rate =
             if slope == 0.0 { 0.0 } else { slope * at.mechanics.speed_along(self.wheels.start, at.state) };
         power.handover -= self.count() * rate * law.energy(at.state.p[i]);
@@ -216,14 +216,14 @@ impl Element for Vertical<'_> {
             return 0.0;
         }
         self.count()
-            * at.local.fraction[0]
+            * at.local().fraction[0]
             * law.damping
             * at.rate()
             * step_integral(law.depth, at.state.p[at.index])
     }
 
     fn resistance(&self, at: &At, b: usize) -> f64 {
-        if at.mechanics.kinematics.root(self.body) == b { -(at.rail_slope * at.force()) } else { 0.0 }
+        if at.mechanics.kinematics.root(self.body) == b { -(at.rail_slope() * at.force()) } else { 0.0 }
     }
 
     fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {

@@ -61,8 +61,9 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
         let (displacement, _) = mechanics.body(mount.body, state.t, &state.q, &state.v);
         energy.gravity += system.scene.gravity * dot(&mount.mass[1], &displacement);
     }
+    let frame = geometry.frame(system, state);
     for (i, element) in system.elements.iter().enumerate() {
-        element.stored(&geometry.at(system, state, i), &mut energy);
+        element.stored(&frame.at(i), &mut energy);
     }
     energy
 }
@@ -77,8 +78,9 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         }
     }
     power.drives += power_of_turns(system, geometry, state);
+    let frame = geometry.frame(system, state);
     for (i, element) in system.elements.iter().enumerate() {
-        element.power(&geometry.at(system, state, i), &mut power);
+        element.power(&frame.at(i), &mut power);
     }
     for load in &system.scene.actuators.loads {
         if let Some(number) = system.mechanics.loaded(load) {
@@ -90,8 +92,8 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
 
 /// Boundary terms of the losses in dampers, which [`power`] leaves out.
 pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f64 {
-    let elements = system.elements.iter().enumerate();
-    elements.fold(0.0, |sum, (i, element)| sum + element.boundary(&geometry.at(system, state, i)))
+    let (frame, elements) = (geometry.frame(system, state), system.elements.iter().enumerate());
+    elements.fold(0.0, |sum, (i, element)| sum + element.boundary(&frame.at(i)))
 }
 
 /// Force along +x that the prescribed motion of body `b` needs: its inertia and that of all that is pinned to it, less
@@ -104,8 +106,9 @@ pub(crate) fn motion_force(system: &System, geometry: &Geometry, state: &State, 
     for &(number, inertia) in kinematics.travel_inertia(b) {
         force += inertia * state.a[number];
     }
+    let frame = geometry.frame(system, state);
     for (i, element) in system.elements.iter().enumerate() {
-        force += element.resistance(&geometry.at(system, state, i), b);
+        force += element.resistance(&frame.at(i), b);
     }
     force
 }

@@ -116,8 +116,11 @@ pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Opt
 /// The guards of one kind of all elements at `at`, to which the geometry belongs.
 pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard> {
     let (system, mut all) = (solver.system(), Vec::new());
+    let frame = solver.geometry().frame(system, at);
     for (i, element) in system.elements.iter().enumerate() {
-        element.guards(kind, &solver.geometry().at(system, at, i), &mut |guard| all.push(guard));
+        if system.fixed[i].guard_kind == Some(kind) {
+            element.guards(&frame.at(i), &mut |guard| all.push(guard));
+        }
     }
     all
 }

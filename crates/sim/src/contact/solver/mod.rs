@@ -198,7 +198,8 @@ impl<'a> Solver<'a> {
 
     /// Positive where element `i` must begin or cease to act: the force by which it has gone too far.
     pub fn switch_guard(&self, i: usize, at: &State) -> Option<f64> {
-        self.system.elements[i].switch(&self.geometry.at(self.system, at, i), &self.active)
+        let frame = self.geometry.frame(self.system, at);
+        self.system.elements[i].switch(&frame.at(i), &self.active)
     }
 
     /// Whether the rail below vertical contact `i` is rigid beside the wheel.
