@@ -4,7 +4,7 @@ use std::fmt;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
+use serde::de::{Deserializer, Error, IgnoredAny, SeqAccess, Unexpected, Visitor};
 use serde_json::Value;
 
 use crate::entries::Entries;
@@ -72,8 +72,8 @@ pub(crate) struct RawScene {
     pub accuracy: Option<f64>,
     pub stepper: Option<String>,
     pub step: Option<f64>,
-    #[serde(default)]
-    pub compare: Vec<Value>,
+    #[serde(default, rename = "compare", deserialize_with = "leave_to_merge")]
+    _compare: Vec<Value>,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -139,6 +139,11 @@ pub(crate) struct RawTables {
     pub units: Option<RawUnits>,
     pub vertical: Option<Pick>,
     pub lateral: Option<Pick>,
+}
+
+/// Any list: the changes of comparisons are merged into the tree of a scene before they are converted.
+fn leave_to_merge<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Value>, D::Error> {
+    Vec::<IgnoredAny>::deserialize(deserializer).map(|_| Vec::new())
 }
 
 /// Which table of a file is meant.

@@ -1,8 +1,22 @@
 //! What is wrong in a document, by path: collected in full, placed in the text afterwards.
 
-use crate::place::{Path, Place};
+use super::place::{Path, Place};
 
-/// One thing wrong, by path; [`crate::source::Source::diagnose`] finds its line and column.
+/// How the fault of a key given twice begins.
+const DUPLICATE: &str = "duplicate key ";
+
+/// One thing wrong, by path; `Source::diagnose` finds its line and column.
+///
+/// ```
+/// use formats::fault::Fault;
+/// use formats::place::Place;
+///
+/// let root = Place::root();
+/// let girder = root.key("girder");
+/// let fault = Fault::new(&girder.key("E"), "must be positive").got(-29000).hint("a stress");
+/// assert_eq!(fault.path.to_string(), "girder.E");
+/// assert_eq!(fault.found.as_deref(), Some("-29000"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fault {
     /// The value (or, with `at_key`, the key) that is wrong.
@@ -22,6 +36,19 @@ impl Fault {
     #[must_use]
     pub fn new(place: &Place<'_>, expected: impl Into<String>) -> Self {
         Fault { path: place.path(), at_key: false, expected: expected.into(), found: None, hint: None }
+    }
+
+    /// A key given twice in the object at `path`; it is placed where the key stands for the second time.
+    #[must_use]
+    pub(super) fn duplicate(path: Path, key: &str) -> Self {
+        let expected = format!("{DUPLICATE}`{key}`");
+        let hint = Some("give each key once".to_owned());
+        Fault { path, at_key: false, expected, found: None, hint }
+    }
+
+    /// Whether it is a key given twice.
+    pub(super) fn is_duplicate(&self) -> bool {
+        self.expected.starts_with(DUPLICATE)
     }
 
     /// With what was found.

@@ -30,7 +30,7 @@ macro_rules! objects {
     ($($name:ident),+ $(,)?) => {
         $(impl<'de> serde::Deserialize<'de> for $name {
             fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-                $name::deserialize($crate::object::ObjectOnly(deserializer))
+                $name::deserialize($crate::text::object::ObjectOnly(deserializer))
             }
         })+
     };

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-use crate::diagnostic::Diagnostic;
-use crate::source::Source;
+use super::diagnostic::Diagnostic;
+use super::source::Source;
 
 /// One input file of a job.
 #[derive(Clone, Debug)]
