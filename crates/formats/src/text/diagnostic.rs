@@ -4,7 +4,14 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// One thing wrong with an input, placed in its file as well as can be known.
+/// One error of an input with its place in the file, as far as that is known.
+///
+/// ```
+/// use formats::diagnostic::Diagnostic;
+///
+/// let missing = Diagnostic::of_file("scene.json", "cannot be read: no such file").hint("check the path");
+/// assert_eq!(missing.to_string(), "scene.json: cannot be read: no such file  hint: check the path");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Diagnostic {
     /// The file, as the user named it (or as another input named it).
@@ -15,11 +22,11 @@ pub struct Diagnostic {
     pub column: Option<usize>,
     /// JSON path of the value, such as `girder.spans[1]`; empty for the file's root.
     pub path: String,
-    /// What would have been right, such as `must be positive`.
+    /// What would be right, such as `must be positive`.
     pub expected: String,
-    /// What stands there instead.
+    /// What was found instead.
     pub found: Option<String>,
-    /// What the user may do about it.
+    /// What the user can do about it.
     pub hint: Option<String>,
 }
 

@@ -1,4 +1,4 @@
-//! What is wrong in a document, by path: collected in full, placed in the text afterwards.
+//! Faults of a document by path; they are collected first and placed in the text afterwards.
 
 use super::place::{Path, Place};
 
@@ -23,11 +23,11 @@ pub struct Fault {
     pub path: Path,
     /// Whether the key itself is meant, not its value.
     pub at_key: bool,
-    /// What would have been right.
+    /// What would be right.
     pub expected: String,
-    /// What stands there.
+    /// What was found.
     pub found: Option<String>,
-    /// What to do.
+    /// What the user can do.
     pub hint: Option<String>,
 }
 
@@ -51,21 +51,21 @@ impl Fault {
         self.expected.starts_with(DUPLICATE)
     }
 
-    /// With what was found.
+    /// The same with the value that was found.
     #[must_use]
     pub fn got(mut self, found: impl ToString) -> Self {
         self.found = Some(found.to_string());
         self
     }
 
-    /// With a hint.
+    /// The same with a hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
-    /// Pointing at the key in place of its value.
+    /// The same, placed at the key instead of its value.
     #[must_use]
     pub fn at_key(mut self) -> Self {
         self.at_key = true;
@@ -106,12 +106,12 @@ impl Faults {
         None
     }
 
-    /// A key that the format has and this version does not do.
+    /// Adds the fault of a key that the format has and this version does not support.
     pub fn unavailable(&mut self, place: &Place<'_>, what: &str) {
         self.add(Fault::new(place, format!("{what} is not available in this version")).at_key());
     }
 
-    /// Numbers that must increase strictly.
+    /// Whether numbers increase strictly; a fault of the first that does not where they do not.
     pub fn increasing(&mut self, numbers: &[f64], place: &Place<'_>) -> bool {
         let descent = numbers.windows(2).position(|pair| pair[1] <= pair[0]);
         if let Some(first) = descent {
@@ -139,14 +139,15 @@ pub fn alternatives(words: &[&str]) -> String {
     }
 }
 
-/// A number as a person writes it: plain where it is of ordinary size, with an exponent otherwise.
+/// A number as people write it: without exponent from 1e-5 to 1e15, with one otherwise.
 #[must_use]
 pub fn number(value: f64) -> String {
     let plain = value == 0.0 || (1e-5..1e15).contains(&value.abs());
     if plain { value.to_string() } else { format!("{value:e}") }
 }
 
-/// The known word nearest to a misspelt one, where one is near enough to be meant.
+/// The known word that a misspelt word most probably stands for: one that begins with it, or the one with the fewest
+/// edits, at most 1 to 3 by its length; none where there is no such word.
 #[must_use]
 pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
     let allowed = match word.chars().count() {

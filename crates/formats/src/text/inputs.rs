@@ -12,11 +12,11 @@ use super::source::Source;
 pub struct Input {
     /// As named by the user or by the file that refers to it.
     pub name: String,
-    /// As it appears in messages.
+    /// Its name in messages.
     pub shown: String,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
-    /// What it holds.
+    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
@@ -93,7 +93,7 @@ impl Inputs {
     }
 }
 
-/// Why the file system gave nothing, in plain words.
+/// Message of an error of the file system.
 pub fn cannot_read(error: &std::io::Error) -> String {
     let why = match error.kind() {
         std::io::ErrorKind::NotFound => "no such file".to_owned(),

@@ -10,6 +10,7 @@ pub mod entries;
 pub mod fault;
 pub mod inputs;
 mod json;
+pub mod names;
 pub mod number;
 pub mod object;
 pub mod place;

@@ -1,4 +1,4 @@
-//! Numbers rounded for people.
+//! Numbers rounded for display.
 
 /// `value` to `digits` significant digits (1 at least).
 #[must_use]

@@ -1,11 +1,11 @@
-//! Structs are read from objects alone.
+//! Structs that are read from objects only.
 //!
 //! serde's derived structs also take lists, by position; in a file that is a mistake.
 
 use serde::de::{Deserializer, Visitor};
 use serde::forward_to_deserialize_any;
 
-/// A deserializer that takes nothing but an object.
+/// A deserializer that accepts objects only.
 pub struct ObjectOnly<D>(
     /// What it is read from.
     pub D,
@@ -24,7 +24,7 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for ObjectOnly<D> {
     }
 }
 
-/// Implements `Deserialize` by the derived inherent function of `#[serde(remote = "Self")]`, from objects alone.
+/// Implements `Deserialize` by the function that `#[serde(remote = "Self")]` derives, but from objects only.
 #[macro_export]
 macro_rules! objects {
     ($($name:ident),+ $(,)?) => {

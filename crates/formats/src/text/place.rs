@@ -20,7 +20,7 @@ impl fmt::Display for Path {
         for (position, step) in self.0.iter().enumerate() {
             match step {
                 Step::Index(index) => write!(f, "[{index}]")?,
-                Step::Key(key) if plain(key) => {
+                Step::Key(key) if is_plain(key) => {
                     if position > 0 {
                         write!(f, ".")?;
                     }
@@ -33,11 +33,20 @@ impl fmt::Display for Path {
     }
 }
 
-fn plain(key: &str) -> bool {
+fn is_plain(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
 }
 
-/// A place while a document is walked: a chain on the stack, made into a [`Path`] only when there is something to say.
+/// A place in a document that is being read: a chain of steps on the stack, made into a [`Path`] only for a fault.
+///
+/// ```
+/// use formats::place::Place;
+///
+/// let root = Place::root();
+/// let bodies = root.key("bodies");
+/// let body = bodies.key("north bridge");
+/// assert_eq!(body.key("inertia").index(2).path().to_string(), "bodies[\"north bridge\"].inertia[2]");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
     above: Option<&'a Place<'a>>,
