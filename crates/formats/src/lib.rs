@@ -11,7 +11,7 @@
 //!
 //! let text = r#"{"format": "girderway-beam/1",
 //!  "units": {"length": "ft", "force": "lbf", "time": "s"},
-//!  "girder": {"spans": [60, 60], "E": 4.176e9, "I_vertical": 2.5}}"#;
+//!  "girder": {"spans": [60, 60], "E": 4.176e9, "I_vertical": 2.5}, "stations": [0, 60, 120]}"#;
 //! let source = Source { name: "girder.json".to_owned(), text: text.to_owned() };
 //! let metres = Units { length: Length::Metre, force: Force::Newton };
 //! let spec = Spec::read(&source, Some(metres)).expect("a girder over two spans");
@@ -20,7 +20,7 @@
 //! let wrong = Source { text: text.replace("[60, 60]", "[60, -60]"), ..source };
 //! let diagnostics = Spec::read(&wrong, None).expect_err("a span of negative length");
 //! let first = diagnostics[0].to_string();
-//! assert!(first.starts_with("girder.json:3:26: girder.spans[1]: must be positive, got -60"), "{first}");
+//! assert!(first.starts_with("girder.json:3:27: girder.spans[1]: must be positive, got -60"), "{first}");
 //! ```
 //!
 //! Wings, lowest first: [`text`] (tree, faults, diagnostics), [`units`] and [`check`], [`spec`], [`grid`], [`tables`],
