@@ -14,8 +14,8 @@ use crate::{Channel, Rope};
 pub(crate) struct RopeForce<'a> {
     pub rope: &'a Rope,
     index: usize,
-    /// From the end `from` to the end `to`.
-    points: PointPair,
+    /// From the end `from` to the end `to`; boxed, since wheels need little room.
+    points: Box<PointPair>,
 }
 
 impl<'a> RopeForce<'a> {
@@ -26,7 +26,7 @@ impl<'a> RopeForce<'a> {
             .map(|(index, rope)| {
                 let from = Some(Point::new(mechanics, &rope.from));
                 let points = PointPair { from, to: Point::new(mechanics, &rope.to), swings: true };
-                RopeForce { rope, index, points }
+                RopeForce { rope, index, points: Box::new(points) }
             })
             .collect()
     }

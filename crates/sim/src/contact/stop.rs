@@ -16,7 +16,7 @@ pub(crate) struct StopForce<'a> {
     stop: &'a Stop,
     index: usize,
     /// From the bearer of the plane, where a body bears it, to the point that meets it.
-    points: PointPair,
+    points: Box<PointPair>,
 }
 
 impl<'a> StopForce<'a> {
@@ -32,7 +32,7 @@ impl<'a> StopForce<'a> {
                     let apart = to.place(mechanics, 0.0, &rest) - origin.place(mechanics, 0.0, &rest);
                     Point::on_track(mechanics, &RopeEnd { body: Some(b), at: [0.0, apart.y, apart.z] })
                 });
-                StopForce { stop, index, points: PointPair { from, to, swings: false } }
+                StopForce { stop, index, points: Box::new(PointPair { from, to, swings: false }) }
             })
             .collect()
     }
@@ -41,7 +41,7 @@ impl<'a> StopForce<'a> {
 impl Element for StopForce<'_> {
     fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
         let (stop, mechanics, hold) = (self.stop, at.mechanics, &mut local.spring);
-        let PointPair { from: bearer, to: point, .. } = &self.points;
+        let PointPair { from: bearer, to: point, .. } = &*self.points;
         let place = point.position(mechanics, at.t, at.q)[stop.axis];
         let borne = bearer.as_ref().map_or(0.0, |bearer| bearer.position(mechanics, at.t, at.q)[stop.axis]);
         hold.direction = [0.0; 3];
