@@ -12,15 +12,14 @@ mod raw;
 mod read;
 mod values;
 
-pub(crate) use raw::{Pick as RawPick, RawColumns, RawNode, RawScene};
+pub(crate) use raw::{RawColumns, RawNode, RawPick, RawScene};
 
 pub use document::{Case, Document};
 pub use values::actuator::{Event, Load, Meeting, Rope, Spin, Stop};
 pub use values::body::{Along, Body, Drive, FREEDOMS};
 pub use values::output::{Fatigue, Output, Pick};
 pub use values::practice::Practice;
-pub use values::scene::{Analysis, FORMAT, Scene, SceneRail, across, end_stops, seat};
-pub use values::stepper::stepper_word;
+pub use values::scene::{Analysis, FORMAT, Scene, SceneRail, across, end_stops, seat, stepper_word};
 pub use values::structure::{
     Foundation, Gauge, Handover, On, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair,
 };

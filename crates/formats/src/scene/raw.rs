@@ -138,8 +138,8 @@ pub(crate) struct RawTieRail {
 pub(crate) struct RawTables {
     pub file: Option<String>,
     pub units: Option<RawUnits>,
-    pub vertical: Option<Pick>,
-    pub lateral: Option<Pick>,
+    pub vertical: Option<RawPick>,
+    pub lateral: Option<RawPick>,
 }
 
 /// Any list: the changes of comparisons are merged into the tree of a scene before they are converted.
@@ -149,14 +149,14 @@ fn leave_to_merge<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Valu
 
 /// Which table of a file is meant.
 #[derive(Debug)]
-pub enum Pick {
+pub(crate) enum RawPick {
     /// The number of a SPLINE.
     Id(u32),
     /// The name of a table, or a quantity.
     Name(String),
 }
 
-impl<'de> Deserialize<'de> for Pick {
+impl<'de> Deserialize<'de> for RawPick {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(PickVisitor)
     }
@@ -165,19 +165,19 @@ impl<'de> Deserialize<'de> for Pick {
 struct PickVisitor;
 
 impl Visitor<'_> for PickVisitor {
-    type Value = Pick;
+    type Value = RawPick;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("the number or the name of a table")
     }
 
-    fn visit_u64<E: Error>(self, id: u64) -> Result<Pick, E> {
+    fn visit_u64<E: Error>(self, id: u64) -> Result<RawPick, E> {
         let refused = || E::invalid_value(Unexpected::Unsigned(id), &self);
-        u32::try_from(id).map(Pick::Id).map_err(|_| refused())
+        u32::try_from(id).map(RawPick::Id).map_err(|_| refused())
     }
 
-    fn visit_str<E: Error>(self, name: &str) -> Result<Pick, E> {
-        Ok(Pick::Name(name.to_owned()))
+    fn visit_str<E: Error>(self, name: &str) -> Result<RawPick, E> {
+        Ok(RawPick::Name(name.to_owned()))
     }
 }
 

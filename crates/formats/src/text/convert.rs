@@ -209,6 +209,14 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
         visitor.visit_newtype_struct(self)
     }
 
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
+        match self.node.value {
+            // visitors of derived types would take a list too
+            Value::List(_) => Err(de::Error::invalid_type(Unexpected::Seq, &visitor)),
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
     fn deserialize_enum<V: Visitor<'de>>(
         self,
         _: &'static str,
@@ -227,7 +235,7 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
 
     forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
-        seq tuple tuple_struct map struct identifier
+        seq tuple tuple_struct struct identifier
     }
 }
 
@@ -297,8 +305,10 @@ mod tests {
     use super::super::json;
     use super::*;
 
+    super::super::object::objects!(Beam);
+
     #[derive(Debug, Default, PartialEq, serde::Deserialize)]
-    #[serde(deny_unknown_fields)]
+    #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
     struct Beam {
         span: Option<f64>,
         count: Option<usize>,
@@ -376,7 +386,10 @@ mod tests {
 
     #[test]
     fn a_text_that_is_no_object_has_no_value() {
-        assert_eq!(beam("7").0, None);
-        assert_eq!(beam("7").1.len(), 1);
+        for text in ["7", "[60]", "\"span\""] {
+            let (value, faults) = beam(text);
+            assert_eq!(value, None);
+            assert!(faults[0].starts_with(": must be an object @ "), "{faults:?}");
+        }
     }
 }

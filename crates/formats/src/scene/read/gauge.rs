@@ -2,6 +2,7 @@
 
 use splines::Axis;
 
+use super::rail::rail_among;
 use crate::check::Check;
 use crate::scene::raw::RawGauge;
 use crate::scene::values::structure::Gauge;
@@ -14,22 +15,6 @@ use crate::units::Dimension;
 
 const DIRECTIONS: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
-
-/// Index of the rail named at `at` among those of its structure; the only one where none is named.
-pub(super) fn rail_among(
-    given: Option<&String>,
-    rails: &[RailOutline],
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) -> Option<usize> {
-    let words: Vec<(&str, usize)> =
-        rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
-    match (given, rails.len()) {
-        (Some(rail), _) => check.faults.word(rail, &at.key("rail"), &words),
-        (None, 1) => Some(0),
-        (None, _) => check.faults.need(&given, at, "rail").map(|_| 0),
-    }
-}
 
 pub(super) fn read(
     raw: &Entries<RawGauge>,

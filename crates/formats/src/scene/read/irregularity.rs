@@ -6,8 +6,8 @@ use sim::{Irregularity, Wave};
 use splines::Axis;
 
 use super::files::Files;
-use super::gauge::rail_among;
 use super::profile::profile;
+use super::rail::rail_among;
 use crate::check::Check;
 use crate::scene::raw::RawIrregularity;
 use crate::spec::RailOutline;

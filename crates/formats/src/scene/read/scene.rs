@@ -12,6 +12,7 @@ use crate::scene::values::body::{Along, Body, SPACE, is_carried, root_of};
 use crate::scene::values::scene::{Analysis, FORMAT, Scene, SceneRail};
 use crate::scene::values::structure::Structure;
 use crate::scene::values::truck::Truck;
+use crate::scene::values::wheel::Wheel;
 use crate::text::fault::{Fault, Faults, number};
 use crate::text::names::check_name;
 use crate::text::place::Place;
@@ -51,34 +52,12 @@ pub(in crate::scene) fn read(
     let mut structures = read_structures(raw, &root, files, check);
     let rails = rails_of(&structures);
     let all_structures = structures.len() == raw.structures.0.len();
-    let mut bodies = Vec::new();
-    let place = root.key("bodies");
-    if raw.bodies.0.is_empty() {
-        check.faults.add(Fault::new(&root, "must have at least one body in `bodies`"));
-    }
-    for (name, raw) in &raw.bodies.0 {
-        let at = place.key(name);
-        check_name(name, &at, check.faults);
-        let mut body = body::read(name, raw, &at, gravity, check);
-        if all_structures {
-            let track = at.key("track");
-            for (index, rail) in raw.track.iter().flatten().enumerate() {
-                body.track.extend(rail_named(rail, &rails, &track.index(index), check.faults));
-            }
-        }
-        bodies.push(body);
-    }
+    let mut bodies = read_bodies(raw, gravity, all_structures.then_some(&rails), &root, check);
     pin::read(&raw.bodies, &mut bodies, check);
     body::read_motions(&raw.motions, &raw.bodies, &mut bodies, check);
     mount::read(&raw.structures, &mut structures, &bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
-    let mut wheels = Vec::new();
-    let place = root.key("wheels");
-    for (name, raw) in &raw.wheels.0 {
-        let at = place.key(name);
-        check_name(name, &at, check.faults);
-        wheels.push(wheel::read(name, raw, &at, check));
-    }
+    let wheels = read_wheels(raw, &root, check);
     let end = match check.faults.need(&raw.end, &root, "end") {
         Some(end) => check.needed(end.time, &root.key("end"), "time", Dimension::TIME, ""),
         None => 1.0,
@@ -113,25 +92,69 @@ pub(in crate::scene) fn read(
         stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
-    if scene.trucks.len() == raw.trucks.len() {
-        scene.spins = spin::read_all(&raw.motions, &scene, check);
-    }
-    scene.stops = stop::read_all(&raw.stops, &scene, check);
-    event::fit_brakes(&raw.events, &mut scene.bodies);
-    scene.events = event::read_all(&raw.events, &scene, check);
-    if scene.trucks.len() == raw.trucks.len() {
-        actuator::check_wheels(raw, &scene, check.faults);
-    }
-    if scene.trucks.len() == raw.trucks.len() && truck_spacing::check(&scene, check.faults) {
-        scene.practice = practice::read(&raw.practice, &scene, &root, check);
-    }
-    let held = check.faults.0.is_empty();
-    if held {
-        mount::check(&scene, check.faults);
-        check_travel(raw, &scene, &root, check.faults);
-        method::suits(&scene, &root, check.faults);
-    }
+    read_actions(raw, &mut scene, &root, check);
     units.map(|_| scene)
+}
+
+/// Bodies, with the rails they name where `rails`, those of all structures, are known.
+fn read_bodies(
+    raw: &RawScene,
+    gravity: Option<f64>,
+    rails: Option<&Vec<SceneRail>>,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<Body> {
+    let mut bodies = Vec::new();
+    let place = root.key("bodies");
+    if raw.bodies.0.is_empty() {
+        check.faults.add(Fault::new(root, "must have at least one body in `bodies`"));
+    }
+    for (name, raw) in &raw.bodies.0 {
+        let at = place.key(name);
+        check_name(name, &at, check.faults);
+        let mut body = body::read(name, raw, &at, gravity, check);
+        if let Some(rails) = rails {
+            let track = at.key("track");
+            for (index, rail) in raw.track.iter().flatten().enumerate() {
+                body.track.extend(rail_named(rail, rails, &track.index(index), check.faults));
+            }
+        }
+        bodies.push(body);
+    }
+    bodies
+}
+
+fn read_wheels(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Wheel> {
+    let mut wheels = Vec::new();
+    let place = root.key("wheels");
+    for (name, raw) in &raw.wheels.0 {
+        let at = place.key(name);
+        check_name(name, &at, check.faults);
+        wheels.push(wheel::read(name, raw, &at, check));
+    }
+    wheels
+}
+
+/// Reads what acts on bodies and trucks, and checks what involves several members.
+fn read_actions(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut Check<'_>) {
+    let all_trucks = scene.trucks.len() == raw.trucks.len();
+    if all_trucks {
+        scene.spins = spin::read_all(&raw.motions, scene, check);
+    }
+    scene.stops = stop::read_all(&raw.stops, scene, check);
+    event::fit_brakes(&raw.events, &mut scene.bodies);
+    scene.events = event::read_all(&raw.events, scene, check);
+    if all_trucks {
+        actuator::check_wheels(raw, scene, check.faults);
+    }
+    if all_trucks && truck_spacing::check(scene, check.faults) {
+        scene.practice = practice::read(&raw.practice, scene, root, check);
+    }
+    if check.faults.0.is_empty() {
+        mount::check(scene, check.faults);
+        check_travel(raw, scene, root, check.faults);
+        method::suits(scene, root, check.faults);
+    }
 }
 
 fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Option<f64> {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use adams::SplineValues;
 
 use crate::check::Check;
-use crate::scene::raw::{Pick, RawTables};
+use crate::scene::raw::{RawPick, RawTables};
 use crate::scene::values::structure::{Origin, TablePair};
 use crate::tables::{self, Table, TableSet};
 use crate::text::diagnostic::Diagnostic;
@@ -62,13 +62,13 @@ fn pair(set: &TableSet, raw: &RawTables, at: &Place<'_>, check: &mut Check<'_>) 
 /// The table of one direction: a family of curves, one for each station.
 fn table<'s>(
     set: &'s TableSet,
-    pick: Option<&Pick>,
+    pick: Option<&RawPick>,
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<&'s SplineValues> {
     let found = match pick? {
-        Pick::Id(id) => by_id(set, *id, at, check),
-        Pick::Name(name) => by_name(set, name, at, check),
+        RawPick::Id(id) => by_id(set, *id, at, check),
+        RawPick::Name(name) => by_name(set, name, at, check),
     }?;
     if found.curves.z() != found.curves.x() {
         let fault = Fault::new(at, format!("SPLINE/{} must have a curve at each of its x", found.id));

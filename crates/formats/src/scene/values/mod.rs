@@ -5,7 +5,6 @@ pub mod body;
 pub mod output;
 pub mod practice;
 pub mod scene;
-pub mod stepper;
 pub mod structure;
 pub mod truck;
 pub mod wheel;

@@ -1,5 +1,7 @@
 //! A scene, checked: the whole of it.
 
+use sim::Method;
+
 use super::actuator::{Event, Load, Rope, Spin, Stop};
 use super::body::{Body, seat_of};
 use super::output::Output;
@@ -126,4 +128,20 @@ pub fn across(scene: &Scene, body: usize, rail: usize) -> f64 {
     });
     let (sum, count) = places.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));
     if count > 0.0 { sum / count } else { 0.0 }
+}
+
+/// Names of the methods of integration.
+pub const STEPPERS: [(&str, Method); 6] = [
+    ("auto", Method::Auto),
+    ("sdirk4", Method::Sdirk4),
+    ("radau", Method::Radau),
+    ("series", Method::Series),
+    ("gauss2", Method::Gauss2),
+    ("gauss3", Method::Gauss3),
+];
+
+/// Name of a method of integration.
+#[must_use]
+pub fn stepper_word(method: Method) -> &'static str {
+    STEPPERS.iter().find(|(_, known)| *known == method).map_or("", |(word, _)| *word)
 }
