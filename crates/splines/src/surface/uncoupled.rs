@@ -18,7 +18,8 @@ pub enum Couplings {
 
 impl Couplings {
     /// Whether displacements at `p` by forces at `q` are kept.
-    fn keep(self, p: &Probe, q: &Probe) -> bool {
+    #[must_use]
+    pub fn keep(self, p: &Probe, q: &Probe) -> bool {
         match self {
             Couplings::All => true,
             Couplings::WithinRails => p.rail == q.rail,
