@@ -29,6 +29,8 @@
 //!
 //! # Order of the wings
 //!
+//! Wings, lowest first: keyword, error, number, expression, language, tables, view, kinematics, model, solve
+//!
 //! A file imports from its own wing and from those before it, never from a later one.
 //!
 //! 1. `keyword`, `error`, `number`: words, errors and numbers, which every wing uses.

@@ -36,7 +36,9 @@
 //! # Ok::<(), fea::Error>(())
 //! ```
 //!
-//! The modules have an order; a file of one imports nothing of a later one:
+//! Wings, lowest first: dof, error, model, assembly, factor, influence, modes
+//!
+//! A file of one imports nothing of a later one:
 //!
 //! 1. `dof`, `error`: degrees of freedom, and what can be wrong;
 //! 2. `model`: the structure as the caller describes it, plain values;

@@ -31,6 +31,8 @@
 //!
 //! # Order of the wings
 //!
+//! Wings, lowest first: error, codes, fatigue, signals
+//!
 //! A file imports from its own wing and from those before it. The last three wings do not import each other.
 //!
 //! 1. `error`: numbers that are refused.

@@ -45,7 +45,10 @@
 //!
 //! # Wings
 //! Folders are wings; a file of a lower wing imports nothing of a higher one, and no files import each other in a
-//! circle. From the bottom to the top:
+//! circle.
+//!
+//! Wings, lowest first: numerics, scene, mechanics, contact, record, instant, time, run, select
+//!
 //! 1. `numerics`: dense systems, complementarity, roots, the STEP function;
 //! 2. `scene`: what the caller says;
 //! 3. `mechanics`: the numbered degrees of freedom, kinematics, mass;

@@ -35,7 +35,9 @@
 //! ours.
 //!
 //! # Wings
-//! In this order; a file imports nothing of a later wing. The order is kept by `tests/wings.rs`.
+//! Wings, lowest first: vector, probe, error, compliance, curve, rail, surface, table, quality
+//!
+//! A file imports nothing of a later wing.
 //! 1. `vector`, `probe`, `error`, `compliance`: products of small vectors, places, errors, and the interface
 //!    of every compliance.
 //! 2. `curve`: piecewise cubics in one variable.
