@@ -1,7 +1,7 @@
 //! Errors: where in the text or in which statement something is wrong, and what.
 //!
 //! An [`Error`] gives the place: line and column of the text, or the statement by keyword and identifier. A
-//! [`Fault`] says what is wrong there.
+//! [`AdamsFault`] says what is wrong there.
 
 use crate::keyword::StatementId;
 

@@ -8,7 +8,7 @@
 //! A mass of 2 kg on a spring of 1000 N/m comes to rest where the spring carries its weight:
 //!
 //! ```
-//! use adams::{DataSet, Model};
+//! use adams::{DataSet, AdamsModel};
 //!
 //! let text = "mass on a spring
 //! UNITS/FORCE=NEWTON, MASS=KILOGRAM, LENGTH=METER, TIME=SECOND
@@ -20,7 +20,7 @@
 //! SFORCE/1, TRANSLATIONAL, ACTIONONLY, I=2, J=1, FUNCTION=-1000*DZ(2,1)
 //! ACCGRAV/KGRAV=-9.80665
 //! END";
-//! let model = Model::new(&DataSet::read(text)?)?;
+//! let model = AdamsModel::new(&DataSet::read(text)?)?;
 //! let rest = model.equilibrium(0.0, &model.initial())?;
 //! let height = rest.state.parts[&2].origin.z;
 //! assert!((height + 2.0 * 9.80665 / 1000.0).abs() < 1e-12);

@@ -12,7 +12,7 @@
 //! let text = r#"{"format": "girderway-beam/1", "name": "girder",
 //!     "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
 //!     "girder": {"spans": [10], "E": 210e6, "I_vertical": 5.768e-4}, "stations": [0, 5, 10]}"#;
-//! let spec = Spec::read(&Source { name: "girder.json".to_owned(), text: text.to_owned() }).expect("a spec");
+//! let spec = Spec::read(&Source::from_bytes("girder.json", text.into()).expect("UTF-8"), None).expect("a spec");
 //! let solution = foundations::solve(&spec).expect("a girder that stands");
 //!
 //! // Deflection at midspan under 1 kN there: L^3/(48 E I).

@@ -12,7 +12,7 @@
 //!
 //! ```
 //! use practice::Crane;
-//! use practice::aist::{Kind, side_thrust, with_impact};
+//! use practice::aist::{CraneKind, side_thrust, with_impact};
 //!
 //! let crane = Crane {
 //!     lifted: 200.0,
@@ -24,8 +24,8 @@
 //! };
 //! let wheel = crane.wheel_loads(1.0, 1.0)?;
 //! assert!((wheel.near - 161.239).abs() < 5e-4);
-//! assert!((with_impact(Kind::MotorRoom, wheel.near)? - 193.487).abs() < 5e-4);
-//! assert!((side_thrust(Kind::MotorRoom, &crane)?.governing() - 60.0).abs() < 1e-12);
+//! assert!((with_impact(CraneKind::MotorRoom, wheel.near)? - 193.487).abs() < 5e-4);
+//! assert!((side_thrust(CraneKind::MotorRoom, &crane)?.governing() - 60.0).abs() < 1e-12);
 //! # Ok::<(), practice::Error>(())
 //! ```
 //!

@@ -15,7 +15,7 @@ use std::f64::consts::PI;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Function {
-    /// One of [`Unary`].
+    /// One of [`UnaryFunction`].
     Unary(UnaryFunction),
     /// ATAN2(y, x)
     Atan2,
@@ -128,7 +128,7 @@ impl Function {
     /// The value may be infinite or NaN: callers check.
     ///
     /// # Errors
-    /// [`Fault::Arguments`] for a wrong number of arguments; [`Fault::Parameter`] for a ramp without length,
+    /// [`AdamsFault::Arguments`] for a wrong number of arguments; [`AdamsFault::Parameter`] for a ramp without length,
     /// or a stiffness, exponent, damping or penetration outside the range of a contact law.
     pub fn value<T: Scalar>(self, arguments: &[T]) -> Result<T, AdamsFault> {
         match (self, arguments) {

@@ -17,10 +17,10 @@ const DEEPEST: usize = 100;
 /// The number of characters before the first place that cannot be read, and what is wrong there.
 ///
 /// ```
-/// use adams::{Expression, Fault, expression};
+/// use adams::{Expression, AdamsFault, expression};
 ///
 /// assert_eq!(expression::parse("180D"), Ok(Expression::Number(std::f64::consts::PI)));
-/// assert_eq!(expression::parse("1+*2"), Err((2, Fault::Text)));
+/// assert_eq!(expression::parse("1+*2"), Err((2, AdamsFault::UnexpectedText)));
 /// ```
 pub fn parse(text: &str) -> Result<Expression, (usize, AdamsFault)> {
     let letters: Vec<char> = text.chars().collect();

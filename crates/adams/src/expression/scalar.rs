@@ -85,7 +85,7 @@ impl Scalar for f64 {
 ///
 /// let (x, y) = (Dual::unknown(3.0, 0, 2), Dual::unknown(4.0, 1, 2));
 /// let product = x.times(&y);
-/// assert_eq!((product.value(), product.slope(0), product.slope(1)), (12.0, 4.0, 3.0));
+/// assert_eq!((product.value(), product.derivative(0), product.derivative(1)), (12.0, 4.0, 3.0));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dual {

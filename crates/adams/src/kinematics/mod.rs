@@ -1,7 +1,7 @@
 //! Kinematics: vectors of scalars, states and poses of parts, frames of markers, and what is measured between
 //! them.
 //!
-//! A [`State`] gives the [`Pose`] of every moving part. A `Frame` is a part or marker in ground coordinates
+//! A [`ModelState`] gives the [`Pose`] of every moving part. A `Frame` is a part or marker in ground coordinates
 //! with its velocities, over plain numbers or numbers with derivatives; `measure` evaluates DX to WZ between
 //! frames.
 

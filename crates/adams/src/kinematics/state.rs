@@ -6,11 +6,11 @@ use std::collections::BTreeMap;
 /// The state of a data set at one time.
 ///
 /// ```
-/// use adams::{Pose, State};
+/// use adams::{Pose, ModelState};
 /// use nalgebra::{Matrix3, Vector3};
 ///
-/// let mut state = State { time: 0.5, ..State::default() };
-/// state.parts.insert(2, Pose::at(Vector3::new(0.0, 1.25, 30.0), Matrix3::identity()));
+/// let mut state = ModelState { time: 0.5, ..ModelState::default() };
+/// state.parts.insert(2, Pose::at_rest(Vector3::new(0.0, 1.25, 30.0), Matrix3::identity()));
 /// assert_eq!(state.parts[&2].velocity, Vector3::zeros());
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]

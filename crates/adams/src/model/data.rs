@@ -12,14 +12,14 @@ use crate::{AdamsFault, Expression, ModelState};
 
 /// A data set with every reference resolved, which can be executed.
 ///
-/// [`Model::solve`] gives the forces at a state, [`Model::equilibrium`] static equilibrium, and
-/// [`Model::path`] the quasi-static path.
+/// [`AdamsModel::solve`] gives the forces at a state, [`AdamsModel::equilibrium`] static equilibrium, and
+/// [`AdamsModel::quasi_static_path`] the quasi-static path.
 ///
 /// ```
-/// use adams::{DataSet, Model};
+/// use adams::{DataSet, AdamsModel};
 ///
 /// let set = DataSet::read("a wheel\nPART/1,GROUND\nPART/2,QG=0,1.25,0\nEND")?;
-/// let model = Model::new(&set)?;
+/// let model = AdamsModel::new(&set)?;
 /// assert_eq!(model.initial().parts[&2].origin.y, 1.25);
 /// # Ok::<(), adams::Error>(())
 /// ```

@@ -85,7 +85,7 @@ impl Formula {
     /// The value.
     ///
     /// # Errors
-    /// The faults of functions and tables; [`Fault::Infinite`] for a result that is not finite.
+    /// The faults of functions and tables; [`AdamsFault::NotFiniteValue`] for a result that is not finite.
     pub fn value<T: Scalar>(&self, on: &Evaluation<'_, T>) -> Result<T, AdamsFault> {
         let out = self.part(on)?;
         if out.value().is_finite() { Ok(out) } else { Err(AdamsFault::NotFiniteValue) }

@@ -20,11 +20,11 @@ impl AdamsModel {
     /// without a finite value; [`Error::Loop`] if the iteration does not converge.
     ///
     /// ```
-    /// use adams::{DataSet, Model};
+    /// use adams::{DataSet, AdamsModel};
     ///
     /// // v = 1 - 10.9 v, as for a wheel on a flexible girder: substitution would diverge.
     /// let set = DataSet::read("loop\nVARIABLE/1, FUNCTION=1-10.9*VARVAL(1)\nEND")?;
-    /// let model = Model::new(&set)?;
+    /// let model = AdamsModel::new(&set)?;
     /// let solution = model.solve(&model.initial())?;
     /// assert!((solution.variables[&1] - 1.0 / 11.9).abs() < 1e-16);
     /// # Ok::<(), adams::Error>(())

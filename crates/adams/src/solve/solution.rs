@@ -93,10 +93,10 @@ impl AdamsModel {
     /// unknown names or identifiers, and for a value that is not finite.
     ///
     /// ```
-    /// use adams::{DataSet, Model};
+    /// use adams::{DataSet, AdamsModel};
     ///
     /// let set = DataSet::read("a wheel\nPART/1,GROUND\nPART/2,QG=0,1.25,0\nMARKER/216,PART=2\nEND")?;
-    /// let model = Model::new(&set)?;
+    /// let model = AdamsModel::new(&set)?;
     /// let state = model.initial();
     /// let solution = model.solve(&state)?;
     /// assert_eq!(model.evaluate(&state, &solution, "2*DY(216)")?, 2.5);

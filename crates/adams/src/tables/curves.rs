@@ -8,14 +8,14 @@ use crate::AdamsFault;
 /// measured.
 ///
 /// ```
-/// use adams::{Curves, Fault};
+/// use adams::{SplineValues, AdamsFault};
 ///
 /// let x = vec![0.0, 20.0, 40.0, 60.0];
-/// let single = Curves::new(x.clone(), vec![], vec![vec![0.0, 2.0, 2.0, 0.0]])?;
+/// let single = SplineValues::new(x.clone(), vec![], vec![vec![0.0, 2.0, 2.0, 0.0]])?;
 /// assert!(single.z().is_empty());
-/// let short = Curves::new(x, vec![], vec![vec![0.0, 2.0]]);
-/// assert_eq!(short, Err(Fault::Values { curve: 0, found: 2, expected: 4 }));
-/// # Ok::<(), Fault>(())
+/// let short = SplineValues::new(x, vec![], vec![vec![0.0, 2.0]]);
+/// assert_eq!(short, Err(AdamsFault::Values { curve: 0, found: 2, expected: 4 }));
+/// # Ok::<(), AdamsFault>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplineValues {
@@ -34,9 +34,9 @@ impl SplineValues {
     /// Shapes: `y` has `max(1, z.len())` lists of `x.len()` values each.
     ///
     /// # Errors
-    /// [`Fault::Points`] for fewer than four x values; [`Fault::Order`] for x or z values that are not finite
-    /// or do not increase; [`Fault::Curves`] and [`Fault::Values`] for a wrong shape of `y`;
-    /// [`Fault::NotFinite`] for a y value that is not finite.
+    /// [`AdamsFault::Points`] for fewer than four x values; [`AdamsFault::Order`] for x or z values that are not finite
+    /// or do not increase; [`AdamsFault::Curves`] and [`AdamsFault::Values`] for a wrong shape of `y`;
+    /// [`AdamsFault::NotFinite`] for a y value that is not finite.
     pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<SplineValues, AdamsFault> {
         if x.len() < SplineValues::MIN_POINTS {
             return Err(AdamsFault::Points { found: x.len(), least: SplineValues::MIN_POINTS });

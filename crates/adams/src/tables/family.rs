@@ -16,15 +16,15 @@ pub enum SplineMethod {
 /// The function f(x, z) that a SPLINE defines: cubics along x, straight lines along z.
 ///
 /// ```
-/// use adams::{Curves, Family, Method, Spline};
+/// use adams::{SplineValues, SplineFunction, SplineMethod, Spline};
 ///
 /// // The points of an example in the Adams View help of AKIMA_SPLINE.
-/// let curves = Curves::new(vec![1.0, 2.0, 3.0, 4.0], vec![], vec![vec![0.0, 2.0, 1.0, 3.0]])?;
-/// let spline = Spline { id: 1, name: None, units: None, linear: true, curves };
-/// let family = Family::new(&spline, Method::Akima);
+/// let curves = SplineValues::new(vec![1.0, 2.0, 3.0, 4.0], vec![], vec![vec![0.0, 2.0, 1.0, 3.0]])?;
+/// let spline = Spline { id: 1, name: None, units: None, linear_extrapolate: true, curves };
+/// let family = SplineFunction::new(&spline, SplineMethod::Akima);
 /// let found = family.read(5.0 / 3.0, 0.0, 0)?;
-/// assert!((found.value - 1.667).abs() < 5e-4 && !found.beyond);
-/// # Ok::<(), adams::Fault>(())
+/// assert!((found.value - 1.667).abs() < 5e-4 && !found.extrapolated);
+/// # Ok::<(), adams::AdamsFault>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplineFunction {
@@ -75,7 +75,7 @@ impl SplineFunction {
     /// line continues with LINEAR_EXTRAPOLATE.
     ///
     /// # Errors
-    /// [`Fault::Beyond`] for z outside a SPLINE without LINEAR_EXTRAPOLATE.
+    /// [`AdamsFault::OutsideZ`] for z outside a SPLINE without LINEAR_EXTRAPOLATE.
     ///
     /// # Source
     /// Adams Solver reference, AKISPL, CUBSPL and SPLINE.

@@ -6,9 +6,9 @@ use crate::error::{Argument, non_negative};
 /// A class of fatigue actions, S0 to S9.
 ///
 /// ```
-/// use practice::duty::{Duty, equivalent_load, fatigue_factor};
+/// use practice::duty::{FatigueClass, equivalent_load, fatigue_factor};
 ///
-/// let class = Duty::new(5).expect("S5");
+/// let class = FatigueClass::new(5).expect("S5");
 /// let load = equivalent_load(160.0, class.normal(), fatigue_factor(1.1)?)?;
 /// assert!((load - 105.84).abs() < 1e-9);
 /// # Ok::<(), practice::Error>(())

@@ -60,9 +60,9 @@ impl HoistingClass {
 /// EN 1991-3:2006, Table 2.4 with Table 2.5.
 ///
 /// ```
-/// use practice::factor::{Hoisting, phi2};
+/// use practice::factor::{HoistingClass, phi2};
 ///
-/// assert!((phi2(Hoisting::Hc2, 0.2)? - 1.168).abs() < 1e-12);
+/// assert!((phi2(HoistingClass::Hc2, 0.2)? - 1.168).abs() < 1e-12);
 /// # Ok::<(), practice::Error>(())
 /// ```
 pub fn phi2(class: HoistingClass, speed: f64) -> Result<f64, Error> {

@@ -24,7 +24,7 @@ pub enum Guide {
     Flanges,
 }
 
-/// The skewing angle alpha = alpha_F + alpha_V + alpha_0, in rad, which must not exceed [`MOST`].
+/// The skewing angle alpha = alpha_F + alpha_V + alpha_0, in rad, which must not exceed [`MAX_ANGLE`].
 ///
 /// alpha_F = 0.75 x/a, where 0.75 x is at least 5 mm for rollers and 10 mm for flanges. alpha_V = y/a with
 /// the wear y = 0.03 b for rollers and 0.10 b for flanges. `slack` is the clearance x between rail and guide,
@@ -97,7 +97,7 @@ pub struct Skewing {
 ///
 /// # Errors
 /// [`Error::Range`] for a span that is not positive, a fraction outside 0 to 1, or a negative distance;
-/// [`Error::NoReach`] for no pair, or all pairs at the guide.
+/// [`Error::NoRotationCentre`] for no pair, or all pairs at the guide.
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4, Tables 2.8 and 2.9.

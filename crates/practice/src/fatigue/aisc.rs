@@ -59,10 +59,10 @@ impl AiscCategory {
 /// A fatigue strength curve of AISC 360: N = 1e9 C_f/F^3 cycles of the range F in ksi.
 ///
 /// ```
-/// use practice::aisc::{Category, Curve};
+/// use practice::aisc::{AiscCategory, AiscCurve};
 ///
 /// // Ranges in N/mm2; 1 ksi is 6.894757 N/mm2.
-/// let curve = Curve::new(Category::C, 6.894757)?;
+/// let curve = AiscCurve::new(AiscCategory::C, 6.894757)?;
 /// assert!((curve.damage(curve.limit())? * 4.4e6 - 1.0).abs() < 1e-12);
 /// # Ok::<(), practice::Error>(())
 /// ```
@@ -82,7 +82,7 @@ impl AiscCurve {
         Ok(AiscCurve { category, ksi: positive(Argument::Range, ksi)? })
     }
 
-    /// The range whose life on the sloping line is [`REFERENCE`] cycles; the threshold is disregarded.
+    /// The range whose life on the sloping line is [`REFERENCE_CYCLES`] cycles; the threshold is disregarded.
     #[must_use]
     pub fn reference(&self) -> f64 {
         (self.category.values()[0] * 1e9 / REFERENCE_CYCLES).cbrt() * self.ksi
@@ -116,7 +116,7 @@ impl AiscCurve {
         Damage::of(cycles, self.limit(), |range| self.damage(range))
     }
 
-    /// The constant range that does the damage `sum` in [`REFERENCE`] cycles.
+    /// The constant range that does the damage `sum` in [`REFERENCE_CYCLES`] cycles.
     ///
     /// # Errors
     /// [`Error::Range`] for a sum that is negative or not finite.

@@ -56,10 +56,10 @@ type Turn = (f64, usize);
 /// (1994).
 ///
 /// ```
-/// use practice::{History, rainflow};
+/// use practice::{Repetition, rainflow};
 ///
 /// // The small range of 2 is a whole cycle; the ranges of 5 and 6 around it are half cycles.
-/// let cycles = rainflow(&[0.0, 5.0, 2.0, 4.0, -1.0], History::Once)?;
+/// let cycles = rainflow(&[0.0, 5.0, 2.0, 4.0, -1.0], Repetition::Once)?;
 /// let found: Vec<[f64; 2]> = cycles.iter().map(|cycle| [cycle.range(), cycle.count]).collect();
 /// assert_eq!(found, [[2.0, 1.0], [5.0, 0.5], [6.0, 0.5]]);
 /// # Ok::<(), practice::Error>(())

@@ -32,10 +32,10 @@ pub enum Stress {
 /// A fatigue strength curve: the number of cycles to failure by the range of nominal stress.
 ///
 /// ```
-/// use practice::fatigue::{REFERENCE, Strength, Stress};
+/// use practice::fatigue::{REFERENCE_CYCLES, Strength, Stress};
 ///
 /// let strength = Strength::new(Stress::Direct, 80.0, 1.0, 1.0)?;
-/// assert!((strength.damage(80.0)? * REFERENCE - 1.0).abs() < 1e-12);
+/// assert!((strength.damage(80.0)? * REFERENCE_CYCLES - 1.0).abs() < 1e-12);
 /// assert_eq!(strength.damage(30.0)?, 0.0);
 /// # Ok::<(), practice::Error>(())
 /// ```
@@ -63,7 +63,7 @@ impl Strength {
         Ok(Strength { stress, reference })
     }
 
-    /// The reference strength: the range whose life is [`REFERENCE`] cycles.
+    /// The reference strength: the range whose life is [`REFERENCE_CYCLES`] cycles.
     #[must_use]
     pub fn reference(&self) -> f64 {
         self.reference
@@ -125,7 +125,7 @@ impl Strength {
         Damage::of(cycles, self.fatigue_limit(), |range| self.damage(range))
     }
 
-    /// The equivalent constant range, which does the damage `sum` in [`REFERENCE`] cycles: the reference
+    /// The equivalent constant range, which does the damage `sum` in [`REFERENCE_CYCLES`] cycles: the reference
     /// strength times sum^(1/3), or sum^(1/5) for shear. It is at most the reference strength exactly when
     /// the sum is at most one.
     ///

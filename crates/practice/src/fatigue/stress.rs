@@ -57,10 +57,10 @@ pub fn weights(section: &SectionProperties, point: SectionPoint) -> Result<[f64;
 /// That of [`weights`].
 ///
 /// ```
-/// use practice::{Point, Section, stress};
+/// use practice::{SectionPoint, SectionProperties, stress};
 ///
-/// let section = Section { area: 0.02, iy: 5.8e-4, iz: 1.0e-4 };
-/// let top = Point { y: 0.0, z: 0.2 };
+/// let section = SectionProperties { area: 0.02, iy: 5.8e-4, iz: 1.0e-4 };
+/// let top = SectionPoint { y: 0.0, z: 0.2 };
 /// let sigma = stress::direct(&section, top, [100.0, 0.0, 0.0, 0.0, 29.0, 0.0])?;
 /// assert!((sigma - 15_000.0).abs() < 1e-9);
 /// # Ok::<(), practice::Error>(())

@@ -44,11 +44,11 @@ pub struct Extremes {
 /// of different length, a sample that is not finite, or times that decrease.
 ///
 /// ```
-/// use practice::{Run, envelope};
+/// use practice::{RunHistories, envelope};
 ///
 /// let (times, moment, position) = ([0.0, 1.0, 2.0], [1.0, 8.0, 3.0], [10.0, 12.0, 14.0]);
-/// let found = envelope(&[Run { times: &times, series: &[&moment, &position] }], 1)?;
-/// assert_eq!(found[0].most.values, [8.0, 12.0]);
+/// let found = envelope(&[RunHistories { times: &times, series: &[&moment, &position] }], 1)?;
+/// assert_eq!(found[0].max.values, [8.0, 12.0]);
 /// # Ok::<(), practice::Error>(())
 /// ```
 pub fn envelope(runs: &[RunHistories], count: usize) -> Result<Vec<Extremes>, Error> {

@@ -35,11 +35,11 @@ pub struct TimedValue {
     pub value: f64,
 }
 
-/// The characteristics of a response from [`View::from`] on, which is sampled evenly and, if requested,
+/// The characteristics of a response from [`ResponseSettings::from`] on, which is sampled evenly and, if requested,
 /// filtered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ResponseCharacteristics {
-    /// Time average of the unfiltered history from [`View::settled`] to the end.
+    /// Time average of the unfiltered history from [`ResponseSettings::settled`] to the end.
     pub mean: f64,
     /// Largest value.
     pub peak: TimedValue,
@@ -59,7 +59,7 @@ pub struct ResponseCharacteristics {
 /// Those of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
 ///
 /// ```
-/// use practice::{View, response};
+/// use practice::{ResponseSettings, response};
 ///
 /// // A step to 50 at time zero that oscillates at 2 Hz with a damping of 3 %.
 /// let times: Vec<f64> = (0..1000).map(|k| 0.01 * f64::from(k)).collect();
@@ -67,7 +67,7 @@ pub struct ResponseCharacteristics {
 /// let step = |t: &f64| 50.0 - 50.0 * (-0.03 * omega * t).exp() * (omega * t).cos();
 /// let values: Vec<f64> = times.iter().map(step).collect();
 /// let view =
-///     View { from: 0.0, settled: 8.0, step: 0.01, cut: None, share: 0.1, band: [0.5, 5.0], floor: 0.1 };
+///     ResponseSettings { from: 0.0, settled: 8.0, step: 0.01, cut_off: None, excursion_fraction: 0.1, band: [0.5, 5.0], floor: 0.1 };
 /// let found = response(&times, &values, &view)?;
 /// assert!((found.mean - 50.0).abs() < 0.5 && found.peak.value > 90.0);
 /// assert!((found.decay.expect("an oscillation").ratio - 0.03).abs() < 1e-3);

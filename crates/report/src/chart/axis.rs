@@ -5,9 +5,9 @@ use super::label::with_unit;
 /// One axis of a chart, as data.
 ///
 /// ```
-/// use report::chart::Axis;
+/// use report::chart::ChartAxis;
 ///
-/// let axis = Axis::new("error", "ft").log().range(1e-6, 1e-2);
+/// let axis = ChartAxis::new("error", "ft").log().range(1e-6, 1e-2);
 /// assert_eq!((axis.log, axis.range), (true, Some([1e-6, 1e-2])));
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]

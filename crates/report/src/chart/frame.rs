@@ -33,10 +33,10 @@ pub(super) type Plot<'s> = ChartContext<'s, SvgBackend<'s>, Cartesian2d<Coordina
 /// Placement of data on a picture, in pixels.
 ///
 /// ```
-/// use report::chart::{Axis, Chart, Series, Style};
+/// use report::chart::{ChartAxis, Chart, Series, Style};
 ///
 /// let line = Series::new("line", Style::Line, vec![[0.0, 0.0], [2.0, 1.0]]);
-/// let frame = Chart::new("", Axis::new("x", "m"), Axis::new("y", "m")).with(line).draw()?.frame;
+/// let frame = Chart::new("", ChartAxis::new("x", "m"), ChartAxis::new("y", "m")).with(line).draw()?.frame;
 /// assert_eq!(frame.ranges(), [[0.0, 2.0], [0.0, 1.0]]);
 /// assert_eq!(frame.place([2.0, 1.0]), [frame.left + frame.width, frame.top]);
 /// # Ok::<(), report::chart::Error>(())

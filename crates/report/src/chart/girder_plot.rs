@@ -51,15 +51,15 @@ pub struct Deflected {
 /// Side view of a girder, drawn to one scale.
 ///
 /// ```
-/// use report::chart::{GirderPlot, Support};
+/// use report::chart::{GirderPlot, SupportMark};
 ///
 /// let girder = GirderPlot {
 ///     title: "Girder".into(),
 ///     length_unit: "m".into(),
 ///     members: vec![vec![[0.0, 0.0], [12.0, 0.0]]],
 ///     supports: vec![
-///         Support { at: [0.0, 0.0], holds_length: true },
-///         Support { at: [12.0, 0.0], holds_length: false },
+///         SupportMark { at: [0.0, 0.0], holds_length: true },
+///         SupportMark { at: [12.0, 0.0], holds_length: false },
 ///     ],
 ///     ..GirderPlot::default()
 /// };

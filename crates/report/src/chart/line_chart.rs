@@ -37,10 +37,10 @@ const MARKER_ROW: f64 = 16.0;
 /// A chart: curves over two axes.
 ///
 /// ```
-/// use report::chart::{Axis, Chart, Series, Style};
+/// use report::chart::{ChartAxis, Chart, Series, Style};
 ///
 /// let deflection = (0..=60).map(|x| [f64::from(x), 0.5 * (f64::from(x) / 60.0 * 3.14).sin()]).collect();
-/// let chart = Chart::new("Path of the trunnion", Axis::new("place", "ft"), Axis::new("deflection", "ft").downwards())
+/// let chart = Chart::new("Path of the trunnion", ChartAxis::new("place", "ft"), ChartAxis::new("deflection", "ft").downwards())
 ///     .with(Series::new("influence", Style::Line, deflection))
 ///     .with(Series::new("rigid rail", Style::Dashed, vec![[0.0, 0.0], [60.0, 0.0]]))
 ///     .mark(30.0, "midspan");

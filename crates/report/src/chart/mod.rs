@@ -11,10 +11,10 @@
 //! `contour`; `line_chart`, `surface_plot`, `girder_plot`.
 //!
 //! ```
-//! use report::chart::{Axis, Chart, Series, Style};
+//! use report::chart::{ChartAxis, Chart, Series, Style};
 //!
 //! let points = (0..100).map(|i| [f64::from(i), f64::from(i * i)]).collect();
-//! let chart = Chart::new("Squares", Axis::new("number", ""), Axis::new("square", ""))
+//! let chart = Chart::new("Squares", ChartAxis::new("number", ""), ChartAxis::new("square", ""))
 //!     .with(Series::new("squares", Style::Line, points));
 //! let svg = chart.svg()?.file();
 //! assert!(svg.starts_with("<svg ") && svg.contains("Squares"));

@@ -19,12 +19,12 @@ pub enum AnimationTrack {
 /// An animated picture; it is drawn as at one frame.
 ///
 /// ```
-/// use report::document::film::{Film, Track};
+/// use report::document::animated::{Animation, AnimationTrack};
 /// use report::chart::Svg;
 ///
 /// let picture = Svg::new(100.0, 20.0, "<circle data-m=\"0\" cy=\"100\" r=\"50\"/>");
 /// let places = vec![[0.0, 0.0], [80.0, 0.0]];
-/// let film = Film { svg: picture, still: 0.0, times: vec![0.0, 1.0], tracks: vec![(0, Track::Move(places))] };
+/// let film = Animation { svg: picture, still_time: 0.0, times: vec![0.0, 1.0], tracks: vec![(0, AnimationTrack::Displacement(places))] };
 /// assert!(film.data().is_some_and(|data| data.contains("transform")));
 /// ```
 #[derive(Clone, Debug, PartialEq)]

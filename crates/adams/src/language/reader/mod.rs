@@ -34,11 +34,11 @@ impl DataSet {
     /// Adams Solver reference, the statements; continuation as in data sets written by Adams View.
     ///
     /// ```
-    /// use adams::{DataSet, Value};
+    /// use adams::{DataSet, ArgumentValue};
     ///
     /// let set = DataSet::read("title\nVAR/1, FUN=TIME\n,*2\nEND")?;
     /// let function = set.find("VARIABLE", 1).and_then(|one| one.get("FUNCTION"));
-    /// assert_eq!(function, Some(&Value::Function("TIME*2".into())));
+    /// assert_eq!(function, Some(&ArgumentValue::Function("TIME*2".into())));
     /// # Ok::<(), adams::Error>(())
     /// ```
     pub fn read(text: &str) -> Result<DataSet, Error> {

@@ -16,7 +16,7 @@ const FOOT: f64 = 0.3048;
 /// It is one without UNITS, with SYSTEM=NONE, and where the three units are consistent.
 ///
 /// # Errors
-/// [`Fault::Unit`] for an unknown unit or system.
+/// [`AdamsFault::Unit`] for an unknown unit or system.
 pub(super) fn force_of_mass(arguments: &Arguments<'_>) -> Result<f64, Error> {
     let word = |name: &str| match arguments.statement.get(name) {
         Some(ArgumentValue::Word(word)) => Some(word.clone()),

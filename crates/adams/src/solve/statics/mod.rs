@@ -31,7 +31,7 @@ impl AdamsModel {
     ///
     /// # Errors
     /// [`Error::Equilibrium`] with the statement that has the largest residual; the errors of
-    /// [`Model::solve`].
+    /// [`AdamsModel::solve`].
     ///
     /// # Source
     /// E. J. Haug, Computer Aided Kinematics and Dynamics of Mechanical Systems (1989), chapter 10, with
@@ -39,7 +39,7 @@ impl AdamsModel {
     /// SIAM Journal on Numerical Analysis 35(2), 1998.
     ///
     /// ```
-    /// use adams::{DataSet, Model};
+    /// use adams::{DataSet, AdamsModel};
     ///
     /// let set = DataSet::read("pendulum
     /// PART/1, GROUND
@@ -50,7 +50,7 @@ impl AdamsModel {
     /// JOINT/1, SPHERICAL, I=2, J=1
     /// ACCGRAV/KGRAV=-9.81
     /// END")?;
-    /// let model = Model::new(&set)?;
+    /// let model = AdamsModel::new(&set)?;
     /// let rest = model.equilibrium(0.0, &model.initial())?;
     /// assert!((rest.reactions[&("JOINT", 1)].force.z - 3.0 * 9.81).abs() < 1e-9);
     /// # Ok::<(), adams::Error>(())
@@ -63,7 +63,7 @@ impl AdamsModel {
     /// first starts from the initial state.
     ///
     /// # Errors
-    /// The errors of [`Model::equilibrium`].
+    /// The errors of [`AdamsModel::equilibrium`].
     pub fn quasi_static_path(&self, times: &[f64]) -> Result<Vec<Equilibrium>, Error> {
         let mut out: Vec<Equilibrium> = Vec::with_capacity(times.len());
         for time in times {

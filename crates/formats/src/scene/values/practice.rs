@@ -1,7 +1,7 @@
 //! What the codes of crane engineers need beside the scene itself.
 
 use practice::aist::CraneKind;
-use practice::factor::{HoistingClass, DriveOnset, Release};
+use practice::factor::{DriveOnset, HoistingClass, Release};
 use practice::skew::Guide;
 
 /// Properties of a crane that codes need and its scene does not give.
