@@ -109,9 +109,9 @@ mod tests {
     #[test]
     fn an_end_that_slides_stiffens_nothing() {
         let (model, rail) = beam(false);
-        assert_eq!(growth(&model, &rail, 0.1), None);
+        assert_eq!(stiffness_growth(&model, &rail, 0.1), None);
         let (mut model, rail) = beam(true);
         model.members[1].releases[0][0] = true;
-        assert_eq!(growth(&model, &rail, 0.1), None);
+        assert_eq!(stiffness_growth(&model, &rail, 0.1), None);
     }
 }
