@@ -1,4 +1,4 @@
-//! What can go wrong with a deck.
+//! Why a scene has no deck, or a deck cannot be compared with the simulator.
 
 use formats::diagnostic::Diagnostic;
 use formats::motion::UnequalShares;
@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Why there is no deck, or no comparison of one with the simulator.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// The scene has something that a deck cannot have.
+    /// The scene has something that a deck does not support.
     #[error("{0}")]
     Refused(Box<Diagnostic>),
     /// A truck of the scene cannot be simulated.

@@ -1,4 +1,4 @@
-//! A foundation that is made, with the model whose motions are its degrees of freedom.
+//! A built foundation, with the model whose motions are its degrees of freedom.
 
 use std::sync::Arc;
 
@@ -6,11 +6,22 @@ use fea::Frame;
 use nalgebra::DMatrix;
 use sim::Foundation;
 
-/// A foundation, with the model behind its freedoms.
+/// A foundation of the simulation, with the model behind its degrees of freedom.
+///
+/// The model is needed after a run: the inertia of the structure, which enters reactions and internal forces, is computed
+/// from the accelerations of the degrees of freedom and from this model.
+///
+/// ```
+/// use foundations::BuiltFoundation;
+///
+/// let rigid = BuiltFoundation::from(sim::Foundation::rigid());
+/// assert_eq!(rigid.foundation.freedoms(), 0);
+/// assert!(rigid.motion.is_none(), "nothing moves");
+/// ```
 pub struct BuiltFoundation {
-    /// What carries the rails.
+    /// The foundation that carries the rails.
     pub foundation: Foundation,
-    /// What moves; `None`: nothing that has mass.
+    /// The model whose motions are the foundation's degrees of freedom; `None` where it has none, being without mass.
     pub motion: Option<MotionBasis>,
 }
 
@@ -20,23 +31,24 @@ impl From<Foundation> for BuiltFoundation {
     }
 }
 
-/// The model whose motions are the freedoms of a foundation, in their order.
+/// The model whose motions are the degrees of freedom of a foundation, in their order.
 pub enum MotionBasis {
-    /// Natural modes of a frame, with its members cut, as far as wheels can excite them.
+    /// Those natural modes of a frame with subdivided members that wheels can excite.
     Modes {
         /// The frame.
         frame: Arc<Frame>,
-        /// Its modes.
+        /// The subdivided model and its modes.
         refined: Box<fea::Refined>,
     },
     /// Rigid parts of a straight girder.
     Parts(RigidParts),
 }
 
-/// Rigid parts with mass, and how they move.
+/// Rigid parts with mass and their motion.
 pub struct RigidParts {
     /// Ends of the parts along the girder, increasing.
     pub ends: Vec<f64>,
-    /// Motion of the parts' centres, six each (displacements, rotations), by the structure's freedoms.
+    /// Motion of the parts' centres (three displacements and three rotations each) by the degrees of freedom:
+    /// 6 parts x degrees of freedom.
     pub basis: DMatrix<f64>,
 }

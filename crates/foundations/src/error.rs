@@ -1,8 +1,8 @@
-//! What can go wrong on the way from a solved structure to a foundation.
+//! Why a solved structure cannot be made a foundation.
 
 use thiserror::Error;
 
-/// Why a foundation cannot be made, or why a scene cannot run on it.
+/// Why a foundation cannot be built, or why a scene cannot run on it.
 #[derive(Debug, Error)]
 pub enum Error {
     /// The frame of a structure cannot be solved.
@@ -35,13 +35,13 @@ pub enum Error {
     /// The rail of a chain of rigid parts cannot be made.
     #[error(transparent)]
     ChainRail(#[from] splines::Error),
-    /// Rigid parts are asked of a structure that is no straight girder.
+    /// Rigid parts are asked for of a structure that is no straight girder.
     #[error("{structure}: parts need a beam spec of a straight girder")]
     NoGirder {
         /// Name of the structure.
         structure: String,
     },
-    /// Modes are asked of a structure that has no beam spec.
+    /// Modes are asked for of a structure that has no beam spec.
     #[error("{structure}: modes need a beam spec")]
     NoSpec {
         /// Name of the structure.

@@ -1,7 +1,7 @@
-//! From FE results to foundations: the transfer of data that used to be done by hand.
+//! From FE solutions to the foundations of a simulation: the transfer of data that used to be done by hand.
 //!
-//! A spec is solved once ([`solve`]); each foundation of a scene is then made of that solution ([`build`]): rigid, rigid
-//! parts, influence functions, natural modes with the static compliance of what they leave out, or the whole mesh.
+//! A spec is solved once ([`solve`]). Each foundation of a scene is then built from that solution ([`build`]): rigid, rigid
+//! parts, influence functions, natural modes with the residual flexibility of the modes left out, or all modes of a mesh.
 //! [`select_and_run`] finds the lowest fidelity that suffices for structures whose foundation is "auto".
 //!
 //! ```

@@ -1,4 +1,5 @@
-//! Structures on bodies: where their rails are, and what they weigh.
+//! Structures that bodies carry, such as the rails of a trolley on its bridge: the lines of their rails on the body, their
+//! mass, and the coupling of their modes with its motion.
 
 use fea::Modes;
 use sim::{Axle, Mount};
@@ -7,20 +8,21 @@ use splines::Axis;
 use crate::error::Error;
 use formats::scene::{On, Origin, Structure};
 
-/// Where the rails of a structure are on the body that carries it; `None` on the ground.
+/// The lines of a structure's rails on the body that carries it, and its rigid mass, 6 x 6 about the body's origin;
+/// `None` for a structure on the ground.
 ///
 /// # Errors
-/// A spec that no model can be made of.
+/// [`Error::Frame`] for a spec that no model can be made of.
 pub fn mount(structure: &Structure) -> Result<Option<Mount>, Error> {
     let (Some(On { body, at, .. }), Origin::Spec { spec, .. }) = (structure.on, &structure.origin) else {
         return Ok(None);
     };
     let refused = Error::frame(&structure.name);
     let (model, rails) = spec.model().map_err(&refused)?;
-    let axle = |rail: &fea::Rail| {
+    let rail_line = |rail: &fea::Rail| {
         let size = rail.axis.iter().map(|a| a * a).sum::<f64>().sqrt();
         let along = rail.axis.map(|a| a / size);
-        // The rail itself lies at its offset from the member: only what is across it moves its line.
+        // the rail lies at its offset from the member; only the part of it across the rail displaces the rail's line
         let across = rail.segments.first().and_then(|segment| {
             let member = model.members.get(segment.member)?;
             let point = model.points.get(member.points[0])?;
@@ -32,10 +34,11 @@ pub fn mount(structure: &Structure) -> Result<Option<Mount>, Error> {
         Axle { origin: [0, 1, 2].map(|k| at[k] + rail.origin[k] + across[k] - ahead * along[k]), along }
     };
     let mass = Mount::moved(&fea::rigid_mass(&model).map_err(&refused)?, at);
-    Ok(Some(Mount { body, rails: rails.iter().map(axle).collect(), mass, coupling: Vec::new() }))
+    Ok(Some(Mount { body, rails: rails.iter().map(rail_line).collect(), mass, coupling: Vec::new() }))
 }
 
-/// What moves a structure: wheels, sideways and along the rail too where they push so, and the body that carries it.
+/// What excites a structure: vertical wheel forces, lateral and longitudinal ones where wheels have them, and the motion
+/// of the body that carries it.
 #[derive(Clone, Copy)]
 pub(super) struct Excitation {
     pub lateral: bool,
@@ -45,9 +48,9 @@ pub(super) struct Excitation {
 
 impl Excitation {
     /// Vertical wheel forces on a structure on the ground.
-    pub const DOWN: Excitation = Excitation { lateral: false, longitudinal: false, on: None };
+    pub const VERTICAL: Excitation = Excitation { lateral: false, longitudinal: false, on: None };
 
-    /// Directions in which wheels push.
+    /// Directions of the wheel forces.
     pub fn axes(self) -> Vec<Axis> {
         let pushes =
             [(Axis::Vertical, true), (Axis::Lateral, self.lateral), (Axis::Longitudinal, self.longitudinal)];
@@ -55,8 +58,9 @@ impl Excitation {
     }
 }
 
-/// Momentum of every mode by the motions of its carrier that may change, relative to that of the whole mass: one line a
-/// motion, of the size of a mode's motion in which all mass moves alike.
+/// Coupling of every mode with each free motion of its carrier, divided by sqrt(m_i m): m_i is the carried mass (or
+/// inertia) in that motion, m the whole mass. One row of modes for each motion, so scaled that it compares with the motion
+/// of a mode in which the whole mass moves as one.
 pub(super) fn coupled_momentum(modes: &Modes, on: On) -> Vec<f64> {
     let total = Mount::moved(&modes.total, on.at);
     let couplings: Vec<[f64; 6]> =
@@ -64,13 +68,13 @@ pub(super) fn coupled_momentum(modes: &Modes, on: On) -> Vec<f64> {
     let moving = (0..6).filter(|&i| on.moves[i] && total[i][i] > 0.0);
     moving
         .flat_map(|i| {
-            let size = (total[i][i] * modes.total[0][0]).sqrt();
-            couplings.iter().map(move |coupling| coupling[i] / size)
+            let scale = (total[i][i] * modes.total[0][0]).sqrt();
+            couplings.iter().map(move |coupling| coupling[i] / scale)
         })
         .collect()
 }
 
-/// Mass of a structure in modes, and the momentum of those that are kept; its rails come later.
+/// Mass of a structure in modes and the coupling of `modes` with its carrier, about the carrier's origin; without rails.
 pub(super) fn inertia(modes: &Modes, on: On) -> Mount {
     let coupling = modes.modes.iter().map(|mode| Mount::moved_load(&mode.coupling, on.at)).collect();
     Mount { body: on.body, rails: Vec::new(), mass: Mount::moved(&modes.total, on.at), coupling }

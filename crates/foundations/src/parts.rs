@@ -1,4 +1,17 @@
-//! The chain of rigid parts and beams of a straight girder.
+//! A straight girder as a chain of rigid parts, joined by elastic beams between their centres.
+//!
+//! This is how girders were modelled by hand in multibody programs. The girder is divided into n parts of equal length;
+//! beams with the girder's section run from centre to centre, and each support holds the part that lies above it. The
+//! compliance C of the centres, 6n x 6n, comes from that frame ([`nodal_compliance`]). A wheel stands on the rigid
+//! extension of the part below it and passes to the next one within a window about their joint.
+//!
+//! Without mass the displacements of the rail follow from C at once. With mass, C is decomposed into its principal
+//! combinations, C = B diag(1/k) B^T, and B's columns with compliance above [`RIGID`] of the largest are the degrees of
+//! freedom ([`PartsDynamics`]):
+//!
+//! ```text
+//! M q'' + D q' + diag(k) q = Phi^T F,    M = B^T diag(masses, inertias) B,    motion of the centres = B q
+//! ```
 
 use std::sync::Arc;
 
@@ -12,21 +25,22 @@ use crate::error::Error;
 use crate::mount::Excitation;
 use formats::scene::{Handover, On};
 
-/// Smallest stiffness kept, relative to the most compliant combination of the parts' freedoms.
+/// Compliance of a combination of the parts' motions, relative to the largest, below which it counts as rigid.
 const RIGID: f64 = 1e-13;
 
-/// `count` rigid parts of equal length, beams between their centres, supports on the parts above them; where
-/// the girder has mass, each part has its share, and the chain's natural modes are damped by the share `damping` of
-/// critical. Where wheels do not push sideways, parts with mass move in the vertical plane alone.
+/// The foundation of `count` rigid parts of equal length. Where the girder has mass, each part has its fraction of it, and
+/// every natural mode of the chain has the fraction `damping` of critical damping. Where wheels do not excitation sideways,
+/// parts with mass move in the vertical plane only.
 ///
 /// # Errors
-/// What the FE model refuses.
+/// [`Error::Windows`] where the windows of neighbouring joints overlap; [`Error::Chain`] where the chain is a mechanism;
+/// [`Error::ChainRail`] where its rail cannot be made.
 pub fn foundation(
     girder: &Girder,
     count: usize,
     handover: Handover,
     damping: f64,
-    push: Excitation,
+    excitation: Excitation,
 ) -> Result<BuiltFoundation, Error> {
     let ends = part_ends(girder, count);
     let chain = PartChain::new(ends.clone(), 0, window(handover)).ok_or(Error::Windows)?;
@@ -39,18 +53,18 @@ pub fn foundation(
     breaks.dedup();
     let mut foundation =
         Foundation { rails: vec![Extent { range: Some(range), breaks }], ..Foundation::default() };
-    let mut parts = None;
+    let mut motion = None;
     let separate = matches!(handover, Handover::PerPart { .. });
     if separate {
         foundation.parts = Some(vec![chain.clone()]);
     }
     if let Some(mass) = girder.mass_per_length {
-        let motion = PartsDynamics::new(girder, mass, &ends, &nodal, push.lateral);
-        foundation.on = push.on.map(|on| motion.mount(&centres, on));
-        let chain_of = RigidParts { ends: ends.clone(), basis: motion.basis.clone() };
-        parts = Some(MotionBasis::Parts(chain_of));
-        let shapes = PartShapes { line, basis: motion.basis.clone(), chains: vec![chain], separate };
-        foundation.structure = Some(motion.structure(shapes, damping));
+        let dynamics = PartsDynamics::new(girder, mass, &ends, &nodal, excitation.lateral);
+        foundation.on = excitation.on.map(|on| dynamics.mount(&centres, on));
+        let basis = dynamics.basis.clone();
+        motion = Some(MotionBasis::Parts(RigidParts { ends: ends.clone(), basis: basis.clone() }));
+        let shapes = PartShapes { line, basis, chains: vec![chain], separate };
+        foundation.structure = Some(dynamics.structure(shapes, damping));
     } else {
         let surface = Surface::new(line, nodal)?;
         foundation.compliance = Some(if separate {
@@ -59,16 +73,16 @@ pub fn foundation(
             Box::new(BlendedParts { surface, chains: vec![chain] })
         });
     }
-    Ok(BuiltFoundation { foundation, motion: parts })
+    Ok(BuiltFoundation { foundation, motion })
 }
 
-/// Ends of `count` parts of equal length over the girder with its overhangs.
+/// The `count + 1` ends of parts of equal length over the girder with its overhangs.
 fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
     let (from, to) = (-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]);
     (0..=count).map(|j| from + (to - from) * j as f64 / count as f64).collect()
 }
 
-/// Compliance of the parts' centres, six freedoms each.
+/// Compliance of the parts' centres, six degrees of freedom each: 6 n x 6 n, zero in directions that nothing resists.
 fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Error> {
     let (whole, _) = girder.frame()?;
     let mut model =
@@ -87,7 +101,7 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
     }
     let points: Vec<usize> = (0..centres.len()).collect();
     let (mut nodal, _) = fea::nodal(&model, &points)?;
-    // Freedoms that nothing resists are not the parts' to give.
+    // the compliance of a direction that nothing resists is infinite: parts are taken not to move there
     for i in 0..nodal.nrows() {
         if !nodal[(i, i)].is_finite() {
             nodal[(i, i)] = 0.0;
@@ -96,7 +110,8 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
     Ok(nodal)
 }
 
-/// Every part as a rigid arm on a rail of its own, over the whole length.
+/// Every part as a rigid extension over the whole length, each on a rail of its own: the chain then selects, or blends,
+/// the rails of the parts below a wheel.
 fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Error> {
     let [from, to] = [ends[0], ends[ends.len() - 1]];
     let cells = centres.iter().enumerate().map(|(j, centre)| Cell {
@@ -112,19 +127,20 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Error> {
     Ok(Line::new(cells.collect())?)
 }
 
-/// Moment of inertia of a part about its axis by its mass: a thin bar resists twist a little.
+/// Moment of inertia of a part of `length` about the girder's axis, divided by its mass: the squared radius of gyration
+/// (I_vertical + I_lateral)/A, at least 1e-6 length^2, so that no degree of freedom is without inertia.
 #[must_use]
 pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
     let polar = girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
     polar.max(1e-6 * length * length)
 }
 
-/// Motion of parts with mass: the compliance's principal combinations as freedoms, so that what the supports
-/// hold is left out, K = diag(1/compliance), M = basis^T (lumped masses) basis.
+/// Equations of motion of parts with mass, in the principal combinations of their compliance: what the supports hold has
+/// no compliance and is no degree of freedom. K = diag(1/compliance), M = basis^T diag(lumped) basis.
 struct PartsDynamics {
-    /// States of the parts (six each) x freedoms.
+    /// Motion of the centres by the degrees of freedom: 6 n x degrees of freedom.
     basis: DMatrix<f64>,
-    /// Masses and inertias of the states.
+    /// Mass or moment of inertia that belongs to each of the 6 n motions.
     lumped: DVector<f64>,
     mass: DMatrix<f64>,
     /// Diagonal of K.
@@ -132,8 +148,10 @@ struct PartsDynamics {
 }
 
 impl PartsDynamics {
+    /// Of parts with `mass` per length between `ends`, whose centres have the compliance `nodal`; with `lateral` motion,
+    /// roll and yaw too, else in the vertical plane.
     fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> PartsDynamics {
-        // Rotations are scaled by a part's length, so that one eigenproblem measures all freedoms alike.
+        // rotations are scaled by a part's length, so that displacements and rotations are comparable in one eigenproblem
         let length = ends[1] - ends[0];
         let wanted: &[usize] = if lateral { &[1, 5, 2, 3, 4] } else { &[1, 5] };
         let used: Vec<usize> = (0..nodal.nrows()).filter(|i| wanted.contains(&(i % 6))).collect();
@@ -163,12 +181,13 @@ impl PartsDynamics {
         PartsDynamics { mass: basis.transpose() * weighted, stiffness, basis, lumped }
     }
 
-    /// Mass of the parts as one, and the momentum of their freedoms: R^T M R and basis^T M R, R the motion of the parts
-    /// about their `centres` by the six of the body that carries them.
+    /// Inertia of the parts as seen by the body that carries them: mass R^T m R, and coupling basis^T m R with the
+    /// degrees of freedom. m: the lumped masses; R: motion of the parts by the six motions of the body, 6 n x 6.
     fn mount(&self, centres: &[f64], on: On) -> Mount {
         let motion = DMatrix::from_fn(6 * centres.len(), 6, |i, k| {
             let (x, axis) = (centres[i / 6], i % 6);
             match (axis, k) {
+                // yaw and pitch displace what lies at x
                 (1, 5) => x,
                 (2, 4) => -x,
                 _ => f64::from(u8::from(axis == k)),
@@ -177,16 +196,18 @@ impl PartsDynamics {
         let weighted = DMatrix::from_fn(motion.nrows(), 6, |i, k| self.lumped[i] * motion[(i, k)]);
         let (total, own) = (motion.transpose() * &weighted, self.basis.transpose() * &weighted);
         let total = std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)]));
-        let line = |k: usize| Mount::moved_load(&std::array::from_fn(|i| own[(k, i)]), on.at);
+        let coupling = |k: usize| Mount::moved_load(&std::array::from_fn(|i| own[(k, i)]), on.at);
         Mount {
             body: on.body,
             rails: Vec::new(),
             mass: Mount::moved(&total, on.at),
-            coupling: (0..own.nrows()).map(line).collect(),
+            coupling: (0..own.nrows()).map(coupling).collect(),
         }
     }
 
-    /// C that damps every natural mode by the share `zeta` of critical: 2 zeta K^1/2 (K^-1/2 M K^-1/2)^1/2 K^1/2.
+    /// Damping matrix D by which every natural mode has the fraction `zeta` of critical damping:
+    /// D = 2 zeta K^1/2 (K^-1/2 M K^-1/2)^1/2 K^1/2. For the modes phi of M and K with phi^T M phi = 1,
+    /// phi^T D phi = 2 zeta omega.
     fn damping(&self, zeta: f64) -> DMatrix<f64> {
         let size = self.mass.nrows();
         if zeta == 0.0 {
@@ -195,12 +216,13 @@ impl PartsDynamics {
         let root = self.stiffness.map(f64::sqrt);
         let scaled = DMatrix::from_fn(size, size, |r, c| self.mass[(r, c)] / (root[r] * root[c]));
         let eigen = scaled.symmetric_eigen();
-        let periods = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
-        let middle = &eigen.eigenvectors * DMatrix::from_diagonal(&periods) * eigen.eigenvectors.transpose();
+        // eigenvalues are 1/omega^2
+        let inverse = eigen.eigenvalues.map(|square| square.max(0.0).sqrt());
+        let middle = &eigen.eigenvectors * DMatrix::from_diagonal(&inverse) * eigen.eigenvectors.transpose();
         DMatrix::from_fn(size, size, |r, c| zeta * root[r] * (middle[(r, c)] + middle[(c, r)]) * root[c])
     }
 
-    /// As a structure of the simulation, every mode damped by the share `damping` of critical.
+    /// As a structure of the simulation, every natural mode with the fraction `damping` of critical damping.
     fn structure(&self, shapes: PartShapes, damping: f64) -> Structure {
         Structure {
             dynamics: Dynamics::Matrices {
@@ -213,6 +235,7 @@ impl PartsDynamics {
     }
 }
 
+/// Length of the window in which a wheel passes from one part to the next.
 fn window(handover: Handover) -> Option<f64> {
     match handover {
         Handover::Blend { length } | Handover::PerPart { length } => length,

@@ -1,4 +1,10 @@
-//! Foundations on demand, for structures whose foundation is "auto".
+//! The choice of a fidelity for structures whose foundation is "auto".
+//!
+//! The algorithm is that of [`sim::choose`]: it predicts the error of leaving mass or compliance out, runs the scene at the
+//! lowest fidelity whose prediction is within the tolerance of the structure, estimates the error by a run at a higher one,
+//! and refines until the estimate is within the tolerance. The order of fidelities is rigid, influence functions, natural
+//! modes, a mesh of half the elements, the mesh. This file builds the foundations that it asks for, from the solutions of a
+//! scene's specs, keeps their modes for all trials, and says why a fidelity was chosen.
 
 use std::ops::ControlFlow;
 
@@ -13,25 +19,50 @@ use crate::mount::Excitation;
 use crate::solved::{SolvedModel, SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
-/// Elements of the mesh at the top where they suffice, and fewest and most a member; half of them must be a mesh too.
+/// Elements of the finest mesh, as far as the limits for each member allow.
 const ELEMENTS: usize = 192;
-const A_MEMBER: [usize; 2] = [2, 64];
+/// Fewest and most elements of a member in the finest mesh; half of the fewest must still be a mesh.
+const PER_MEMBER: [usize; 2] = [2, 64];
 
-/// What a scene ran on, and how the run went.
+/// A run of a scene, with the foundations it ran on.
 pub struct AutoRun {
-    /// Why foundations that were "auto" are what they are.
+    /// The fidelity chosen for each structure whose foundation is "auto", with the reason.
     pub choices: Vec<Choice>,
     /// The run.
     pub run: Run,
-    /// What carried it.
+    /// The foundations, one for each structure.
     pub built: Vec<BuiltFoundation>,
 }
 
-/// Sets the foundation of every structure of `scene` that is "auto", says why, and runs the scene; the history holds the
-/// freedoms of those that are `recorded`.
+/// Chooses the foundation of every structure of `scene` that is "auto", enters it in `scene`, and runs the scene.
+///
+/// `cast` is the simulation input made of `scene`; `known` has the solutions of its specs. The history holds the degrees
+/// of freedom of those structures for which `recorded` (index of the structure, its foundation) is true. `watch` is called
+/// with the simulated time after every step of every trial, and can stop the run.
+///
+/// ```
+/// use std::ops::ControlFlow;
+///
+/// use formats::motion::cast;
+/// use formats::scene::Document;
+/// use foundations::{distinct_specs, select_and_run, selection_reason, solve_specs};
+///
+/// let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
+/// let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
+/// let mut scene = document.scene().clone();
+/// scene.structures[0].auto = true;
+/// scene.structures[0].tolerance = 0.01;
+/// let input = cast(&scene).expect("trucks with equal wheels");
+///
+/// let all = |_: usize, _: &sim::Foundation| true;
+/// let found = select_and_run(&mut scene, &input.scene, &solved, &all, &mut |_| ControlFlow::Continue(()))
+///     .expect("a scene that starts");
+/// assert!(found.run.status.is_complete());
+/// assert!(selection_reason(&found.choices[0]).starts_with("auto: "));
+/// ```
 ///
 /// # Errors
-/// A foundation that cannot be made; a scene that cannot start.
+/// A foundation that cannot be built; [`Error::Simulation`] for a scene that cannot start.
 pub fn select_and_run(
     scene: &mut Scene,
     cast: &sim::Scene,
@@ -41,37 +72,43 @@ pub fn select_and_run(
 ) -> Result<AutoRun, Error> {
     let tolerances: Vec<Option<f64>> =
         scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
-    let spectra = scene.structures.iter().map(|_| ModeCache::default()).collect();
+    let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
     let lateral = scene.pushes_sideways();
-    let mut rungs = SceneFoundations { scene, known, lateral, mode_caches: spectra, recorded };
-    let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut rungs, watch)?;
-    let mut spectra = rungs.mode_caches;
+    let mut provider = SceneFoundations { scene, known, lateral, mode_caches, recorded };
+    let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut provider, watch)?;
+    let mut mode_caches = provider.mode_caches;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
         let solved = solution_of(known, &structure.origin);
         structure.foundation = scene_foundation(structure, choice.rung, mesh_elements(solved));
     }
-    let again = scene.structures.iter().zip(&mut spectra);
-    let laid = again
-        .map(|(own, spectra)| build(spectra, own, solution_of(known, &own.origin), lateral))
+    // the run keeps no foundations: they are built again from the modes that are cached
+    let built = scene
+        .structures
+        .iter()
+        .zip(&mut mode_caches)
+        .map(|(structure, cache)| build(cache, structure, solution_of(known, &structure.origin), lateral))
         .collect::<Result<Vec<BuiltFoundation>, Error>>()?;
-    Ok(AutoRun { choices, run, built: laid })
+    Ok(AutoRun { choices, run, built })
 }
 
-/// Elements a member of the mesh at the top.
+/// Number of elements for each member in the finest mesh of "auto": 192 in all, 2 to 64 for a member.
 #[must_use]
 pub fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
     let members = solved.map_or(1, |solved| solved.model.members.len());
-    (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
+    (ELEMENTS / members.max(1)).clamp(PER_MEMBER[0], PER_MEMBER[1])
 }
 
-/// A solved structure at `rung`, by modes known in `spectra` (of this structure), for vertical wheel forces; `damping` of
-/// its modes by critical, `finer` times as many elements a member at the top as `"auto"` takes.
+/// The foundation of a solved structure at fidelity `rung`, for vertical wheel forces.
+///
+/// `cache` keeps its modes from one call to the next; `damping` is the fraction of critical damping of each mode; the
+/// finest mesh has `finer` times as many elements as that of "auto".
 ///
 /// # Errors
-/// A structure without mass where modes are asked for; too many unknowns.
+/// [`Error::Modes`] for a structure without mass where modes are asked for, or with too many unknowns;
+/// [`Error::NoSurface`] for influence functions of a structure whose surface is not known.
 pub fn foundation_at(
-    spectra: &mut ModeCache,
+    cache: &mut ModeCache,
     solved: &SolvedModel,
     rung: Rung,
     damping: f64,
@@ -82,13 +119,13 @@ pub fn foundation_at(
     let elements = finer * mesh_elements(Some(solved));
     match (rung, &solved.surface) {
         (Rung::Modal(modes), _) => {
-            Ok(spectra.lowest(name, solved, modes, damping, Dampers::NONE, Excitation::DOWN)?.foundation)
+            Ok(cache.lowest(name, solved, modes, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
         }
-        (Rung::Half, _) => {
-            Ok(spectra.full(name, solved, elements / 2, damping, Dampers::NONE, Excitation::DOWN)?.foundation)
-        }
+        (Rung::Half, _) => Ok(cache
+            .full(name, solved, elements / 2, damping, Dampers::NONE, Excitation::VERTICAL)?
+            .foundation),
         (Rung::Full, _) => {
-            Ok(spectra.full(name, solved, elements, damping, Dampers::NONE, Excitation::DOWN)?.foundation)
+            Ok(cache.full(name, solved, elements, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
         }
         (Rung::Influence, Some(surface)) => {
             Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
@@ -102,15 +139,16 @@ pub fn foundation_at(
     }
 }
 
-/// About the lowest `count` modes of a solved structure that vertical wheel forces excite; `None` without mass.
+/// About the lowest `count` modes of a solved structure that vertical wheel forces excite, with frequencies to 1 %; `None`
+/// without mass.
 ///
 /// # Errors
-/// Modes that cannot be found.
+/// [`Error::Modes`] for modes that cannot be found.
 pub fn excited_modes(solved: &SolvedModel, count: usize) -> Result<Option<sim::Structure>, Error> {
     modal::coarse_modes("structure", solved, count)
 }
 
-/// What a rung is in a scene.
+/// The foundation of a scene that a fidelity stands for.
 fn scene_foundation(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
     let damping = structure.damping;
     match rung {
@@ -122,11 +160,12 @@ fn scene_foundation(structure: &Structure, rung: Rung, elements: usize) -> Found
     }
 }
 
+/// Builds the foundations of a scene's structures at the fidelities that the selection asks for.
 struct SceneFoundations<'a> {
     scene: &'a Scene,
     known: &'a [SolvedStructure],
     lateral: bool,
-    /// One a structure.
+    /// One for each structure.
     mode_caches: Vec<ModeCache>,
     recorded: &'a dyn Fn(usize, &sim::Foundation) -> bool,
 }
@@ -168,7 +207,7 @@ impl Ladder for SceneFoundations<'_> {
     }
 }
 
-/// A rung in words.
+/// A fidelity in words.
 #[must_use]
 pub fn fidelity_name(rung: Rung) -> String {
     match rung {
@@ -180,7 +219,7 @@ pub fn fidelity_name(rung: Rung) -> String {
     }
 }
 
-/// Why a foundation was chosen, in a sentence without its stop.
+/// Why a foundation was chosen, as a sentence without its full stop.
 #[must_use]
 pub fn selection_reason(choice: &Choice) -> String {
     let rung = fidelity_name(choice.rung);
@@ -218,7 +257,7 @@ pub fn selection_reason(choice: &Choice) -> String {
     text
 }
 
-/// What a user should know of a choice whose error is not known to be allowed.
+/// What a user must know of a choice whose error is not known to be within `tolerance`; `None` where it is.
 #[must_use]
 pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
     let rung = fidelity_name(choice.rung);

@@ -1,4 +1,4 @@
-//! Structures of a scene, solved once for all that is made of them.
+//! FE solutions of the structures of a scene, computed once for all foundations that are built from them.
 
 use std::sync::Arc;
 
@@ -9,26 +9,26 @@ use formats::scene::{Document, Origin};
 use formats::spec::{SolveError, Spec};
 use splines::Surface;
 
-/// A structure's FE model, solved.
+/// The solution of a structure's FE model.
 pub struct SolvedModel {
     /// The model.
     pub model: fea::Model,
     /// Its rails.
     pub rails: Vec<fea::Rail>,
-    /// Exact influence surface; `None` where it is larger than asked for.
+    /// Exact influence surface; `None` where it would be larger than the limit given.
     pub surface: Option<Surface>,
     /// Grids at the stations.
     pub grid: Grid,
-    /// The girder, where the structure is one.
+    /// The girder, where the structure is a straight girder.
     pub girder: Option<fea::Girder>,
-    /// How large the system was; `None` where it was solved by an earlier run.
+    /// Size of the system; `None` where the solution is that of an earlier run.
     pub size: Option<SystemSize>,
 }
 
 /// Size of a system of equations.
 #[derive(Clone, Copy, Debug)]
 pub struct SystemSize {
-    /// Unknown freedoms.
+    /// Unknown displacements and rotations.
     pub unknowns: usize,
     /// Bytes of its factor.
     pub bytes: u64,
@@ -40,16 +40,16 @@ impl std::fmt::Display for SystemSize {
     }
 }
 
-/// Solves a spec: grid at its stations and exact surface.
+/// Solves a spec: influence coefficients at its stations, and the exact surface between them.
 ///
 /// # Errors
-/// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
+/// An entry that cannot be used, a mechanism, or a solution whose error bound exceeds [`fea::ACCURACY`].
 pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
     solve_to(spec, fea::ACCURACY, usize::MAX)
 }
 
-/// The same, with compliances whose relative error bound is at most `accuracy`, and without a surface of more than
-/// `most` freedoms.
+/// The same, with compliances whose relative error bound is at most `accuracy`, and without a surface where the rail
+/// elements have more than `most` degrees of freedom at their ends (6 for each end; the surface grows with their square).
 ///
 /// # Errors
 /// As [`solve`].
@@ -70,16 +70,16 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, 
     Ok(SolvedModel { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
-/// A spec that was solved, and what came of it.
+/// A spec and its solution.
 pub struct SolvedStructure {
     /// The spec.
     pub spec: Arc<Spec>,
-    /// Its grids and surface.
+    /// Its solution.
     pub solution: SolvedModel,
 }
 
-/// Every different spec of the document, once: the name of its tables (the structure's, with the label of the
-/// comparison that brings it), its file, and itself.
+/// Every different spec of the document, once: the name of its tables, its file, and the spec. The name is that of the
+/// structure, followed by the label of the comparison if the spec is that of a comparison alone.
 #[must_use]
 pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
     let mut all: Vec<(String, &str, &Arc<Spec>)> = Vec::new();
@@ -100,7 +100,7 @@ pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
     all
 }
 
-/// The solution of a structure that has a spec.
+/// The solution of a structure's spec among `known`; `None` for a structure of tables, or one that was not solved.
 #[must_use]
 pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a SolvedModel> {
     match origin {
@@ -114,7 +114,7 @@ pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<
 /// Solves the given specs of a document (see [`distinct_specs`]).
 ///
 /// # Errors
-/// A spec that cannot be solved, at its place in its file where it can be told.
+/// A spec that cannot be solved, with the place in its file where that is known.
 pub fn solve_specs(
     document: &Document,
     specs: &[(String, &str, &Arc<Spec>)],

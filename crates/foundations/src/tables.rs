@@ -1,4 +1,4 @@
-//! Foundations without mass: influence functions, exact or read from tables.
+//! Foundations without mass: influence functions, either exact or interpolated in tables.
 
 use formats::grid::axes;
 use formats::scene::{Origin, Reading as Words, Structure};
@@ -9,7 +9,8 @@ use splines::{Axis, Couplings, Kind, Parted, Probe, Reading, Sheet, Table};
 use crate::error::Error;
 use crate::solved::SolvedModel;
 
-/// Influence functions of a structure as its foundation.
+/// The influence functions of a structure as its foundation: the exact surface of its solution where the scene asks for
+/// the reading "exact" and the surface is known, else tables at the stations and the interpolation that the scene names.
 pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Foundation, Error> {
     let rails = structure.rails.len();
     let exact = structure.reading == Words::Exact;
@@ -20,23 +21,24 @@ pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> 
             some => Foundation::influence(Box::new(Parted::new(surface, some)), rails),
         });
     }
-    let sheets = influence_blocks(structure, solved)?;
+    let blocks = influence_blocks(structure, solved)?;
     let kind = match structure.reading {
-        // A table of values alone has no exact form; its natural splines are the closest reading.
+        // a table of values has no exact form; natural splines are exact for loads and supports at the stations
         Words::Exact | Words::Natural => Kind::Natural,
         Words::Akispl => Kind::Akispl,
         Words::Cubspl => Kind::Cubspl,
     };
-    let reading = Reading::new(kind, &sheets).map_err(Error::rails(&structure.name))?;
+    let reading = Reading::new(kind, &blocks).map_err(Error::rails(&structure.name))?;
     Ok(Foundation::influence(Box::new(reading), rails))
 }
 
-/// The tables of a structure: its direct grids and the couplings that count, station by station.
+/// The influence coefficients of a structure at its stations: one block for each pair of rail and direction, as far as the
+/// structure's couplings keep it. Values are deflections (rows) by unit loads (columns).
 ///
 /// # Errors
-/// A spec that has not been solved; what a table refuses.
+/// [`Error::Unsolved`] for a spec without solution; [`Error::Rails`] for values or stations that are no table.
 pub fn influence_blocks(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Vec<Sheet>, Error> {
-    let mut sheets = Vec::new();
+    let mut blocks = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
         let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
         if !structure.couplings.keep(&probe(row), &probe(column)) {
@@ -44,7 +46,7 @@ pub fn influence_blocks(structure: &Structure, solved: Option<&SolvedModel>) -> 
         }
         let [at, loads] = stations.map(<[f64]>::to_vec);
         let table = Table::new(loads, at, values).map_err(Error::rails(&structure.name))?;
-        sheets.push(Sheet { deflection: row, load: column, table });
+        blocks.push(Sheet { deflection: row, load: column, table });
         Ok::<(), Error>(())
     };
     match (&structure.origin, solved) {
@@ -58,28 +60,28 @@ pub fn influence_blocks(structure: &Structure, solved: Option<&SolvedModel>) -> 
             }
         }
         (Origin::Spec { .. }, Some(solved)) => {
-            let mut first = 0;
+            let mut first_row = 0;
             for (r, row) in solved.rails.iter().enumerate() {
-                let mut left = 0;
+                let mut first_column = 0;
                 for (c, column) in solved.rails.iter().enumerate() {
                     let stations: [&[f64]; 2] = [&row.stations, &column.stations];
                     let size = stations.map(<[f64]>::len);
                     for (quantity, grid) in &solved.grid.blocks {
                         let (a, b) = axes(*quantity);
-                        // one of (row, column) and (column, row) is enough where both are the same block
+                        // G is symmetric: of a block and its transpose one is enough
                         if a != b || r <= c {
-                            let block = grid.view((first, left), (size[0], size[1])).into_owned();
+                            let block = grid.view((first_row, first_column), (size[0], size[1])).into_owned();
                             add((r, a), (c, b), stations, block)?;
                         }
                     }
-                    left += column.stations.len();
+                    first_column += column.stations.len();
                 }
-                first += row.stations.len();
+                first_row += row.stations.len();
             }
         }
         (Origin::Spec { .. }, None) => {
             return Err(Error::Unsolved { structure: structure.name.clone() });
         }
     }
-    Ok(sheets)
+    Ok(blocks)
 }

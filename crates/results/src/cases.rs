@@ -1,4 +1,8 @@
-//! The cases of a scene, each simulated on its own foundations.
+//! The cases of a scene (the scene itself and its comparisons), each simulated on its own foundations.
+//!
+//! For each case: the simulation input is made of the scene, foundations are chosen and the scene is run
+//! ([`foundations::select_and_run`]), and the history becomes named columns. Reactions, envelopes, natural modes, values of
+//! codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -16,11 +20,26 @@ use formats::motion::cast;
 use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
-/// Runs every case, on as many threads as asked for; `progress` is told the share of all simulated time that is done, from
-/// any thread.
+/// Runs every case, on at most `threads` threads (`None`: as many as the machine has). `progress` is called, from any
+/// thread, with the fraction of all simulated time that is done, 0 to 1. `known` has the solutions of the specs of all
+/// cases.
+///
+/// ```
+/// use formats::scene::Document;
+/// use foundations::{distinct_specs, solve_specs};
+///
+/// let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
+/// let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
+/// let cases = results::cases::simulate(&document, &solved, Some(1), &|_| ()).expect("a scene that starts");
+///
+/// assert_eq!(cases.len(), document.cases.len(), "the scene's own case is the first");
+/// assert!(cases[0].run.status.is_complete());
+/// assert_eq!(cases[0].columns.columns[0].name, "time");
+/// ```
 ///
 /// # Errors
-/// A foundation that cannot be made; a scene that cannot start.
+/// [`Error::Foundation`] for a foundation that cannot be built, [`Error::Run`] for a scene that cannot start, and the
+/// errors of [`Response::new`], [`CodeCheck::new`] and [`fatigue::fatigue_results`].
 pub fn simulate(
     document: &Document,
     known: &[SolvedStructure],
@@ -31,9 +50,9 @@ pub fn simulate(
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
     let outcomes = parallel_map(cases, threads, |index, case| {
         let mut watch = |t: f64| {
-            // runs that are compared start again
+            // with "auto" a case is run several times, and its time begins again
             done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
-            let sum: u64 = done.iter().map(|share| share.load(Ordering::Relaxed)).sum();
+            let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
             progress(sum as f64 / (1000.0 * cases.len() as f64));
             ControlFlow::Continue(())
         };
@@ -42,22 +61,24 @@ pub fn simulate(
     outcomes.into_iter().collect()
 }
 
-/// Values of structures' freedoms that a history holds where no reaction asks for them.
+/// Most values of a structure's degrees of freedom that a history holds where no column needs them.
 const RECORDED: f64 = 1e7;
 
-/// Whether the history of a run of `scene` is to hold the freedoms of a structure, by its index, on a foundation.
+/// Whether the history of a run of `scene` is to hold the degrees of freedom of a structure, by its index, on a foundation:
+/// where columns of reactions or internal forces need them, or where they are fewer than 1e7 values.
 #[must_use]
 pub fn records_structure(
     scene: &Scene,
     known: &[SolvedStructure],
 ) -> impl Fn(usize, &Foundation) -> bool + use<> {
-    let (answers, rows) = (response::structures_with_columns(scene, known), scene.end / scene.dt);
+    let (has_columns, rows) = (response::structures_with_columns(scene, known), scene.end / scene.dt);
     move |s, foundation| {
         let freedoms = foundation.freedoms();
-        freedoms > 0 && (answers[s] || freedoms as f64 * rows < RECORDED)
+        freedoms > 0 && (has_columns[s] || freedoms as f64 * rows < RECORDED)
     }
 }
 
+/// Simulates one case and evaluates its run.
 fn run_case(
     case: &Case,
     known: &[SolvedStructure],
@@ -68,7 +89,7 @@ fn run_case(
     let recorded = records_structure(&scene, known);
     let chosen = foundations::select_and_run(&mut scene, &cast.scene, known, &recorded, watch);
     let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));
-    let foundations::AutoRun { choices, run, built: laid } = chosen.map_err(|error| match error {
+    let foundations::AutoRun { choices, run, built } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {
             let why = crate::run_error::in_scene_names(&error, &case.scene);
             Error::Run { label: label.clone(), why }
@@ -77,21 +98,21 @@ fn run_case(
     })?;
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
-    let lines = response::lines(&scene, &laid, &solved)?;
+    let lines = response::lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
-    let mut response = Response::new(&scene, &cast, &run.history, &laid, &solved, &lines, &mut record)?;
-    // only the scene itself is drawn
+    let mut response = Response::new(&scene, &cast, &run.history, &built, &solved, &lines, &mut record)?;
+    // figures show the scene itself, not its comparisons
     if case.label.is_none() {
-        response.bend(&scene, &cast, &run.history, &laid, &solved)?;
+        response.bend(&scene, &cast, &run.history, &built, &solved)?;
     }
-    let foundations: Vec<Foundation> = laid.into_iter().map(|laid| laid.foundation).collect();
+    let foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
     response.modes = SceneMode::all(&scene, &cast, &foundations, &run);
     let codes = CodeCheck::new(&scene, &cast, &record)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
     Ok(CaseResult { label, input: cast, run, columns: record, choices, lines, response, codes, fatigue })
 }
 
-/// The scene's own run is labelled by what carries it.
+/// Label of the scene's own run: the foundations of its structures.
 fn foundation_label(scene: &Scene) -> String {
     let mut words: Vec<&str> = scene.structures.iter().map(|structure| structure.foundation.word()).collect();
     words.dedup();

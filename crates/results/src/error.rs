@@ -1,4 +1,4 @@
-//! What can go wrong between a checked scene and its results.
+//! Why a checked scene has no results.
 
 use formats::motion::UnequalShares;
 use thiserror::Error;
@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Why a scene has no results.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// A foundation cannot be made.
+    /// A foundation cannot be built.
     #[error(transparent)]
     Foundation(#[from] foundations::Error),
     /// A truck of the scene cannot be simulated.
@@ -17,7 +17,7 @@ pub enum Error {
     Run {
         /// Label of the case.
         label: String,
-        /// Why, with names of the scene in place of indices.
+        /// The reason, with names of the scene in place of indices.
         why: String,
     },
     /// The influence lines of a structure cannot be found.

@@ -1,5 +1,5 @@
-//! Where bodies and wheels are at one row of a record, in the frame of the tracks on the ground: x along, y up from the
-//! unloaded rails, z to the right.
+//! Positions of bodies and wheels at one row of a record, in the frame of the tracks on the ground: x along the track, y up
+//! from the unloaded rails, z to the right.
 
 use sim::{Axle, Mount};
 
@@ -7,14 +7,14 @@ use crate::record::NamedColumns;
 use formats::scene::{Scene, Truck, seat};
 use foundations::Error;
 
-/// A scene with the places of the rails that ride on bodies.
+/// Computes the positions of a scene's bodies, with the lines of those rails that bodies carry.
 pub struct ScenePositions<'s> {
     scene: &'s Scene,
     mounts: Vec<Option<Mount>>,
 }
 
 impl<'s> ScenePositions<'s> {
-    /// Of `scene`.
+    /// The positions of the bodies of `scene`.
     ///
     /// # Errors
     /// A spec that no model can be made of.
@@ -23,12 +23,12 @@ impl<'s> ScenePositions<'s> {
         Ok(ScenePositions { scene, mounts })
     }
 
-    /// Structures that ride on `body`, with their mass and their rails from its origin.
+    /// The structures that `body` carries, with their mass and the lines of their rails relative to its origin.
     pub fn carried(&self, body: usize) -> impl Iterator<Item = &Mount> {
         self.mounts.iter().flatten().filter(move |mount| mount.body == body)
     }
 
-    /// Rail of the scene as a line on the body that carries it; `None` on the ground.
+    /// The line of a rail of the scene on the body that carries it; `None` for a rail on the ground.
     #[must_use]
     pub fn axle(&self, rail: usize) -> Option<(usize, Axle)> {
         let own = &self.scene.rails[rail];
@@ -36,7 +36,7 @@ impl<'s> ScenePositions<'s> {
         Some((mount.body, *mount.rails.get(own.rail)?))
     }
 
-    /// The line that a body rides along on its carrier: the mean of its rails; `None` on the ground.
+    /// The line along which a body moves on its carrier, the mean of its rails; `None` for a body on the ground.
     #[must_use]
     pub fn track(&self, body: usize) -> Option<(usize, Axle)> {
         let rails = &self.scene.bodies[body].track;
@@ -46,7 +46,7 @@ impl<'s> ScenePositions<'s> {
         Some((carrier, Axle { origin: [mean(0), mean(1), mean(2)], along: first.along }))
     }
 
-    /// Origin of a body at a row.
+    /// Position of the origin of a body at a row of the record.
     #[must_use]
     pub fn origin(&self, record: &NamedColumns, body: usize, row: usize) -> [f64; 3] {
         let own = &self.scene.bodies[body];
@@ -66,7 +66,7 @@ impl<'s> ScenePositions<'s> {
         [0, 1, 2].map(|k| base[k] + axle.origin[k] + axle.along[k] * moved[0] + own[k])
     }
 
-    /// An arm along a body's x, y and z as one along those of the tracks on the ground, small rotations left out.
+    /// A vector in the axes of a body as one in the axes of the tracks on the ground; small rotations are left out.
     #[must_use]
     pub fn turned(&self, body: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self.track(seat(self.scene, body).0) {
@@ -75,13 +75,13 @@ impl<'s> ScenePositions<'s> {
         }
     }
 
-    /// Height of a body's origin over its rails where the wheels just touch: the radius of its wheels.
+    /// Height of a body's origin over its rails where its wheels just touch them.
     fn radius(&self, body: usize) -> f64 {
         let truck = self.scene.trucks.iter().find(|truck| seat(self.scene, truck.body).0 == body);
         truck.map_or(0.0, |truck| self.scene.wheels[truck.wheel].radius - truck.at[1])
     }
 
-    /// From a body's origin to each wheel of one of its trucks, along its own x, y and z.
+    /// Vectors from a body's origin to each wheel of one of its trucks, in the axes of the body.
     #[must_use]
     pub fn wheels(&self, truck: &Truck) -> Vec<[f64; 3]> {
         truck.wheel_offsets().into_iter().map(|x| [x, truck.at[1], truck.at[2]]).collect()

@@ -1,9 +1,9 @@
 //! One scene, from checked files to named columns.
 //!
-//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]; an [`outcome::Outcome`] has the run, its columns
-//! ([`record`]), what the structures answered ([`response`]), fatigue ([`fatigue`]), code values ([`codes`]), warnings
-//! ([`warning`]) and the numbers of `summary.json` ([`summary`]). Nothing here knows a command line, a progress bar, a
-//! picture or an exit status.
+//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. An [`outcome::CaseResult`] has the run, its columns
+//! ([`record`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of codes ([`codes`]).
+//! Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are made of it. Nothing here knows a command
+//! line, a progress bar, a figure or an exit status.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,4 +1,4 @@
-//! One case of a scene, run: what came of it.
+//! The result of one case of a scene.
 
 use formats::motion::Cast;
 use sim::Run;
@@ -8,24 +8,39 @@ use crate::fatigue::FatigueResult;
 use crate::record::NamedColumns;
 use crate::response::{ColumnInfluence, Response};
 
-/// One case, run.
+/// The result of one case: its run, and what is computed from it.
+///
+/// ```
+/// use formats::scene::Document;
+/// use foundations::{distinct_specs, solve_specs};
+/// use results::outcome::CaseResult;
+///
+/// let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
+/// let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
+/// let cases = results::cases::simulate(&document, &solved, None, &|_| ()).expect("a scene that starts");
+///
+/// let CaseResult { label, run, columns, choices, .. } = &cases[0];
+/// assert_eq!(label, document.scene().structures[0].foundation.word());
+/// assert_eq!(columns.values("time").len(), run.history.len());
+/// assert!(choices.is_empty(), "its foundation is not \"auto\"");
+/// ```
 pub struct CaseResult {
-    /// Its label; the scene's own run is named by its foundations.
+    /// Its label; for the scene's own run, the foundations of its structures.
     pub label: String,
-    /// What was simulated.
+    /// The simulation input.
     pub input: Cast,
-    /// How it went.
+    /// The run: status, history, counts, energy audit.
     pub run: Run,
-    /// Its named columns.
+    /// The history as named columns, with reactions, internal forces and stresses.
     pub columns: NamedColumns,
-    /// Why foundations that were "auto" are what they are.
+    /// The fidelity chosen for each structure whose foundation is "auto", with the reason.
     pub choices: Vec<sim::Choice>,
-    /// Influence lines of the columns that structures answer in, one a structure.
+    /// Influence lines of the columns of each structure; `None` for a structure without columns.
     pub lines: Vec<Option<ColumnInfluence>>,
-    /// What the structures answered.
+    /// The response of the structures.
     pub response: Response,
-    /// The run beside codes, where the scene asks for that.
+    /// Values of codes beside those of the run; `None` where the scene does not ask for them.
     pub codes: Option<CodeCheck>,
-    /// Damage at the points whose stresses it has.
+    /// Damage at the stress points that have a detail category.
     pub fatigue: Vec<FatigueResult>,
 }

@@ -1,4 +1,4 @@
-//! Histories as named columns.
+//! Histories of a run as named columns.
 
 use sim::History;
 
@@ -13,11 +13,26 @@ pub struct HistoryColumn {
     pub name: String,
     /// Dimension of its values; angles have none.
     pub dimension: Dimension,
-    /// One value a sample.
+    /// One value for each sample.
     pub values: Vec<f64>,
 }
 
-/// A history as named columns, `time` first.
+/// A history as named columns of equal length, `time` first.
+///
+/// ```
+/// use formats::units::Dimension;
+/// use results::record::{NamedColumns, peak};
+///
+/// let mut record = NamedColumns::default();
+/// record.push("time", Dimension::NUMBER, vec![0.0, 0.5, 1.0]);
+/// record.push("wheel.vertical", Dimension::FORCE, vec![10.0, 12.5, -0.0]);
+///
+/// assert_eq!(record.part("wheel", "vertical"), [10.0, 12.5, 0.0]);
+/// assert_eq!(peak(record.values("wheel.vertical")), Some((1, 12.5)));
+/// assert!(record.values("no such column").is_empty());
+/// let csv = record.csv().expect("memory");
+/// assert_eq!(csv, b"time,wheel.vertical\n0.0,10.0\n0.5,12.5\n1.0,0.0\n");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NamedColumns {
     /// The columns.
@@ -25,7 +40,7 @@ pub struct NamedColumns {
 }
 
 impl NamedColumns {
-    /// The quantities of a run of `scene`, in their order.
+    /// The columns of a run of `scene`, in the order of [`quantities`]; each is a sum of channels with factors.
     #[must_use]
     pub fn new(scene: &Scene, history: &History) -> NamedColumns {
         let columns = quantities(scene).into_iter().map(|Quantity { name, dimension, terms }| {
@@ -37,33 +52,33 @@ impl NamedColumns {
         NamedColumns { columns: columns.collect() }
     }
 
-    /// Adds a column.
+    /// Appends a column.
     pub fn push(&mut self, name: impl Into<String>, dimension: Dimension, values: Vec<f64>) {
         self.columns.push(HistoryColumn { name: name.into(), dimension, values });
     }
 
-    /// One column by name; empty where there is none.
+    /// Values of the column `name`; empty where there is none.
     #[must_use]
     pub fn values(&self, name: &str) -> &[f64] {
         self.columns.iter().find(|column| column.name == name).map_or(&[], |column| &column.values)
     }
 
-    /// The column `<owner>.<part>`, such as a body's deflection; empty where there is none.
+    /// Values of the column `<owner>.<part>`, such as a body's deflection; empty where there is none.
     #[must_use]
     pub fn part(&self, owner: &str, part: &str) -> &[f64] {
         self.values(&format!("{owner}.{part}"))
     }
 
-    /// Two columns as points.
+    /// Two columns as points (x, y).
     #[must_use]
     pub fn points(&self, x: &str, y: &str) -> Vec<[f64; 2]> {
         self.values(x).iter().zip(self.values(y)).map(|(&x, &y)| [x, y]).collect()
     }
 
-    /// As comma-separated values with a header; every number reads back to the last bit.
+    /// The columns as comma-separated values with a header; every number reads back to the last bit.
     ///
     /// # Errors
-    /// None in practice: memory takes every byte.
+    /// None in practice: writing to memory does not fail.
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|column| &column.name))?;
@@ -76,12 +91,15 @@ impl NamedColumns {
     }
 }
 
-/// What was written.
+/// The bytes written by `writer`.
+///
+/// # Errors
+/// None in practice: writing to memory does not fail.
 pub fn bytes(writer: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, csv::Error> {
     writer.into_inner().map_err(|error| csv::Error::from(error.into_error()))
 }
 
-/// Largest value of a column, with its index.
+/// Largest value of a column, with its index (the last one of equal values); `None` for an empty column.
 #[must_use]
 pub fn peak(values: &[f64]) -> Option<(usize, f64)> {
     values.iter().copied().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))

@@ -1,10 +1,10 @@
-//! Why a run could not go on, in the names of its scene.
+//! Why a run stopped, with the names of its scene in place of the simulator's indices.
 
 use sim::{Error, Status};
 
 use formats::scene::{FREEDOMS, Scene};
 
-/// Word of a run's status, and what it means for the user where it is not "done".
+/// The word of a run's status in summaries, and a message where the run did not reach its end.
 #[must_use]
 pub fn status(status: &Status) -> (&'static str, Option<String>) {
     match status {
@@ -22,7 +22,7 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
     }
 }
 
-/// Why a run did not reach its end, by name; `None` where it did.
+/// Why a run did not reach its end, with the names of `scene`; `None` where it did.
 #[must_use]
 pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     match status {
@@ -31,7 +31,7 @@ pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     }
 }
 
-/// What the simulator says by index, said by name, with what to do where that is known.
+/// The message of a simulation error with the names of `scene` in place of indices, and a hint where one is known.
 #[must_use]
 pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
     let structure = |index: usize| {

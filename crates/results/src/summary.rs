@@ -1,4 +1,4 @@
-//! `summary.json`: what a run found, in numbers.
+//! `summary.json`: the results of a document's cases in numbers.
 
 use serde_json::{Map, Value, json};
 use sim::{Choice, Predicted, Rung, Tried};
@@ -11,7 +11,7 @@ use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
 use formats::units::Dimension;
 
-/// The summary of a document's cases as JSON, the scene's own run first; `comparison` is what its comparisons tell
+/// The summary of a document's cases as JSON, the scene's own run first; `comparison` has the statistics of its runs
 /// ([`crate::response::RunComparison::json`]).
 #[must_use]
 pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
@@ -36,7 +36,7 @@ pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map
     result
 }
 
-/// One run as JSON.
+/// The summary of one run as JSON.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
     let CaseResult { run, columns: record, choices, .. } = outcome;
@@ -96,7 +96,7 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
     result
 }
 
-/// How structure `s` gives way, and why so.
+/// The foundation of structure `s`, and why it was chosen.
 fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
     let mut entry = json!({
         "foundation": structure.foundation.word(),
@@ -104,7 +104,7 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
         "reason": "asked for",
     });
     if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
-        entry["foundation"] = json!(rung(choice.rung));
+        entry["foundation"] = json!(fidelity_word(choice.rung));
         entry["reason"] = json!(foundations::selection_reason(choice));
         entry["tolerance"] = json!(structure.tolerance);
         entry["estimate"] = json!(choice.estimate);
@@ -121,13 +121,13 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
     entry
 }
 
-/// An event that happened.
+/// An event that has fired.
 fn event(event: &Event, time: f64) -> Value {
     json!({ "time": time, "name": event.name, "when": event.when, "what": event.what })
 }
 
-/// The word of a rung in scenes.
-const fn rung(rung: Rung) -> &'static str {
+/// The word of a fidelity in scenes.
+const fn fidelity_word(rung: Rung) -> &'static str {
     match rung {
         Rung::Rigid => "rigid",
         Rung::Influence => "influence",
@@ -136,6 +136,7 @@ const fn rung(rung: Rung) -> &'static str {
     }
 }
 
+/// A fidelity that was run, with its estimated error.
 fn tried(tried: &Tried) -> Value {
     json!({
         "fidelity": foundations::fidelity_name(tried.rung),
@@ -146,7 +147,7 @@ fn tried(tried: &Tried) -> Value {
     })
 }
 
-/// Errors expected without a run.
+/// Errors of each fidelity, predicted before any run.
 fn predicted(own: &Predicted) -> Value {
     let errors: Map<String, Value> =
         own.errors.iter().map(|(rung, error)| (foundations::fidelity_name(*rung), json!(error))).collect();
@@ -160,7 +161,7 @@ fn predicted(own: &Predicted) -> Value {
     })
 }
 
-/// Largest and smallest value of every column, and when.
+/// Largest and smallest value of every column, with their times.
 fn peaks(record: &NamedColumns) -> Value {
     let time = record.values("time");
     let mut peaks = Map::new();
@@ -180,7 +181,7 @@ fn peaks(record: &NamedColumns) -> Value {
     Value::Object(peaks)
 }
 
-/// Units of the columns.
+/// Units of the columns, by name.
 #[must_use]
 pub fn units(scene: &Scene, record: &NamedColumns) -> Value {
     let label = |dimension: Dimension| {

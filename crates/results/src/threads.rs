@@ -1,9 +1,19 @@
-//! The same work on many things, side by side.
+//! The same work on many items in parallel: the one place of the workspace's libraries where threads are started.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// What `work` makes of each of `items`, in their order, on at most `threads` threads; `None`: as many as the machine has.
-/// `work` gets the index as well.
+/// `work(index, item)` of each of `items`, in their order, on at most `threads` threads (`None`: as many as the machine
+/// has). The results do not depend on the number of threads.
+///
+/// ```
+/// use results::threads::parallel_map;
+///
+/// let squares = parallel_map(&[1, 2, 3, 4], Some(2), |index, n| index * 10 + n * n);
+/// assert_eq!(squares, [1, 14, 29, 46]);
+/// ```
+///
+/// # Panics
+/// Where `work` panics, with its message.
 pub fn parallel_map<T: Sync, R: Send>(
     items: &[T],
     threads: Option<u16>,
@@ -12,20 +22,20 @@ pub fn parallel_map<T: Sync, R: Send>(
     let available = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.map_or(available, usize::from).min(items.len());
     let next = AtomicUsize::new(0);
-    let share = || {
-        let mut own = Vec::new();
+    let worker = || {
+        let mut done = Vec::new();
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(index) else { return own };
-            own.push((index, work(index, item)));
+            let Some(item) = items.get(index) else { return done };
+            done.push((index, work(index, item)));
         }
     };
     let mut made: Vec<(usize, R)> = std::thread::scope(|scope| {
-        let others: Vec<_> = (1..threads).map(|_| scope.spawn(share)).collect();
-        let mut all = share();
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
+        let mut all = worker();
         for other in others {
             match other.join() {
-                Ok(own) => all.extend(own),
+                Ok(done) => all.extend(done),
                 Err(panic) => std::panic::resume_unwind(panic),
             }
         }

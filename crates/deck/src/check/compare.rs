@@ -1,4 +1,4 @@
-//! Components of every GFORCE against the simulator's.
+//! Components of every GFORCE of the deck against those of the simulator.
 
 use adams::{AdamsModel, ArgumentValue, DataSet, ModelState, Solution, StatementArgument};
 use nalgebra::DMatrix;
@@ -19,16 +19,16 @@ pub const COMPONENTS: [&str; 6] = ["FX", "FY", "FZ", "TX", "TY", "TZ"];
 pub struct CheckDifference {
     /// What was compared.
     pub what: &'static str,
-    /// States.
+    /// Number of states.
     pub states: usize,
-    /// Largest difference asked for, of the largest force of all states (moments by the largest wheel's radius);
-    /// `None`: it is told, not judged.
+    /// Largest difference that passes, relative to the largest force of all states (moments are divided by the largest
+    /// wheel's radius); `None` where the difference is reported and not judged.
     pub asked: Option<f64>,
-    /// Largest difference of each component, of the same.
+    /// Largest difference of each component, relative to the same force.
     pub worst: [f64; 6],
     /// Largest force of all states.
     pub largest: f64,
-    /// Why the deck gave no forces, the first of such states; the number of them.
+    /// Why the deck has no forces at the first state without, and the number of such states.
     pub failed: Option<(String, usize)>,
 }
 
@@ -39,14 +39,14 @@ impl CheckDifference {
         self.worst.iter().fold(0.0, |most, value| most.max(*value))
     }
 
-    /// Whether it is as small as asked, with forces at every state.
+    /// Whether the difference is within its limit, with forces at every state.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.asked.is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
     }
 }
 
-/// What the simulator has the deck find at one state.
+/// The forces that the deck should find at one state, by the simulator.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExpectedForces {
     /// Each wheel's GFORCE: on the wheel, in the frame of its rail.
@@ -55,13 +55,13 @@ pub struct ExpectedForces {
     pub variables: Vec<(u32, f64)>,
 }
 
-/// What the simulator has the deck find at `case`.
+/// The forces that the deck should find at `case`.
 ///
-/// Displacements of rails, and the forces along them from their slopes, are those of the tables' own values and
-/// derivatives.
+/// Contact forces are those of the simulator. Displacements of rails, and the forces along them F du/dx, are computed from
+/// values and derivatives of the tables.
 ///
 /// # Errors
-/// What the tables refuse.
+/// [`Error::Compliance`] for a wheel beyond its rail.
 pub fn expected_forces(
     plan: &DeckPlan<'_>,
     foundations: &[Foundation],
@@ -129,9 +129,10 @@ fn side(plan: &DeckPlan<'_>, case: &CheckCase, w: usize) -> f64 {
     z + roll * (wheel.hub[1] - arm) - yaw * wheel.hub[0]
 }
 
-/// Solves the data set at `state` from its own initial values; where that fails, from those of the simulator.
+/// Solves the data set at `state` from its own initial values; where that fails, from the values of the simulator.
 ///
-/// A first guess decides whether Newton's method converges, not to what: a wrong deck has other solutions.
+/// The initial values decide whether Newton's method converges, not what the equations are: a wrong deck still has other
+/// solutions.
 fn solve(
     set: &DataSet,
     model: &AdamsModel,

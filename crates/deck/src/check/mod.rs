@@ -1,7 +1,14 @@
-//! The deck executed against the simulator.
+//! The deck, executed by our own interpreter of the ADAMS language, against the simulator.
+//!
+//! 1. Random states of the scene are drawn, with the contact forces of the simulator at each ([`states`]).
+//! 2. The forces that the deck should find there are written down ([`compare::expected_forces`]), on foundations that
+//!    interpolate the deck's own tables: the comparison is of equations, not of interpolations.
+//! 3. The deck is executed at each state, its differential equations replaced by one backward Euler step ([`step`]), and
+//!    the six components of every GFORCE are compared. The same is done with all rails on a moving part, which must not
+//!    change them, and with finite rotations, which is reported and not judged.
+//! 4. Where no body is free along its rail, static equilibria of both are compared along the prescribed motion ([`path`]).
 
 pub mod compare;
-pub mod mount;
 mod path;
 mod poses;
 mod random;
@@ -22,25 +29,25 @@ use self::states::CheckCase;
 use super::DeckPlan;
 use crate::Error;
 
-/// Largest difference of forces, of the largest force.
+/// Largest difference of forces that passes, relative to the largest force.
 pub const FORCES: f64 = 1e-12;
-/// The same with the rails on a moving part: coordinates of hundreds of lengths round differently there.
+/// The same with the rails on a moving part, where coordinates of hundreds of lengths have other rounding errors.
 pub const CARRIED: f64 = 1e-9;
-/// States of the comparisons that are no more than a sample.
+/// Most states of the comparisons on a moving part and with finite rotations.
 const SAMPLE: usize = 1000;
 
-/// What the random states are like.
+/// Numbers of random states by what acts in them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Count {
-    /// All of them.
+    /// All states.
     pub all: usize,
-    /// With every wheel pressing.
+    /// States in which every wheel has a vertical force.
     pub pressing: usize,
-    /// With no wheel pressing.
+    /// States in which no wheel has one.
     pub off: usize,
-    /// With a flange that touches.
+    /// States in which a flange touches.
     pub flange: usize,
-    /// With friction.
+    /// States in which a wheel slides.
     pub slide: usize,
 }
 
@@ -58,19 +65,19 @@ impl Count {
     }
 }
 
-/// What a check found.
+/// The result of a check.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckReport {
-    /// The random states.
+    /// Numbers of the random states.
     pub states: Count,
-    /// Forces at random states.
+    /// Differences of forces at random states.
     pub forces: Vec<CheckDifference>,
     /// The quasi-static path; `None` where a body is free along its rail.
     pub path: Option<SweepDifference>,
 }
 
 impl CheckReport {
-    /// Whether everything that is judged is as asked.
+    /// Whether every difference that is judged is within its limit.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.forces.iter().all(CheckDifference::holds)
@@ -78,11 +85,11 @@ impl CheckReport {
     }
 }
 
-/// Executes the data set `text` at `count` random states, as it stands and with its rails on a moving part, and along
-/// its quasi-static path, and compares it with the simulator on the same tables, read the same way.
+/// Executes the data set `text` at `count` random states, as it is and with its rails on a moving part, and along its
+/// quasi-static path, and compares it with the simulator on the same tables and interpolation.
 ///
 /// # Errors
-/// A text that cannot be executed; a scene without states to compare.
+/// [`Error::Language`] for a text that cannot be executed; [`Error::States`] for a scene in which too few states were found.
 pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckReport, Error> {
     let set = DataSet::read(text)?;
     let model = AdamsModel::new(&set)?;
@@ -101,9 +108,9 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
     forces.push(compare::compare(plan, &stepped, what, &wanted, small)?);
 
     let mut carried = stepped.clone();
-    let part = mount::mount(&mut carried);
+    let part = poses::mount_rails(&mut carried);
     let mut random = Random::new(2);
-    let carriers: Vec<CarrierPose> = (0..sample).map(|_| mount::carrier(part, &mut random)).collect();
+    let carriers: Vec<CarrierPose> = (0..sample).map(|_| poses::random_carrier(part, &mut random)).collect();
     let moving = cases.iter().zip(&carriers).map(|(case, by)| state(plan, case, Turns::Small, Some(*by)));
     let what = ("the same, rails on a moving part", Some(CARRIED));
     forces.push(compare::compare(plan, &carried, what, &wanted[..sample], moving)?);

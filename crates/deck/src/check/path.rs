@@ -9,44 +9,44 @@ use crate::DeckPlan;
 use crate::Error;
 use crate::words::ids::number;
 
-/// Places compared along the path, the first left out.
+/// Intervals of time between the equilibria that are compared.
 const PLACES: u32 = 40;
-/// Largest difference of heights and forces, of the largest: ADAMS turns parts by finite rotations, the simulator by
-/// small ones.
+/// Largest relative difference of heights and forces that passes: parts of ADAMS have finite rotations, bodies of the
+/// simulator small ones.
 const ASKED: f64 = 1e-4;
 
-/// How far the two paths are apart.
+/// Differences between the two paths.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SweepDifference {
-    /// Places compared.
+    /// Number of equilibria compared.
     pub places: usize,
     /// Largest difference of the height of a body's origin.
     pub height: f64,
-    /// Largest sinking.
+    /// Largest vertical displacement of a body.
     pub deepest: f64,
     /// Largest difference of a wheel's vertical force.
     pub force: f64,
     /// Largest vertical force.
     pub largest: f64,
-    /// Why one of the two has no path.
+    /// Why one of the two has no path; `None` where both have.
     pub failed: Option<String>,
 }
 
 impl SweepDifference {
-    /// Largest difference asked for, of the largest sinking and force.
+    /// Largest difference that passes, relative to the largest displacement and force.
     #[must_use]
     pub fn asked(&self) -> f64 {
         ASKED
     }
 
-    /// The larger of both relative differences.
+    /// Relative differences of heights and forces.
     #[must_use]
     pub fn relative(&self) -> [f64; 2] {
         let of = |difference: f64, most: f64| if difference == 0.0 { 0.0 } else { difference / most };
         [of(self.height, self.deepest), of(self.force, self.largest)]
     }
 
-    /// Whether the paths are as close as asked.
+    /// Whether both paths exist and their differences are within the limit.
     #[must_use]
     pub fn holds(&self) -> bool {
         self.failed.is_none() && self.relative().iter().all(|value| *value <= ASKED)

@@ -1,14 +1,16 @@
-//! The simulator's states as states of the deck's parts.
+//! The simulator's states as states of the deck's parts, on the ground or on a moving carrier of all rails.
 
 use std::collections::BTreeMap;
 
-use adams::{ModelState, Pose};
+use adams::{ArgumentValue, DataSet, ModelState, Pose, Statement};
 use nalgebra::{Matrix3, Vector3};
 
+use super::random::Random;
 use super::states::CheckCase;
 use super::step;
 use crate::DeckPlan;
-use crate::model::start;
+use crate::model::plan::GROUND;
+use crate::model::start::rotation;
 
 /// How the simulator's small rotations become the parts' rotations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,7 +21,7 @@ pub enum Turns {
     Finite,
 }
 
-/// A part that carries all rails and turns about itself.
+/// A moving part that carries all rails.
 #[derive(Clone, Copy, Debug)]
 pub struct CarrierPose {
     /// Its PART.
@@ -28,7 +30,7 @@ pub struct CarrierPose {
     pub pose: Pose,
 }
 
-/// The state of the deck's parts at `case`, one step before it for penetrations: see [`step`].
+/// The state of the deck's parts at `case`; penetrations are those of one step before it: see [`step`].
 #[must_use]
 pub fn state(
     plan: &DeckPlan<'_>,
@@ -82,7 +84,7 @@ fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
             angular_velocity: spin,
         },
         Turns::Finite => {
-            let rows = start::rotation([roll, yaw, pitch]);
+            let rows = rotation([roll, yaw, pitch]);
             Pose::moving(origin, Matrix3::from_fn(|i, j| rows[i][j]), velocity, spin)
         }
     }
@@ -97,4 +99,38 @@ fn carried(by: &Pose, pose: &Pose) -> Pose {
         rate: by.rate * pose.rotation + by.rotation * pose.rate,
         angular_velocity: by.angular_velocity + by.rotation * pose.angular_velocity,
     }
+}
+
+/// Moves every MARKER of the ground to a new PART of unit mass, which carries the rails; returns its identifier. Forces
+/// between wheels and rails must not change by it.
+pub fn mount_rails(set: &mut DataSet) -> u32 {
+    let parts = set.statements.iter().filter(|one| one.keyword == "PART").filter_map(|one| one.id);
+    let markers = set.statements.iter().filter(|one| one.keyword == "MARKER").filter_map(|one| one.id);
+    let (part, cm) = (parts.max().unwrap_or(GROUND) + 1, markers.max().unwrap_or_default() + 1);
+    for statement in set.statements.iter_mut().filter(|one| one.keyword == "MARKER") {
+        for argument in statement.arguments.iter_mut().filter(|argument| argument.name == "PART") {
+            if argument.value == ArgumentValue::Whole(i64::from(GROUND)) {
+                argument.value = ArgumentValue::Whole(i64::from(part));
+            }
+        }
+    }
+    let at = set.statements.iter().position(|one| one.keyword == "PART").map_or(0, |first| first + 1);
+    let carrier = Statement::new("PART", part)
+        .named("carrier_of_the_rails")
+        .numbers("MASS", &[1.0])
+        .reference("CM", cm)
+        .numbers("IP", &[1.0, 1.0, 1.0]);
+    let centre = Statement::new("MARKER", cm).named("carrier_cm").reference("PART", part);
+    set.statements.splice(at..at, [carrier, centre]);
+    part
+}
+
+/// A random motion of the carrier: any orientation, components of its velocity up to 1 length/s and of its angular
+/// velocity up to 1 rad/s.
+pub fn random_carrier(part: u32, random: &mut Random) -> CarrierPose {
+    let mut vector = |size: f64| std::array::from_fn::<f64, 3, _>(|_| random.around(size));
+    let rows = rotation(vector(2.0));
+    let [origin, velocity, spin] = [vector(10.0), vector(1.0), vector(1.0)].map(Vector3::from);
+    let turn = Matrix3::from_fn(|i, j| rows[i][j]);
+    CarrierPose { part, pose: Pose::moving(origin, turn, velocity, spin) }
 }

@@ -8,7 +8,7 @@
 pub struct Random(u64);
 
 impl Random {
-    /// From a seed.
+    /// The sequence of a seed.
     #[must_use]
     pub const fn new(seed: u64) -> Random {
         Random(seed)

@@ -1,4 +1,10 @@
-//! Random states of a scene, with the simulator's contact forces there.
+//! Random states of a scene, with the simulator's contact forces at them.
+//!
+//! Each state is drawn in three steps. Positions, speeds and spins are random within the [`Scales`] of the scene. The
+//! contact forces with all springs and dampers in equilibrium are computed from the simulator. For contacts whose
+//! penetration is a state of its own (a damper on a flexible rail), penetrations are then found that belong to the force of
+//! the spring and a random rate of the damper, p + G F(p, p') = e, by Newton's method ([`penetrations`]). States whose
+//! forces the deck cannot determine are rejected, up to [`TRIES`] times the number asked for.
 
 use nalgebra::{DMatrix, DVector};
 use sim::{ContactForces, Foundation, Instant, contact_forces};
@@ -8,47 +14,47 @@ use crate::DeckPlan;
 use crate::Error;
 use formats::scene::Along;
 
-/// Largest force that the simulator may find at a penetration, of the force that it was made from: where wheels are
-/// close, penetrations hardly fix forces.
+/// Largest ratio of the force that the simulator finds at a penetration to the force from which the penetration was
+/// computed: where wheels are close, forces are ill conditioned by penetrations.
 const LARGER: f64 = 3.0;
-/// Penetration of a contact that has come off, of its approach.
+/// Penetration, relative to the approach, up to which a contact counts as open.
 const OFF: f64 = 1e-9;
 /// Newton iterations for the penetrations of a state.
 const ITERATIONS: usize = 40;
-/// Largest force of a damper at full ramp, of its spring's.
+/// Largest force of a damper at full ramp, relative to that of its spring.
 const DAMPER: f64 = 0.6;
-/// Tries for each state asked for, before the scene counts as one that has none.
+/// Most states drawn for each state asked for.
 const TRIES: usize = 50;
-/// Least share of the damping of a contact whose rate is found from its force.
+/// Least fraction of the full damping at which the rate of a contact is computed from its force.
 const RAMP: f64 = 0.6;
-/// Least share of the spring's force that its damper leaves.
+/// Least fraction of the spring's force that must remain beside its damper's.
 const CANCELLED: f64 = 1e-2;
 /// Largest rotation, radians.
 const TURN: f64 = 0.02;
-/// Share of a rail's length at its ends where no wheel is put, where the body's place can be chosen.
+/// Length at each end of a rail without wheels, as a fraction of its length, where the body's position is free.
 const MARGIN: f64 = 0.01;
-/// Speeds where nothing else says how fast, in lengths of the scene a second.
+/// Speed where nothing in the scene has a scale of speed, in length units of the scene per second.
 const SPEED: f64 = 1.0;
 
-/// A state and what acts there.
+/// A state and its contact forces.
 #[derive(Clone, Debug)]
 pub struct CheckCase {
-    /// The state; penetrations are those of contacts that act.
+    /// The state; penetrations are those of active contacts.
     pub instant: Instant,
     /// The simulator's forces.
     pub forces: ContactForces,
-    /// Rate of penetration, a contact; zero where it is no state or open.
+    /// Rate of penetration of each contact; zero where the penetration is no state, or the contact is open.
     pub rate: Vec<f64>,
 }
 
-/// `count` random states: places, displacements, speeds, spins, and penetrations that belong to pressing forces;
-/// some wheels are off their rails.
+/// `count` random states: positions, speeds, spins, and penetrations that belong to compressive forces; some wheels are off
+/// their rails.
 ///
-/// Left out are states whose forces are not the deck's to find: contacts that pull, dampers that hold a wheel down
-/// while it is off the rail, rates that a damper at the foot of its ramp would need, and springs and dampers that cancel.
+/// Rejected are states whose forces the deck cannot determine: contacts in tension, dampers that hold a wheel down while it
+/// is off its rail, rates at the beginning of a damper's ramp, and springs and dampers whose forces cancel.
 ///
 /// # Errors
-/// A scene the simulator refuses, or without such states.
+/// [`Error::States`] where too few such states were found.
 pub fn states(
     plan: &DeckPlan<'_>,
     foundations: &[Foundation],
@@ -63,7 +69,7 @@ pub fn states(
             break;
         }
         let Some(instant) = scales.instant(plan, &mut random) else { continue };
-        match settle(plan, foundations, instant, &mut random) {
+        match complete(plan, foundations, instant, &mut random) {
             Ok(Some(case)) => out.push(case),
             Ok(None) => {}
             Err(error) => last = Some(error),
@@ -75,8 +81,8 @@ pub fn states(
     Err(Error::States { found: out.len(), count, last })
 }
 
-/// Gives penetrations to the contacts that keep them, and finds the forces.
-fn settle(
+/// The state with penetrations of those contacts that have them as states, and its forces; `None` where it is rejected.
+fn complete(
     plan: &DeckPlan<'_>,
     foundations: &[Foundation],
     mut instant: Instant,
@@ -88,7 +94,7 @@ fn settle(
     };
     let open = one(&instant)?;
     let mut most = vec![f64::INFINITY; plan.contacts.len()];
-    for (c, penetration, force) in plant(plan, &open, random) {
+    for (c, penetration, force) in penetrations(plan, &open, random) {
         instant.penetration[c] = Some(penetration);
         most[c] = LARGER * force;
     }
@@ -110,39 +116,44 @@ fn settle(
     Ok(fits.then_some(CheckCase { instant, forces, rate }))
 }
 
-/// Penetrations and forces of the contacts that keep them and press: those of springs, with dampers of random rates beside them,
-/// in balance with the rail's give; Newton's method on p + G F(p, p') = e.
-fn plant(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
+/// Contact, penetration and force of those contacts that have their penetration as a state and are closed.
+///
+/// Unknowns: penetrations p of the active contacts. Equation: p + G F(p, p') = e, with the approach e of wheel and rail
+/// without forces, the compliance G of the rail and the law F of spring and damper. Newton's method is damped so that p
+/// falls by no more than a factor of ten in an iteration. Contacts that open are taken out, and the rest is solved again.
+/// First the rates p' are zero; then each is drawn so that the damper has up to [`DAMPER`] of its spring's force.
+fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
-    let reach = |c: usize| open.penetration[c];
+    let approach = |c: usize| open.penetration[c];
     let mut active: Vec<usize> =
-        (0..plan.contacts.len()).filter(|&c| plan.contacts[c].diff.is_some() && reach(c) > 0.0).collect();
+        (0..plan.contacts.len()).filter(|&c| plan.contacts[c].diff.is_some() && approach(c) > 0.0).collect();
     let mut rate = vec![0.0; plan.contacts.len()];
     let mut found = Vec::new();
     for damped in [false, true] {
         while !active.is_empty() {
-            let mut p = DVector::from_iterator(active.len(), active.iter().map(|&c| reach(c)));
+            let mut p = DVector::from_iterator(active.len(), active.iter().map(|&c| approach(c)));
             for _ in 0..ITERATIONS {
                 let point = |i: usize| law(active[i]).at(p[i], rate[active[i]]);
                 let count = |i: usize| plan.contacts[active[i]].wheels.len() as f64;
-                let give = |r: usize, i: usize| open.compliance[(active[r], active[i])] * count(i);
+                let compliance = |r: usize, i: usize| open.compliance[(active[r], active[i])] * count(i);
                 let size = active.len();
-                let left = DVector::from_fn(size, |r, _| {
-                    p[r] - reach(active[r]) + (0..size).map(|i| give(r, i) * point(i).force).sum::<f64>()
+                let residual = DVector::from_fn(size, |r, _| {
+                    p[r] - approach(active[r])
+                        + (0..size).map(|i| compliance(r, i) * point(i).force).sum::<f64>()
                 });
                 let matrix = DMatrix::from_fn(size, size, |r, i| {
-                    f64::from(u8::from(r == i)) + give(r, i) * point(i).by_penetration
+                    f64::from(u8::from(r == i)) + compliance(r, i) * point(i).by_penetration
                 });
-                let Some(step) = matrix.lu().solve(&left) else { break };
-                // a curved law must not be left on the side where it ends
+                let Some(step) = matrix.lu().solve(&residual) else { break };
+                // a law with an exponent has no force and no slope at p <= 0, where Newton's method would stop
                 p = DVector::from_fn(size, |i, _| (p[i] - step[i]).max(0.1 * p[i]));
             }
             found = active.iter().copied().zip(p.iter().copied()).collect();
-            // one that shrank in every iteration has come off
-            let presses =
-                |(c, p): &(usize, f64)| *p > OFF * reach(*c) && law(*c).at(*p, rate[*c]).force > 0.0;
+            // a penetration that was reduced in every iteration is that of an open contact
+            let is_closed =
+                |(c, p): &(usize, f64)| *p > OFF * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0;
             let before = active.len();
-            found.retain(presses);
+            found.retain(is_closed);
             active = found.iter().map(|(c, _)| *c).collect();
             if active.len() == before {
                 break;
@@ -157,7 +168,7 @@ fn plant(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) -> Vec<
     found.into_iter().map(|(c, p)| (c, p, law(c).at(p, rate[c]).force)).collect()
 }
 
-/// The rate that goes with the force and penetration of contact `c`.
+/// Rate of penetration of contact `c` at its force and penetration.
 fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize) -> f64 {
     let contact = &plan.contacts[c];
     let law = &plan.kind(contact.wheels.start).normal;
@@ -168,17 +179,17 @@ fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize
     (forces.vertical[contact.wheels.start] - point.force) / point.by_rate
 }
 
-/// How far and fast bodies move in random states.
+/// Magnitudes of displacements and speeds of each body in random states.
 struct Scales {
-    /// Approach of wheels, a body.
+    /// Approach of wheel and rail under the body's weight.
     sink: Vec<f64>,
-    /// Half the wheel base and half the gauge, a body.
+    /// Half the wheel base and half the gauge.
     reach: Vec<[f64; 2]>,
-    /// Lateral displacement, a body.
+    /// Lateral displacement.
     side: Vec<f64>,
-    /// Vertical and sliding speeds, a body.
+    /// Vertical and sliding speeds.
     speed: Vec<[f64; 2]>,
-    /// Range of x in which every wheel is on its rail, a body.
+    /// Range of x in which every wheel is on its rail.
     range: Vec<[f64; 2]>,
 }
 
@@ -188,9 +199,10 @@ impl Scales {
         for (b, body) in plan.cast.scene.bodies.iter().enumerate() {
             let own: Vec<usize> = (0..plan.wheels.len()).filter(|&w| plan.wheels[w].body == b).collect();
             let weight = body.mass * plan.cast.scene.gravity.max(f64::MIN_POSITIVE);
-            let share = weight / own.len().max(1) as f64;
+            let of_wheel = weight / own.len().max(1) as f64;
             let largest = |of: &dyn Fn(usize) -> f64| own.iter().map(|&w| of(w)).fold(0.0, f64::max);
-            let sink = largest(&|w| plan.kind(w).normal.penetration(share) + plan.start.give[w].abs());
+            let sink =
+                largest(&|w| plan.kind(w).normal.penetration(of_wheel) + plan.start.deflection[w].abs());
             let damped = |w: usize| {
                 let law = &plan.kind(w).normal;
                 if law.damping > 0.0 { law.stiffness * sink.powf(law.exponent) / law.damping } else { 0.0 }
@@ -214,7 +226,7 @@ impl Scales {
         out
     }
 
-    /// A state; `None` where a wheel would be off its rail.
+    /// A random state without penetrations; `None` where a wheel would be beyond its rail.
     fn instant(&self, plan: &DeckPlan<'_>, random: &mut Random) -> Option<Instant> {
         let scene = &plan.cast.scene;
         let time = random.between(0.0, scene.end);

@@ -1,39 +1,40 @@
-//! The deck's differential equations as one backward Euler step, the way a stiff integrator solves them.
+//! The deck's differential equations as one backward Euler step, as a stiff integrator solves them.
 //!
-//! Penetrations alone hardly fix forces: where wheels are close, G F = e - p is nearly singular, and tables read by
-//! AKISPL may even have negative eigenvalues. Within a step, DIF1 = (DIF - past)/h, and G + 1/(k + c/h) is sound.
+//! At given penetrations p the forces F are ill conditioned: where wheels are close, G F = e - p is nearly singular, and
+//! tables read by AKISPL may even have negative eigenvalues. Within an implicit step of length h, the rate is
+//! DIF1 = (DIF - previous value)/h, and the matrix G + 1/(k + c/h) is well conditioned.
 
 use adams::{ArgumentValue, DataSet, Statement};
 
 use crate::DeckPlan;
 use crate::model::plan::ContactPlan;
 
-/// Identifiers of the VARIABLEs that stand for DIF.
+/// First identifier of the VARIABLEs that replace DIF.
 const FIRST: u32 = 900_000_000;
 
-/// Identifier of the VARIABLE that stands for DIF(`id`).
+/// Identifier of the VARIABLE that replaces DIF(`id`).
 #[must_use]
 pub const fn variable(id: u32) -> u32 {
     FIRST + id
 }
 
-/// Share of c/k that a step takes where the damper is ramped.
+/// Length of the step as a fraction of c/k where the damper is ramped.
 const RAMPED: f64 = 0.3;
 
-/// Length of the step of each contact, c/k, in which the damper counts as much as the spring; less where it is ramped:
-/// a steep ramp then leaves one solution.
+/// Length of the step of each contact: c/k, so that damper and spring have equal weight; less where the damper is ramped,
+/// so that a steep ramp leaves one solution.
 #[must_use]
 pub fn lengths(plan: &DeckPlan<'_>) -> Vec<f64> {
     let length = |contact: &ContactPlan| {
         let law = &plan.kind(contact.wheels.start).normal;
-        let share = if law.depth > 0.0 { RAMPED } else { 1.0 };
-        share * law.damping / law.stiffness
+        let fraction = if law.depth > 0.0 { RAMPED } else { 1.0 };
+        fraction * law.damping / law.stiffness
     };
     plan.contacts.iter().map(length).collect()
 }
 
-/// Replaces every implicit DIFF: its DIF is then the value before the step, and a VARIABLE takes its place in
-/// expressions.
+/// Replaces every implicit DIFF by a VARIABLE for its value at the end of the step; its DIF is then the value before the
+/// step.
 pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
     for (contact, length) in plan.contacts.iter().zip(lengths(plan)) {
         let Some(id) = contact.diff else { continue };

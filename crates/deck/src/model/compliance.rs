@@ -1,18 +1,25 @@
-//! What a structure's rails give: SPLINE statements, and the expressions that read them.
+//! The compliance of a structure's rails in a deck: SPLINE statements, and the expressions that read them.
+//!
+//! The displacement of a rail at x by forces F_j at x_j is u(x) = sum_j G(x, x_j) F_j. A deck reads G in one of two ways:
+//!
+//! - Families: G of each pair of directions is one SPLINE of two variables. Each wheel reads it with each force, N^2
+//!   look-ups for N wheels.
+//! - Factored: G(x, z) = sum_k phi_k(x) phi_k(z), with one SPLINE for each curve phi_k. The products
+//!   q_k = sum_j F_j phi_k(x_j) are VARIABLEs that all wheels share, and u(x) = sum_k q_k phi_k(x): r N look-ups for r
+//!   curves. The slope du/dx reads the derivatives of the curves.
 
 use adams::{Spline, SplineValues, Statement};
 use sim::{Extent, Foundation};
 use splines::{Axis, Factored, Kind, Rank, Reading, Sheet};
 
 use crate::Error;
-use crate::words::expression::{TermList, value};
 use crate::words::form::DeckForm;
 use crate::words::ids::{NextId, product};
-use crate::words::name::plain;
 use crate::words::remark;
+use crate::words::text::{TermList, plain, value};
 use formats::scene::Structure;
 
-/// Products below this share of a table's largest entry are left out: no station's value changes by more.
+/// Fraction of a table's largest entry below which products are left out: no value at a station changes by more.
 pub const SHARE: f64 = 1e-6;
 
 /// A direction of a structure: rail and axis.
@@ -20,31 +27,32 @@ pub type RailAxis = (usize, Axis);
 
 /// A force on a rail, as expressions.
 pub struct LoadedMarker {
-    /// Where it acts, and which way.
-    pub way: RailAxis,
-    /// Rail coordinate.
+    /// Rail and axis of the force.
+    pub direction: RailAxis,
+    /// Expression of its rail coordinate.
     pub place: String,
-    /// Force.
+    /// Expression of its value.
     pub force: String,
     /// Whether a positive force points along the negative axis: down.
     pub negative: bool,
 }
 
-/// The give of one structure.
+/// The compliance of one structure's rails, as its deck reads it.
 pub struct RailCompliance {
     name: String,
     rails: Vec<formats::spec::RailOutline>,
     form: DeckForm,
-    /// Directions in which wheels press.
-    ways: Vec<RailAxis>,
+    /// Directions of the forces of its wheels.
+    directions: Vec<RailAxis>,
     tables: Tables,
 }
 
 enum Tables {
     Rigid,
-    /// A family for each pair of directions that has one: deflection, load, table, identifier.
+    /// A family for each ordered pair of directions that has a table, and the tables.
     Families(Vec<Family>, Vec<Sheet>),
-    /// Curves; the first identifier of each factor's directions, and the number of the first factor.
+    /// The factors, the identifier of the first SPLINE of each direction of each factor, and the number of the first
+    /// factor.
     Factored(Factored, Vec<Vec<u32>>, usize),
 }
 
@@ -56,36 +64,41 @@ struct Family {
 }
 
 impl RailCompliance {
-    /// A structure that does not give.
+    /// A rigid structure.
     #[must_use]
     pub fn rigid(structure: &Structure, form: DeckForm) -> RailCompliance {
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
-        RailCompliance { name, rails, form, ways: Vec::new(), tables: Tables::Rigid }
+        RailCompliance { name, rails, form, directions: Vec::new(), tables: Tables::Rigid }
     }
 
-    /// The give along `ways` by `sheets`; SPLINE identifiers are taken from `ids`, factors are numbered from
-    /// `factors` on.
+    /// The compliance in `directions` by the tables `sheets`. Identifiers of SPLINEs are taken from `ids`; factors are
+    /// numbered from `factors`, which is increased by their number.
     ///
     /// # Errors
-    /// A direction without a table; stations too few for a SPLINE.
+    /// A direction without a table; fewer stations than a SPLINE must have.
     pub fn new(
         structure: &Structure,
-        mut ways: Vec<RailAxis>,
+        mut directions: Vec<RailAxis>,
         sheets: &[Sheet],
         form: DeckForm,
         ids: &mut NextId,
         factors: &mut usize,
     ) -> Result<RailCompliance, String> {
-        ways.sort_unstable();
-        ways.dedup();
-        let used = |sheet: &&Sheet| ways.contains(&sheet.deflection) && ways.contains(&sheet.load);
+        directions.sort_unstable();
+        directions.dedup();
+        let used =
+            |sheet: &&Sheet| directions.contains(&sheet.deflection) && directions.contains(&sheet.load);
         let sheets: Vec<Sheet> = sheets.iter().filter(used).cloned().collect();
-        for way in &ways {
-            if !sheets.iter().any(|sheet| sheet.deflection == *way && sheet.load == *way) {
-                return Err(format!("no {} table of rail {}", word(way.1), structure.rails[way.0].name));
+        for direction in &directions {
+            if !sheets.iter().any(|sheet| sheet.deflection == *direction && sheet.load == *direction) {
+                return Err(format!(
+                    "no {} table of rail {}",
+                    word(direction.1),
+                    structure.rails[direction.0].name
+                ));
             }
         }
-        for &(rail, _) in &ways {
+        for &(rail, _) in &directions {
             let outline = &structure.rails[rail];
             if outline.stations.len() < SplineValues::MIN_POINTS {
                 return Err(format!("rail {} has fewer than four stations", outline.name));
@@ -113,16 +126,16 @@ impl RailCompliance {
             DeckForm::Akispl | DeckForm::Symmetrised | DeckForm::Paper => families(sheets, ids)?,
         };
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
-        Ok(RailCompliance { name, rails, form, ways, tables })
+        Ok(RailCompliance { name, rails, form, directions, tables })
     }
 
-    /// Whether the rails give at all.
+    /// Whether the rails are flexible.
     #[must_use]
-    pub fn gives(&self) -> bool {
+    pub fn is_flexible(&self) -> bool {
         !matches!(self.tables, Tables::Rigid)
     }
 
-    /// Number of products of the largest factor; `None` for families.
+    /// Number of curves of the largest factor; `None` for families.
     #[must_use]
     pub fn rank(&self) -> Option<usize> {
         match &self.tables {
@@ -131,10 +144,10 @@ impl RailCompliance {
         }
     }
 
-    /// The simulator's foundation that reads the same tables the same way.
+    /// The simulator's foundation that interpolates the same tables as the deck does.
     ///
     /// # Errors
-    /// What the tables refuse.
+    /// [`Error::Tables`] for tables that cannot be interpolated.
     pub fn foundation(&self) -> Result<Foundation, Error> {
         let fail = |source| Error::Tables { structure: self.name.clone(), source };
         let rails = self.rails.len();
@@ -158,14 +171,14 @@ impl RailCompliance {
     /// The SPLINE statements.
     ///
     /// # Errors
-    /// Tables that are no SPLINE.
+    /// [`Error::Spline`] for tables that are no SPLINE.
     pub fn splines(&self) -> Result<Vec<Statement>, Error> {
         let mut out = Vec::new();
         match &self.tables {
             Tables::Rigid => {}
             Tables::Families(families, _) => {
                 for family in families {
-                    let (a, b) = (self.way(family.deflection), self.way(family.load));
+                    let (a, b) = (self.direction_name(family.deflection), self.direction_name(family.load));
                     let name = if a == b { a } else { format!("{a}_from_{b}") };
                     let table = &family.table;
                     let rows = table.values().row_iter().map(|row| row.iter().copied().collect()).collect();
@@ -176,7 +189,8 @@ impl RailCompliance {
                 for (factor, first) in factored.factors().iter().zip(first) {
                     for (curves, &first) in factor.curves.iter().zip(first) {
                         for (id, column) in (first..).zip(curves.values.column_iter()) {
-                            let name = format!("{}_product_{}", self.way(curves.way), id - first + 1);
+                            let name =
+                                format!("{}_product_{}", self.direction_name(curves.way), id - first + 1);
                             let values = column.iter().copied().collect();
                             out.push(spline(id, &name, curves.stations.clone(), Vec::new(), vec![values])?);
                         }
@@ -185,13 +199,13 @@ impl RailCompliance {
             }
         }
         if let Some(statement) = out.first_mut() {
-            let range = self.ways.first().map_or([0.0; 2], |way| self.rails[way.0].range);
+            let range = self.directions.first().map_or([0.0; 2], |direction| self.rails[direction.0].range);
             statement.remarks = remark::tables(self.form, range);
         }
         Ok(out)
     }
 
-    /// VARIABLEs of the products, q_k = sum over the loads of F phi_k: shared by all wheels.
+    /// VARIABLEs of the products, q_k = sum over the loads of F phi_k(x), which all wheels share.
     #[must_use]
     pub fn products(&self, loads: &[LoadedMarker]) -> Vec<Statement> {
         let Tables::Factored(factored, first, number) = &self.tables else { return Vec::new() };
@@ -200,7 +214,7 @@ impl RailCompliance {
             for k in 0..factor.rank() {
                 let mut sum = TermList::default();
                 for load in loads {
-                    let Some(curve) = curve(factor, first, load.way, k) else { continue };
+                    let Some(curve) = curve(factor, first, load.direction, k) else { continue };
                     sum.add(load.negative, &format!("{}*CUBSPL({},0,{curve})", load.force, load.place));
                 }
                 out.push(
@@ -213,12 +227,12 @@ impl RailCompliance {
         out
     }
 
-    /// The displacement of the rail at a place along `way`, positive along the axis; with `slope` its derivative
-    /// along the rail, which families do not have.
+    /// Expression of the displacement of the rail at `place` in `direction`, positive along the axis; with `slope` that of
+    /// its derivative along the rail, `None` for families, whose AKISPL has no derivative.
     #[must_use]
     pub fn displacement(
         &self,
-        way: RailAxis,
+        direction: RailAxis,
         place: &str,
         loads: &[LoadedMarker],
         slope: bool,
@@ -229,11 +243,11 @@ impl RailCompliance {
                 let find =
                     |a: RailAxis, b: RailAxis| families.iter().find(|f| f.deflection == a && f.load == b);
                 for load in loads {
-                    let Some(family) = find(way, load.way) else { continue };
+                    let Some(family) = find(direction, load.direction) else { continue };
                     let (x, z, id) = (&load.place, place, family.id);
                     let read = match self.form {
                         DeckForm::Symmetrised => {
-                            let back = find(load.way, way).map_or(id, |family| family.id);
+                            let back = find(load.direction, direction).map_or(id, |family| family.id);
                             format!("0.5*(AKISPL({x},{z},{id})+AKISPL({z},{x},{back}))")
                         }
                         DeckForm::Paper => format!("AKISPL({x},{x},{id})"),
@@ -246,7 +260,7 @@ impl RailCompliance {
                 let order = if slope { ",1" } else { "" };
                 for (f, (factor, first)) in factored.factors().iter().zip(first).enumerate() {
                     for k in 0..factor.rank() {
-                        let Some(curve) = curve(factor, first, way, k) else { continue };
+                        let Some(curve) = curve(factor, first, direction, k) else { continue };
                         let q = value(product(number + f, k));
                         sum.add(false, &format!("{q}*CUBSPL({place},0,{curve}{order})"));
                     }
@@ -257,18 +271,20 @@ impl RailCompliance {
         Some(sum.text())
     }
 
-    fn way(&self, (rail, axis): RailAxis) -> String {
+    /// Name of a direction in names of SPLINEs.
+    fn direction_name(&self, (rail, axis): RailAxis) -> String {
         format!("{}_{}_{}", self.name, self.rails[rail].name, word(axis))
     }
 }
 
-/// SPLINE of product `k` along a direction, where the factor has the direction.
-fn curve(factor: &splines::Factor, first: &[u32], way: RailAxis, k: usize) -> Option<u32> {
-    let at = factor.curves.iter().position(|curves| curves.way == way)?;
+/// Identifier of the SPLINE of curve `k` in a direction; `None` where the factor does not have the direction.
+fn curve(factor: &splines::Factor, first: &[u32], direction: RailAxis, k: usize) -> Option<u32> {
+    let at = factor.curves.iter().position(|curves| curves.way == direction)?;
     Some(first[at] + crate::words::ids::number(k) - 1)
 }
 
-/// Families of every ordered pair of directions that has a table: direct ones first.
+/// Families of every ordered pair of directions that has a table, direct ones first; the transpose of a coupling is the
+/// family of the opposite pair.
 fn families(sheets: Vec<Sheet>, ids: &mut NextId) -> Result<Tables, String> {
     let mut all: Vec<(RailAxis, RailAxis, splines::Table)> = Vec::new();
     for direct in [true, false] {

@@ -1,7 +1,5 @@
-//! A scene as a deck sees it: the bodies, wheels and rails that become statements, and how their rails are read.
+//! A scene as a deck sees it: the bodies, wheels and rails that become statements, and the compliance of its rails.
 
 pub mod compliance;
-pub mod mass;
 pub mod plan;
 pub mod start;
-pub(crate) mod travel;

@@ -1,4 +1,4 @@
-//! Everything of a deck by number: parts, markers, wheels, contacts, tables.
+//! The plan of a deck: identifiers of parts, markers, wheels, contacts and tables, before any statement is written.
 
 use std::ops::Range;
 
@@ -18,19 +18,20 @@ use foundations::{SolvedStructure, solution_of};
 /// Identifier of the ground part.
 pub const GROUND: u32 = 1;
 
-/// A scene, numbered.
+/// A scene with the identifiers of its statements.
 pub struct DeckPlan<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// How tables are read.
+    /// How the deck reads tables.
     pub form: DeckForm,
     /// The simulator's scene.
     pub cast: Cast,
-    /// What each structure gives.
+    /// The compliance of each structure.
     pub compliances: Vec<RailCompliance>,
     /// Bodies, in the scene's order.
     pub bodies: Vec<BodyPlan>,
-    /// Frames of rails in ground: one a rail, more where trucks disagree about where the rail is.
+    /// Frames of rails in ground: one for each rail, and more where the trucks of two bodies have the rail at different
+    /// positions.
     pub datums: Vec<Datum>,
     /// Wheels, in the simulator's order.
     pub wheels: Vec<WheelPlan>,
@@ -44,11 +45,11 @@ pub struct DeckPlan<'a> {
     pub splines: NextId,
 }
 
-/// A body.
+/// The statements of a body.
 pub struct BodyPlan {
     /// PART.
     pub part: u32,
-    /// Height and side in ground of its origin where its wheels just touch.
+    /// Height and lateral coordinate in ground of its origin, where its wheels just touch their rails.
     pub datum: [f64; 2],
     /// MARKER at its origin.
     pub origin: u32,
@@ -64,11 +65,11 @@ pub struct Datum {
     pub marker: u32,
     /// The scene's rail.
     pub rail: usize,
-    /// Height and side in ground.
+    /// Height and lateral coordinate in ground.
     pub at: [f64; 2],
 }
 
-/// A wheel.
+/// The statements of a wheel.
 pub struct WheelPlan {
     /// `<truck>.wheel<n>`.
     pub name: String,
@@ -84,13 +85,13 @@ pub struct WheelPlan {
     pub rail: usize,
     /// Its rail's frame, an index into the datums.
     pub datum: usize,
-    /// Its centre from the body's origin.
+    /// Vector from the body's origin to its centre.
     pub hub: [f64; 3],
     /// MARKER on the body at its centre.
     pub marker: u32,
-    /// PART of its own and the MARKER of its centre there, where its spin is a freedom.
+    /// PART of its own and the MARKER of its centre there, where its spin is a degree of freedom.
     pub spin: Option<(u32, u32)>,
-    /// MARKER on the body at the tread under its centre, where the body rolls and the wheel has a flange.
+    /// MARKER on the body at the tread under its centre, where the body can roll and the wheel has a flange.
     pub tread: Option<u32>,
     /// FLOATING MARKER on ground.
     pub float: u32,
@@ -104,18 +105,18 @@ impl WheelPlan {
     }
 }
 
-/// A contact: one wheel, or the wheels of equalisers.
+/// The statements of a contact: of one wheel, or of the wheels of equalisers, which share one force.
 pub struct ContactPlan {
     /// Its wheels.
     pub wheels: Range<usize>,
-    /// DIFF of its penetration, where a damper acts between wheel and a rail that gives.
+    /// DIFF of its penetration, where a damper acts between a wheel and a flexible rail.
     pub diff: Option<u32>,
 }
 
 impl DeckPlan<'_> {
     /// The direction of vertical or lateral forces of wheel `w`.
     #[must_use]
-    pub fn way(&self, w: usize, axis: Axis) -> RailAxis {
+    pub fn direction(&self, w: usize, axis: Axis) -> RailAxis {
         (self.wheels[w].rail, axis)
     }
 
@@ -131,19 +132,24 @@ impl DeckPlan<'_> {
         self.datums[self.wheels[w].datum].marker
     }
 
-    /// Foundations that read the deck's tables as the deck does.
+    /// Foundations of the simulator that interpolate the deck's tables as the deck does.
     ///
     /// # Errors
-    /// What the tables refuse.
+    /// [`Error::Tables`] for tables that cannot be interpolated.
     pub fn foundations(&self) -> Result<Vec<Foundation>, Error> {
         self.compliances.iter().map(RailCompliance::foundation).collect()
     }
 }
 
-/// Numbers a scene; `file` names it in errors.
+/// The plan of the deck of `scene` in the given `form`; `known` has the solutions of its specs, `file` names the scene in
+/// errors.
+///
+/// The steps: refuse what a deck cannot have; list the tables of every structure; compute the state at time 0 on these
+/// tables; number bodies, frames of rails, contacts and wheels.
 ///
 /// # Errors
-/// A foundation that a deck cannot have, tables that do not fit, a scene that cannot start.
+/// [`Error::Refused`] for a scene with something that a deck cannot have, or tables that do not fit; [`Error::Start`] for a
+/// scene that cannot start.
 pub fn plan<'a>(
     scene: &'a Scene,
     known: &[SolvedStructure],
@@ -153,10 +159,10 @@ pub fn plan<'a>(
     refuse_actuators(scene, file)?;
     let cast = cast(scene)?;
     let mut splines = NextId::from(6);
-    let gives = gives(scene, &cast, known, form, file, &mut splines)?;
+    let compliances = compliances(scene, &cast, known, form, file, &mut splines)?;
     let mut foundations = Vec::new();
-    for give in &gives {
-        foundations.push(give.foundation()?);
+    for compliance in &compliances {
+        foundations.push(compliance.foundation()?);
     }
     let start = Start::of(&cast.scene, &foundations)?;
     let mut markers = NextId::from(1);
@@ -170,7 +176,7 @@ pub fn plan<'a>(
         })
         .collect();
     let (datums, of_truck) = datums(scene, &mut bodies, &mut markers);
-    let contacts: Vec<ContactPlan> = contacts(&cast, &gives);
+    let contacts: Vec<ContactPlan> = contacts(&cast, &compliances);
     let mut parts = NextId::from(number(scene.bodies.len()) + GROUND);
     let mut wheels = Vec::new();
     let mut trucks = scene.trucks.iter().zip(&of_truck).flat_map(|(truck, &datum)| {
@@ -199,22 +205,11 @@ pub fn plan<'a>(
             });
         }
     }
-    Ok(DeckPlan {
-        scene,
-        form,
-        cast,
-        compliances: gives,
-        bodies,
-        datums,
-        wheels,
-        contacts,
-        start,
-        markers,
-        splines,
-    })
+    Ok(DeckPlan { scene, form, cast, compliances, bodies, datums, wheels, contacts, start, markers, splines })
 }
 
-/// Refuses ropes, stops, events, drives, brakes, loads, uneven rails and pinned bodies, which a deck does not have yet.
+/// Refuses scenes with ropes, stops, events, drives, brakes, loads, irregularities, pinned bodies and the like, which a deck
+/// does not have yet.
 fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
     let refuse = |why: String, hint: &str| Err(Error::from(Diagnostic::of_file(file, why).hint(hint)));
     if let Some(rope) = scene.ropes.first() {
@@ -277,8 +272,8 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
     }
 }
 
-/// What the structures give; refuses those that a deck cannot have.
-fn gives(
+/// The compliance of each structure; refuses foundations that a deck cannot have.
+fn compliances(
     scene: &Scene,
     cast: &Cast,
     known: &[SolvedStructure],
@@ -293,24 +288,31 @@ fn gives(
             let place = format!("structure \"{}\": {why}", structure.name);
             Error::from(Diagnostic::of_file(file, place).hint(hint))
         };
-        let mut ways: Vec<RailAxis> = Vec::new();
+        let mut directions: Vec<RailAxis> = Vec::new();
         for contact in cast.scene.contacts.iter().filter(|contact| contact.structure == s) {
-            ways.push((contact.rail, Axis::Vertical));
+            directions.push((contact.rail, Axis::Vertical));
             if cast.scene.wheels[contact.wheel].flange.is_some() {
-                ways.push((contact.rail, Axis::Lateral));
+                directions.push((contact.rail, Axis::Lateral));
             }
         }
         match structure.foundation {
-            scene::Foundation::Influence if !ways.is_empty() => {
+            scene::Foundation::Influence if !directions.is_empty() => {
                 let sheets = foundations::influence_blocks(structure, solution_of(known, &structure.origin))?;
-                let give = RailCompliance::new(structure, ways, &sheets, form, splines, &mut factors)
-                    .map_err(|why| {
-                        refuse(
-                            why,
-                            "a deck needs tables of at least four stations in every direction of its wheels",
-                        )
-                    })?;
-                out.push(give);
+                let compliance = RailCompliance::new(
+                    structure,
+                    directions,
+                    &sheets,
+                    form,
+                    splines,
+                    &mut factors,
+                )
+                .map_err(|why| {
+                    refuse(
+                        why,
+                        "a deck needs tables of at least four stations in every direction of its wheels",
+                    )
+                })?;
+                out.push(compliance);
             }
             scene::Foundation::Rigid | scene::Foundation::Influence => {
                 out.push(RailCompliance::rigid(structure, form))
@@ -327,8 +329,9 @@ fn gives(
     Ok(out)
 }
 
-/// Where rails and bodies stand in ground: each body as its first truck's rail has it; a rail that another body
-/// needs elsewhere gets one more frame. Returns the frames, and the frame of each truck.
+/// Positions of rails and bodies in ground. The first truck of a body whose rail has a frame already fixes the position of
+/// the body; a rail that another body needs at a different position gets one more frame. Returns the frames, and the index
+/// of each truck's frame.
 fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<Datum>, Vec<usize>) {
     let mut datums: Vec<Datum> = Vec::new();
     let mut of_truck = vec![0; scene.trucks.len()];
@@ -358,14 +361,15 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<
     (datums, of_truck)
 }
 
-fn contacts(cast: &Cast, gives: &[RailCompliance]) -> Vec<ContactPlan> {
+/// The contacts of the simulator, with a DIFF where a damper acts on a flexible rail.
+fn contacts(cast: &Cast, compliances: &[RailCompliance]) -> Vec<ContactPlan> {
     let mut first = 0;
     let mut out = Vec::new();
     for (c, contact) in cast.scene.contacts.iter().enumerate() {
         let wheels = first..first + contact.offsets.len();
         first = wheels.end;
         let remembers = cast.scene.wheels[contact.wheel].normal.has_memory();
-        let diff = (remembers && gives[contact.structure].gives()).then(|| number(c));
+        let diff = (remembers && compliances[contact.structure].is_flexible()).then(|| number(c));
         out.push(ContactPlan { wheels, diff });
     }
     out

@@ -1,4 +1,4 @@
-//! The state at time 0, as the simulator finds it: wheels that have settled.
+//! The state at time 0, in static equilibrium where the scene asks for it, as the simulator computes it.
 
 use std::ops::ControlFlow;
 
@@ -6,32 +6,32 @@ use sim::{Channel, Foundation, Freedom};
 
 use crate::Error;
 
-/// Numbers at time 0.
+/// The values of bodies and wheels at time 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
-    /// Six displacements a body; x is its rail coordinate.
+    /// Displacements (x, y, z) and rotations (roll, yaw, pitch) of each body; x is its rail coordinate.
     pub displacement: Vec<[f64; 6]>,
-    /// Speed along the rail, a body.
+    /// Speed of each body along the rail.
     pub speed: Vec<f64>,
-    /// Rail coordinate, a wheel.
+    /// Rail coordinate of each wheel.
     pub place: Vec<f64>,
-    /// Penetration, a wheel.
+    /// Penetration of each wheel.
     pub penetration: Vec<f64>,
-    /// Downward displacement of the rail, a wheel.
-    pub give: Vec<f64>,
-    /// Vertical force, a wheel.
+    /// Downward displacement of the rail under each wheel.
+    pub deflection: Vec<f64>,
+    /// Vertical force of each wheel.
     pub vertical: Vec<f64>,
-    /// Flange force, a wheel.
+    /// Flange force of each wheel.
     pub lateral: Vec<f64>,
-    /// Friction, a wheel.
+    /// Friction force of each wheel.
     pub traction: Vec<f64>,
 }
 
 impl Start {
-    /// The first sample of a run that is stopped there.
+    /// The state of `scene` at time 0: the first sample of a run that is stopped there.
     ///
     /// # Errors
-    /// A scene that cannot start.
+    /// [`Error::Start`] for a scene that cannot start.
     pub fn of(scene: &sim::Scene, foundations: &[Foundation]) -> Result<Start, Error> {
         let run = sim::run(scene, foundations, &mut |_| ControlFlow::Break(())).map_err(Error::Start)?;
         let history = &run.history;
@@ -47,7 +47,7 @@ impl Start {
             speed: bodies.map(|b| at(Channel::Speed(b, Freedom::X))).collect(),
             place: of_wheels(Channel::Place),
             penetration: of_wheels(Channel::Penetration),
-            give: of_wheels(Channel::Give),
+            deflection: of_wheels(Channel::Give),
             vertical: of_wheels(Channel::Vertical),
             lateral: of_wheels(Channel::Lateral),
             traction: of_wheels(Channel::Traction),
@@ -55,7 +55,8 @@ impl Start {
     }
 }
 
-/// Rotation matrix by the rotation vector `a`: Rodrigues' formula.
+/// Rotation matrix of the rotation vector `a`, by Rodrigues' formula: R = I + (sin t/t) [a] + ((1 - cos t)/t^2) [a]^2 with
+/// the angle t = |a| and the cross-product matrix [a]. Below 1e-4 the coefficients are their series.
 #[must_use]
 pub fn rotation(a: [f64; 3]) -> [[f64; 3]; 3] {
     let [x, y, z] = a;
@@ -77,7 +78,7 @@ pub fn rotation(a: [f64; 3]) -> [[f64; 3]; 3] {
     out
 }
 
-/// Angles of the body-fixed 3-1-3 rotations that make the rotation matrix `r`.
+/// Angles of the body-fixed 3-1-3 rotations (Euler angles of ADAMS) of the rotation matrix `r`, radians.
 #[must_use]
 pub fn euler(r: [[f64; 3]; 3]) -> [f64; 3] {
     let tilt = r[0][2].hypot(r[1][2]);
@@ -87,7 +88,7 @@ pub fn euler(r: [[f64; 3]; 3]) -> [f64; 3] {
     [r[0][2].atan2(-r[1][2]), tilt.atan2(r[2][2]), r[2][0].atan2(r[2][1])]
 }
 
-/// The vector `v` turned by `r`.
+/// The vector `v` rotated by `r`.
 #[must_use]
 pub fn turned(r: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     r.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])

@@ -1,4 +1,10 @@
-//! What acts between wheels and rails: VARIABLE, DIFF and GFORCE statements.
+//! Contacts of wheels and rails: VARIABLE, DIFF and GFORCE statements.
+//!
+//! For each wheel: its rail coordinate x, the displacements of its rail there as functions of all forces, the penetration
+//! p = r - (height of the wheel's centre over the displaced rail), the vertical force k p^e + c p', the lateral overlap of
+//! its flange with the rail and the flange force, friction by the sliding speed, and the components of these forces along
+//! the rail by its slope. The penetration is a DIFF of its own where a damper acts on a flexible rail, because only then
+//! does the rate of the rail's displacement enter. The GFORCE of the wheel has all six components.
 
 use adams::Statement;
 use sim::{FrictionLaw, NormalLaw};
@@ -6,28 +12,27 @@ use splines::Axis;
 
 use crate::model::compliance::LoadedMarker;
 use crate::model::plan::DeckPlan;
-use crate::words::expression::{TermList, mean, number, value};
 use crate::words::form::DeckForm;
 use crate::words::ids::{self, VariableSlot, variable};
-use crate::words::name::plain;
 use crate::words::remark;
+use crate::words::text::{TermList, mean, number, plain, value};
 
-/// All of them.
+/// All statements of the contacts.
 pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
-    let mut said = Said::default();
+    let mut written = WrittenRemarks::default();
     let mut out = Vec::new();
-    for (s, give) in plan.compliances.iter().enumerate() {
-        out.extend(give.products(&loads(plan, s)));
+    for (s, compliance) in plan.compliances.iter().enumerate() {
+        out.extend(compliance.products(&loads(plan, s)));
     }
     for c in 0..plan.contacts.len() {
         for w in plan.contacts[c].wheels.clone() {
-            place(plan, w, &mut said, &mut out);
+            place(plan, w, &mut written, &mut out);
         }
-        vertical(plan, c, &mut said, &mut out);
+        vertical(plan, c, &mut written, &mut out);
         for w in plan.contacts[c].wheels.clone() {
             flange(plan, w, &mut out);
-            friction(plan, w, &mut said, &mut out);
-            slope(plan, w, &mut said, &mut out);
+            friction(plan, w, &mut written, &mut out);
+            slope(plan, w, &mut written, &mut out);
         }
     }
     for w in 0..plan.wheels.len() {
@@ -36,9 +41,9 @@ pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     out
 }
 
-/// Which remarks stand already.
+/// Which remarks have been written.
 #[derive(Default)]
-struct Said {
+struct WrittenRemarks {
     cross: bool,
     start: bool,
     gap: bool,
@@ -47,9 +52,9 @@ struct Said {
     slope: bool,
 }
 
-/// The text once.
-fn once(said: &mut bool, statement: Statement, text: &str) -> Statement {
-    if std::mem::replace(said, true) { statement } else { statement.remark(text) }
+/// The statement with the remark `text`, unless that has been written before.
+fn once(written: &mut bool, statement: Statement, text: &str) -> Statement {
+    if std::mem::replace(written, true) { statement } else { statement.remark(text) }
 }
 
 /// Forces on the rails of structure `s`.
@@ -59,7 +64,7 @@ pub(crate) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
         let at = value(variable(w, VariableSlot::Place));
         let first = plan.contacts[wheel.contact].wheels.start;
         let load = |axis, slot, owner, negative| LoadedMarker {
-            way: plan.way(w, axis),
+            direction: plan.direction(w, axis),
             place: at.clone(),
             force: value(variable(owner, slot)),
             negative,
@@ -72,49 +77,50 @@ pub(crate) fn loads(plan: &DeckPlan<'_>, s: usize) -> Vec<LoadedMarker> {
     out
 }
 
+/// A VARIABLE of wheel `w`, named after the wheel.
 fn named(plan: &DeckPlan<'_>, w: usize, slot: VariableSlot, what: &str) -> Statement {
     Statement::new("VARIABLE", variable(w, slot)).named(plain(&format!("{}_{what}", plan.wheels[w].name)))
 }
 
-/// With the initial value, which the paper's form does not have.
+/// The statement with its initial value `at`, which is 0 in the paper's form.
 fn starting(plan: &DeckPlan<'_>, statement: Statement, at: f64) -> Statement {
     statement.numbers("IC", &[if plan.form == DeckForm::Paper { 0.0 } else { at }])
 }
 
-/// Where the wheel is, and how the rail has moved there.
-fn place(plan: &DeckPlan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
+/// The rail coordinate of a wheel, and the displacements of its rail there.
+fn place(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
     let rail = plan.datum(w);
     let statement = named(plan, w, VariableSlot::Place, "place").numbers("IC", &[plan.start.place[w]]);
     out.push(statement.function("FUNCTION", format!("DX({},{rail},{rail})", wheel.marker)));
     let at = value(variable(w, VariableSlot::Place));
-    let give = &plan.compliances[wheel.structure];
+    let compliance = &plan.compliances[wheel.structure];
     let loads = loads(plan, wheel.structure);
-    if !give.gives() {
+    if !compliance.is_flexible() {
         return;
     }
-    if let Some(text) = give.displacement(plan.way(w, Axis::Vertical), &at, &loads, false) {
-        let statement = starting(plan, named(plan, w, VariableSlot::Rise, "rise"), -plan.start.give[w]);
-        out.push(once(&mut said.cross, statement, remark::CROSS).function("FUNCTION", text));
+    if let Some(text) = compliance.displacement(plan.direction(w, Axis::Vertical), &at, &loads, false) {
+        let statement = starting(plan, named(plan, w, VariableSlot::Rise, "rise"), -plan.start.deflection[w]);
+        out.push(once(&mut written.cross, statement, remark::CROSS).function("FUNCTION", text));
     }
     if plan.kind(w).flange.is_some()
-        && let Some(text) = give.displacement(plan.way(w, Axis::Lateral), &at, &loads, false)
+        && let Some(text) = compliance.displacement(plan.direction(w, Axis::Lateral), &at, &loads, false)
     {
         out.push(named(plan, w, VariableSlot::Shift, "shift").function("FUNCTION", text));
     }
 }
 
-/// Height of a wheel's centre above its rail as it has moved, less the radius: the penetration, negative.
+/// Height of a wheel's centre over its displaced rail; the radius less this height is the penetration.
 fn height(plan: &DeckPlan<'_>, w: usize) -> String {
     let rail = plan.datum(w);
     let mut text = format!("DY({},{rail},{rail})", plan.wheels[w].marker);
-    if plan.compliances[plan.wheels[w].structure].gives() {
+    if plan.compliances[plan.wheels[w].structure].is_flexible() {
         text.push_str(&format!("-{}", value(variable(w, VariableSlot::Rise))));
     }
     text
 }
 
-/// Penetration of contact `c` as its law reads it.
+/// Penetration of contact `c` in its force law.
 fn depth(plan: &DeckPlan<'_>, c: usize) -> String {
     let contact = &plan.contacts[c];
     match contact.diff.filter(|_| plan.form != DeckForm::Paper) {
@@ -123,7 +129,8 @@ fn depth(plan: &DeckPlan<'_>, c: usize) -> String {
     }
 }
 
-fn vertical(plan: &DeckPlan<'_>, c: usize, said: &mut Said, out: &mut Vec<Statement>) {
+/// Penetration and vertical force of contact `c`.
+fn vertical(plan: &DeckPlan<'_>, c: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
     let contact = &plan.contacts[c];
     let first = contact.wheels.start;
     let kind = plan.kind(first);
@@ -134,36 +141,36 @@ fn vertical(plan: &DeckPlan<'_>, c: usize, said: &mut Said, out: &mut Vec<Statem
         plan.start.penetration[first],
     );
     let text = format!("{}-{heights}", number(kind.radius));
-    out.push(once(&mut said.start, statement, remark::START).function("FUNCTION", text));
+    out.push(once(&mut written.start, statement, remark::START).function("FUNCTION", text));
     if let Some(id) = contact.diff.filter(|_| plan.form != DeckForm::Paper) {
         let statement = Statement::new("DIFF", id)
             .named(plain(&format!("{}_gap", plan.wheels[first].name)))
             .numbers("IC", &[plan.start.penetration[first], 0.0])
             .flag("IMPLICIT");
         let text = format!("DIF({id})-{}", value(variable(first, VariableSlot::Penetration)));
-        out.push(once(&mut said.gap, statement, remark::GAP).function("FUNCTION", text));
+        out.push(once(&mut written.gap, statement, remark::GAP).function("FUNCTION", text));
     }
     let statement =
         starting(plan, named(plan, first, VariableSlot::Press, "press"), plan.start.vertical[first]);
     let law = &kind.normal;
     let mut statement = if plan.form == DeckForm::Paper {
-        once(&mut said.law, statement, remark::PAPER)
+        once(&mut written.law, statement, remark::PAPER)
     } else if law.exponent == 1.0 {
-        once(&mut said.law, statement, remark::LINEAR)
+        once(&mut written.law, statement, remark::LINEAR)
     } else {
-        once(&mut said.law, statement, remark::EXPONENT)
+        once(&mut written.law, statement, remark::EXPONENT)
     };
     if law.bilateral && plan.form != DeckForm::Paper {
         statement = statement.remark(remark::BILATERAL);
     }
     let text = press(plan, c);
     if contact.diff.is_none() && law.damping > 0.0 && plan.form != DeckForm::Paper {
-        statement = once(&mut said.velocity, statement, remark::VELOCITY);
+        statement = once(&mut written.velocity, statement, remark::VELOCITY);
     }
     out.push(statement.function("FUNCTION", text));
 }
 
-/// Mean height of the contact's wheels above their rail as it has moved, in brackets where needed.
+/// Mean height of the contact's wheels over their displaced rail, in brackets.
 fn mean_height(plan: &DeckPlan<'_>, c: usize) -> String {
     let wheels = plan.contacts[c].wheels.clone();
     let mut sum = TermList::default();
@@ -174,7 +181,7 @@ fn mean_height(plan: &DeckPlan<'_>, c: usize) -> String {
     if wheels.len() == 1 { format!("({text})") } else { mean(text, wheels.len()) }
 }
 
-/// Speed at which the contact's wheels move down, up to its sign.
+/// Mean upward velocity of the contact's wheels: the rate of penetration on a rigid rail, with the opposite sign.
 fn speed(plan: &DeckPlan<'_>, c: usize) -> String {
     let wheels = plan.contacts[c].wheels.clone();
     let mut sum = TermList::default();
@@ -223,7 +230,7 @@ fn press(plan: &DeckPlan<'_>, c: usize) -> String {
     }
 }
 
-/// k p^e, odd where the contact may pull.
+/// k p^e; an odd function of p where the contact is bilateral.
 fn spring(law: &NormalLaw, p: &str) -> String {
     let k = number(law.stiffness);
     if law.exponent == 1.0 {
@@ -235,12 +242,13 @@ fn spring(law: &NormalLaw, p: &str) -> String {
     }
 }
 
-/// Height of wheel `w`'s centre above the rail: the arm of friction and flange force.
+/// Height of wheel `w`'s centre over the rail: the lever arm of friction and flange force.
 fn arm(plan: &DeckPlan<'_>, w: usize) -> String {
     let radius = number(plan.kind(w).radius);
     format!("({radius}-{})", depth(plan, plan.wheels[w].contact))
 }
 
+/// Lateral displacement and flange force of wheel `w`.
 fn flange(plan: &DeckPlan<'_>, w: usize, out: &mut Vec<Statement>) {
     let Some(flange) = &plan.kind(w).flange else { return };
     let wheel = &plan.wheels[w];
@@ -250,74 +258,79 @@ fn flange(plan: &DeckPlan<'_>, w: usize, out: &mut Vec<Statement>) {
         let radius = number(plan.kind(w).radius);
         text.push_str(&format!("+{}/{radius}*DZ({tread},{},{rail})", arm(plan, w), wheel.marker));
     }
-    if plan.compliances[wheel.structure].gives() {
+    if plan.compliances[wheel.structure].is_flexible() {
         text.push_str(&format!("-{}", value(variable(w, VariableSlot::Shift))));
     }
     out.push(named(plan, w, VariableSlot::Sideways, "sideways").function("FUNCTION", text));
     let side = value(variable(w, VariableSlot::Sideways));
     let gap = number(flange.clearance);
-    let share = flange.release.map_or(String::new(), |[from, to]| {
+    let release = flange.release.map_or(String::new(), |[from, to]| {
         format!("*STEP({},{},1,{},0)", arm(plan, w), number(from), number(to))
     });
     let overlap = format!("(MAX(0,{side}-{gap})+MIN(0,{side}+{gap}))");
     let statement = starting(plan, named(plan, w, VariableSlot::Flange, "flange"), plan.start.lateral[w]);
-    out.push(statement.function("FUNCTION", format!("{}{share}*{overlap}", number(flange.stiffness))));
+    out.push(statement.function("FUNCTION", format!("{}{release}*{overlap}", number(flange.stiffness))));
 }
 
-fn friction(plan: &DeckPlan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
+/// Friction force of wheel `w`.
+fn friction(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
     let (Some((_, centre)), Some(friction)) = (plan.wheels[w].spin, &plan.kind(w).friction) else { return };
     let (hub, rail) = (plan.wheels[w].marker, plan.datum(w));
     let press = value(variable(plan.contacts[plan.wheels[w].contact].wheels.start, VariableSlot::Press));
     let fourth = if plan.form == DeckForm::Paper { String::new() } else { format!(",{rail}") };
     let slide = format!("VX({hub},{rail},{rail}{fourth})+WZ({centre},{rail},{rail})*{}", arm(plan, w));
     let slip = number(friction.slip);
-    let share = match friction.law {
+    let saturation = match friction.law {
         FrictionLaw::Step => format!("STEP({slide},-{slip},-1,{slip},1)"),
         FrictionLaw::Coulomb => format!("TANH(({slide})/{slip})"),
     };
-    let text = format!("{}*{press}*{share}", number(friction.coefficient));
+    let text = format!("{}*{press}*{saturation}", number(friction.coefficient));
     let mut statement =
         starting(plan, named(plan, w, VariableSlot::Traction, "traction"), plan.start.traction[w]);
     if plan.form != DeckForm::Paper {
-        statement = once(&mut said.velocity, statement, remark::VELOCITY);
+        statement = once(&mut written.velocity, statement, remark::VELOCITY);
     }
     out.push(statement.function("FUNCTION", text));
 }
 
-fn slope(plan: &DeckPlan<'_>, w: usize, said: &mut Said, out: &mut Vec<Statement>) {
+/// Components of the forces of wheel `w` along its deflected rail.
+fn slope(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
-    let give = &plan.compliances[wheel.structure];
+    let compliance = &plan.compliances[wheel.structure];
     let at = value(variable(w, VariableSlot::Place));
     let loads = loads(plan, wheel.structure);
     let first = plan.contacts[wheel.contact].wheels.start;
     let lateral = plan.kind(w).flange.is_some();
-    // the rail rises by its displacement; a wheel that presses down is pushed downhill
+    // vertical displacements are positive upwards and the vertical force acts downwards, hence the sign
     for (axis, slot, press, negative, what, acts) in [
         (Axis::Vertical, VariableSlot::Slope, variable(first, VariableSlot::Press), true, "slope", true),
         (Axis::Lateral, VariableSlot::Tilt, variable(w, VariableSlot::Flange), false, "tilt", lateral),
     ] {
-        if !acts || !give.gives() {
+        if !acts || !compliance.is_flexible() {
             continue;
         }
-        let Some(text) = give.displacement(plan.way(w, axis), &at, &loads, true) else { continue };
+        let Some(text) = compliance.displacement(plan.direction(w, axis), &at, &loads, true) else {
+            continue;
+        };
         let sign = if negative { "-" } else { "" };
-        let statement = once(&mut said.slope, named(plan, w, slot, what), remark::SLOPE);
+        let statement = once(&mut written.slope, named(plan, w, slot, what), remark::SLOPE);
         out.push(statement.function("FUNCTION", format!("{sign}{}*({text})", value(press))));
     }
 }
 
+/// The GFORCE of wheel `w`.
 fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
     let wheel = &plan.wheels[w];
     let press = variable(plan.contacts[wheel.contact].wheels.start, VariableSlot::Press);
     let arm = arm(plan, w);
     let lateral = plan.kind(w).flange.is_some();
     let traction = wheel.spin.is_some();
-    let give = &plan.compliances[wheel.structure];
+    let compliance = &plan.compliances[wheel.structure];
     let mut along = TermList::default();
     if traction {
         along.add(true, &value(variable(w, VariableSlot::Traction)));
     }
-    let sloped = give.gives() && plan.form == DeckForm::Factored;
+    let sloped = compliance.is_flexible() && plan.form == DeckForm::Factored;
     if sloped {
         along.add(false, &value(variable(w, VariableSlot::Slope)));
         if lateral {
@@ -339,7 +352,7 @@ fn force(plan: &DeckPlan<'_>, w: usize) -> Statement {
     let mut statement = Statement::new("GFORCE", ids::number(w)).named(plain(&wheel.name));
     if w == 0 {
         statement = statement.remark(remark::FORCE);
-        if !sloped && plan.compliances.iter().any(crate::model::compliance::RailCompliance::gives) {
+        if !sloped && plan.compliances.iter().any(crate::model::compliance::RailCompliance::is_flexible) {
             statement = statement.remark(remark::NO_SLOPE);
         }
     }

@@ -1,21 +1,21 @@
-//! What holds bodies to their tracks: JOINT, JPRIM and MOTION statements.
+//! What restraints bodies to their tracks: JOINT, JPRIM and MOTION statements.
 
 use adams::{ArgumentValue, Statement};
+use sim::Profile;
 
 use crate::model::plan::{DeckPlan, GROUND};
-use crate::model::travel;
 use crate::words::ids::{NextId, number};
-use crate::words::name::plain;
+use crate::words::text::{number as expression_number, plain};
 use formats::scene::{Along, FREEDOMS};
 
 /// Angles of a marker whose z points along x, y or z of its part.
 const ALONG: [[f64; 3]; 3] = [[90.0, 90.0, 0.0], [0.0, -90.0, 0.0], [0.0, 0.0, 0.0]];
 
-/// All of them; markers that they need are among them.
+/// All joints and motions, with the markers that they need.
 pub(crate) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<Statement> {
     let mut out = Vec::new();
     // axles have the first numbers
-    let mut holds = Holds {
+    let mut restraints = Restraints {
         joints: NextId::from(number(plan.wheels.len())),
         prims: NextId::from(1),
         markers,
@@ -23,22 +23,23 @@ pub(crate) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<State
         out: &mut out,
     };
     for b in 0..plan.bodies.len() {
-        holds.made.clear();
-        hold(plan, b, &mut holds);
+        restraints.made.clear();
+        restrain(plan, b, &mut restraints);
     }
     out
 }
 
-struct Holds<'a> {
+/// The statements that restrain bodies, as they are written.
+struct Restraints<'a> {
     joints: NextId,
     prims: NextId,
     markers: &'a mut NextId,
-    /// Markers made for the body at hand: part, axis, place, identifier.
+    /// Markers of the present body: part, axis, position, identifier.
     made: Vec<(u32, usize, [f64; 3], u32)>,
     out: &'a mut Vec<Statement>,
 }
 
-impl Holds<'_> {
+impl Restraints<'_> {
     /// A marker on `part` at `at` whose z points along axis 0, 1 or 2.
     fn marker(&mut self, part: u32, at: [f64; 3], axis: usize, name: &str) -> u32 {
         let known = self.made.iter().find(|made| (made.0, made.1, made.2) == (part, axis, at));
@@ -67,7 +68,11 @@ impl Holds<'_> {
     }
 }
 
-fn hold(plan: &DeckPlan<'_>, b: usize, holds: &mut Holds<'_>) {
+/// Restrains the degrees of freedom of body `b` that its track holds, and prescribes its travel.
+///
+/// A body held in z, roll and yaw has a PLANAR joint. Other held displacements are one INPLANE each. Three held rotations
+/// are an ORIENTATION, two are PARALLEL_AXES with the axis that remains free, one is a PERPENDICULAR of two axes.
+fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
     let name = &body.name;
     let [height, side] = own.datum;
@@ -77,8 +82,8 @@ fn hold(plan: &DeckPlan<'_>, b: usize, holds: &mut Holds<'_>) {
     held[0] = matches!(body.motion, Along::Held);
     let planar = held[2] && held[3] && held[4] && start[2] == 0.0;
     if planar {
-        let id = holds.joints.take();
-        holds.out.push(
+        let id = restraints.joints.take();
+        restraints.out.push(
             Statement::new("JOINT", id)
                 .named(plain(&format!("plane_{name}")))
                 .remark(format!("{name}: z, roll and yaw are held by its track"))
@@ -91,22 +96,22 @@ fn hold(plan: &DeckPlan<'_>, b: usize, holds: &mut Holds<'_>) {
     for axis in (0..3).filter(|&axis| held[axis] && !(planar && axis == 2)) {
         let mut at = zero;
         at[axis] += start[axis];
-        let j = holds.marker(GROUND, at, axis, &format!("hold_{name}"));
-        holds.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{name}", FREEDOMS[axis]));
+        let j = restraints.marker(GROUND, at, axis, &format!("hold_{name}"));
+        restraints.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{name}", FREEDOMS[axis]));
     }
     let turns: Vec<usize> = (0..3).filter(|&axis| held[3 + axis]).collect();
-    let both = |holds: &mut Holds<'_>, axis: usize| {
-        let i = holds.marker(own.part, [0.0; 3], axis, name);
-        let j = holds.marker(GROUND, zero, axis, &format!("track_{name}"));
+    let both = |restraints: &mut Restraints<'_>, axis: usize| {
+        let i = restraints.marker(own.part, [0.0; 3], axis, name);
+        let j = restraints.marker(GROUND, zero, axis, &format!("track_{name}"));
         [i, j]
     };
     match turns[..] {
         [_, _, _] if !planar => {
-            holds.prim("ORIENTATION", [own.origin, own.track], format!("hold_turns_of_{name}"))
+            restraints.prim("ORIENTATION", [own.origin, own.track], format!("hold_turns_of_{name}"))
         }
         [a, c] if !planar => {
-            let pair = both(holds, 3 - a - c);
-            holds.prim("PARALLEL_AXES", pair, format!("hold_two_turns_of_{name}"));
+            let pair = both(restraints, 3 - a - c);
+            restraints.prim("PARALLEL_AXES", pair, format!("hold_two_turns_of_{name}"));
         }
         [] => {}
         _ if planar && turns.len() == 2 => {}
@@ -114,20 +119,83 @@ fn hold(plan: &DeckPlan<'_>, b: usize, holds: &mut Holds<'_>) {
             // roll: the body's y keeps off z; yaw: its x keeps off z; pitch: its x keeps off y
             let axis = turns.last().copied().unwrap_or_default();
             let [own_axis, ground_axis] = [[1, 2], [0, 2], [0, 1]][axis];
-            let i = holds.marker(own.part, [0.0; 3], own_axis, name);
-            let j = holds.marker(GROUND, zero, ground_axis, &format!("track_{name}"));
-            holds.prim("PERPENDICULAR", [i, j], format!("hold_{}_of_{name}", FREEDOMS[3 + axis]));
+            let i = restraints.marker(own.part, [0.0; 3], own_axis, name);
+            let j = restraints.marker(GROUND, zero, ground_axis, &format!("track_{name}"));
+            restraints.prim("PERPENDICULAR", [i, j], format!("hold_{}_of_{name}", FREEDOMS[3 + axis]));
         }
     }
     if prescribed && let Along::Prescribed(profile) = &body.motion {
-        holds.out.push(
+        restraints.out.push(
             Statement::new("MOTION", number(b))
                 .named(plain(&format!("travel_{name}")))
                 .reference("I", own.origin)
                 .reference("J", own.track)
                 .flag("X")
                 .flag("DISPLACEMENT")
-                .function("FUNCTION", travel::expression(profile)),
+                .function("FUNCTION", motion_expression(profile)),
+        );
+    }
+}
+
+/// Position along the rail as an expression of TIME: the exact polynomial of each interval of the profile, selected by
+/// nested IFs.
+///
+/// Position is continuous, so that it does not matter to which interval a break belongs. The IFs are nested as a binary
+/// tree: a table of n rows takes log2 n comparisons.
+pub(crate) fn motion_expression(profile: &Profile) -> String {
+    let mut starts = vec![0.0];
+    starts.extend_from_slice(profile.breaks());
+    let pieces: Vec<(f64, String)> = (0..starts.len())
+        .map(|k| (starts[k], piece(profile, starts[k], starts.get(k + 1).copied())))
+        .collect();
+    tree(&pieces)
+}
+
+fn tree(pieces: &[(f64, String)]) -> String {
+    match pieces {
+        [] => "0.0".to_owned(),
+        [(_, only)] => only.clone(),
+        _ => {
+            let (before, after) = pieces.split_at(pieces.len() / 2);
+            let (start, first) = &after[0];
+            let time = format!("TIME-{}", expression_number(*start));
+            format!("IF({time}:{},{first},{})", tree(before), tree(after))
+        }
+    }
+}
+
+/// x + v s + a s^2/2 + j s^3/6, with s the time since the start of the interval.
+fn piece(profile: &Profile, start: f64, end: Option<f64>) -> String {
+    let at = profile.at(start);
+    // within the interval acceleration is linear in time
+    let middle = end.map_or(start + 1.0, |end| f64::midpoint(start, end));
+    let jerk = (profile.at(middle).a - at.a) / (middle - start);
+    let s = if start == 0.0 { "TIME".to_owned() } else { format!("(TIME-{})", expression_number(start)) };
+    let mut text = adams::number::write(at.x);
+    for (power, factor) in [(1, at.v), (2, at.a / 2.0), (3, jerk / 6.0)] {
+        if factor != 0.0 {
+            text.push_str(&format!("+{}*{s}", expression_number(factor)));
+            if power > 1 {
+                text.push_str(&format!("**{power}"));
+            }
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::motion_expression;
+    use sim::{Given, Profile};
+
+    #[test]
+    fn a_speed_table_is_a_polynomial_a_stretch() {
+        let table = [[0.0, 0.0], [4.0, 6.0], [8.0, 6.0]];
+        let profile = Profile::new(Given::Speed, &table, 20.0, 0.0).expect("a valid table");
+        assert_eq!(
+            motion_expression(&profile),
+            "IF(TIME-4.0:20.0+0.75*TIME**2,32.0+6.0*(TIME-4.0),IF(TIME-8.0:32.0+6.0*(TIME-4.0),\
+             56.0+6.0*(TIME-8.0),56.0+6.0*(TIME-8.0)))"
         );
     }
 }

@@ -2,24 +2,28 @@
 
 use adams::Statement;
 
-use crate::model::mass;
 use crate::model::plan::{DeckPlan, GROUND};
 use crate::model::start::{euler, rotation, turned};
-use crate::words::name::plain;
 use crate::words::remark;
+use crate::words::text::plain;
+use formats::units::{Dimension, Force, Length, Scale, Units};
 
-/// Share of a body's mass that each of its spinning wheels takes.
+/// A pound, 0.45359237 kg, and a kilogram as whole numbers of 1e-8 kg.
+const POUND: u128 = 45_359_237;
+const KILOGRAM: u128 = 100_000_000;
+
+/// Fraction of a body's mass that each of its spinning wheels has.
 const WHEEL: f64 = 1e-9;
 
-/// All of them.
+/// All parts with their markers, and the axles of spinning wheels.
 pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut out = ground(plan);
     for b in 0..plan.bodies.len() {
         body(plan, b, &mut out);
     }
-    let mut said = false;
+    let mut written = false;
     for w in 0..plan.wheels.len() {
-        wheel(plan, w, &mut said, &mut out);
+        wheel(plan, w, &mut written, &mut out);
     }
     out
 }
@@ -51,7 +55,7 @@ fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
     out
 }
 
-/// Place and 3-1-3 angles of body `b`'s origin at time 0.
+/// Position of body `b`'s origin and its rotation matrix at time 0.
 fn place(plan: &DeckPlan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
     let [x, y, z, roll, yaw, pitch] = plan.start.displacement[b];
     let [height, side] = plan.bodies[b].datum;
@@ -64,7 +68,7 @@ fn placed(id: u32, name: &str, at: [f64; 3], turn: [[f64; 3]; 3]) -> Statement {
     if angles == [0.0; 3] { statement } else { statement.numbers("REULER", &angles) }
 }
 
-/// With the speed along the rail at time 0.
+/// The statement with the speed along the rail at time 0.
 fn moving(statement: Statement, speed: f64) -> Statement {
     if speed == 0.0 { statement } else { statement.numbers("VX", &[speed]) }
 }
@@ -72,7 +76,7 @@ fn moving(statement: Statement, speed: f64) -> Statement {
 fn body(plan: &DeckPlan<'_>, b: usize, out: &mut Vec<Statement>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
     let (at, turn) = place(plan, b);
-    let unit = mass::factor(plan.scene.units);
+    let unit = mass_factor(plan.scene.units);
     let spinning = plan.wheels.iter().filter(|wheel| wheel.body == b && wheel.spin.is_some()).count();
     let mass = body.mass * unit * (1.0 - WHEEL * spinning as f64);
     let statement = placed(own.part, &body.name, at, turn)
@@ -92,10 +96,10 @@ fn body(plan: &DeckPlan<'_>, b: usize, out: &mut Vec<Statement>) {
     }
 }
 
-fn wheel(plan: &DeckPlan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement>) {
+fn wheel(plan: &DeckPlan<'_>, w: usize, written: &mut bool, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
     let Some((part, centre)) = wheel.spin else { return };
-    let unit = mass::factor(plan.scene.units);
+    let unit = mass_factor(plan.scene.units);
     let (origin, turn) = place(plan, wheel.body);
     let arm = turned(turn, wheel.hub);
     let at = std::array::from_fn(|i| origin[i] + arm[i]);
@@ -104,8 +108,8 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement
         .numbers("MASS", &[plan.scene.bodies[wheel.body].mass * unit * WHEEL])
         .reference("CM", centre)
         .numbers("IP", &[0.0, 0.0, inertia]);
-    if !*said {
-        *said = true;
+    if !*written {
+        *written = true;
         statement = statement.remark(remark::SPIN);
     }
     out.push(moving(statement, plan.start.speed[wheel.body]));
@@ -117,4 +121,49 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, said: &mut bool, out: &mut Vec<Statement
             .reference("I", centre)
             .reference("J", wheel.marker),
     );
+}
+
+/// The scene's unit of mass, force time^2 / length, in the mass unit of [`Units::to_adams`].
+///
+/// ADAMS computes F UCF = M a by the units of its UNITS statement. With masses in that unit F = m a holds in the units of
+/// the scene: 1 lbf s^2/ft = 1 slug, 1 lbf s^2/in = 386.0886 lb, 1 N s^2/mm = 1000 kg. The relative error is below 4e-16.
+#[must_use]
+pub(crate) fn mass_factor(units: Units) -> f64 {
+    match units.to_adams().mass {
+        adams::AdamsMassUnit::Slug => {
+            let slugs = Units { length: Length::Foot, force: Force::Pound };
+            Scale { from: units, to: slugs }.factor(Dimension::MASS)
+        }
+        adams::AdamsMassUnit::Pound => {
+            let kilograms = Scale { from: units, to: Units::SI }.factor(Dimension::MASS);
+            kilograms * (KILOGRAM as f64) / (POUND as f64)
+        }
+        _ => Scale { from: units, to: Units::SI }.factor(Dimension::MASS),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::mass_factor;
+    use formats::units::{Force, Length, Units};
+
+    #[test]
+    fn masses_are_those_of_their_definitions() {
+        // 1 lbf = 0.45359237 kg x 9.80665 m/s^2; 1 in = 0.0254 m
+        for (length, force, expected) in [
+            (Length::Foot, Force::Pound, 1.0),
+            (Length::Foot, Force::Kip, 1000.0),
+            (Length::Foot, Force::Newton, 1.0 / 4.448_221_615_260_5),
+            (Length::Inch, Force::Pound, 9.80665 / 0.0254),
+            (Length::Inch, Force::Kip, 9806.65 / 0.0254),
+            (Length::Metre, Force::Newton, 1.0),
+            (Length::Metre, Force::Kilonewton, 1e3),
+            (Length::Millimetre, Force::Newton, 1e3),
+            (Length::Millimetre, Force::Kilonewton, 1e6),
+            (Length::Metre, Force::Pound, 4.448_221_615_260_5),
+        ] {
+            let found = mass_factor(Units { length, force });
+            assert!((found / expected - 1.0).abs() < 8e-16, "{length:?} {force:?}: {found} {expected}");
+        }
+    }
 }

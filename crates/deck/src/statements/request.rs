@@ -1,4 +1,4 @@
-//! REQUEST statements: wheels, bodies, what the girders carry, what their supports take.
+//! REQUEST statements: wheels, bodies, forces on each rail, reactions of structures.
 
 use adams::{ArgumentValue, Statement};
 use splines::Axis;
@@ -7,20 +7,19 @@ use crate::Error;
 use crate::model::compliance::{LoadedMarker, spline};
 use crate::model::plan::DeckPlan;
 use crate::statements::contact;
-use crate::words::expression::{TermList, value};
 use crate::words::ids::{NextId, VariableSlot, variable};
-use crate::words::name::plain;
 use crate::words::remark;
+use crate::words::text::{TermList, plain, value};
 use formats::effect::{Ground, Reaction};
 use formats::scene::Along;
 use foundations::{SolvedStructure, solution_of};
 
 /// Reactions in one REQUEST: their names must fit on a line.
 const MOST: usize = 4;
-/// A reaction per unit load below which it counts as none.
+/// Reaction per unit load up to which it counts as zero.
 const NONE: f64 = 1e-9;
 
-/// All of them, and the SPLINEs that they read.
+/// All requests, and the SPLINEs that they read.
 ///
 /// # Errors
 /// Influence lines that are no SPLINE.
@@ -37,7 +36,7 @@ pub(crate) fn statements(
     for b in 0..plan.bodies.len() {
         out.push(body(plan, b, ids.take()));
     }
-    let mut said = false;
+    let mut written = false;
     for (r, rail) in plan.scene.rails.iter().enumerate() {
         let on = |w: &usize| plan.datums[plan.wheels[*w].datum].rail == r;
         let wheels: Vec<usize> = (0..plan.wheels.len()).filter(on).collect();
@@ -56,7 +55,7 @@ pub(crate) fn statements(
         }
         let parts = vec![("down".to_owned(), down.text()), ("lateral".to_owned(), side.text())];
         let mut statement = request(ids.take(), &format!("carried_by_{}", rail.name), parts);
-        if !std::mem::replace(&mut said, true) {
+        if !std::mem::replace(&mut written, true) {
             statement = statement.remark(remark::REACTION);
         }
         out.push(statement);
@@ -88,7 +87,7 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, id: u32) -> Statement {
     add("place", w, VariableSlot::Place);
     add("penetr", first, VariableSlot::Penetration);
     add("down", first, VariableSlot::Press);
-    if plan.compliances[own.structure].gives() {
+    if plan.compliances[own.structure].is_flexible() {
         add("rise", w, VariableSlot::Rise);
     }
     if plan.kind(w).flange.is_some() {
@@ -120,7 +119,7 @@ fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
     request(id, &format!("motion_of_{name}"), parts)
 }
 
-/// Reactions of the ground on structure `s`, from their influence lines at the stations.
+/// Reactions of the ground on structure `s`: sums of forces times influence lines, each a SPLINE at the stations.
 fn reactions(
     plan: &DeckPlan<'_>,
     known: &[SolvedStructure],
@@ -131,7 +130,7 @@ fn reactions(
 ) -> Result<(), Error> {
     let structure = &plan.scene.structures[s];
     let effects = solution_of(known, &structure.origin).and_then(|solved| solved.grid.effects.as_ref());
-    let Some(effects) = effects.filter(|_| plan.compliances[s].gives()) else { return Ok(()) };
+    let Some(effects) = effects.filter(|_| plan.compliances[s].is_flexible()) else { return Ok(()) };
     let loads = contact::loads(plan, s);
     let mut named = Vec::new();
     for reaction in &effects.reactions {
@@ -140,20 +139,20 @@ fn reactions(
         let mut lines: Vec<(crate::model::compliance::RailAxis, u32)> = Vec::new();
         for load in &loads {
             let Some(line) = line(plan, s, reaction, load) else { continue };
-            let known = lines.iter().find(|(way, _)| *way == load.way).map(|(_, id)| *id);
+            let known = lines.iter().find(|(direction, _)| *direction == load.direction).map(|(_, id)| *id);
             let id = match known {
                 Some(id) => id,
                 None => {
                     let id = splines.take();
-                    let rail = &structure.rails[load.way.0];
+                    let rail = &structure.rails[load.direction.0];
                     let full = format!(
                         "{}_{name}_from_{}_{}",
                         structure.name,
                         rail.name,
-                        crate::model::compliance::word(load.way.1)
+                        crate::model::compliance::word(load.direction.1)
                     );
                     out.push(spline(id, &full, rail.stations.clone(), Vec::new(), vec![line])?);
-                    lines.push((load.way, id));
+                    lines.push((load.direction, id));
                     id
                 }
             };
@@ -169,9 +168,9 @@ fn reactions(
     Ok(())
 }
 
-/// A reaction's influence line along the rail of a load; `None` where the load causes none.
+/// A reaction's influence line along the rail of a load; `None` where the load has no effect on it.
 fn line(plan: &DeckPlan<'_>, s: usize, reaction: &Reaction, load: &LoadedMarker) -> Option<Vec<f64>> {
-    let (rail, axis): (usize, Axis) = load.way;
+    let (rail, axis): (usize, Axis) = load.direction;
     let rails = &plan.scene.structures[s].rails;
     let first: usize = rails[..rail].iter().map(|rail| rail.stations.len()).sum();
     let (_, all) = reaction.lines.iter().find(|(known, _)| *known == axis)?;
@@ -179,7 +178,7 @@ fn line(plan: &DeckPlan<'_>, s: usize, reaction: &Reaction, load: &LoadedMarker)
     own.iter().any(|value| value.abs() > NONE).then(|| own.to_vec())
 }
 
-/// Such as `uy_60` for a girder, `uy_p12` for a frame.
+/// Name of a reaction, such as `uy_60` for a girder and `uy_p12` for a frame.
 fn label(reaction: &Reaction) -> String {
     let place = match reaction.at {
         Ground::Along(x) => plain(&format!("{x}")),

@@ -1,4 +1,4 @@
-//! What the solver is told: UNITS, ACCGRAV, INTEGRATOR, OUTPUT, and the command file.
+//! Settings of the solver: UNITS, ACCGRAV, INTEGRATOR, OUTPUT, and the command file.
 
 use adams::Statement;
 
@@ -6,7 +6,7 @@ use crate::model::plan::DeckPlan;
 use crate::words::remark;
 use formats::scene::Analysis;
 
-/// Largest ERROR, where the scene asks for less accuracy.
+/// Largest ERROR of the integrator.
 const LARGEST: f64 = 1e-3;
 
 /// UNITS and gravity.
@@ -35,10 +35,10 @@ pub(crate) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
     vec![integrator, output, results]
 }
 
-/// The command file that runs the data set `model`, a file name without its ending.
+/// The command file that runs the data set `model`, a file name without its extension.
 pub(crate) fn commands(plan: &DeckPlan<'_>, model: &str) -> String {
     let (end, dt) = (adams::number::write(plan.scene.end), adams::number::write(plan.scene.dt));
-    // no static analysis first: the wheels start settled, and a body that is free along its rail has no statics
+    // no static analysis first: the start is in equilibrium, and a body that is free along its rail has no static one
     let simulate = match plan.scene.analysis {
         Analysis::Dynamic => "SIMULATE/DYNAMIC",
         Analysis::QuasiStatic => "SIMULATE/STATIC",

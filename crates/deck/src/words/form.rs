@@ -1,25 +1,34 @@
-//! How a deck reads the give of its rails.
+//! How a deck reads the compliance of its rails.
 
 use formats::scene::Reading;
 
-/// How a deck reads the give of its rails.
+/// How a deck reads the compliance of its rails.
+///
+/// ```
+/// use deck::DeckForm;
+/// use formats::scene::Reading;
+///
+/// assert_eq!(DeckForm::of_readings([Reading::Exact, Reading::Natural]), DeckForm::Factored);
+/// assert_eq!(DeckForm::of_readings([Reading::Exact, Reading::Akispl]), DeckForm::Akispl);
+/// assert_eq!(DeckForm::Symmetrised.word(), "symmetrised");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DeckForm {
-    /// AKISPL of a family: N^2 look-ups for N wheels; neither symmetric nor conservative off the stations.
+    /// AKISPL of a family: N^2 look-ups for N wheels; neither symmetric nor conservative between the stations.
     Akispl,
     /// The mean of AKISPL(x, z) and AKISPL(z, x): 2 N^2 look-ups, symmetric.
     Symmetrised,
-    /// Products of r curves read by CUBSPL: r N curves, symmetric, positive, with the force along the rail.
+    /// Products of r curves read by CUBSPL: r N look-ups, symmetric and positive, with the force along the rail.
     Factored,
-    /// The paper's own expressions with what is loose in them, for comparison alone.
+    /// The expressions of the paper, with their approximations, for comparison only.
     Paper,
 }
 
 impl DeckForm {
-    /// The form of a scene that asks for none: factored, unless a structure is read by AKISPL.
+    /// The form of a scene that does not ask for one: factored, unless a structure is read by AKISPL.
     ///
-    /// Factored, because it alone is symmetric and positive everywhere, smooth under a moving wheel, and lets the
-    /// deck have the force along the rail, without which a free body gains energy.
+    /// Only the factored form is symmetric and positive everywhere and smooth under a moving wheel, and only it has the
+    /// force along the rail, without which a free body gains energy.
     #[must_use]
     pub fn of_readings(readings: impl IntoIterator<Item = Reading>) -> DeckForm {
         let akispl = readings.into_iter().any(|reading| reading == Reading::Akispl);

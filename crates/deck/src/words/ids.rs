@@ -1,6 +1,6 @@
 //! Identifiers of the statements, unique within each kind.
 
-/// VARIABLEs of a wheel, by the last two digits of their identifiers.
+/// The VARIABLEs of a wheel; the value is that of the last two digits of their identifiers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableSlot {
     /// Rail coordinate of the wheel.
@@ -9,9 +9,9 @@ pub enum VariableSlot {
     Rise = 2,
     /// Lateral displacement of the rail under the wheel.
     Shift = 3,
-    /// Penetration, a contact.
+    /// Penetration of a contact, at its first wheel.
     Penetration = 4,
-    /// Vertical force on the rail, down, of each wheel of a contact.
+    /// Vertical force on the rail, down, of each wheel of a contact; at its first wheel.
     Press = 5,
     /// Lateral displacement of the wheel's contact from the rail.
     Sideways = 6,
@@ -19,9 +19,9 @@ pub enum VariableSlot {
     Flange = 7,
     /// Friction on the rail, +x.
     Traction = 8,
-    /// Force along the rail from the slope of the deflected rail, by the vertical force.
+    /// Component of the vertical force along the rail, by the slope of the deflected rail.
     Slope = 9,
-    /// The same by the flange force.
+    /// Component of the flange force along the rail, likewise.
     Tilt = 10,
 }
 
@@ -43,18 +43,18 @@ pub fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX - 1).saturating_add(1)
 }
 
-/// Identifiers given out one after the other.
+/// Identifiers in succession.
 #[derive(Clone, Copy, Debug)]
 pub struct NextId(u32);
 
 impl NextId {
-    /// From `first` on.
+    /// The identifiers from `first` on.
     #[must_use]
     pub const fn from(first: u32) -> NextId {
         NextId(first)
     }
 
-    /// One more.
+    /// The next identifier.
     pub fn take(&mut self) -> u32 {
         let id = self.0;
         self.0 = id.saturating_add(1);

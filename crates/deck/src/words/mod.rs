@@ -1,7 +1,6 @@
-//! What statements are written with: identifiers, names, expressions, remarks.
+//! The parts of a deck's text: identifiers, names, expressions, remarks, and the form in which tables are read.
 
-pub(crate) mod expression;
 pub(crate) mod form;
 pub mod ids;
-pub(crate) mod name;
 pub(crate) mod remark;
+pub(crate) mod text;

@@ -1,7 +1,7 @@
-//! What is easily got wrong in such decks, said once each, where it matters.
+//! Remarks on frequent errors in such decks; each is written once, at the statement that it concerns.
 
-use crate::words::expression::number;
 use crate::words::form::DeckForm;
+use crate::words::text::number;
 
 /// At the UNITS statement.
 pub(crate) const UNITS: &str = "Units: MASS, IP and the tables are in these units. ADAMS reconciles force, mass and \

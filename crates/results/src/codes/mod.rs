@@ -1,41 +1,43 @@
-//! Values of codes for the crane of a scene, beside what its run has.
+//! A run beside codes: values of EN 1991-3, CMAA 70, AIST TR-13, FEM and OSHA for the crane of a scene, and the same
+//! quantities measured in its run.
+//!
+//! The crane is reduced to what formulas of codes need ([`CraneData`]: weights, span, approach, wheels, speeds); the same
+//! quantities are taken from the columns of the run ([`MeasuredCrane`]); the formulas are evaluated, and both are listed.
+//!
+//! Files, lowest first: crane, measured, formulas, lists, this one.
 
-mod case;
-mod found;
-mod givens;
-mod measures;
-mod rows;
-mod value;
+mod crane;
+mod formulas;
+mod lists;
+mod measured;
 
-pub use found::MeasuredCrane;
-pub use givens::CodeFactor;
-pub use measures::CraneData;
-pub use rows::CodeComparison;
-pub use value::CodeValue;
+pub use crane::CraneData;
+pub use formulas::CodeValue;
+pub use lists::{CodeComparison, CodeFactor};
+pub use measured::MeasuredCrane;
 
 use serde_json::{Map, json};
 
-use self::case::CodeCase;
-use self::givens::givens;
-use self::rows::rows;
+use self::formulas::CodeCase;
+use self::lists::{comparisons, factors};
 use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::Scene;
 use foundations::Error;
 
-/// A run beside the codes.
+/// The values of codes for a crane, and those of its run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeCheck {
-    /// The crane as they see it.
+    /// The crane as codes describe it.
     pub measures: CraneData,
-    /// Factors of the codes, and wheel loads by them.
+    /// Factors of the codes, and wheel loads by them, whatever the run.
     pub factors: Vec<CodeFactor>,
-    /// Quantity by quantity.
+    /// Each quantity of the run with its values by codes.
     pub rows: Vec<CodeComparison>,
 }
 
 impl CodeCheck {
-    /// Of a run of a scene with the member `practice`.
+    /// The check of a run with the columns `record`; `None` for a scene without the member `practice`.
     ///
     /// # Errors
     /// A spec that no model can be made of.
@@ -44,8 +46,8 @@ impl CodeCheck {
         let measures = CraneData::new(scene, practice, cast, record)?;
         let found = MeasuredCrane::new(scene, practice, cast, &measures, record);
         let case = CodeCase::new(scene, practice, &measures, &found);
-        let (rows, givens) = (rows(&case), givens(&case));
-        Ok(Some(CodeCheck { measures, factors: givens, rows }))
+        let (rows, factors) = (comparisons(&case), factors(&case));
+        Ok(Some(CodeCheck { measures, factors, rows }))
     }
 
     /// As the member `practice` of a run's summary.
@@ -58,8 +60,8 @@ impl CodeCheck {
             .map(|(name, value, _)| (name.to_owned(), json!(value)))
             .collect();
         let rows: Map<_, _> = self.rows.iter().map(|row| (row.name.to_owned(), row.json())).collect();
-        let givens: Map<_, _> =
-            self.factors.iter().map(|given| (given.name.to_owned(), given.value.json())).collect();
-        json!({ "factors": givens, "crane": crane, "approach_from_run": self.measures.approach_is_found, "values": rows })
+        let factors: Map<_, _> =
+            self.factors.iter().map(|factor| (factor.name.to_owned(), factor.value.json())).collect();
+        json!({ "factors": factors, "crane": crane, "approach_from_run": self.measures.approach_is_found, "values": rows })
     }
 }

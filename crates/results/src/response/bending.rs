@@ -4,19 +4,19 @@ use fea::{Component, Effect, Frame, Model};
 use nalgebra::Vector3;
 use sim::Channel;
 
-use super::line::{ColumnInfluence, Part};
+use super::influence::{ColumnInfluence, ColumnTerm};
 use super::loaded::{LoadedStructure, spread};
 use formats::scene::columns::{Column, Kind};
 use formats::units::Dimension;
 use foundations::SolvedModel;
 
-/// Sections along a rail, about.
+/// Approximate number of sections along a rail.
 const SECTIONS: usize = 192;
-/// Fewest and most sections of a cell.
-const A_CELL: [usize; 2] = [2, 24];
-/// Most cells of a structure's rails.
-const CELLS: usize = 100;
-/// Output times looked at.
+/// Fewest and most intervals between the sections of a rail element.
+const PER_ELEMENT: [usize; 2] = [2, 24];
+/// Most rail elements of a structure.
+const ELEMENTS: usize = 100;
+/// Most output times that are evaluated.
 const TIMES: usize = 512;
 
 /// Largest and smallest bending moment along the members under a rail, positive where they sag.
@@ -24,30 +24,37 @@ const TIMES: usize = 512;
 pub struct Bending {
     /// Index of the rail in the scene.
     pub rail: usize,
-    /// Rail coordinate, largest moment, smallest moment.
+    /// Rail coordinate, largest moment, smallest moment; by increasing coordinate.
     pub rows: Vec<[f64; 3]>,
 }
 
-/// Of every rail of structure `s` with at most 100 cells, at up to 512 evenly spread output times, without own weight.
+/// The envelopes of every rail of the structure, without own weight; none for a structure with more than 100 rail elements.
+///
+/// About 192 sections of the members under each rail are chosen. Their bending moments follow from influence lines and
+/// inertia as columns do ([`ColumnInfluence`]), at up to 512 evenly distributed output times. Rails whose moments are zero
+/// throughout are left out.
 ///
 /// # Errors
 /// What the frame refuses.
-pub(super) fn of(loaded: &LoadedStructure<'_>, solved: &SolvedModel) -> Result<Vec<Bending>, fea::Error> {
-    let LoadedStructure { scene, s, history, laid, .. } = *loaded;
+pub(super) fn moment_envelopes(
+    loaded: &LoadedStructure<'_>,
+    solved: &SolvedModel,
+) -> Result<Vec<Bending>, fea::Error> {
+    let LoadedStructure { scene, s, history, built, .. } = *loaded;
     let (model, rails) = (&solved.model, &solved.rails);
     let frame = Frame::new(model, rails)?;
     let line = frame.line()?;
     let count = line.cells().len();
-    if count > CELLS || history.is_empty() {
+    if count > ELEMENTS || history.is_empty() {
         return Ok(Vec::new());
     }
-    let each = (SECTIONS * rails.len().max(1) / count.max(1)).clamp(A_CELL[0], A_CELL[1]);
+    let intervals = (SECTIONS * rails.len().max(1) / count.max(1)).clamp(PER_ELEMENT[0], PER_ELEMENT[1]);
     let (mut effects, mut places) = (Vec::new(), Vec::new());
     for cell in line.cells() {
         let Some(carrier) = cell.carrier.filter(|_| cell.ends[0] != cell.ends[1]) else { continue };
         let Some((component, sign)) = sagging(model, carrier.member) else { continue };
-        for k in 0..=each {
-            let x = cell.x[0] + (cell.x[1] - cell.x[0]) * k as f64 / each as f64;
+        for k in 0..=intervals {
+            let x = cell.x[0] + (cell.x[1] - cell.x[0]) * k as f64 / intervals as f64;
             let place = (cell.place(x) / cell.length).clamp(0.0, 1.0);
             effects.push(Effect::Force { member: carrier.member, place, component });
             places.push((cell.rail, x, sign));
@@ -55,9 +62,10 @@ pub(super) fn of(loaded: &LoadedStructure<'_>, solved: &SolvedModel) -> Result<V
     }
     let column =
         Column { name: String::new(), dimension: Dimension::MOMENT, kind: Kind::Section, direction: None };
-    let owner: Vec<Part> = (0..effects.len()).map(|column| Part { column, weight: 1.0 }).collect();
+    let terms: Vec<ColumnTerm> =
+        (0..effects.len()).map(|column| ColumnTerm { column, weight: 1.0 }).collect();
     let columns = vec![column; effects.len()];
-    let lines = ColumnInfluence::of(&frame, solved, laid, scene.gravity, columns, &effects, owner)?;
+    let lines = ColumnInfluence::of(&frame, solved, built, scene.gravity, columns, &effects, terms)?;
     let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
     let mut now = vec![0.0; places.len()];
     let mut extremes = vec![[f64::NEG_INFINITY, f64::INFINITY]; places.len()];
@@ -72,18 +80,18 @@ pub(super) fn of(loaded: &LoadedStructure<'_>, solved: &SolvedModel) -> Result<V
     }
     let mut out = Vec::new();
     for (index, rail) in scene.rails.iter().enumerate().filter(|(_, rail)| rail.structure == s) {
-        let own = places.iter().zip(&extremes).filter(|((on, ..), _)| *on == rail.rail);
-        let mut rows: Vec<[f64; 3]> = own.map(|((_, x, _), [most, least])| [*x, *most, *least]).collect();
+        let on_rail = places.iter().zip(&extremes).filter(|((on, ..), _)| *on == rail.rail);
+        let mut rows: Vec<[f64; 3]> = on_rail.map(|((_, x, _), [most, least])| [*x, *most, *least]).collect();
         rows.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let moves = rows.iter().any(|row| row[1] != 0.0 || row[2] != 0.0);
-        if moves {
+        if rows.iter().any(|row| row[1] != 0.0 || row[2] != 0.0) {
             out.push(Bending { rail: index, rows });
         }
     }
     Ok(out)
 }
 
-/// The component that bends a member up and down, and its sign where it sags; `None` for a member that stands.
+/// The component of bending in the vertical plane of a member, and its sign where the member sags; `None` for a member
+/// steeper than about 45 degrees.
 fn sagging(model: &Model, member: usize) -> Option<(Component, f64)> {
     let member = model.members.get(member)?;
     let end = |k: usize| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]);
@@ -95,10 +103,10 @@ fn sagging(model: &Model, member: usize) -> Option<(Component, f64)> {
     if x.dot(&up).abs() > 0.7 {
         None
     } else if along_y.abs() >= along_z.abs() {
-        // Mz > 0 stretches the fibres at -y
+        // Mz > 0 puts the fibres at -y into tension
         Some((Component::BendingZ, along_y.signum()))
     } else {
-        // My > 0 those at +z
+        // My > 0 puts those at +z into tension
         Some((Component::BendingY, -along_z.signum()))
     }
 }

@@ -1,4 +1,4 @@
-//! Histories of forces, run beside run, in the few numbers that engineers compare.
+//! Comparison of the force histories of several runs by a few statistics: mean, extremes, excursions, oscillations.
 
 use practice::{ResponseSettings, SineComponent, TimedValue, dominant, resample, response};
 use serde_json::{Map, Value, json};
@@ -7,21 +7,23 @@ use super::{Response, SceneMode};
 use crate::record::NamedColumns;
 use crate::threads::parallel_map;
 
-/// Share of the run, at its end, that counts as settled.
+/// Fraction of the run, at its end, over which the settled mean is taken.
 const SETTLED: f64 = 0.25;
 
-/// Half width of the band about the settled mean that an excursion leaves, as a share of the mean.
+/// Half width of the band about the settled mean that an excursion leaves, as a fraction of the mean.
 const BAND: f64 = 0.05;
 
-/// Most waves that are told, the share of the first below which none is, and how far apart two of them are as a ratio.
+/// Most oscillations that are reported.
 const WAVES: usize = 3;
+/// Amplitude, as a fraction of the largest, below which an oscillation is not reported.
 const FAINT: f64 = 0.1;
+/// Least ratio of the frequencies of two oscillations.
 const APART: f64 = 1.15;
 
-/// Fewest samples of which a dominant frequency is worth its name.
+/// Fewest samples from which a dominant frequency is computed.
 const FEWEST: usize = 64;
 
-/// A history in the few numbers that engineers compare.
+/// Statistics of a history.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnStatistics {
     /// Mean over the last quarter of the run.
@@ -30,14 +32,14 @@ pub struct ColumnStatistics {
     pub peak: TimedValue,
     /// Smallest value.
     pub least: TimedValue,
-    /// How often it leaves 5 % about the settled mean.
+    /// Number of times it leaves the band of 5 % about the settled mean.
     pub excursions: usize,
-    /// Strongest waves in the last quarter, of two periods at least, strongest first.
+    /// Up to three oscillations in the last quarter of the run, of at least two periods, largest amplitude first.
     pub waves: Vec<SineComponent>,
 }
 
-/// Runs beside each other: every reaction, internal force and stress, and the sum of each rail's vertical and lateral wheel
-/// forces, in figures.
+/// Statistics of several runs: of every reaction, internal force and stress, and of the sums of each rail's vertical and
+/// lateral wheel forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunComparison {
     rows: Vec<Row>,
@@ -47,58 +49,59 @@ pub struct RunComparison {
 #[derive(Clone, Debug, PartialEq)]
 struct Row {
     column: String,
-    /// One a run; `None`: it has not got the column, or too few rows.
-    figures: Vec<Option<ColumnStatistics>>,
+    /// One for each run; `None` where the run does not have the column, or too few rows.
+    statistics: Vec<Option<ColumnStatistics>>,
     /// Whether it is zero in every run.
     is_zero: bool,
 }
 
 impl RunComparison {
-    /// The figures of all runs, on at most `threads` threads. Empty where there is one run alone.
+    /// The statistics of `runs` (label, record, response) for the columns of the first, on at most `threads` threads; empty
+    /// for a single run.
     #[must_use]
     pub fn new(runs: &[(&str, &NamedColumns, &Response)], threads: Option<u16>) -> RunComparison {
         let [(_, record, first), _, ..] = runs else { return RunComparison::default() };
-        let own = first.columns.iter().map(|column| column.name.clone());
-        let names: Vec<String> = rail_sums(record).into_iter().flatten().chain(own).collect();
+        let structural = first.columns.iter().map(|column| column.name.clone());
+        let names: Vec<String> = rail_sums(record).into_iter().flatten().chain(structural).collect();
         let rows = parallel_map(&names, threads, |_, name| {
             let is_zero = |record: &NamedColumns| record.values(name).iter().all(|value| *value == 0.0);
             Row {
                 column: name.clone(),
-                figures: runs.iter().map(|(_, record, _)| ColumnStatistics::new(record, name)).collect(),
+                statistics: runs.iter().map(|(_, record, _)| ColumnStatistics::new(record, name)).collect(),
                 is_zero: runs.iter().all(|(_, record, _)| is_zero(record)),
             }
         });
         RunComparison { rows }
     }
 
-    /// Figures of a column, one a run.
+    /// Statistics of a column, one for each run.
     #[must_use]
     pub fn of(&self, column: &str) -> Option<&[Option<ColumnStatistics>]> {
-        self.rows.iter().find(|row| row.column == column).map(|row| row.figures.as_slice())
+        self.rows.iter().find(|row| row.column == column).map(|row| row.statistics.as_slice())
     }
 
-    /// Columns that all runs have and that are not zero in all of them, with their figures, one a run.
+    /// Columns that all runs have and that are not zero in all of them, with their statistics, one for each run.
     pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&ColumnStatistics>)> {
         self.rows.iter().filter(|row| !row.is_zero).filter_map(|row| {
-            let all: Option<Vec<&ColumnStatistics>> = row.figures.iter().map(Option::as_ref).collect();
+            let all: Option<Vec<&ColumnStatistics>> = row.statistics.iter().map(Option::as_ref).collect();
             Some((row.column.as_str(), all?))
         })
     }
 
-    /// Settled mean, peak, least value, excursions and waves by column and by the label of the run; `runs`: those it was made of.
+    /// The statistics by column and by the label of the run; `runs` are those that it was computed from.
     #[must_use]
     pub fn json(&self, runs: &[(&str, &NamedColumns, &Response)]) -> Map<String, Value> {
-        let of_runs = |figures: Vec<&ColumnStatistics>| -> Map<String, Value> {
-            let pairs = runs.iter().zip(figures);
+        let of_runs = |statistics: Vec<&ColumnStatistics>| -> Map<String, Value> {
+            let pairs = runs.iter().zip(statistics);
             pairs
                 .map(|((label, _, response), one)| ((*label).to_owned(), one.json(&response.modes)))
                 .collect()
         };
-        self.columns().map(|(name, figures)| (name.to_owned(), Value::Object(of_runs(figures)))).collect()
+        self.columns().map(|(name, all)| (name.to_owned(), Value::Object(of_runs(all)))).collect()
     }
 }
 
-/// Columns of the sums of wheel forces on each rail, vertical, then lateral if there are any.
+/// For each rail, the names of the columns of the sums of its wheel forces: vertical, then lateral where there is one.
 pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
     let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
     let of = |rail: &str| {
@@ -111,7 +114,7 @@ pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
 }
 
 impl ColumnStatistics {
-    /// The numbers of one column, `None` where it has too few rows or the run has not got it.
+    /// The statistics of one column; `None` where the record does not have it, or has fewer than 64 rows.
     #[must_use]
     pub fn new(record: &NamedColumns, column: &str) -> Option<ColumnStatistics> {
         let (times, values) = (record.values("time"), record.values(column));
@@ -121,7 +124,7 @@ impl ColumnStatistics {
         }
         let length = last - first;
         let step = length / (times.len() - 1) as f64;
-        let view = ResponseSettings {
+        let settings = ResponseSettings {
             from: first,
             settled: last - SETTLED * length,
             step,
@@ -130,20 +133,20 @@ impl ColumnStatistics {
             band: [0.0, 0.5 / step],
             floor: BAND,
         };
-        let found = response(times, values, &view).ok()?;
-        // slower than two waves is the way of the crane, no vibration
+        let found = response(times, values, &settings).ok()?;
+        // fewer than two periods in the last quarter come from the travel of the crane, not from vibration
         let band = [2.0 / (SETTLED * length), 0.5 / step];
-        let late = resample(times, values, view.settled, step).ok()?;
+        let late = resample(times, values, settings.settled, step).ok()?;
         Some(ColumnStatistics {
             settled: found.mean,
             peak: found.peak,
             least: found.trough,
             excursions: found.excursions.total(),
-            waves: tones(&late, step, band),
+            waves: oscillations(&late, step, band),
         })
     }
 
-    /// Frequency of the strongest wave.
+    /// Frequency of the oscillation with the largest amplitude.
     #[must_use]
     pub fn hertz(&self) -> Option<f64> {
         self.waves.first().map(|tone| tone.frequency)
@@ -165,25 +168,29 @@ impl ColumnStatistics {
     }
 }
 
-/// The strongest waves of a history in `band`, strongest first, each apart from those before by [`APART`].
-fn tones(values: &[f64], step: f64, band: [f64; 2]) -> Vec<SineComponent> {
-    let (mut found, mut rest) = (Vec::<SineComponent>::new(), vec![band]);
+/// Up to [`WAVES`] oscillations of a history in the frequency `band`, largest amplitude first.
+///
+/// The strongest oscillation of the band is found, the band is divided there into the frequencies below and above it by
+/// the ratio [`APART`], and the strongest oscillation of all remaining bands is found next, until its amplitude is below
+/// [`FAINT`] of the first.
+fn oscillations(values: &[f64], step: f64, band: [f64; 2]) -> Vec<SineComponent> {
+    let (mut found, mut bands) = (Vec::<SineComponent>::new(), vec![band]);
     let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
     while found.len() < WAVES {
-        let all = rest.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
+        let all = bands.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
         let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
         let Some((k, tone)) = best else { break };
         if found.first().is_some_and(|first| tone.amplitude < FAINT * first.amplitude) {
             break;
         }
-        let [low, high] = rest.swap_remove(k);
-        // the flank of a wave that is known already peaks at the edge of its band
+        let [low, high] = bands.swap_remove(k);
+        // the spectrum of an oscillation found before may be largest at the edge of a remaining band
         let is_known = |known: &SineComponent| (known.frequency / tone.frequency).ln().abs() < APART.ln();
         if found.iter().any(is_known) {
             continue;
         }
         let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
-        rest.extend(sides.into_iter().filter(|[low, high]| low < high));
+        bands.extend(sides.into_iter().filter(|[low, high]| low < high));
         found.push(tone);
     }
     found

@@ -1,9 +1,10 @@
-//! Extremes of a quantity over a run, with what goes with them.
+//! Extremes of a run: envelopes of columns with the state of the scene at each extreme, ranges of bodies in space, and
+//! intervals in which wheels are off their rails.
 
 use serde_json::{Map, Value, json};
 use sim::{Channel, Freedom, History};
 
-use super::wheel_load::WheelLoadHistories;
+use super::loaded::WheelLoadHistories;
 use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::Scene;
@@ -20,26 +21,26 @@ pub struct ColumnEnvelope {
     pub min: ColumnExtreme,
 }
 
-/// A value, and what was elsewhere at that time.
+/// An extreme value, with the state of the scene at its time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnExtreme {
     /// The value.
     pub value: f64,
-    /// Row of the record.
+    /// Its row in the record.
     pub row: usize,
-    /// When.
+    /// Its time.
     pub time: f64,
-    /// Where the bodies were, by name: x along the track, or X, Y and Z in space.
+    /// Positions of the bodies at that time, by name: x along the track, or X, Y and Z in space.
     pub bodies: Vec<(String, Vec<f64>)>,
-    /// Forces of the wheels, by name: pressing down, sideways, along the rail.
+    /// Forces of the wheels at that time, by name: vertical (down), lateral, along the rail.
     pub wheels: Vec<(String, [f64; 3])>,
 }
 
 impl ColumnEnvelope {
-    /// Of `columns` of `record`, which has the rows of `history`.
+    /// The envelopes of `columns` of `record`, which has the rows of `history`.
     ///
     /// # Errors
-    /// A column without values.
+    /// A column without values, or with fewer than the record has rows.
     pub fn all(
         columns: &[Column],
         scene: &Scene,
@@ -56,7 +57,7 @@ impl ColumnEnvelope {
         let found = practice::envelope(&[run], columns.len())?;
         let extreme = |index: usize, at: &practice::ExtremeInstant| {
             let value = at.values[index];
-            ColumnExtreme { value, time: at.time, ..elsewhere(at.sample, scene, cast, history, loads) }
+            ColumnExtreme { value, time: at.time, ..scene_at(at.sample, scene, cast, history, loads) }
         };
         let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| ColumnEnvelope {
             column: column.name.clone(),
@@ -89,8 +90,8 @@ impl ColumnExtreme {
     }
 }
 
-/// What is at a row of the history.
-fn elsewhere(
+/// State of the scene at a row of the history, as an extreme of value 0.
+fn scene_at(
     row: usize,
     scene: &Scene,
     cast: &Cast,
@@ -112,4 +113,100 @@ fn elsewhere(
         (wheel.name.clone(), [0.0 - up, side, along])
     });
     ColumnExtreme { value: 0.0, row, time: sample[0], bodies: bodies.collect(), wheels: wheels.collect() }
+}
+
+/// Range of the positions of a body in space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sway {
+    /// Its name.
+    pub body: String,
+    /// Smallest and largest X, Y and Z.
+    pub range: [[f64; 2]; 3],
+}
+
+impl Sway {
+    /// As a member of `sway`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let axes = ["X", "Y", "Z"].into_iter().zip(&self.range);
+        Value::Object(axes.map(|(axis, range)| (axis.to_owned(), json!(range))).collect::<Map<_, _>>())
+    }
+}
+
+/// The ranges of every body in space.
+pub(super) fn sways(scene: &Scene, record: &NamedColumns) -> Vec<Sway> {
+    let bodies = scene.bodies.iter().filter(|body| body.in_space);
+    let range = |values: &[f64]| {
+        let least = values.iter().copied().reduce(f64::min)?;
+        Some([least, values.iter().copied().reduce(f64::max)?])
+    };
+    bodies
+        .filter_map(|body| {
+            let [x, y, z] = ["X", "Y", "Z"].map(|axis| range(record.part(&body.name, axis)));
+            Some(Sway { body: body.name.clone(), range: [x?, y?, z?] })
+        })
+        .collect()
+}
+
+/// An interval of time in which a wheel has no vertical force on its rail.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Uplift {
+    /// Name of the wheel.
+    pub wheel: String,
+    /// First output time without force.
+    pub time: f64,
+    /// From there to the next output time with force, or to the last one.
+    pub duration: f64,
+}
+
+impl Uplift {
+    /// As an item of `uplift`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        json!({ "wheel": self.wheel, "time": self.time, "duration": self.duration })
+    }
+}
+
+/// All intervals without force at output times, wheel by wheel.
+pub(super) fn uplifts(cast: &Cast, record: &NamedColumns) -> Vec<Uplift> {
+    let time = record.values("time");
+    let of = |name: &str| {
+        let found = zero_intervals(time, record.part(name, "vertical"));
+        let name = name.to_owned();
+        found.into_iter().map(move |[time, duration]| Uplift { wheel: name.clone(), time, duration })
+    };
+    cast.wheels.iter().flat_map(|wheel| of(&wheel.name)).collect()
+}
+
+/// Begin and duration of each interval of zeros.
+fn zero_intervals(time: &[f64], force: &[f64]) -> Vec<[f64; 2]> {
+    let mut found = Vec::new();
+    let mut since = None;
+    for (t, force) in time.iter().zip(force) {
+        match since {
+            None if *force == 0.0 => since = Some(*t),
+            Some(from) if *force != 0.0 => {
+                found.push([from, t - from]);
+                since = None;
+            }
+            _ => {}
+        }
+    }
+    if let (Some(from), Some(last)) = (since, time.last()) {
+        found.push([from, last - from]);
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::zero_intervals;
+
+    #[test]
+    fn intervals_of_zeros_are_found_at_the_start_between_and_at_the_end() {
+        let time: Vec<f64> = (0..8).map(f64::from).collect();
+        let found = zero_intervals(&time, &[0.0, 0.0, 3.0, 0.0, 2.0, 1.0, 0.0, 0.0]);
+        assert_eq!(found, [[0.0, 2.0], [3.0, 1.0], [6.0, 1.0]]);
+        assert!(zero_intervals(&time, &[1.0; 8]).is_empty());
+    }
 }

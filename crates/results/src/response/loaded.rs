@@ -1,11 +1,96 @@
-//! One structure in a run: the wheels on it, and how its rails move.
+//! Loads on rails at one output time, by wheels and end stops, and the displacements of the rails under them.
 
 use sim::{Channel, Foundation, History};
 use splines::{Axis, Error, Influence, Probe};
 
-use super::wheel_load::{WheelLoadHistories, WheelLoadHistory};
+use formats::motion::Cast;
 use formats::scene::Scene;
 use foundations::BuiltFoundation;
+
+/// The force of one wheel, or of one end stop, on its rail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WheelLoadHistory {
+    /// Index of the structure.
+    pub structure: usize,
+    /// Rail within the structure.
+    pub rail: usize,
+    /// Rail coordinate.
+    pub x: f64,
+    /// Along +x, up, +z of the rail.
+    pub force: [f64; 3],
+}
+
+/// Reads the loads on rails off the samples of a history.
+///
+/// The force of a prescribed motion acts on no rail and is none of these loads.
+pub struct WheelLoadHistories {
+    wheels: Vec<Wheel>,
+    stops: Vec<Stop>,
+}
+
+struct Stop {
+    channel: usize,
+    structure: usize,
+    rail: usize,
+    x: f64,
+    /// 1 where the body comes from below x.
+    side: f64,
+}
+
+struct Wheel {
+    structure: usize,
+    rail: usize,
+    /// First of four consecutive channels: place, vertical, lateral, traction.
+    first: usize,
+}
+
+impl WheelLoadHistories {
+    /// Of every wheel of `cast`, in its order, and of the end stops of `scene` that stand on rails.
+    #[must_use]
+    pub fn new(scene: &Scene, cast: &Cast, history: &History) -> WheelLoadHistories {
+        let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
+        let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
+            let rail = &scene.rails[wheel.rail];
+            Wheel {
+                structure: rail.structure,
+                rail: rail.rail,
+                first: channel(Channel::Place(w)).unwrap_or_default(),
+            }
+        });
+        let meetings =
+            scene.stops.iter().flat_map(|stop| stop.meetings.iter().map(move |meeting| (stop, meeting)));
+        let stops = meetings.enumerate().filter_map(|(index, (stop, meeting))| {
+            let rail = &scene.rails[stop.rail?];
+            Some(Stop {
+                channel: channel(Channel::Stop(index))?,
+                structure: rail.structure,
+                rail: rail.rail,
+                x: stop.place.clamp(rail.range[0], rail.range[1]),
+                side: meeting.side,
+            })
+        });
+        WheelLoadHistories { wheels: wheels.collect(), stops: stops.collect() }
+    }
+
+    /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
+    #[must_use]
+    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoadHistory> {
+        let mut loads: Vec<WheelLoadHistory> = self
+            .wheels
+            .iter()
+            .map(|wheel| {
+                let [x, vertical, lateral, traction] = std::array::from_fn(|k| sample[wheel.first + k]);
+                let force = [traction, 0.0 - vertical, lateral];
+                WheelLoadHistory { structure: wheel.structure, rail: wheel.rail, x, force }
+            })
+            .collect();
+        loads.extend(self.stops.iter().map(|stop| {
+            let force = [stop.side * sample[stop.channel], 0.0, 0.0];
+            WheelLoadHistory { structure: stop.structure, rail: stop.rail, x: stop.x, force }
+        }));
+        loads
+    }
+}
 
 /// A structure under the wheels of a run.
 pub(super) struct LoadedStructure<'a> {
@@ -14,37 +99,37 @@ pub(super) struct LoadedStructure<'a> {
     pub s: usize,
     pub history: &'a History,
     pub loads: &'a WheelLoadHistories,
-    pub laid: &'a BuiltFoundation,
+    pub built: &'a BuiltFoundation,
 }
 
 impl LoadedStructure<'_> {
-    /// Wheel loads on it at an output time.
+    /// Loads on it at an output time.
     pub fn on(&self, row: usize) -> Vec<WheelLoadHistory> {
         let all = self.loads.at(self.history.sample(row)).into_iter();
         all.filter(|load| load.structure == self.s).collect()
     }
 
-    /// Whether it gives, and its freedoms were recorded where it has some.
+    /// Whether its displacements can be computed: it is flexible, and its degrees of freedom, if any, were recorded.
     pub fn is_known(&self) -> bool {
-        let foundation = &self.laid.foundation;
+        let foundation = &self.built.foundation;
         match foundation.structure {
             Some(_) => self.start().is_some(),
             None => foundation.compliance.is_some(),
         }
     }
 
-    /// Displacements at the probes at an output time, under the loads `on` it then; `None` in a direction that it does
-    /// not resist.
+    /// Displacements at the probes at output time `row`, under the loads `on` it at that time; `None` where a probe has a
+    /// direction that the structure does not resist.
     ///
     /// # Errors
-    /// A place beyond a rail.
+    /// [`Error::OffRail`] for a place beyond a rail.
     pub fn displacements(
         &self,
         probes: &[Probe],
         on: &[WheelLoadHistory],
         row: usize,
     ) -> Result<Option<Vec<f64>>, Error> {
-        let foundation = &self.laid.foundation;
+        let foundation = &self.built.foundation;
         let sample = self.history.sample(row);
         let q = self.start().map_or(&[][..], |at| &sample[at..at + foundation.freedoms()]);
         match displacements(foundation, probes, on, q) {
@@ -54,19 +139,19 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Channel of its first freedom.
+    /// Channel of its first degree of freedom.
     fn start(&self) -> Option<usize> {
         self.history.channels().iter().position(|c| *c == Channel::Coordinate(self.s, 0))
     }
 }
 
-/// At most `most` of `count` indices, evenly spread from the first to the last.
+/// At most `most` of `count` indices, evenly distributed from the first to the last.
 pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
-    let shown = count.min(most);
-    (0..shown).map(move |k| k * (count - 1) / (shown - 1).max(1))
+    let chosen = count.min(most);
+    (0..chosen).map(move |k| k * (count - 1) / (chosen - 1).max(1))
 }
 
-/// G F + Phi q at the probes.
+/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shapes.
 fn displacements(
     foundation: &Foundation,
     probes: &[Probe],

@@ -1,32 +1,27 @@
-//! What structures answer to a run: reactions, internal forces, their envelopes, and how far rails sag.
+//! The response of structures in a run: reactions, internal forces and stresses, their envelopes, the deflections of rails,
+//! uplift of wheels, natural modes.
 //!
-//! All of it follows from the history: influence lines times wheel forces, less the inertia of the structure.
+//! Everything is computed from the history after the run. Reactions and internal forces are influence lines times wheel
+//! forces, less the inertia of the structure ([`ColumnInfluence`]).
+//!
+//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one, comparison.
 
 mod bending;
 mod comparison;
-mod deflection;
-mod drift;
 mod envelope;
-mod line;
+mod influence;
 mod loaded;
-mod natural;
+mod modes;
 mod part_inertia;
-mod spans;
-mod sway;
-mod uplift;
-mod wheel_load;
+mod serviceability;
 
 pub use bending::Bending;
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
-pub use deflection::Deflection;
-pub use drift::Drift;
-pub use envelope::{ColumnEnvelope, ColumnExtreme};
-pub use line::ColumnInfluence;
-pub use natural::SceneMode;
-pub use spans::spans;
-pub use sway::Sway;
-pub use uplift::Uplift;
-pub use wheel_load::{WheelLoadHistories, WheelLoadHistory};
+pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
+pub use influence::ColumnInfluence;
+pub use loaded::{WheelLoadHistories, WheelLoadHistory};
+pub use modes::SceneMode;
+pub use serviceability::{Deflection, Drift, spans};
 
 use loaded::LoadedStructure;
 use serde_json::{Map, Value, json};
@@ -39,57 +34,58 @@ use formats::scene::columns::{self, Column, Kind};
 use formats::scene::{Origin, Pick, Scene};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
-/// What a run's structures answered.
+/// The response of a run's structures, beside the columns that it adds to the run's record.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
-    /// Names of the columns of reactions and internal forces in the record.
+    /// The columns of reactions, internal forces and stresses in the record.
     pub columns: Vec<Column>,
-    /// By the structures' own weight, one a column; in the columns where the scene's output asks for it.
+    /// Value of each column under the structures' own weight; part of the columns where the scene's output asks for it.
     pub dead: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<ColumnEnvelope>,
     /// Extremes of the bending moments along the rails, where they were asked for.
     pub bending: Vec<Bending>,
-    /// Sag of the spans.
+    /// Largest deflection of each span.
     pub deflections: Vec<Deflection>,
-    /// Frames at the level of the crane.
+    /// Largest lateral displacement of each rail on a frame.
     pub drifts: Vec<Drift>,
-    /// Wheels that left their rails.
+    /// Intervals in which wheels are off their rails.
     pub uplifts: Vec<Uplift>,
-    /// Where bodies in space have been.
+    /// Ranges of the positions of bodies in space.
     pub sways: Vec<Sway>,
-    /// Natural modes of the scene towards its end.
+    /// Natural modes of the scene near the end of the run.
     pub modes: Vec<SceneMode>,
-    /// What is left out, and why.
+    /// What the columns leave out, and why.
     pub notes: Vec<String>,
 }
 
-/// Whether each structure of `scene` may have columns that its freedoms are needed for.
+/// For each structure of `scene`, whether it may have columns whose values need its degrees of freedom.
 #[must_use]
 pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<bool> {
     let few = columns::few(scene);
     let some = |pick: &Pick, few: bool| !matches!(pick, Pick::None) && (few || !matches!(pick, Pick::Few));
     let output = &scene.output;
-    let asked =
+    let is_asked =
         some(&output.reactions, few[0]) || some(&output.sections, few[1]) || some(&output.stresses, few[2]);
     scene
         .structures
         .iter()
-        .map(|structure| asked && solution_of(known, &structure.origin).is_some())
+        .map(|structure| is_asked && solution_of(known, &structure.origin).is_some())
         .collect()
 }
 
-/// Influence lines of every structure of `scene` for the columns it asks for; `None` where it asks for none.
+/// Influence lines of every structure of `scene` for the columns that its output asks for; `None` for a structure without
+/// such columns. `built` and `solved` have one entry for each structure.
 ///
 /// # Errors
-/// A structure that does not stand.
+/// [`Error::Lines`] for a structure that does not stand.
 pub fn lines(
     scene: &Scene,
-    laid: &[BuiltFoundation],
+    built: &[BuiltFoundation],
     solved: &[Option<&SolvedModel>],
 ) -> Result<Vec<Option<ColumnInfluence>>, Error> {
     let few = columns::few(scene);
-    let each = scene.structures.iter().zip(laid).zip(solved).map(|((structure, laid), solved)| {
+    let each = scene.structures.iter().zip(built).zip(solved).map(|((structure, built), solved)| {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else { return Ok(None) };
         let wanted = |kind: Kind, name: &str| {
             let (pick, few) = match kind {
@@ -99,22 +95,23 @@ pub fn lines(
             };
             pick.takes(name, few)
         };
-        ColumnInfluence::new(&structure.name, spec, solved, laid, scene.gravity, &wanted)
+        ColumnInfluence::new(&structure.name, spec, solved, built, scene.gravity, &wanted)
             .map_err(|source| Error::Lines { structure: structure.name.clone(), source })
     });
     each.collect()
 }
 
 impl Response {
-    /// Adds the columns of `lines` to `record`, and finds everything else.
+    /// The response of a run, but for bending moments ([`Response::bend`]) and natural modes ([`SceneMode::all`]); adds the
+    /// columns of `lines` to `record`. `built`, `solved` and `lines` have one entry for each structure of `scene`.
     ///
     /// # Errors
-    /// A place beyond a rail.
+    /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
     pub fn new(
         scene: &Scene,
         cast: &Cast,
         history: &History,
-        laid: &[BuiltFoundation],
+        built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
         lines: &[Option<ColumnInfluence>],
         record: &mut NamedColumns,
@@ -122,70 +119,85 @@ impl Response {
         let loads = WheelLoadHistories::new(scene, cast, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
-            let Some(lines) = lines else { continue };
-            let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
-            let mut values = vec![Vec::with_capacity(history.len()); lines.columns().len()];
-            let mut now = vec![0.0; lines.columns().len()];
-            let mut lost = false;
-            for i in 0..history.len() {
-                let sample = history.sample(i);
-                let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
-                let on = loads.at(sample);
-                lost |= !lines.at(on.iter().filter(|load| load.structure == s), acceleration, &mut now);
-                let dead = lines.dead().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
-                for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
-                    column.push(value + dead);
-                }
-            }
-            if lost {
-                response.notes.push(format!(
-                    "{}: wheel forces in directions that it does not resist are left out of its reactions",
-                    scene.structures[s].name
-                ));
-            }
-            response.dead.extend(lines.dead());
-            for (column, values) in lines.columns().iter().zip(values) {
-                record.push(column.name.clone(), column.dimension, values);
-                response.columns.push(column.clone());
+            if let Some(lines) = lines {
+                response.add_columns(scene, s, history, &loads, lines, record);
             }
         }
         response.envelopes = ColumnEnvelope::all(&response.columns, scene, cast, history, &loads, record)
             .map_err(Error::Envelope)?;
         for (s, structure) in scene.structures.iter().enumerate() {
             let failed = |source| Error::Rails { structure: structure.name.clone(), source };
-            let loaded = LoadedStructure { scene, s, history, loads: &loads, laid: &laid[s] };
-            response.deflections.extend(deflection::of(&loaded, solved[s]).map_err(failed)?);
-            response.drifts.extend(drift::of(&loaded, solved[s]).map_err(failed)?);
+            let loaded = LoadedStructure { scene, s, history, loads: &loads, built: &built[s] };
+            response.deflections.extend(serviceability::deflections(&loaded, solved[s]).map_err(failed)?);
+            response.drifts.extend(serviceability::drifts(&loaded, solved[s]).map_err(failed)?);
         }
-        response.uplifts = uplift::all(cast, record);
-        response.sways = sway::all(scene, record);
+        response.uplifts = envelope::uplifts(cast, record);
+        response.sways = envelope::sways(scene, record);
         Ok(response)
     }
 
-    /// Finds the extremes of the bending moments along the rails of structures that have a beam spec, for pictures.
+    /// Adds the columns of structure `s` to `record` and to the response.
+    fn add_columns(
+        &mut self,
+        scene: &Scene,
+        s: usize,
+        history: &History,
+        loads: &WheelLoadHistories,
+        lines: &ColumnInfluence,
+        record: &mut NamedColumns,
+    ) {
+        let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
+        let mut values = vec![Vec::with_capacity(history.len()); lines.columns().len()];
+        let mut now = vec![0.0; lines.columns().len()];
+        let mut is_incomplete = false;
+        for i in 0..history.len() {
+            let sample = history.sample(i);
+            let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
+            let on = loads.at(sample);
+            is_incomplete |= !lines.at(on.iter().filter(|load| load.structure == s), acceleration, &mut now);
+            let dead = lines.dead().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
+            for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
+                column.push(value + dead);
+            }
+        }
+        if is_incomplete {
+            self.notes.push(format!(
+                "{}: wheel forces in directions that it does not resist are left out of its reactions",
+                scene.structures[s].name
+            ));
+        }
+        self.dead.extend(lines.dead());
+        for (column, values) in lines.columns().iter().zip(values) {
+            record.push(column.name.clone(), column.dimension, values);
+            self.columns.push(column.clone());
+        }
+    }
+
+    /// Adds the envelopes of the bending moments along the rails, for figures; of those structures that have a beam spec
+    /// and whose degrees of freedom, if any, were recorded.
     ///
     /// # Errors
-    /// A structure that does not stand.
+    /// [`Error::Lines`] for a structure that does not stand.
     pub fn bend(
         &mut self,
         scene: &Scene,
         cast: &Cast,
         history: &History,
-        laid: &[BuiltFoundation],
+        built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
     ) -> Result<(), Error> {
         let loads = WheelLoadHistories::new(scene, cast, history);
-        for (s, (laid, solved)) in laid.iter().zip(solved).enumerate() {
-            let is_known = laid.foundation.freedoms() == 0 || laid.foundation.recorded;
+        for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
+            let is_known = built.foundation.freedoms() == 0 || built.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
             let failed = |source| Error::Lines { structure: scene.structures[s].name.clone(), source };
-            let loaded = LoadedStructure { scene, s, history, loads: &loads, laid };
-            self.bending.extend(bending::of(&loaded, solved).map_err(failed)?);
+            let loaded = LoadedStructure { scene, s, history, loads: &loads, built: built };
+            self.bending.extend(bending::moment_envelopes(&loaded, solved).map_err(failed)?);
         }
         Ok(())
     }
 
-    /// Members of a run's summary.
+    /// The members of a run's summary that the response has.
     #[must_use]
     pub fn json(&self) -> Map<String, Value> {
         let mut out = Map::new();

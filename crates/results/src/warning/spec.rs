@@ -1,4 +1,4 @@
-//! Numbers of a spec that are rarely meant: moduli and densities of no material, rails with holes.
+//! Values of a spec that are probably wrong: moduli and densities of no known material, rails with gaps.
 
 use fea::{Model, Rail, Section};
 
@@ -7,16 +7,17 @@ use formats::number::rounded;
 use formats::spec::{Form, Spec};
 use formats::units::{Dimension, Scale, Units};
 
-/// Young's moduli of what structures are made of, rigid arms a hundred times as stiff as steel among them, N/m2.
+/// Range of Young's moduli of structures, N/m2; rigid arms a hundred times as stiff as steel are within it.
 const MODULI: [f64; 2] = [2e9, 2e13];
 
-/// Densities of what structures are made of, with what hangs on them, kg/m3.
+/// Range of densities of structures with their equipment, kg/m3.
 const DENSITIES: [f64; 2] = [50.0, 4e4];
 
-/// Share of the shorter neighbour that a gap between two segments of a rail may have: seats over columns are less.
+/// Largest gap between two segments of a rail that is not warned of, as a fraction of the shorter segment; seats over
+/// columns are shorter.
 const GAP: f64 = 0.5;
 
-/// What looks like a slip in a spec, in words.
+/// Warnings about values of a spec that are probably wrong.
 #[must_use]
 pub fn spec_warnings(spec: &Spec) -> Vec<String> {
     let scale = Scale { from: spec.units, to: Units::SI };
@@ -26,28 +27,30 @@ pub fn spec_warnings(spec: &Spec) -> Vec<String> {
         Form::Frame(frame) => {
             // where ties carry the rail, sections of ties stand among those of the file
             let named = frame.sections.iter().zip(&frame.model.sections).filter(|_| spec.pads().is_empty());
-            let mut told: Vec<[u64; 2]> = Vec::new();
+            let mut seen: Vec<[u64; 2]> = Vec::new();
             for (name, section) in named {
                 let key = [section.e, density(section)].map(f64::to_bits);
-                if told.contains(&key) {
+                if seen.contains(&key) {
                     continue;
                 }
-                told.push(key);
+                seen.push(key);
                 all.extend(modulus(&format!("`E` of section \"{name}\""), section.e, spec.units, scale));
                 all.extend(heavy(name, section, spec.units, scale));
             }
             for (name, rail) in &frame.rails {
-                all.extend(holes(name, &frame.model, rail));
+                all.extend(gaps(name, &frame.model, rail));
             }
         }
     }
     all
 }
 
+/// Mass of a section per volume; 0 without area.
 fn density(section: &Section) -> f64 {
     if section.area > 0.0 { section.mass / section.area } else { 0.0 }
 }
 
+/// A Young's modulus outside [`MODULI`].
 fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
     let pascals = e * scale.factor(Dimension::STRESS);
     let unit = units.label(Dimension::STRESS);
@@ -62,6 +65,7 @@ fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
     })
 }
 
+/// A section whose density is outside [`DENSITIES`].
 fn heavy(name: &str, section: &Section, units: Units, scale: Scale) -> Option<String> {
     let own = density(section);
     let si = own * scale.factor(Dimension::DENSITY);
@@ -77,8 +81,8 @@ fn heavy(name: &str, section: &Section, units: Units, scale: Scale) -> Option<St
     })
 }
 
-/// Stretches of a rail that no segment covers and that are no seat over a column.
-fn holes(name: &str, model: &Model, rail: &Rail) -> Vec<String> {
+/// Intervals of a rail that no segment covers and that are no seat over a column.
+fn gaps(name: &str, model: &Model, rail: &Rail) -> Vec<String> {
     let size = rail.axis.iter().map(|part| part * part).sum::<f64>().sqrt();
     let along = |point: usize, offset: [f64; 3]| {
         let part = |k: usize| (model.points[point][k] + offset[k] - rail.origin[k]) * rail.axis[k];
@@ -109,7 +113,7 @@ fn holes(name: &str, model: &Model, rail: &Rail) -> Vec<String> {
     all
 }
 
-/// Three digits.
+/// A number with three significant digits.
 fn short(value: f64) -> String {
     number(rounded(value, 3))
 }
@@ -119,7 +123,7 @@ mod tests {
     use super::*;
     use formats::source::Source;
 
-    fn told(text: &str) -> Vec<String> {
+    fn found(text: &str) -> Vec<String> {
         let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
         spec_warnings(&Spec::read(&source, None).expect("a sound spec"))
     }
@@ -135,29 +139,29 @@ mod tests {
 
     #[test]
     fn a_sound_spec_is_passed_over() {
-        assert_eq!(told(FRAME), Vec::<String>::new());
+        assert_eq!(found(FRAME), Vec::<String>::new());
     }
 
     #[test]
-    fn ksi_in_a_file_of_feet_are_told() {
-        let told = told(&FRAME.replace("4176000", "29000"));
+    fn warns_of_ksi_in_a_file_of_feet() {
+        let warnings = found(&FRAME.replace("4176000", "29000"));
         let expected =
             "`E` of section \"girder\" is 29000 kip/ft^2, 1.39 GPa: steel has about 4180000 kip/ft^2";
-        assert_eq!(told, [expected]);
+        assert_eq!(warnings, [expected]);
     }
 
     #[test]
-    fn a_weight_in_the_place_of_a_density_is_told() {
-        let told = told(&FRAME.replace("0.01523", "0.49"));
-        assert_eq!(told.len(), 1);
-        assert!(told[0].contains("0.49 kip s^2/ft^4") && told[0].contains("0.0152"), "{told:?}");
+    fn warns_of_a_weight_in_the_place_of_a_density() {
+        let warnings = found(&FRAME.replace("0.01523", "0.49"));
+        assert_eq!(warnings.len(), 1);
+        assert!(warnings[0].contains("0.49 kip s^2/ft^4") && warnings[0].contains("0.0152"), "{warnings:?}");
     }
 
     #[test]
-    fn a_bay_without_a_segment_is_told() {
-        let told = told(&FRAME.replace("{\"cell\": [0, 1]}, ", ""));
+    fn warns_of_a_bay_without_a_segment() {
+        let warnings = found(&FRAME.replace("{\"cell\": [0, 1]}, ", ""));
         assert_eq!(
-            told,
+            warnings,
             ["no segment of rail top covers it from 40 to 80: there it moves rigidly with the nearer end"]
         );
     }

@@ -1,5 +1,5 @@
-//! Numbers of a scene that are rarely meant: weights given as masses, bodies that turn without inertia, structures that
-//! stand beside the body below them, ropes pulled beyond what ropes bear.
+//! Values of a scene that are probably wrong: weights given as masses, bodies that rotate without inertia, structures that
+//! stand beside the body below them, ropes beyond their strength.
 
 use crate::record::NamedColumns;
 use formats::fault::number;
@@ -7,30 +7,30 @@ use formats::number::rounded;
 use formats::scene::{Analysis, Body, Origin, Scene, seat};
 use formats::units::{Dimension, Scale, Units};
 
-/// Force of a body's own weight on a wheel by the square of its diameter that no wheel is built for, N/m2. Wheels of
-/// steel bear a third of it with all that they carry.
+/// Force of a body's own weight on a wheel over the square of its diameter, above which no wheel is built, N/m2. Steel
+/// wheels bear a third of it with their whole load.
 const PRESSED: f64 = 3e6;
 
-/// Share of the distance of its wheels by which a body may hold a structure beyond them.
+/// Distance beyond its wheels at which a body may support a structure, as a fraction of the distance of the wheels.
 const BEYOND: f64 = 0.1;
 
-/// Stretch of a rope by its length beyond which none holds: strands of 2000 N/mm2 break near it.
+/// Strain beyond which a rope breaks: that of strands of 2000 N/mm2.
 const STRETCHED: f64 = 0.03;
 
-/// What looks like a slip in a scene, in words.
+/// Warnings about values of a scene that are probably wrong.
 #[must_use]
-pub(super) fn of_scene(scene: &Scene, record: &NamedColumns) -> Vec<String> {
+pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
-        all.extend(idle(scene, body));
+        all.extend(without_inertia(scene, body));
     }
     all.extend((0..scene.structures.len()).filter_map(|s| beside(scene, s)));
     all.extend(stretched(scene, record));
     all
 }
 
-/// A mass whose weight its wheels cannot carry, as if it were that weight.
+/// A mass whose weight its wheels cannot carry, probably a weight given as a mass.
 fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
     let (root, _) = seat(scene, b);
     let below = scene.trucks.iter().filter(|truck| seat(scene, truck.body).0 == root);
@@ -56,8 +56,8 @@ fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
     })
 }
 
-/// Rotations that are free in a body that has no inertia about them.
-fn idle(scene: &Scene, body: &Body) -> Option<String> {
+/// Free rotations of a body that has no moment of inertia about them.
+fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
     let words = ["roll", "yaw", "pitch"].into_iter().enumerate();
     let free: Vec<&str> =
         words.filter(|(k, _)| body.free[3 + k] && body.inertia[*k] == 0.0).map(|(_, word)| word).collect();
@@ -71,7 +71,7 @@ fn idle(scene: &Scene, body: &Body) -> Option<String> {
     })
 }
 
-/// Supports that a body holds beyond its own wheels.
+/// A structure whose supports on a body lie beyond the wheels of the body.
 fn beside(scene: &Scene, s: usize) -> Option<String> {
     let structure = &scene.structures[s];
     let (on, Origin::Spec { spec, .. }) = (structure.on?, &structure.origin) else { return None };
@@ -91,9 +91,9 @@ fn beside(scene: &Scene, s: usize) -> Option<String> {
     let held = held.chain(model.springs.iter().map(|spring| spring.point));
     let held: Vec<[f64; 3]> =
         held.map(|point| [0, 1, 2].map(|k| own[k] + on.at[k] + model.points[point][k])).collect();
-    let told = [(0, "along"), (2, "across")].into_iter().find_map(|(k, word)| {
-        let [low, high] = reach(&wheels, k);
-        let [from, to] = reach(&held, k);
+    let outside = [(0, "along"), (2, "across")].into_iter().find_map(|(k, word)| {
+        let [low, high] = range(&wheels, k);
+        let [from, to] = range(&held, k);
         let slack = BEYOND * (high - low);
         (slack > 0.0 && (from < low - slack || to > high + slack)).then(|| {
             format!(
@@ -106,32 +106,32 @@ fn beside(scene: &Scene, s: usize) -> Option<String> {
         })
     });
     let body = &scene.bodies[on.body].name;
-    told.map(|told| {
+    outside.map(|outside| {
         format!(
-            "{body} holds {} {told}: `at` of the structure is where the origin of its spec is from that of the body",
+            "{body} holds {} {outside}: `at` of the structure is where the origin of its spec is from that of the body",
             structure.name
         )
     })
 }
 
 /// The least and the largest coordinate `k`.
-fn reach(places: &[[f64; 3]], k: usize) -> [f64; 2] {
+fn range(places: &[[f64; 3]], k: usize) -> [f64; 2] {
     let all = places.iter().map(|place| place[k]);
     all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
 }
 
-/// Ropes that are pulled beyond what ropes bear.
+/// Ropes that are stretched beyond [`STRETCHED`].
 fn stretched(scene: &Scene, record: &NamedColumns) -> Vec<String> {
-    let told = scene.ropes.iter().filter_map(|rope| {
+    let warnings = scene.ropes.iter().filter_map(|rope| {
         let tension = record.part(&rope.name, "tension").iter().copied().fold(0.0, f64::max);
-        let share = tension / rope.stiffness;
-        (share > STRETCHED).then(|| {
+        let strain = tension / rope.stiffness;
+        (strain > STRETCHED).then(|| {
             format!(
-                "{} is stretched by {share:.3} of its length, more than {STRETCHED}: ropes break there; see the `mass` \
+                "{} is stretched by {strain:.3} of its length, more than {STRETCHED}: ropes break there; see the `mass` \
                  it carries, and `EA`",
                 rope.name
             )
         })
     });
-    told.collect()
+    warnings.collect()
 }

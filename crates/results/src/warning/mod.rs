@@ -1,12 +1,14 @@
-//! What a user should know before believing a run: where the limits of its method are near.
+//! Warnings: where a run is near the limits of its method, and where its input is probably wrong.
+//!
+//! Files, lowest first: tension, spec, scene, this one.
 
-mod sense;
-mod slip;
-mod taut;
+mod scene;
+mod spec;
+mod tension;
 
 use std::f64::consts::PI;
 
-pub use sense::spec_warnings;
+pub use spec::spec_warnings;
 
 use sim::Run;
 
@@ -16,19 +18,19 @@ use formats::motion::Cast;
 use formats::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail, seat};
 use formats::spec::Form;
 
-/// Energy residual above which a run's forces are not to be trusted blindly.
+/// Residual of the energy audit above which a run is warned of.
 pub const RESIDUAL: f64 = 1e-3;
 
-/// Deflection of a rail by its span above which structures are hardly linear.
-const BENT: f64 = 0.01;
+/// Ratio of a rail's deflection to its span above which displacements are not small.
+const LARGE_DEFLECTION: f64 = 0.01;
 
-/// Growth of the stiffness by the pull of ends that are held lengthwise above which it should not be left out.
-const TAUT: f64 = 0.01;
+/// Relative growth of the bending stiffness by axial tension above which it should not be left out.
+const TENSION: f64 = 0.01;
 
-/// Speed by the critical speed above which a girder without mass says little.
+/// Ratio of the speed to the critical speed above which the mass of a girder should not be left out.
 const FAST: f64 = 0.5;
 
-/// Those of a case's run, and of the foundations chosen for it.
+/// The warnings of a case: of its run, and of the foundations chosen for it.
 #[must_use]
 pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
@@ -50,20 +52,21 @@ fn warnings(scene: &Scene, cast: &Cast, record: &NamedColumns, run: &Run) -> Vec
     }
     for structure in &scene.structures {
         if let Origin::Spec { spec, .. } = &structure.origin {
-            all.extend(spec_warnings(spec).into_iter().map(|told| format!("{}: {told}", structure.name)));
+            let of_spec = spec_warnings(spec).into_iter();
+            all.extend(of_spec.map(|warning| format!("{}: {warning}", structure.name)));
         }
     }
-    all.extend(slip::of_scene(scene, record));
+    all.extend(scene::scene_warnings(scene, record));
     let of_rail = |rail| Wheels { cast, record, rail };
     let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));
     for (rail, wheels) in each {
-        all.extend(bent(scene, rail, &wheels));
-        all.extend(taut(scene, rail, &wheels));
-        all.extend(fast(scene, rail, &wheels));
-        all.extend(held(scene, rail, &wheels));
-        all.extend(unsymmetric(scene, rail, &wheels));
+        all.extend(large_deflection(scene, rail, &wheels));
+        all.extend(axial_tension(scene, rail, &wheels));
+        all.extend(near_critical_speed(scene, rail, &wheels));
+        all.extend(clamped_table(scene, rail, &wheels));
+        all.extend(unsymmetric_table(scene, rail, &wheels));
     }
-    all.extend(off(cast, record));
+    all.extend(lift_off(cast, record));
     all
 }
 
@@ -82,11 +85,11 @@ impl<'a> Wheels<'a> {
 
     /// Largest vertical displacement of the rail under them.
     fn deepest(&self) -> f64 {
-        self.histories("rail_deflection").flatten().fold(0.0, |most, give| most.max(give.abs()))
+        self.histories("rail_deflection").flatten().fold(0.0, |most, value| most.max(value.abs()))
     }
 }
 
-/// The longest span of a girder; the whole rail where nobody says what its spans are.
+/// The longest span of a girder; the length of the rail where spans are not given.
 fn span(scene: &Scene, rail: &SceneRail) -> f64 {
     let longest = match &scene.structures[rail.structure].origin {
         Origin::Spec { spec, .. } => match &spec.form {
@@ -98,50 +101,52 @@ fn span(scene: &Scene, rail: &SceneRail) -> f64 {
     if longest > 0.0 { longest } else { rail.range[1] - rail.range[0] }
 }
 
-fn bent(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+/// A rail whose deflection is large relative to its span.
+fn large_deflection(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let deepest = wheels.deepest();
     let span = span(scene, rail);
-    let share = deepest / span;
+    let ratio = deepest / span;
     let what = if span < rail.range[1] - rail.range[0] { "span" } else { "length" };
-    (share > BENT).then(|| {
+    (ratio > LARGE_DEFLECTION).then(|| {
         format!(
-            "{} gives by {share:.3} of its {what}, more than {BENT}: small displacements are no longer small",
+            "{} gives by {ratio:.3} of its {what}, more than {LARGE_DEFLECTION}: small displacements are no longer small",
             rail.name
         )
     })
 }
 
-/// Rails that cannot draw in where they bend.
-fn taut(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+/// A rail whose ends are both held lengthwise, so that bending stretches it.
+fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
     let Form::Frame(frame) = &spec.form else { return None };
     let (_, carried) = frame.rails.get(rail.rail)?;
-    let share = taut::growth(&frame.model, carried, wheels.deepest()).filter(|share| *share > TAUT)?;
+    let growth = tension::stiffness_growth(&frame.model, carried, wheels.deepest());
+    let growth = growth.filter(|growth| *growth > TENSION)?;
     Some(format!(
         "{} lies between supports that hold it lengthwise: the pull of its members would stiffen them by about \
-         {share:.2}, which is left out; let one end slide if it can",
+         {growth:.2}, which is left out; let one end slide if it can",
         rail.name
     ))
 }
 
-/// Speed v against v_cr = (pi / L) sqrt(E I / m), 2 L f_1 of the longest span L of a girder that has mass and is
-/// taken without it.
-fn fast(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+/// A girder that has mass and is simulated without it, under wheels whose speed is large relative to the critical speed
+/// v_cr = 2 L f_1 = (pi / L) sqrt(E I / m) of its longest span L.
+fn near_critical_speed(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
-    let light = structure.foundation == Foundation::Influence;
+    let is_massless = structure.foundation == Foundation::Influence;
     let Origin::Spec { spec, .. } = &structure.origin else { return None };
     let Form::Girder(girder) = &spec.form else { return None };
     let mass = girder.mass_per_length.filter(|mass| *mass > 0.0)?;
-    if !light || structure.auto || scene.analysis != Analysis::Dynamic {
+    if !is_massless || structure.auto || scene.analysis != Analysis::Dynamic {
         return None;
     }
     let critical = PI / span(scene, rail) * (girder.e * girder.i_vertical / mass).sqrt();
     let time = wheels.record.values("time");
-    let between = |x: &[f64]| {
+    let largest_speed = |x: &[f64]| {
         let steps = x.windows(2).zip(time.windows(2)).filter(|(_, t)| t[1] > t[0]);
         steps.fold(0.0_f64, |most, (x, t)| most.max(((x[1] - x[0]) / (t[1] - t[0])).abs()))
     };
-    let alpha = wheels.histories("x").fold(0.0_f64, |most, x| most.max(between(x))) / critical;
+    let alpha = wheels.histories("x").fold(0.0_f64, |most, x| most.max(largest_speed(x))) / critical;
     (alpha > FAST).then(|| {
         format!(
             "wheels on {} run at {alpha:.2} of the critical speed, more than {FAST}, over a girder taken without its \
@@ -151,8 +156,8 @@ fn fast(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     })
 }
 
-/// Tables that are zero at an end of the rail, with wheels in the bay next to it.
-fn held(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+/// A table that is zero at an end of the rail, with wheels between this end and the next station.
+fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
     let Origin::Tables { tables, .. } = &structure.origin else { return None };
     let (values, stations) = (tables.vertical.as_ref()?, &tables.stations);
@@ -177,11 +182,12 @@ fn held(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     })
 }
 
-/// Bodies that roll by their forces over a reading that is not symmetric.
-fn unsymmetric(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
+/// A body that moves freely along a rail whose interpolation is not symmetric, and so not conservative.
+fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
-    let skew = matches!(structure.reading, Reading::Akispl | Reading::Cubspl);
-    if !skew || structure.foundation != Foundation::Influence || scene.analysis != Analysis::Dynamic {
+    let is_unsymmetric = matches!(structure.reading, Reading::Akispl | Reading::Cubspl);
+    if !is_unsymmetric || structure.foundation != Foundation::Influence || scene.analysis != Analysis::Dynamic
+    {
         return None;
     }
     let free = |body: usize| {
@@ -198,7 +204,8 @@ fn unsymmetric(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Strin
     ))
 }
 
-fn off(cast: &Cast, record: &NamedColumns) -> Vec<String> {
+/// Wheels that are off their rails at some output times.
+fn lift_off(cast: &Cast, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
     for wheel in &cast.wheels {
         let forces = record.part(&wheel.name, "vertical");

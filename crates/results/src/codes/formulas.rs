@@ -1,13 +1,32 @@
-//! Formulas of codes for one crane and its run.
+//! Formulas of codes for one crane and its run: one method for each quantity.
 
 use practice::skew::WheelPairs;
 use practice::{aist, buffer, cmaa, drive, factor, osha, skew};
+use serde_json::json;
 
-use super::found::MeasuredCrane;
-use super::measures::{CraneData, to_si};
-use super::value::CodeValue;
+use super::crane::{CraneData, to_si};
+use super::measured::MeasuredCrane;
 use formats::scene::{Practice, Scene};
 use formats::units::Dimension;
+
+/// A value by a code, with the clause that it comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CodeValue {
+    /// The code.
+    pub code: &'static str,
+    /// The clause or table.
+    pub clause: &'static str,
+    /// The formula in words.
+    pub formula: String,
+    /// The value.
+    pub value: f64,
+}
+
+impl CodeValue {
+    pub(super) fn json(&self) -> serde_json::Value {
+        json!({ "code": self.code, "clause": self.clause, "formula": self.formula, "value": self.value + 0.0 })
+    }
+}
 
 pub(super) const EN: &str = "EN 1991-3:2006";
 pub(super) const CMAA: &str = "CMAA 70";
@@ -15,7 +34,7 @@ pub(super) const AIST: &str = "AIST TR-13";
 const FEM: &str = "FEM 1.001";
 const OSHA: &str = "29 CFR 1910.179";
 
-/// Values of one row; what a formula refuses is left out.
+/// Values for one quantity; those that a formula refuses are left out.
 #[derive(Default)]
 pub(super) struct CodeValues(pub Vec<CodeValue>);
 
@@ -34,20 +53,20 @@ impl CodeValues {
     }
 }
 
-/// All that the formulas read.
+/// The input of the formulas.
 pub(super) struct CodeCase<'c> {
     pub practice: &'c Practice,
     pub measures: &'c CraneData,
     pub found: &'c MeasuredCrane,
     /// Gravity of the scene.
     pub gravity: f64,
-    /// Metres a unit of length.
+    /// Length unit of the scene, m.
     pub metre: f64,
-    /// phi2, where class and speed are known.
+    /// Dynamic factor phi2 of lifting, where hoisting class and speed are known.
     pub phi2: Option<f64>,
-    /// Whether the scene lets a load go.
+    /// Whether an event of the scene releases a load.
     pub drops: bool,
-    /// Loads of a wheel of the full crane on the near and the far rail.
+    /// Static loads of a wheel of the loaded crane on the near and the far rail.
     pub full: Option<practice::StaticWheelLoads>,
 }
 
@@ -76,13 +95,14 @@ impl<'c> CodeCase<'c> {
         }
     }
 
-    /// Near wheel load with factors on dead weight and load, over that without.
+    /// Near wheel load with the factors `dead` on dead weight and `hoist` on the load, over that without factors.
     fn raised(&self, dead: f64, hoist: f64) -> Option<f64> {
         let full = self.full?.near;
         let raised = self.measures.crane.wheel_loads(dead, hoist).ok()?.near;
         (full > 0.0).then(|| raised / full)
     }
 
+    /// Factors on the static vertical force of a wheel or rail.
     pub fn vertical(&self) -> CodeValues {
         let hlf = self.measures.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
         let dlf = self.measures.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
@@ -114,6 +134,7 @@ impl<'c> CodeCase<'c> {
             )
     }
 
+    /// Factors on the load while it is lifted.
     pub fn lifting(&self) -> CodeValues {
         let speed = self.measures.speeds[2];
         let hlf = speed.and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
@@ -125,6 +146,7 @@ impl<'c> CodeCase<'c> {
         )
     }
 
+    /// Factor on the load after it is released.
     pub fn release(&self) -> CodeValues {
         let phi3 = factor::phi3(1.0, 1.0, self.practice.release).ok();
         CodeValues::default().add(
@@ -135,6 +157,7 @@ impl<'c> CodeCase<'c> {
         )
     }
 
+    /// Lateral force of all wheels together.
     pub fn lateral(&self) -> CodeValues {
         let crane = &self.measures.crane;
         let moving = crane.lifted + crane.trolley;
@@ -161,34 +184,35 @@ impl<'c> CodeCase<'c> {
                 CMAA,
                 "3.3.2.1.1.5 (1983)",
                 "7.8 % of Q + T per ft/s2 of the trolley's acceleration in this run, at least 2.5 %",
-                inertia.map(|share| share * moving),
+                inertia.map(|fraction| fraction * moving),
             )
     }
 
+    /// Lateral force of one wheel.
     pub fn flange(&self) -> CodeValues {
         let (span, base) = (self.measures.crane.span, self.measures.base());
         let near = self.full.map(|full| full.near);
-        let share = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
+        let of_near = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
         let (guide, angle) = self.skewing().unzip();
-        let told = angle.map_or_else(String::new, |angle| format!(" at {angle:.4} rad"));
+        let at_angle = angle.map_or_else(String::new, |angle| format!(" at {angle:.4} rad"));
         CodeValues::default()
-            .add(EN, "2.7.4, Tables 2.7 to 2.9", format!("guide force S = f lambda_S sum Q{told}"), guide)
+            .add(EN, "2.7.4, Tables 2.7 to 2.9", format!("guide force S = f lambda_S sum Q{at_angle}"), guide)
             .add(EN, "2.7.2", "H_T,1 = phi5 xi2 M/a of the drives", self.drives().map(|drives| drives.heavy))
             .add(
                 CMAA,
                 "3.3.2.2.2 (2010)",
                 "S_sk times the largest wheel load, at every wheel",
-                share(cmaa::skew_coefficient(span, base)),
+                of_near(cmaa::skew_coefficient(span, base)),
             )
             .add(
                 FEM,
                 "booklet 2, 2.2.3.3",
                 "0.025 p/a times the largest wheel load, at every wheel",
-                share(skew::fem_coefficient(span, base)),
+                of_near(skew::fem_coefficient(span, base)),
             )
     }
 
-    /// Guide force and angle of a skewing crane.
+    /// Guide force and skew angle (rad) of a skewing crane.
     fn skewing(&self) -> Option<(f64, f64)> {
         let measures = self.measures;
         let play = measures.play[0].or(measures.play[1]);
@@ -203,13 +227,13 @@ impl<'c> CodeCase<'c> {
         } else {
             WheelPairs::AloneFree
         };
-        let share = full.near / (full.near + full.far);
-        let skewing = skew::skewing(kind, measures.crane.span, share, &measures.pairs).ok()?;
+        let near = full.near / (full.near + full.far);
+        let skewing = skew::skewing(kind, measures.crane.span, near, &measures.pairs).ok()?;
         let force = skew::friction(angle).ok()? * skewing.guide * measures.crane.weight();
         Some((force, angle))
     }
 
-    /// Forces of the drives on the runway.
+    /// Forces of the drives on the runway while the crane accelerates.
     fn drives(&self) -> Option<drive::DriveForces> {
         let measures = self.measures;
         let wheels = f64::from(measures.crane.wheels);
@@ -227,6 +251,7 @@ impl<'c> CodeCase<'c> {
         drive::traction(&travel).ok()
     }
 
+    /// Force of the wheels along one rail.
     pub fn longitudinal(&self) -> CodeValues {
         let most = self.measures.driven[0].max(self.measures.driven[1]);
         let loads = self.full.map(|full| vec![full.near; most]);
@@ -246,13 +271,14 @@ impl<'c> CodeCase<'c> {
             )
     }
 
+    /// Force of the end stops together.
     pub fn buffer(&self) -> CodeValues {
         let crane = &self.measures.crane;
         let mass = (crane.bridge + crane.trolley) / self.gravity;
         let force = |factor: f64, speed: Option<f64>| {
             buffer::buffer_force(factor, speed?, mass, self.measures.buffers).ok()
         };
-        let rated = |share: f64| self.measures.speeds[0].map(|speed| share * speed);
+        let rated = |fraction: f64| self.measures.speeds[0].map(|speed| fraction * speed);
         let phi7 = buffer::phi7(0.5).ok();
         CodeValues::default()
             .add(
@@ -281,7 +307,7 @@ impl<'c> CodeCase<'c> {
             )
     }
 
-    /// Two cranes that run into each other.
+    /// Force of the buffer between two cranes that collide.
     pub fn collision(&self) -> CodeValues {
         let energy = self.measures.between.zip(self.measures.speeds[0]).and_then(|(other, speed)| {
             let crane = &self.measures.crane;
@@ -294,14 +320,15 @@ impl<'c> CodeCase<'c> {
         CodeValues::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
     }
 
-    pub fn way(&self, body: usize) -> CodeValues {
+    /// Limit of the distance in which bridge (0) or trolley (1) is braked to a stand.
+    pub fn braking_distance(&self, body: usize) -> CodeValues {
         let limit =
             self.found.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
         CodeValues::default().add(
             OSHA,
             "(f)(4)(vii)",
             "at most the way of 6 s at the speed when they come on",
-            limit.map(|way| way / self.metre),
+            limit.map(|distance| distance / self.metre),
         )
     }
 }

@@ -1,51 +1,51 @@
-//! What a run has of the quantities that codes give values for.
+//! The quantities of a run that codes have values for, taken from its columns.
 
 use practice::TimedValue;
 
-use super::measures::CraneData;
+use super::crane::CraneData;
 use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::{Practice, Scene, end_stops, seat};
 
-/// Time over which the acceleration of a trolley is taken, s.
+/// Time over which the mean acceleration of a trolley is taken, s.
 const WINDOW: f64 = 0.5;
-/// Share of the speed at which its brakes come on below which a body stands.
+/// Speed below which a braked body counts as standing, as a fraction of its speed when the brakes came on.
 const STANDS: f64 = 0.02;
 
-/// Places of a wheel's forces.
+/// Indices of a wheel's forces.
 const VERTICAL: usize = 0;
 const LATERAL: usize = 1;
 const TRACTION: usize = 2;
 
-/// What a run has; `None`: the scene has no such thing, or it is zero throughout.
+/// Quantities of a run; `None` where the scene has no such thing, or the quantity is zero throughout.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MeasuredCrane {
-    /// Vertical force of a rail over what statics puts on it with the trolley where it is: the largest.
+    /// Largest ratio of the vertical force of a rail to its static force at the same position of the trolley.
     pub rail: Option<TimedValue>,
-    /// The same of a wheel.
+    /// The same ratio of one wheel.
     pub wheel: Option<TimedValue>,
-    /// What the bridge gets from trolley and load, less the trolley's weight, over the load: largest, smallest.
+    /// Largest and smallest ratio of (force of the trolley on the bridge, less the trolley's weight) to the lifted load.
     pub load: [Option<TimedValue>; 2],
-    /// Lateral force of all wheels together: largest in size.
+    /// Lateral force of all wheels together: largest magnitude.
     pub across: Option<TimedValue>,
-    /// Lateral force of one wheel: largest in size.
+    /// Lateral force of one wheel: largest magnitude.
     pub flange: Option<TimedValue>,
-    /// Force of the wheels along a rail: largest in size.
+    /// Force of the wheels along a rail: largest magnitude.
     pub along: Option<TimedValue>,
-    /// Force of the end stops together: largest.
+    /// Largest force of the end stops together.
     pub buffer: Option<TimedValue>,
-    /// Force of the buffer between two cranes: largest.
+    /// Largest force of the buffer between two cranes.
     pub collision: Option<TimedValue>,
-    /// Speed at which they are met.
+    /// Speed of the crane when it meets the end stops.
     pub meeting: Option<f64>,
-    /// Largest change of the trolley's speed over half a second, by time.
+    /// Largest mean acceleration of the trolley over half a second.
     pub acceleration: Option<f64>,
-    /// Way from where the brakes come on to a stand, of bridge and trolley, with the speed then.
+    /// Braking distances of bridge and trolley to a stand, with the speed when the brakes came on.
     pub brakes: [Option<(TimedValue, f64)>; 2],
 }
 
 impl MeasuredCrane {
-    /// From the columns of a run.
+    /// The quantities of the run with the columns `record`, for the crane `measures`.
     #[must_use]
     pub fn new(
         scene: &Scene,
@@ -89,10 +89,10 @@ impl MeasuredCrane {
             }
             raise(&mut found.across, across.abs(), t);
             if !ridden.is_empty() && measures.crane.lifted > 0.0 {
-                let share = (sum(&ridden, VERTICAL, row) - measures.crane.trolley) / measures.crane.lifted;
-                raise(&mut found.load[0], share, t);
+                let factor = (sum(&ridden, VERTICAL, row) - measures.crane.trolley) / measures.crane.lifted;
+                raise(&mut found.load[0], factor, t);
                 let mut least = found.load[1].map(|mark| TimedValue { value: 0.0 - mark.value, ..mark });
-                raise(&mut least, 0.0 - share, t);
+                raise(&mut least, 0.0 - factor, t);
                 found.load[1] = least.map(|mark| TimedValue { value: 0.0 - mark.value, ..mark });
             }
         }
@@ -127,14 +127,14 @@ impl MeasuredCrane {
     }
 }
 
-/// Keeps the larger; what is not finite is nothing.
+/// Replaces `mark` by `value` where that is larger; values that are not finite are ignored.
 fn raise(mark: &mut Option<TimedValue>, value: f64, time: f64) {
     if value.is_finite() && mark.is_none_or(|known| value > known.value) {
         *mark = Some(TimedValue { value, time });
     }
 }
 
-/// Largest change of speed over half a second, by time.
+/// Largest mean acceleration of a body over [`WINDOW`].
 fn acceleration(record: &NamedColumns, body: &str) -> Option<f64> {
     let (time, speed) = (record.values("time"), record.part(body, "speed"));
     let mut from = 0;
@@ -151,7 +151,7 @@ fn acceleration(record: &NamedColumns, body: &str) -> Option<f64> {
     (most > 0.0).then_some(most)
 }
 
-/// Way of a body from where its brakes come on to a stand, when it stands, and the speed at first.
+/// Braking distance of a body with the time when it stands, and its speed when the brakes came on.
 fn brakes(record: &NamedColumns, body: &str) -> Option<(TimedValue, f64)> {
     let [x, speed, brake] = ["x", "speed", "brake"].map(|part| record.part(body, part));
     let on = brake.iter().position(|force| *force != 0.0)?.saturating_sub(1);

@@ -1,4 +1,4 @@
-//! Natural modes of a scene where its run ends, by the names of its bodies.
+//! Natural modes of a scene near the end of its run, with the names of the bodies that move in them.
 
 use std::f64::consts::TAU;
 
@@ -8,47 +8,49 @@ use sim::{Action, Channel, Foundation, Freedom, NaturalMode, Run, natural_modes}
 use formats::motion::Cast;
 use formats::scene::{Analysis, Scene};
 
-/// Most freedoms of structures, beside those of bodies, with which modes are found.
-const MOST: usize = 40;
+/// Most degrees of freedom of structures, beside those of bodies, for which modes are computed.
+const MAX_DOFS: usize = 40;
 
-/// Share of a mode's kinetic energy from which a freedom belongs to its name.
+/// Fraction of a mode's kinetic energy from which a degree of freedom is part of its name.
 const NAMED: f64 = 0.15;
 
-/// Relative difference of frequencies up to which a wave is taken for that of a mode.
+/// Difference of the logarithms of two frequencies up to which an oscillation is attributed to a mode.
 const NEAR: f64 = 0.1;
 
-/// Where in the run the bodies stand for their modes: the middle of what counts as settled.
-const WHERE: f64 = 0.875;
+/// Time at which the positions of the bodies are taken, as a fraction of the run: the middle of its last quarter, over
+/// which means and oscillations are evaluated.
+const INSTANT: f64 = 0.875;
 
 /// A natural mode of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneMode {
-    /// Cycles per unit of time.
+    /// Frequency, cycles per unit of time.
     pub hz: f64,
-    /// What moves most, such as `ladle.Y + trolley.y`.
+    /// The degrees of freedom with most of the kinetic energy, such as `ladle.Y + trolley.y`.
     pub name: String,
-    /// Shares of the kinetic energy, the largest first.
+    /// Fraction of the kinetic energy of each degree of freedom, the largest first.
     pub shares: Vec<(String, f64)>,
 }
 
 impl SceneMode {
-    /// Modes of the bodies of `scene` on `foundations` where they are towards the end of `run`, of one wave at least in its
-    /// time; none where they cannot be found, or where events have changed what hangs on ropes.
+    /// Modes of the bodies of `scene` on `foundations`, at their positions near the end of `run`, with at least one period
+    /// within the run; lowest first. None where they cannot be computed, and where events have changed ropes or loads.
     #[must_use]
     pub fn all(scene: &Scene, cast: &Cast, foundations: &[Foundation], run: &Run) -> Vec<SceneMode> {
         let freedoms: usize = foundations.iter().map(Foundation::freedoms).sum();
         let rules = &cast.scene.actuators.rules;
-        let lets_go = |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
+        let changes_ropes = |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
         let changed = run
             .fired
             .iter()
-            .any(|fired| rules.get(fired.rule).is_some_and(|rule| rule.actions.iter().any(lets_go)));
-        if scene.analysis != Analysis::Dynamic || !run.status.is_complete() || changed || freedoms > MOST {
+            .any(|fired| rules.get(fired.rule).is_some_and(|rule| rule.actions.iter().any(changes_ropes)));
+        if scene.analysis != Analysis::Dynamic || !run.status.is_complete() || changed || freedoms > MAX_DOFS
+        {
             return Vec::new();
         }
         let times = run.history.column(Channel::Time);
         let Some(last) = times.last() else { return Vec::new() };
-        let at = times.iter().position(|t| *t >= WHERE * last).unwrap_or(times.len() - 1);
+        let at = times.iter().position(|t| *t >= INSTANT * last).unwrap_or(times.len() - 1);
         let places: Vec<f64> = (0..scene.bodies.len())
             .map(|b| run.history.column(Channel::Displacement(b, Freedom::X)).get(at).copied())
             .map(Option::unwrap_or_default)
@@ -77,7 +79,7 @@ impl SceneMode {
         SceneMode { hz: mode.omega / TAU, name: names.join(" + "), shares }
     }
 
-    /// The mode nearest to a wave of `hz` among `modes`, where one is near.
+    /// The mode of `modes` whose frequency is nearest to `hz`, if it is within about 10 %.
     #[must_use]
     pub fn of(modes: &[SceneMode], hz: f64) -> Option<&SceneMode> {
         let apart = |mode: &SceneMode| (mode.hz / hz).ln().abs();

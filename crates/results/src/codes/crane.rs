@@ -1,4 +1,4 @@
-//! A crane as the codes see it: weights, span, wheels, speeds, as the scene and its run have them.
+//! A crane as codes describe it: weights, span, approach, wheels and speeds, from the scene and its run.
 
 use sim::Action;
 
@@ -12,15 +12,15 @@ use foundations::Error;
 /// A crane on two rails, in the units of its scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CraneData {
-    /// Weights and span, the trolley at its nearest to a rail.
+    /// Weights and span, with the trolley at its nearest approach to a rail.
     pub crane: practice::Crane,
-    /// Whether that place is the run's, not given.
+    /// Whether that approach is the smallest in the run, because the scene gives none.
     pub approach_is_found: bool,
-    /// Places of its rails across the track.
+    /// Lateral coordinates of its rails.
     pub across: [f64; 2],
-    /// Its wheels on each rail, by their number.
+    /// Indices of its wheels on each rail.
     pub wheels: [Vec<usize>; 2],
-    /// From the foremost wheel to each wheel of the first rail.
+    /// Distances from the foremost wheel to each wheel of the first rail.
     pub pairs: Vec<f64>,
     /// Driven wheels on each rail.
     pub driven: [usize; 2],

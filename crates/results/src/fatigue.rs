@@ -1,4 +1,9 @@
-//! Fatigue: cycles of the stresses of a run, and the damage that they do.
+//! Fatigue: cycles of the stress histories of a run, and their damage.
+//!
+//! For each stress point with a detail category, cycles are counted by the rainflow method ([`practice::rainflow`]), the
+//! damage of each cycle follows from the S-N curve of the detail in the scene's unit of stress, and the sum is Miner's.
+//! With the damage D of one run and the reference range S_ref at N_ref = 2 million cycles, the equivalent range of a single
+//! cycle is S_ref (D N_ref)^(1/3).
 
 use practice::fatigue::Stress;
 use practice::{Cycle, Damage, Strength, aisc, rainflow};
@@ -10,14 +15,14 @@ use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
-/// The strength of a detail, in the unit of stress of a scene.
+/// The S-N curve of a detail, in the unit of stress of a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Resistance {
     Eurocode(Strength),
     Aisc(aisc::AiscCurve),
 }
 
-/// One stress point of one run.
+/// Cycles and damage of one stress point in one run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FatigueResult {
     /// Name of the stress column.
@@ -26,17 +31,17 @@ pub struct FatigueResult {
     pub detail: Detail,
     /// Its cycles, in the order in which they close.
     pub cycles: Vec<Cycle>,
-    /// Damage of each.
+    /// Damage of each cycle.
     pub each: Vec<f64>,
-    /// Their sum, and the largest range.
+    /// Sum of the damage, and the largest range.
     pub damage: Damage,
-    /// Range borne 2 million times, with partial factors.
+    /// Resistance at 2 million cycles: range, with partial factors.
     pub reference: f64,
     /// Range below which a history does no damage, with partial factors.
     pub limit: f64,
-    /// Range of one cycle that does the damage of the run, on the slope of 3 through the reference.
+    /// Range of one cycle with the damage of the run, on the slope of 3 through the reference.
     pub equivalent: f64,
-    /// Sum of the runs of a life.
+    /// Damage of all runs of a life; `None` where the scene does not give their number.
     pub life: Option<f64>,
 }
 
@@ -71,7 +76,7 @@ impl Resistance {
         }
     }
 
-    /// Reference, limit.
+    /// Range at 2 million cycles, and range without damage.
     fn ranges(&self) -> [f64; 2] {
         match self {
             Resistance::Eurocode(strength) => [strength.reference(), strength.fatigue_limit()],
@@ -80,10 +85,10 @@ impl Resistance {
     }
 }
 
-/// Every stress point of a run that has a detail category.
+/// The results of every stress point of a run that has a detail category and a column.
 ///
 /// # Errors
-/// A history that cannot be counted.
+/// [`Error::Cycles`] for a history that cannot be counted.
 pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<FatigueResult>, Error> {
     let mut all = Vec::new();
     for structure in &scene.structures {
@@ -93,7 +98,7 @@ pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<Fatig
                 let column = format!("{}.{}.{}", structure.name, cut.name, point.name);
                 let values = record.values(&column);
                 let Some(detail) = point.detail.filter(|_| !values.is_empty()) else { continue };
-                let found = verdict(scene, column.clone(), detail, values);
+                let found = fatigue_result(scene, column.clone(), detail, values);
                 all.push(found.map_err(|source| Error::Cycles { column: column.clone(), source })?);
             }
         }
@@ -101,7 +106,8 @@ pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<Fatig
     Ok(all)
 }
 
-fn verdict(
+/// Cycles and damage of the stress history `values`.
+fn fatigue_result(
     scene: &Scene,
     column: String,
     detail: Detail,
@@ -155,30 +161,30 @@ impl FatigueResult {
     }
 }
 
-/// The member `fatigue` of a run's summary; `None`: it has no stress points.
+/// The member `fatigue` of a run's summary; `None` without stress points.
 #[must_use]
-pub fn json(verdicts: &[FatigueResult]) -> Option<Value> {
-    let all: Map<_, _> = verdicts.iter().map(|verdict| (verdict.column.clone(), verdict.json())).collect();
+pub fn json(results: &[FatigueResult]) -> Option<Value> {
+    let all: Map<_, _> = results.iter().map(|result| (result.column.clone(), result.json())).collect();
     (!all.is_empty()).then_some(Value::Object(all))
 }
 
-/// Cycles of all points of a run as comma-separated values; `None`: there are none.
+/// Cycles of all points of a run as comma-separated values; `None` without stress points.
 ///
 /// # Errors
-/// None in practice: memory takes every byte.
-pub fn csv(verdicts: &[FatigueResult], record: &NamedColumns) -> Result<Option<Vec<u8>>, csv::Error> {
-    if verdicts.is_empty() {
+/// None in practice: writing to memory does not fail.
+pub fn csv(results: &[FatigueResult], record: &NamedColumns) -> Result<Option<Vec<u8>>, csv::Error> {
+    if results.is_empty() {
         return Ok(None);
     }
     let time = record.values("time");
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["point", "range", "mean", "count", "from", "to", "damage"])?;
-    for verdict in verdicts {
-        for (cycle, damage) in verdict.cycles.iter().zip(&verdict.each) {
+    for result in results {
+        for (cycle, damage) in result.cycles.iter().zip(&result.each) {
             let [from, to] = cycle.samples.map(|row| time[row]);
             let numbers = [cycle.range(), cycle.mean() + 0.0, cycle.count, from, to, *damage];
             let numbers = numbers.into_iter().map(|number| format!("{number:?}"));
-            writer.write_record(std::iter::once(verdict.column.clone()).chain(numbers))?;
+            writer.write_record(std::iter::once(result.column.clone()).chain(numbers))?;
         }
     }
     bytes(writer).map(Some)

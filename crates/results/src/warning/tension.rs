@@ -1,15 +1,20 @@
-//! Rails between supports that both hold them lengthwise: bending pulls on such ends, which a linear model leaves out.
+//! Rails between supports that both hold them lengthwise: bending stretches them, and the tension stiffens them, which a
+//! linear model leaves out.
 
 use std::collections::BTreeSet;
 
 use fea::{Freedom, Kind, Member, Model};
 
-/// Largest growth of the stiffness, A delta^2 / (4 I), of the members that carry `rail` between neighbouring points that
-/// the ground holds along it; `delta` is its deflection, in the unit of the model. `None` where no member lies between two.
+/// Largest relative growth of the bending stiffness by axial tension, A delta^2 / (4 I), of the members that carry `rail`
+/// between neighbouring points that the ground holds along it; `delta`: deflection of the rail, in the length unit of the
+/// model. `None` where no member lies between two such points.
+///
+/// The members are visited in their order along the rail; a run of connected members begins at a held point, is abandoned
+/// at a gap, a truss or an axial release, and is evaluated where it reaches the next held point.
 ///
 /// # Source
 /// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17 (1950).
-pub(super) fn growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
+pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
     let freedoms = [Freedom::Ux, Freedom::Uy, Freedom::Uz];
     let size = rail.axis.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
     let along = (0..3).find(|&k| rail.axis[k].abs() == size)?;
@@ -49,8 +54,8 @@ pub(super) fn growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64>
                 let section = &model.sections[member.section];
                 let inertia = if is_upright(member, model) { section.iz } else { section.iy };
                 if inertia > 0.0 {
-                    let share = section.area * delta * delta / (4.0 * inertia);
-                    largest = Some(largest.map_or(share, |most| most.max(share)));
+                    let growth = section.area * delta * delta / (4.0 * inertia);
+                    largest = Some(largest.map_or(growth, |most| most.max(growth)));
                 }
             }
         }
@@ -64,8 +69,8 @@ fn is_upright(member: &Member, model: &Model) -> bool {
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let [from, to] = member.points.map(|point| model.points[point]);
     let axis = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-    let share = dot(member.orientation, axis) / dot(axis, axis);
-    let y: [f64; 3] = std::array::from_fn(|k| member.orientation[k] - share * axis[k]);
+    let along = dot(member.orientation, axis) / dot(axis, axis);
+    let y: [f64; 3] = std::array::from_fn(|k| member.orientation[k] - along * axis[k]);
     dot(y, model.up).powi(2) > 0.5 * dot(y, y) * dot(model.up, model.up)
 }
 
@@ -75,7 +80,7 @@ mod tests {
 
     use super::*;
 
-    /// Two members over three points, the ends held as said.
+    /// Two members over three points; the last point is held lengthwise if `last_holds`.
     fn beam(last_holds: bool) -> (Model, Rail) {
         let held = [true, true, true, true, false, false];
         let model = Model {
@@ -97,16 +102,16 @@ mod tests {
     #[test]
     fn ends_held_twice_stiffen_by_the_square_of_the_deflection() {
         let (model, rail) = beam(true);
-        let share = growth(&model, &rail, 0.1).expect("both ends hold");
-        assert!((share - 0.05).abs() < 1e-15, "{share}");
+        let growth = stiffness_growth(&model, &rail, 0.1).expect("both ends hold");
+        assert!((growth - 0.05).abs() < 1e-15, "{growth}");
     }
 
     #[test]
     fn an_end_that_slides_stiffens_nothing() {
         let (model, rail) = beam(false);
-        assert_eq!(growth(&model, &rail, 0.1), None);
+        assert_eq!(stiffness_growth(&model, &rail, 0.1), None);
         let (mut model, rail) = beam(true);
         model.members[1].releases[0][0] = true;
-        assert_eq!(growth(&model, &rail, 0.1), None);
+        assert_eq!(stiffness_growth(&model, &rail, 0.1), None);
     }
 }

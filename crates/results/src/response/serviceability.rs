@@ -1,0 +1,303 @@
+//! Serviceability of rails: deflection of spans relative to their length, and drift of frames relative to their height.
+//!
+//! Both are evaluated from a run afterwards. At a choice of output times the displacements of the rail are computed from
+//! the wheel forces and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at a few
+//! places of each span or at the columns of a frame; the largest value is kept with its place and time.
+
+use fea::{Model, Rail};
+use nalgebra::Vector3;
+use practice::cmaa;
+use serde_json::{Value, json};
+use splines::{Axis, Error, Probe};
+
+use super::loaded::{LoadedStructure, WheelLoadHistory, spread};
+use formats::scene::Origin;
+use formats::spec::{Form, Spec};
+use formats::units::{Dimension, Scale, Units};
+use foundations::SolvedModel;
+
+/// Places evaluated within a span.
+const PLACES: usize = 7;
+/// Most output times at which a span is evaluated.
+const SPAN_TIMES: usize = 64;
+/// Most output times at which a frame is evaluated.
+const FRAME_TIMES: usize = 300;
+/// Usual limits: span over deflection.
+const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
+
+/// Largest deflection of a rail from the chord between the ends of a span.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Deflection {
+    /// Name of the rail.
+    pub rail: String,
+    /// `vertical`, downwards, or `lateral`, to either side.
+    pub direction: &'static str,
+    /// Ends of the span.
+    pub span: [f64; 2],
+    /// The deflection.
+    pub value: f64,
+    /// Its place: rail coordinate.
+    pub x: f64,
+    /// Its time.
+    pub time: f64,
+}
+
+impl Deflection {
+    /// Length of the span over its deflection; `None` without deflection.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        let ratio = (self.span[1] - self.span[0]) / self.value;
+        (self.value > 0.0 && ratio.is_finite()).then_some(ratio)
+    }
+
+    /// Whether the span over the deflection is at least `limit`.
+    #[must_use]
+    pub fn keeps(&self, limit: f64) -> bool {
+        self.ratio().is_none_or(|ratio| ratio >= limit)
+    }
+
+    /// As an item of `deflection_ratios`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let [vertical, lateral] = LIMITS;
+        json!({
+            "rail": self.rail,
+            "direction": self.direction,
+            "from": self.span[0],
+            "to": self.span[1],
+            "deflection": self.value,
+            "x": self.x,
+            "time": self.time,
+            "span_over_deflection": self.ratio(),
+            "within": { "L/600": self.keeps(vertical), "L/400": self.keeps(lateral) },
+        })
+    }
+}
+
+/// The largest deflections of every span of the structure that wheels have stood on; none for rigid foundations, for tables,
+/// for parts with a contact each, and where the degrees of freedom of the structure were not recorded.
+///
+/// Each span is evaluated at seven places and at up to 64 output times, evenly distributed over those with a wheel on the
+/// span. With u(x) the displacement of the rail and l the fraction of the span at x, the deflection from the chord between
+/// the ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards.
+///
+/// # Errors
+/// [`Error::OffRail`] for a place beyond a rail.
+pub(super) fn deflections(
+    loaded: &LoadedStructure<'_>,
+    solved: Option<&SolvedModel>,
+) -> Result<Vec<Deflection>, Error> {
+    let LoadedStructure { scene, s, history, built, .. } = *loaded;
+    let (Origin::Spec { spec, .. }, Some(solved), true, None) =
+        (&scene.structures[s].origin, solved, loaded.is_known(), &built.foundation.parts)
+    else {
+        return Ok(Vec::new());
+    };
+    let all: Vec<Vec<WheelLoadHistory>> = (0..history.len()).map(|row| loaded.on(row)).collect();
+    let lateral = all.iter().flatten().any(|load| load.force[2] != 0.0);
+    let axes: &[(Axis, &'static str)] = match lateral {
+        true => &[(Axis::Vertical, "vertical"), (Axis::Lateral, "lateral")],
+        false => &[(Axis::Vertical, "vertical")],
+    };
+    let mut found = Vec::new();
+    for (index, rail) in scene.rails.iter().enumerate().filter(|(_, rail)| rail.structure == s) {
+        let given = scene.output.spans.iter().find(|(known, _)| *known == index);
+        let ends = given
+            .map_or_else(|| spans(spec, &solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
+        for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
+            let [from, to] = span;
+            let inside = |load: &WheelLoadHistory| {
+                load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
+            };
+            let rows: Vec<usize> = (0..all.len()).filter(|&i| all[i].iter().any(inside)).collect();
+            if from >= to || rows.is_empty() {
+                continue;
+            }
+            let places: Vec<f64> =
+                (0..=PLACES + 1).map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64).collect();
+            for &(axis, direction) in axes {
+                let none =
+                    Deflection { rail: rail.name.clone(), direction, span, value: 0.0, x: from, time: 0.0 };
+                found.push(largest_deflection(loaded, none, (rail.rail, axis), &places, (&rows, &all))?);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// The largest deflection of one span in one direction at `places`, or `none` where there is none; the first and the last
+/// place are the ends of the span. `rows`: output times with a wheel on the span; `all`: the loads at every output time.
+fn largest_deflection(
+    loaded: &LoadedStructure<'_>,
+    none: Deflection,
+    (rail, axis): (usize, Axis),
+    places: &[f64],
+    (rows, all): (&[usize], &[Vec<WheelLoadHistory>]),
+) -> Result<Deflection, Error> {
+    let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
+    let mut largest = none;
+    for row in spread(rows.len(), SPAN_TIMES).map(|k| rows[k]) {
+        // no deflection is reported in a direction that the structure does not resist
+        let Some(moved) = loaded.displacements(&probes, &all[row], row)? else { break };
+        let time = loaded.history.sample(row)[0];
+        for (k, &x) in places.iter().enumerate().skip(1).take(PLACES) {
+            let fraction = k as f64 / (PLACES + 1) as f64;
+            let sag = (1.0 - fraction) * moved[0] + fraction * moved[PLACES + 1] - moved[k];
+            let value = if axis == Axis::Vertical { sag } else { sag.abs() };
+            if value > largest.value {
+                largest = Deflection { value, x, time, ..largest };
+            }
+        }
+    }
+    Ok(largest)
+}
+
+/// Largest lateral displacement of a rail at the columns that carry it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drift {
+    /// Name of the rail.
+    pub rail: String,
+    /// Rail coordinate of the column.
+    pub x: f64,
+    /// Height of the rail over the lowest support.
+    pub height: f64,
+    /// The displacement, to either side.
+    pub value: f64,
+    /// Its time.
+    pub time: f64,
+    /// Code, clause, and the displacement that it allows.
+    pub limits: Vec<(&'static str, &'static str, f64)>,
+}
+
+impl Drift {
+    /// Height over the displacement; `None` without displacement.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        let ratio = self.height / self.value;
+        (self.value > 0.0 && ratio.is_finite()).then_some(ratio)
+    }
+
+    /// As an item of `drift`.
+    #[must_use]
+    pub fn json(&self) -> Value {
+        let limit = |(code, clause, most): &(&str, &str, f64)| json!({ "code": code, "clause": clause, "value": most, "within": self.value <= *most });
+        json!({
+            "rail": self.rail,
+            "x": self.x,
+            "height": self.height,
+            "displacement": self.value,
+            "time": self.time,
+            "height_over_displacement": self.ratio(),
+            "limits": self.limits.iter().map(limit).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// The column with the largest drift of every rail of a frame on the ground, at up to 300 evenly distributed output times;
+/// none for rigid foundations, where no wheel pushes sideways, and where the degrees of freedom of the structure were not
+/// recorded.
+///
+/// # Errors
+/// [`Error::OffRail`] for a place beyond a rail.
+pub(super) fn drifts(
+    loaded: &LoadedStructure<'_>,
+    solved: Option<&SolvedModel>,
+) -> Result<Vec<Drift>, Error> {
+    let LoadedStructure { scene, s, history, built, .. } = *loaded;
+    let structure = &scene.structures[s];
+    let (Origin::Spec { spec, .. }, Some(solved), true, None, None) =
+        (&structure.origin, solved, loaded.is_known(), &built.foundation.parts, structure.on)
+    else {
+        return Ok(Vec::new());
+    };
+    if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
+        return Ok(Vec::new());
+    }
+    let all: Vec<(usize, Vec<WheelLoadHistory>)> =
+        spread(history.len(), FRAME_TIMES).map(|row| (row, loaded.on(row))).collect();
+    let is_pushed = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
+    let mut found = Vec::new();
+    for rail in scene.rails.iter().filter(|rail| rail.structure == s && is_pushed) {
+        let columns = spans(spec, &solved.model, &solved.rails, rail.rail);
+        let inside = |x: &f64| *x >= rail.range[0] && *x <= rail.range[1];
+        let columns: Vec<f64> = columns.into_iter().filter(inside).collect();
+        let height = height(&solved.model, &solved.rails, rail.rail).filter(|height| *height > 0.0);
+        let (Some(height), false) = (height, columns.is_empty()) else { continue };
+        let probe = |x: &f64| Probe { rail: rail.rail, x: *x, axis: Axis::Lateral };
+        let probes: Vec<Probe> = columns.iter().map(probe).collect();
+        let limits = drift_limits(scene.units, height);
+        let mut largest =
+            Drift { rail: rail.name.clone(), x: columns[0], height, value: 0.0, time: 0.0, limits };
+        for (row, on) in &all {
+            let Some(moved) = loaded.displacements(&probes, on, *row)? else { break };
+            let time = history.sample(*row)[0];
+            for (x, moved) in columns.iter().zip(moved) {
+                if moved.abs() > largest.value {
+                    largest = Drift { x: *x, value: moved.abs(), time, ..largest };
+                }
+            }
+        }
+        found.push(largest);
+    }
+    Ok(found)
+}
+
+/// Limits of the drift of a rail at `height` over the lowest support: code, clause, displacement.
+///
+/// # Source
+/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as a public program has it: loads without dynamic factors.
+fn drift_limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
+    let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
+    let mut limits = vec![("EN 1993-6:2007", "Table 7.1 b: height/400", height / 400.0)];
+    if let Ok(most) = practice::aist::drift(height * metre) {
+        limits.push(("AIST TR-13", "5.3 (2021): height/400, at most 2 in", most / metre));
+    }
+    limits
+}
+
+/// Height of a rail over the lowest support.
+fn height(model: &Model, rails: &[Rail], rail: usize) -> Option<f64> {
+    let up = Vector3::from(model.up).try_normalize(0.0)?;
+    let segment = rails.get(rail)?.segments.first()?;
+    let member = model.members.get(segment.member)?;
+    let of = |point: [f64; 3]| Vector3::from(point).dot(&up);
+    let top = of(*model.points.get(member.points[0])?) + of(member.offsets[0]) + of(segment.offset);
+    let base = model.supports.iter().filter_map(|support| model.points.get(support.point));
+    let base = base.map(|point| of(*point)).reduce(f64::min)?;
+    Some(top - base)
+}
+
+/// Rail coordinates of the ends of the spans of rail `index`, increasing; empty where fewer than two are known.
+///
+/// The spans of a girder end at its supports. Those of a frame end at points of the members under the rail where something
+/// other than members under rails joins them: a support, a spring, a link or a column.
+#[must_use]
+pub fn spans(spec: &Spec, model: &Model, rails: &[Rail], index: usize) -> Vec<f64> {
+    let Some(rail) = rails.get(index) else { return Vec::new() };
+    let mut ends = match &spec.form {
+        Form::Girder(_) => model.supports.iter().map(|support| model.points[support.point][0]).collect(),
+        Form::Frame(_) => supported_points(model, rails, rail),
+    };
+    ends.sort_by(f64::total_cmp);
+    let slack = 1e-9 * ends.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
+    ends.dedup_by(|b, a| *b - *a <= slack);
+    if ends.len() < 2 { Vec::new() } else { ends }
+}
+
+/// Rail coordinates of the points of the members under `rail` that a support, spring, link or other member joins.
+fn supported_points(model: &Model, rails: &[Rail], rail: &Rail) -> Vec<f64> {
+    let mut carries = vec![false; model.members.len()];
+    for segment in rails.iter().flat_map(|rail| &rail.segments) {
+        carries[segment.member] = true;
+    }
+    let mut is_supported = vec![false; model.points.len()];
+    model.supports.iter().for_each(|support| is_supported[support.point] = true);
+    model.springs.iter().for_each(|spring| is_supported[spring.point] = true);
+    model.links.iter().flat_map(|link| [link.from, link.to]).for_each(|point| is_supported[point] = true);
+    let others = model.members.iter().zip(&carries).filter(|(_, carries)| !**carries);
+    others.flat_map(|(member, _)| member.points).for_each(|point| is_supported[point] = true);
+    let axis = Vector3::from(rail.axis).normalize();
+    let place = |point: usize| (Vector3::from(model.points[point]) - Vector3::from(rail.origin)).dot(&axis);
+    let points = rail.segments.iter().flat_map(|segment| model.members[segment.member].points);
+    points.filter(|point| is_supported[*point]).map(place).collect()
+}
