@@ -7,10 +7,10 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, Visitor};
 
 use super::block::{Block, Reference};
-use crate::entries::Entries;
+use crate::text::entries::Entries;
 use crate::units::RawUnits;
 
-crate::object::objects!(
+crate::text::object::objects!(
     RawSpec,
     RawGirder,
     RawBlock,

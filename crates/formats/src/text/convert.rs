@@ -18,7 +18,7 @@ use super::place::Place;
 use super::tree::{Member, Node, Value};
 use super::wording::{is_duplicate, type_fault};
 
-/// Most faults that are looked for in one text.
+/// Largest number of faults that are collected from one text.
 const MOST: usize = 100;
 
 /// A fault of the conversion, with its place in the text.
@@ -32,8 +32,8 @@ pub(crate) struct Located {
     pub excess: Option<usize>,
 }
 
-/// Converts a tree. The faults are in the order in which they were met, the first one of the text first; where there
-/// are any, the value lacks what they are about, and there is none where nothing could be made of the rest.
+/// Converts a tree. The first fault is the first one of the text. Where there are faults, the members and items that they
+/// concern are left out of the value; there is no value where the rest cannot be converted either.
 pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de Node<'de>) -> (Option<T>, Vec<Located>) {
     let mut left_out = BTreeSet::new();
     let mut faults = Vec::new();
@@ -57,18 +57,19 @@ pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de Node<'de>) -> (Option
 /// Why a conversion stops.
 #[derive(Debug)]
 enum Stop {
-    /// serde's message, of a value not known yet.
+    /// A message of serde that has no place yet.
     Message(String),
-    /// A list has more items than are wanted; the first one too many is at this byte.
+    /// A list has too many items; the first one too many begins at byte `offset`.
     Excess { items: usize, offset: usize },
-    /// The value that begins at byte `start` cannot be taken; no fault where that follows from others.
+    /// The value that begins at byte `start` cannot be converted; without a fault of its own where that follows from
+    /// others.
     At { located: Option<Box<Located>>, start: usize },
     /// The text breaks off here.
     Broken,
 }
 
 impl Stop {
-    /// Placed at a value, where no value within it is meant.
+    /// The same, placed at a value unless it has a place within it already.
     #[cold]
     fn at(self, reader: &Reader<'_, '_>) -> Stop {
         let node = reader.node;
@@ -92,7 +93,7 @@ impl Stop {
         Stop::At { located: (!follows).then(|| Box::new(located)), start: node.start }
     }
 
-    /// Placed at the key of a member.
+    /// The same, placed at the key of a member.
     #[cold]
     fn at_key(self, member: &Member<'_>, place: &Place<'_>) -> Stop {
         let Stop::Message(message) = self else { return self };
@@ -159,7 +160,7 @@ impl<'de> Reader<'_, 'de> {
         !self.left_out.is_empty() && self.left_out.contains(&node.start)
     }
 
-    /// A list or an object ends where its text does.
+    /// `value`, where the text of the list or object is complete.
     fn closed<T>(&self, value: T) -> Result<T, Stop> {
         if self.node.is_whole() { Ok(value) } else { Err(Stop::Broken) }
     }

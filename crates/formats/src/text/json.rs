@@ -1,7 +1,7 @@
 //! The grammar of JSON (RFC 8259): from a text to its tree.
 //!
-//! A recursive descent over the bytes. At the first byte that does not fit, the values that are still open are kept as
-//! far as they go, marked as broken off, and the error is kept beside them: what stands before it can still be checked.
+//! A recursive descent over the bytes. At the first error, the values that are still open are returned as far as they
+//! have been read and marked as incomplete, together with the error, so that what stands before it can be checked too.
 //! Numbers and strings are read, and errors worded and placed, as `serde_json` does it; a test compares the two.
 
 use std::borrow::Cow;
