@@ -4,18 +4,12 @@
 //! that leaves is finite, checked and in the units asked for. Everything that is wrong with a file is a
 //! [`diagnostic::Diagnostic`] with its place.
 
-pub mod block;
 pub mod check;
-pub mod coupling;
 pub mod diagnostic;
-pub mod effect;
-mod effect_file;
 pub mod entries;
 pub mod fault;
 pub mod grid;
-pub mod grid_file;
 pub mod inputs;
-pub mod modes_file;
 pub mod motion;
 pub mod number;
 pub mod object;
@@ -23,11 +17,11 @@ pub mod place;
 pub mod quantity;
 pub mod scene;
 pub mod schema;
-pub mod shape;
 pub mod source;
 pub mod spec;
-pub mod surface_file;
 pub mod tables;
-pub mod track;
 pub mod units;
 pub mod vector;
+
+pub use grid::{block, coupling, effects as effect, file as grid_file, modes_file, surface_file};
+pub use spec::{cross_section as shape, ties as track};
