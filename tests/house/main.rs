@@ -19,10 +19,10 @@ const DEPENDENCIES: [(&str, &[&str]); 13] = [
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
-    ("claims", &[]),
     ("fea", &["splines"]),
     ("sim", &["splines"]),
-    ("formats", &["adams", "splines", "fea"]),
+    ("formats", &["adams", "fea", "practice", "sim", "splines"]),
+    ("import", &["formats", "fea"]),
     ("foundations", &["formats", "fea", "sim", "splines"]),
     ("results", &["foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
     ("deck", &["results", "adams", "foundations", "practice", "formats", "fea", "sim", "splines"]),
@@ -34,6 +34,7 @@ const DEPENDENCIES: [(&str, &[&str]); 13] = [
             "study",
             "report",
             "deck",
+            "import",
             "results",
             "foundations",
             "practice",
@@ -46,8 +47,8 @@ const DEPENDENCIES: [(&str, &[&str]); 13] = [
     ),
 ];
 
-/// Crates that read and write files, print, and start threads as they like: the command line, and the tool for development.
-const FREE: [&str; 2] = ["girderway", "claims"];
+/// The crate that reads and writes files, prints, and starts threads as it likes: the command line.
+const FREE: [&str; 1] = ["girderway"];
 
 /// Files of a crate from which on it must say the order of its wings.
 const MANY_FILES: usize = 13;

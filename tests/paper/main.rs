@@ -7,7 +7,7 @@ use formats::block::GridBlock;
 use formats::source::Source;
 use formats::spec::Spec;
 use formats::tables;
-use foundations::{Solution, solve};
+use foundations::{SolvedModel, solve};
 use serde_json::{Value, json};
 
 fn root() -> PathBuf {
@@ -18,7 +18,7 @@ fn text(path: &str) -> String {
     std::fs::read_to_string(root().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
-fn girder() -> (Spec, Solution) {
+fn girder() -> (Spec, SolvedModel) {
     let source = Source { name: "spec.json".to_owned(), text: text("examples/bogie/spec.json") };
     let spec = Spec::read(&source, None).expect("the example's spec");
     let solved = solve(&spec).expect("a girder on two supports stands");

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use formats::source::Source;
 use formats::spec::Spec;
-use foundations::{Solution, solve};
+use foundations::{SolvedModel, solve};
 use sim::{
     Actuators, Analysis, Body, Contact, Damper, Freedom, Given, Load, NormalLaw, Profile, Scene, Schedule,
     Wheel,
@@ -56,7 +56,7 @@ pub enum Kind {
 /// One scene, and what carries it.
 pub struct Duty {
     pub kind: Kind,
-    pub solved: Solution,
+    pub solved: SolvedModel,
     /// Of the girder's modes, by critical.
     pub damping: f64,
     pub tolerance: f64,
@@ -165,7 +165,7 @@ pub fn duty(seed: u64, index: u64) -> Duty {
     Duty { kind, solved, damping, tolerance, scene, numbers: [alpha, mass, frequency] }
 }
 
-fn girder(span: f64, inertia: f64, line: f64) -> Solution {
+fn girder(span: f64, inertia: f64, line: f64) -> SolvedModel {
     let text = format!(
         r#"{{"format": "girderway-beam/1", "name": "girder", "units": {{"length": "ft", "force": "lbf", "time": "s"}},
         "theory": "euler-bernoulli",

@@ -1,17 +1,17 @@
-//! Checks of single numbers, with conversion to the units wanted.
+//! Checks of single numbers with conversion of their units.
 
-use crate::fault::{Fault, Faults, number};
-use crate::place::Place;
+use crate::text::fault::{Fault, Faults, number};
+use crate::text::place::Place;
 use crate::units::{Dimension, Scale};
 
-/// Takes numbers as they stand in a file: checks them there, hands them on converted.
+/// Checks numbers as they are written in a file and converts them.
 ///
-/// A number that fails is handed on all the same, so that the rest can be checked; the caller stops at the faults.
+/// A number that fails is converted all the same, so that the rest can be checked; the caller stops where there are faults.
 #[derive(Debug)]
 pub struct Check<'f> {
-    /// What is wrong so far.
+    /// All faults so far.
     pub faults: &'f mut Faults,
-    /// From the file's units to those wanted.
+    /// From the units of the file to those that are wanted.
     pub scale: Scale,
 }
 
@@ -21,7 +21,7 @@ impl Check<'_> {
         self.scaled(value, place, self.scale.factor(dimension))
     }
 
-    /// A finite number times a factor that keeps it finite.
+    /// A number times a factor; the product must be finite, and not vanish.
     pub fn scaled(&mut self, value: f64, place: &Place<'_>, factor: f64) -> f64 {
         let converted = value * factor;
         if !converted.is_finite() || (value != 0.0 && converted == 0.0) {

@@ -3,25 +3,40 @@
 //! Beam specs ([`spec`]), scenes ([`scene`]), grids ([`grid_file`]) and tables ([`tables`]) are read here; every number
 //! that leaves is finite, checked and in the units asked for. Everything that is wrong with a file is a
 //! [`diagnostic::Diagnostic`] with its place.
+//!
+//! ```
+//! use formats::source::Source;
+//! use formats::spec::Spec;
+//! use formats::units::{Force, Length, Units};
+//!
+//! let text = r#"{"format": "girderway-beam/1",
+//!  "units": {"length": "ft", "force": "lbf", "time": "s"},
+//!  "girder": {"spans": [60, 60], "E": 4.176e9, "I_vertical": 2.5}, "stations": [0, 60, 120]}"#;
+//! let source = Source { name: "girder.json".to_owned(), text: text.to_owned() };
+//! let metres = Units { length: Length::Metre, force: Force::Newton };
+//! let spec = Spec::read(&source, Some(metres)).expect("a girder over two spans");
+//! assert_eq!(spec.rails()[0].range, [0.0, 36.576]);
+//!
+//! let wrong = Source { text: text.replace("[60, 60]", "[60, -60]"), ..source };
+//! let diagnostics = Spec::read(&wrong, None).expect_err("a span of negative length");
+//! let first = diagnostics[0].to_string();
+//! assert!(first.starts_with("girder.json:3:27: girder.spans[1]: must be positive, got -60"), "{first}");
+//! ```
+//!
+//! Wings, lowest first: [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`], [`scene`],
+//! [`schema`].
 
 pub mod check;
-pub mod diagnostic;
-pub mod entries;
-pub mod fault;
 pub mod grid;
-pub mod inputs;
-pub mod motion;
-pub mod number;
-pub mod object;
-pub mod place;
-pub mod quantity;
 pub mod scene;
 pub mod schema;
-pub mod source;
 pub mod spec;
 pub mod tables;
+pub mod text;
 pub mod units;
 pub mod vector;
 
 pub use grid::{block, coupling, effects as effect, file as grid_file, modes_file, surface_file};
+pub use scene::{motion, quantity};
 pub use spec::{cross_section as shape, ties as track};
+pub use text::{diagnostic, entries, fault, inputs, number, object, place, source};

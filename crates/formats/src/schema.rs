@@ -1,6 +1,6 @@
 //! JSON Schemas of the formats, from the types that read them.
 //!
-//! They say which keys there are, and of what type; what numbers must be, and which keys need each other, the readers say.
+//! They give the keys and their types; ranges of numbers and keys that need each other are checked by the readers alone.
 
 use std::borrow::Cow;
 
@@ -8,10 +8,10 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
-use crate::entries::Entries;
 use crate::grid_file::RawGrid;
 use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
 use crate::spec::{Block, RawDetail, RawSpec, Reference};
+use crate::text::entries::Entries;
 
 /// The schema of beam specs.
 #[must_use]
@@ -33,7 +33,7 @@ pub fn scene() -> Value {
 
 fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
     let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
-    // types as written are called Raw, which says nothing to others
+    // the types of what is written are called Raw, which is of no interest in a schema
     let text = schema.to_value().to_string().replace("\"Raw", "\"").replace("$defs/Raw", "$defs/");
     let mut schema: Value = serde_json::from_str(&text).unwrap_or_default();
     schema["title"] = json!(title);
@@ -43,7 +43,7 @@ fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
 }
 
 /// Implements [`JsonSchema`] for a type that reads itself: its name, and its schema.
-macro_rules! says {
+macro_rules! schemas {
     ($($type:ty, $name:literal, |$generator:ident| $schema:expr;)+) => {
         $(impl JsonSchema for $type {
             fn schema_name() -> Cow<'static, str> {
@@ -57,7 +57,7 @@ macro_rules! says {
     };
 }
 
-says! {
+schemas! {
     Reference, "Reference", |_generator| json_schema!({ "anyOf": [{ "type": "integer", "minimum": 0 }, { "type": "string" }] });
     RawDetail, "Detail", |_generator| json_schema!({ "type": ["number", "string"] });
     RawColumns, "Columns", |_generator| json_schema!({ "anyOf": [{ "type": "boolean" }, { "type": "array", "items": { "type": "string" } }] });

@@ -9,7 +9,7 @@ use crate::error::Error;
 use crate::modal::{Dampers, ModeCache};
 use crate::mount::{self, Excitation};
 use crate::parts;
-use crate::solved::Solution;
+use crate::solved::SolvedModel;
 use crate::tables::influence;
 
 /// What carries the rails of one structure of a scene, and the model behind it; modes that are known already stand in
@@ -20,7 +20,7 @@ use crate::tables::influence;
 pub fn build(
     spectra: &mut ModeCache,
     structure: &Structure,
-    solved: Option<&Solution>,
+    solved: Option<&SolvedModel>,
     lateral: bool,
 ) -> Result<BuiltFoundation, Error> {
     let irregularities = structure.irregularities.clone();
@@ -47,7 +47,7 @@ pub fn build(
 fn build_on_ground(
     spectra: &mut ModeCache,
     structure: &Structure,
-    solved: Option<&Solution>,
+    solved: Option<&SolvedModel>,
     lateral: bool,
 ) -> Result<BuiltFoundation, Error> {
     let extents = || {
@@ -98,7 +98,10 @@ fn build_on_ground(
     }
 }
 
-fn required_solution<'s>(structure: &Structure, solved: Option<&'s Solution>) -> Result<&'s Solution, Error> {
+fn required_solution<'s>(
+    structure: &Structure,
+    solved: Option<&'s SolvedModel>,
+) -> Result<&'s SolvedModel, Error> {
     solved.ok_or_else(|| Error::NoSpec { structure: structure.name.clone() })
 }
 
@@ -116,7 +119,7 @@ pub fn rigid_parts(girder: &fea::Girder, count: usize, window: Option<f64>) -> R
 ///
 /// # Errors
 /// A structure without mass; too many unknowns.
-pub fn full_mesh(solved: &Solution, elements: usize) -> Result<Foundation, Error> {
+pub fn full_mesh(solved: &SolvedModel, elements: usize) -> Result<Foundation, Error> {
     Ok(ModeCache::default()
         .full("structure", solved, elements, 0.0, Dampers::NONE, Excitation::DOWN)?
         .foundation)

@@ -46,6 +46,6 @@ pub use select::{
     selection_reason,
 };
 pub use solved::{
-    Solution, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_specs, solve_to,
+    SolvedModel, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_specs, solve_to,
 };
 pub use tables::influence_blocks;

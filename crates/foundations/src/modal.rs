@@ -10,7 +10,7 @@ use splines::{Compliance, Line, Probe, Rest, Surface};
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
 use crate::mount::{self, Excitation};
-use crate::solved::Solution;
+use crate::solved::SolvedModel;
 use formats::track::Pad;
 
 /// Error of a frequency that the cutting of members may leave.
@@ -42,14 +42,24 @@ enum StaticCompliance {
 
 impl MeshModes {
     /// At least the lowest `count` modes, where there are so many.
-    pub fn lowest(name: &str, solved: &Solution, count: usize, push: Excitation) -> Result<MeshModes, Error> {
+    pub fn lowest(
+        name: &str,
+        solved: &SolvedModel,
+        count: usize,
+        push: Excitation,
+    ) -> Result<MeshModes, Error> {
         let (refined, felt, is_whole) = search(solved, count, ACCURACY, push).map_err(Error::modes(name))?;
         let known = solved.surface.clone().map_or_else(|| surface(name, &solved.model, &solved.rails), Ok)?;
         MeshModes::new(name, refined, felt, Some(known), is_whole)
     }
 
     /// All modes of a mesh of `parts` elements a member.
-    pub fn whole(name: &str, solved: &Solution, parts: usize, push: Excitation) -> Result<MeshModes, Error> {
+    pub fn whole(
+        name: &str,
+        solved: &SolvedModel,
+        parts: usize,
+        push: Excitation,
+    ) -> Result<MeshModes, Error> {
         let refined = fea::full_modes(&solved.model, &solved.rails, parts).map_err(Error::modes(name))?;
         let felt = excited_by(&refined.modes, solved, push);
         MeshModes::new(name, refined, felt, None, true)
@@ -127,7 +137,7 @@ fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<Surfac
 
 /// At least the lowest `count` modes that wheels can excite, and whether these are all; frequencies within `accuracy`.
 fn search(
-    solved: &Solution,
+    solved: &SolvedModel,
     count: usize,
     accuracy: f64,
     push: Excitation,
@@ -150,7 +160,7 @@ fn search(
 /// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh; `None` where no mass is given.
 pub(super) fn coarse_modes(
     name: &str,
-    solved: &Solution,
+    solved: &SolvedModel,
     count: usize,
 ) -> Result<Option<sim::Structure>, Error> {
     let (refined, mut felt, _) = match search(solved, count, COARSE, Excitation::DOWN) {
@@ -194,7 +204,7 @@ impl ModeCache {
     pub(super) fn lowest(
         &mut self,
         name: &str,
-        solved: &Solution,
+        solved: &SolvedModel,
         count: usize,
         ratio: f64,
         dampers: Dampers<'_>,
@@ -212,7 +222,7 @@ impl ModeCache {
     pub(super) fn full(
         &mut self,
         name: &str,
-        solved: &Solution,
+        solved: &SolvedModel,
         parts: usize,
         ratio: f64,
         dampers: Dampers<'_>,
@@ -232,7 +242,7 @@ impl ModeCache {
 /// Modes that move the rails where and as wheels can push.
 ///
 /// Modes of one frequency are any of their sums: they are turned so that as few as can be move the rails there.
-fn excited_by(modes: &Modes, solved: &Solution, push: Excitation) -> Vec<fea::Mode> {
+fn excited_by(modes: &Modes, solved: &SolvedModel, push: Excitation) -> Vec<fea::Mode> {
     let motions = motions(modes, solved, push);
     // A mode in which the whole mass moves alike, of modal mass 1, moves by 1 / sqrt(mass).
     let limit = STILL / modes.total[0][0].sqrt();
@@ -259,7 +269,7 @@ fn excited_by(modes: &Modes, solved: &Solution, push: Excitation) -> Vec<fea::Mo
 }
 
 /// Motion of the rails, places and directions x modes, where and as wheels can push.
-fn motions(modes: &Modes, solved: &Solution, push: Excitation) -> DMatrix<f64> {
+fn motions(modes: &Modes, solved: &SolvedModel, push: Excitation) -> DMatrix<f64> {
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let places = match &solved.surface {

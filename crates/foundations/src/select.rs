@@ -10,7 +10,7 @@ use crate::built::BuiltFoundation;
 use crate::error::Error;
 use crate::modal::{self, Dampers, ModeCache};
 use crate::mount::Excitation;
-use crate::solved::{Solution, SolvedStructure, solution_of};
+use crate::solved::{SolvedModel, SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
 /// Elements of the mesh at the top where they suffice, and fewest and most a member; half of them must be a mesh too.
@@ -60,7 +60,7 @@ pub fn select_and_run(
 
 /// Elements a member of the mesh at the top.
 #[must_use]
-pub fn mesh_elements(solved: Option<&Solution>) -> usize {
+pub fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
     let members = solved.map_or(1, |solved| solved.model.members.len());
     (ELEMENTS / members.max(1)).clamp(A_MEMBER[0], A_MEMBER[1])
 }
@@ -72,7 +72,7 @@ pub fn mesh_elements(solved: Option<&Solution>) -> usize {
 /// A structure without mass where modes are asked for; too many unknowns.
 pub fn foundation_at(
     spectra: &mut ModeCache,
-    solved: &Solution,
+    solved: &SolvedModel,
     rung: Rung,
     damping: f64,
     finer: usize,
@@ -106,7 +106,7 @@ pub fn foundation_at(
 ///
 /// # Errors
 /// Modes that cannot be found.
-pub fn excited_modes(solved: &Solution, count: usize) -> Result<Option<sim::Structure>, Error> {
+pub fn excited_modes(solved: &SolvedModel, count: usize) -> Result<Option<sim::Structure>, Error> {
     modal::coarse_modes("structure", solved, count)
 }
 
@@ -132,7 +132,7 @@ struct SceneFoundations<'a> {
 }
 
 impl SceneFoundations<'_> {
-    fn solved(&self, structure: usize) -> Option<&Solution> {
+    fn solved(&self, structure: usize) -> Option<&SolvedModel> {
         solution_of(self.known, &self.scene.structures[structure].origin)
     }
 }

@@ -10,7 +10,7 @@ use formats::spec::{SolveError, Spec};
 use splines::Surface;
 
 /// A structure's FE model, solved.
-pub struct Solution {
+pub struct SolvedModel {
     /// The model.
     pub model: fea::Model,
     /// Its rails.
@@ -44,7 +44,7 @@ impl std::fmt::Display for SystemSize {
 ///
 /// # Errors
 /// An entry that cannot be used, a mechanism, or numbers that cannot be trusted.
-pub fn solve(spec: &Spec) -> Result<Solution, fea::Error> {
+pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
     solve_to(spec, fea::ACCURACY, usize::MAX)
 }
 
@@ -53,7 +53,7 @@ pub fn solve(spec: &Spec) -> Result<Solution, fea::Error> {
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solution, fea::Error> {
+pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = Frame::accurate(&model, &rails, accuracy)?;
     let mut grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
@@ -67,7 +67,7 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<Solution, fea
         None
     };
     let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.bytes() });
-    Ok(Solution { model, rails, surface, grid, girder: spec.girder().cloned(), size })
+    Ok(SolvedModel { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
 /// A spec that was solved, and what came of it.
@@ -75,7 +75,7 @@ pub struct SolvedStructure {
     /// The spec.
     pub spec: Arc<Spec>,
     /// Its grids and surface.
-    pub solution: Solution,
+    pub solution: SolvedModel,
 }
 
 /// Every different spec of the document, once: the name of its tables (the structure's, with the label of the
@@ -102,7 +102,7 @@ pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
 
 /// The solution of a structure that has a spec.
 #[must_use]
-pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a Solution> {
+pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a SolvedModel> {
     match origin {
         Origin::Spec { spec, .. } => {
             known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solution)

@@ -7,10 +7,10 @@ use sim::Foundation;
 use splines::{Axis, Couplings, Kind, Parted, Probe, Reading, Sheet, Table};
 
 use crate::error::Error;
-use crate::solved::Solution;
+use crate::solved::SolvedModel;
 
 /// Influence functions of a structure as its foundation.
-pub(crate) fn influence(structure: &Structure, solved: Option<&Solution>) -> Result<Foundation, Error> {
+pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Foundation, Error> {
     let rails = structure.rails.len();
     let exact = structure.reading == Words::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
@@ -35,7 +35,7 @@ pub(crate) fn influence(structure: &Structure, solved: Option<&Solution>) -> Res
 ///
 /// # Errors
 /// A spec that has not been solved; what a table refuses.
-pub fn influence_blocks(structure: &Structure, solved: Option<&Solution>) -> Result<Vec<Sheet>, Error> {
+pub fn influence_blocks(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Vec<Sheet>, Error> {
     let mut sheets = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
         let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };

@@ -14,7 +14,7 @@ use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
 use formats::motion::cast;
 use formats::scene::{Case, Document, Scene};
-use foundations::{Solution, SolvedStructure, solution_of};
+use foundations::{SolvedModel, SolvedStructure, solution_of};
 
 /// Runs every case, on as many threads as asked for; `progress` is told the share of all simulated time that is done, from
 /// any thread.
@@ -75,7 +75,7 @@ fn run_case(
         }
         other => Error::Foundation(other),
     })?;
-    let solved: Vec<Option<&Solution>> =
+    let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
     let lines = response::lines(&scene, &laid, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);

@@ -3,10 +3,10 @@
 #[path = "../tests/common/mod.rs"]
 mod common;
 #[allow(dead_code, unused_imports)]
-#[path = "../src/complementarity.rs"]
+#[path = "../src/numerics/complementarity.rs"]
 mod complementarity;
 #[allow(dead_code, unused_imports)]
-#[path = "../src/dense.rs"]
+#[path = "../src/numerics/dense.rs"]
 mod dense;
 
 use common::{SPAN, surface};

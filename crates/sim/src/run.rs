@@ -4,17 +4,20 @@ use std::ops::ControlFlow;
 
 use nalgebra::DVector;
 
-use crate::energy::Audit;
-use crate::history::History;
-use crate::passage;
-use crate::recorder::Recorder;
-use crate::samples::Samples;
-use crate::scene::Analysis;
-use crate::solver::Solver;
-use crate::state::State;
-use crate::stepper::{Counts, Failure, Stepper};
-use crate::system::System;
-use crate::{Action, Body, Error, Fired, Foundation, Method, Scene, Stepping};
+use crate::contact::solver::{RailMemory, Solver};
+use crate::contact::system::System;
+use crate::instant::hang::{equilibrate, place_below_ropes};
+use crate::instant::settle::settle;
+use crate::instant::uneven::{follow_rigid_rails, locate_wheels};
+use crate::mechanics::state::State;
+use crate::record::energy::Audit;
+use crate::record::history::History;
+use crate::record::recorder::Recorder;
+use crate::time::counts::Counts;
+use crate::time::passage::crossing;
+use crate::time::samples::Samples;
+use crate::time::stepper::{Failure, Stepper};
+use crate::{Action, Analysis, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
 /// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
@@ -44,6 +47,24 @@ impl Status {
 }
 
 /// Everything a run found.
+/// ```
+/// use std::ops::ControlFlow;
+/// use sim::{Body, Contact, Damper, Foundation, NormalLaw, Scene, Wheel};
+///
+/// // A wheel dropped from 0.1 m onto a rigid rail.
+/// let mut scene = Scene {
+///     bodies: vec![Body { start: [0.0, 0.1, 0.0, 0.0, 0.0, 0.0], ..Body::new(1000.0, [1.0; 3]) }],
+///     wheels: vec![Wheel::new(0.5, NormalLaw::linear(1e7, 0.0, Damper::Rail))],
+///     contacts: vec![Contact::new(0, [0.0; 3])],
+///     ..Scene::default()
+/// };
+/// scene.bodies[0].free = [false, true, false, false, false, false];
+/// let run = sim::run(&scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()))?;
+/// assert!(run.status.is_complete() && run.counts.events > 0);
+/// // Nothing is lost but at rounding.
+/// assert!(run.audit.residual() < 1e-5);
+/// # Ok::<(), sim::Error>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Run {
     /// How it ended.
@@ -68,7 +89,7 @@ pub struct Run {
 /// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
 ///
 /// # Errors
-/// A scene that cannot be set up: see [`Error`]. Trouble on the way ends the run with a [`Status`] instead.
+/// A scene that cannot be set up: see [`Error`]. A failure during the run ends it with a [`Status`] instead.
 pub fn run(
     scene: &Scene,
     foundations: &[Foundation],
@@ -95,35 +116,42 @@ pub fn run_by(
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
-    let mut state = State::new(&system);
+    let mut state = system.state();
     set(&system, &mut state.q, |body| body.start);
     set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
     if method == Method::Series {
         if step.is_none()
             && scene.analysis == Analysis::Dynamic
-            && let Some(run) = passage::run(&system, &state, placed(&system), watch)?
+            && let Some(crossed) = crossing::run(&system, &state, placed(&system), watch)?
         {
-            return Ok(run);
+            return Ok(Run {
+                status: if crossed.is_stopped { Status::Stopped } else { Status::Done },
+                history: crossed.history,
+                fired: Vec::new(),
+                audit: crossed.audit,
+                counts: crossed.counts,
+                method: Some(Method::Series),
+            });
         }
         method = Method::Radau;
     }
-    let mut solver = Solver::new(&system)?;
-    solver.locate(&state)?;
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
+    locate_wheels(&mut solver, &state)?;
     state.v.fill(0.0);
-    solver.drop_below(&mut state)?;
+    place_below_ropes(&mut solver, &mut state)?;
     match scene.analysis {
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
     }
 }
 
-/// Sets the freedoms of every body to its six `values`.
-fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [f64; 6]) {
-    for (body, numbers) in system.scene.bodies.iter().zip(&system.freedom) {
-        for (number, value) in numbers.iter().zip(values(body)) {
+/// Sets the entries of every body's degrees of freedom to its six `of`.
+fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6]) {
+    for (body, numbers) in system.scene.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
+        for (number, value) in numbers.iter().zip(of(body)) {
             if let Some(number) = *number {
-                freedoms[number] = value;
+                values[number] = value;
             }
         }
     }
@@ -132,11 +160,12 @@ fn set(system: &System, freedoms: &mut DVector<f64>, values: impl Fn(&Body) -> [
 /// Whether some body on wheels starts where the scene puts it, not at rest.
 fn placed(system: &System) -> bool {
     system.scene.bodies.iter().enumerate().any(|(b, body)| {
-        system.wheels.iter().any(|wheel| wheel.body == b)
+        system.mechanics.wheels.iter().any(|wheel| wheel.body == b)
             && [1, 3, 5].iter().any(|&i| body.free[i] && body.start[i] != 0.0)
     })
 }
 
+/// Integrates the equations of motion from `state`, where the scene puts its bodies.
 fn integrate(
     stepping: Stepping,
     system: &System,
@@ -145,99 +174,78 @@ fn integrate(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    if !placed(system) {
-        solver.equilibrate(&mut state)?;
-    }
-    set(system, &mut state.v, |body| body.start_speed);
-    if system.is_uneven {
-        solver.follow(&mut state);
-    }
-    if !solver.settle(&mut state)? {
-        return Err(Error::NoEquilibrium { time: 0.0 });
-    }
+    begin(system, solver, &mut state)?;
     let mut samples = Samples::new(solver, &state)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
-    let mut stepper =
-        Stepper::new(solver, state, LOCAL_PER_GLOBAL * scene.accuracy, first)?.by(stepping.method);
-    stepper.fixed = stepping.step;
-    let mut status = Status::Done;
-    let mut breaks = breaks(scene);
-    let due = stepper.due()?;
-    let (mut fired, ends) = stepper.act(due)?;
-    if ends {
-        status = ended(scene, &fired);
-        breaks.clear();
-    }
-    'run: for limit in breaks {
-        while stepper.to.t < limit * (1.0 - 1e-14) {
-            samples.begin(&stepper);
-            match stepper.advance(limit) {
-                Ok(()) => {}
-                Err(Failure::TooSmall) => {
-                    status = Status::StepTooSmall(stepper.from.t);
-                    break 'run;
-                }
-                Err(Failure::Refused(error)) => {
-                    status = Status::Refused(stepper.from.t, error);
-                    break 'run;
-                }
-            }
-            let to = stepper.to.t;
-            let due = stepper.due()?;
-            samples.take(&mut stepper)?;
-            if !due.is_empty() {
-                let ends = match stepper.act(due) {
-                    Ok((now, ends)) => {
-                        fired.extend(now);
-                        ends
-                    }
-                    Err(error) => {
-                        status = Status::Refused(to, error);
-                        break 'run;
-                    }
-                };
-                if ends {
-                    samples.close(&stepper)?;
-                    status = ended(scene, &fired);
-                    break 'run;
-                }
-            }
-            if watch(to).is_break() {
-                status = Status::Stopped;
-                break 'run;
-            }
-        }
-    }
+    let mut stepper = Stepper::new(solver, state, stepping, LOCAL_PER_GLOBAL * scene.accuracy, first)?;
+    let mut fired = Vec::new();
+    let status = advance(scene, &mut stepper, &mut samples, &mut fired, watch)?;
     Ok(Run {
         status,
         history: samples.history(),
         fired,
-        audit: stepper.audit,
-        counts: stepper.counts,
+        audit: stepper.audit(),
+        counts: stepper.counts(),
         method: Some(stepping.method),
     })
 }
 
-/// Times at which a step must end, in their order; the end of the scene is the last.
-fn breaks(scene: &Scene) -> Vec<f64> {
-    let mut breaks: Vec<f64> = scene
-        .bodies
-        .iter()
-        .filter_map(|body| body.motion.as_ref())
-        .flat_map(|profile| profile.breaks().iter().copied())
-        .chain(scene.actuators.breaks())
-        .filter(|&t| t > 0.0 && t < scene.end)
-        .collect();
-    breaks.push(scene.end);
-    breaks.sort_by(f64::total_cmp);
-    breaks.dedup();
-    breaks
+/// Brings `state` to the start of a dynamic run: static equilibrium, unless a body is placed, with the starting speeds
+/// and the elements that act then.
+fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), Error> {
+    if !placed(system) {
+        equilibrate(solver, state)?;
+    }
+    set(system, &mut state.v, |body| body.start_speed);
+    if system.traits.is_uneven {
+        follow_rigid_rails(solver, state);
+    }
+    if settle(solver, state)? { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0 }) }
 }
 
-/// Time of output `k`; the end itself where the product differs from it by rounding.
-pub(crate) fn output_time(scene: &Scene, k: u64) -> f64 {
-    let t = k as f64 * scene.output_dt;
-    if (t - scene.end).abs() <= 1e-12 * scene.end { scene.end } else { t }
+/// Takes steps to the end of the scene, with samples at the output times and rules that act; returns how it ended.
+fn advance(
+    scene: &Scene,
+    stepper: &mut Stepper,
+    samples: &mut Samples,
+    fired: &mut Vec<Fired>,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Status, Error> {
+    let due = stepper.due()?;
+    let (now, ends) = stepper.act(due)?;
+    fired.extend(now);
+    if ends {
+        return Ok(ended(scene, fired));
+    }
+    for limit in scene.breaks() {
+        while stepper.times()[1] < limit * (1.0 - 1e-14) {
+            samples.begin(stepper);
+            let done = stepper.advance(limit);
+            let [from, to] = stepper.times();
+            match done {
+                Ok(()) => {}
+                Err(Failure::TooSmall) => return Ok(Status::StepTooSmall(from)),
+                Err(Failure::Refused(error)) => return Ok(Status::Refused(from, error)),
+            }
+            let due = stepper.due()?;
+            samples.take(stepper)?;
+            if !due.is_empty() {
+                let (now, ends) = match stepper.act(due) {
+                    Ok(acted) => acted,
+                    Err(error) => return Ok(Status::Refused(to, error)),
+                };
+                fired.extend(now);
+                if ends {
+                    samples.close(stepper)?;
+                    return Ok(ended(scene, fired));
+                }
+            }
+            if watch(to).is_break() {
+                return Ok(Status::Stopped);
+            }
+        }
+    }
+    Ok(Status::Done)
 }
 
 /// The status after the first rule that ends the run.
@@ -247,6 +255,7 @@ fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
+/// Static equilibria at the output times.
 fn sweep(
     system: &System,
     solver: &mut Solver,
@@ -254,7 +263,8 @@ fn sweep(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
     let scene = system.scene;
-    if let Some(body) = (0..scene.bodies.len()).find(|&b| system.freedom[b][0].is_some()) {
+    if let Some(body) = (0..scene.bodies.len()).find(|&b| system.mechanics.kinematics.numbers[b][0].is_some())
+    {
         return Err(Error::NotPrescribed { body });
     }
     let mut recorder = Recorder::new(system);
@@ -267,8 +277,8 @@ fn sweep(
     }
     for t in times {
         state.t = t;
-        solver.locate(&state)?;
-        match solver.equilibrate(&mut state).and_then(|()| solver.instant(&mut state)) {
+        locate_wheels(solver, &state)?;
+        match equilibrate(solver, &mut state).and_then(|()| solver.instant(&mut state)) {
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
             Err(error) => {
@@ -277,12 +287,12 @@ fn sweep(
             }
         }
         counts.steps += 1;
-        recorder.record(system, &solver.geometry, &state)?;
+        recorder.record(system, solver.geometry(), &state)?;
         if watch(t).is_break() {
             status = Status::Stopped;
             break;
         }
     }
-    let (history, audit) = (recorder.history, Audit::default());
+    let (history, audit) = (recorder.into_history(), Audit::default());
     Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
 }

@@ -2,10 +2,10 @@
 
 mod common;
 #[allow(dead_code)]
-#[path = "../src/complementarity.rs"]
+#[path = "../src/numerics/complementarity.rs"]
 mod complementarity;
 #[allow(dead_code)]
-#[path = "../src/dense.rs"]
+#[path = "../src/numerics/dense.rs"]
 mod dense;
 
 use common::near::assert_near;

@@ -12,7 +12,7 @@ use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::scene::Document;
 use formats::{grid_file, tables};
-use foundations::{Solution, SolvedStructure, distinct_specs, solution_of, solve_specs};
+use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, solve_specs};
 use report::figures::error::FigureError;
 use report::figures::run::figures;
 use report::text::story;
@@ -88,7 +88,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
         folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?.file());
     }
     clock.lap("plots");
-    let solved: Vec<Option<&Solution>> =
+    let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(&known, &structure.origin)).collect();
     let report = story::report(&document, &outcomes, &solved, &comparison, plates);
     folder.add("report.html", report.html(global.threads).map_err(trouble)?);

@@ -15,7 +15,7 @@ use formats::grid_file;
 use formats::inputs::Inputs;
 use formats::scene::Document;
 use formats::spec::Spec;
-use foundations::Solution;
+use foundations::SolvedModel;
 use foundations::{SolvedStructure, distinct_specs};
 
 /// Simulates on the grids of the output folder, and writes the folder anew.
@@ -64,7 +64,7 @@ fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failu
 }
 
 /// Grid and exact surface from a grid file.
-fn solved(spec: &Spec, path: &Path) -> Result<Solution, Failure> {
+fn solved(spec: &Spec, path: &Path) -> Result<SolvedModel, Failure> {
     let (_, source) = Inputs::open(path)?;
     let (grid, surface) = grid_file::read(&source)?;
     let wrong = |why: &str| Failure::Input(vec![Diagnostic::of_file(source.name.clone(), why.to_owned())]);
@@ -73,5 +73,5 @@ fn solved(spec: &Spec, path: &Path) -> Result<Solution, Failure> {
     }
     let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
     let (model, rails) = spec.model().map_err(Failure::untrusted)?;
-    Ok(Solution { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned(), size: None })
+    Ok(SolvedModel { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned(), size: None })
 }

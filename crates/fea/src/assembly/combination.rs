@@ -19,6 +19,7 @@ pub(crate) struct Combination {
 
 impl Combination {
     /// Adds `value` times a column.
+    #[inline]
     pub fn add(&mut self, column: usize, value: f64) {
         if value == 0.0 {
             return;

@@ -24,6 +24,7 @@ pub(crate) struct ForwardSolution {
 }
 
 impl ForwardSolution {
+    #[inline]
     fn runs(&self) -> impl Iterator<Item = (usize, &[f64])> {
         let mut from = 0;
         self.starts.iter().zip(&self.widths).map(move |(&start, &width)| {
@@ -148,6 +149,7 @@ pub(crate) fn dot_products<'a>(
 }
 
 /// Sum of products in four lanes: the order of the additions depends on the length alone.
+#[inline]
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (fours, rest) = a.as_chunks::<4>();
     let (others, last) = b.as_chunks::<4>();

@@ -1,11 +1,12 @@
-//! Columns of reactions and internal forces, by name.
+//! Columns of reactions, internal forces and stresses, by name.
 
+use super::values::scene::Scene;
+use super::values::structure::Origin;
 use crate::effect::COMPONENTS;
-use crate::scene::{Origin, Scene};
 use crate::spec::Spec;
 use crate::units::Dimension;
 
-/// Number of columns of one kind up to which a scene that does not say otherwise has them all.
+/// Number of columns of one kind up to which a scene has all of them by default.
 pub const MOST: usize = 100;
 
 /// A reaction, a component of the internal force at a section, or the stress at a point of one.

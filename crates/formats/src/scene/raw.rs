@@ -4,13 +4,13 @@ use std::fmt;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, SeqAccess, Unexpected, Visitor};
+use serde::de::{Deserializer, Error, IgnoredAny, SeqAccess, Unexpected, Visitor};
 use serde_json::Value;
 
-use crate::entries::Entries;
+use crate::text::entries::Entries;
 use crate::units::RawUnits;
 
-crate::object::objects!(
+crate::text::object::objects!(
     RawScene,
     RawStructure,
     RawTies,
@@ -37,7 +37,8 @@ crate::object::objects!(
     RawHoist,
     RawEnd,
     RawOutput,
-    RawFatigue
+    RawFatigue,
+    RawPractice
 );
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -68,12 +69,12 @@ pub(crate) struct RawScene {
     pub loads: Vec<RawLoad>,
     pub end: Option<RawEnd>,
     pub output: Option<RawOutput>,
-    pub practice: Option<super::practice::RawPractice>,
+    pub practice: Option<RawPractice>,
     pub accuracy: Option<f64>,
     pub stepper: Option<String>,
     pub step: Option<f64>,
-    #[serde(default)]
-    pub compare: Vec<Value>,
+    #[serde(default, rename = "compare", deserialize_with = "leave_to_merge")]
+    _compare: Vec<Value>,
 }
 
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -137,20 +138,25 @@ pub(crate) struct RawTieRail {
 pub(crate) struct RawTables {
     pub file: Option<String>,
     pub units: Option<RawUnits>,
-    pub vertical: Option<Pick>,
-    pub lateral: Option<Pick>,
+    pub vertical: Option<RawPick>,
+    pub lateral: Option<RawPick>,
+}
+
+/// Any list: the changes of comparisons are merged into the tree of a scene before they are converted.
+fn leave_to_merge<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Value>, D::Error> {
+    Vec::<IgnoredAny>::deserialize(deserializer).map(|_| Vec::new())
 }
 
 /// Which table of a file is meant.
 #[derive(Debug)]
-pub enum Pick {
+pub(crate) enum RawPick {
     /// The number of a SPLINE.
     Id(u32),
     /// The name of a table, or a quantity.
     Name(String),
 }
 
-impl<'de> Deserialize<'de> for Pick {
+impl<'de> Deserialize<'de> for RawPick {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         deserializer.deserialize_any(PickVisitor)
     }
@@ -159,19 +165,19 @@ impl<'de> Deserialize<'de> for Pick {
 struct PickVisitor;
 
 impl Visitor<'_> for PickVisitor {
-    type Value = Pick;
+    type Value = RawPick;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("the number or the name of a table")
     }
 
-    fn visit_u64<E: Error>(self, id: u64) -> Result<Pick, E> {
+    fn visit_u64<E: Error>(self, id: u64) -> Result<RawPick, E> {
         let refused = || E::invalid_value(Unexpected::Unsigned(id), &self);
-        u32::try_from(id).map(Pick::Id).map_err(|_| refused())
+        u32::try_from(id).map(RawPick::Id).map_err(|_| refused())
     }
 
-    fn visit_str<E: Error>(self, name: &str) -> Result<Pick, E> {
-        Ok(Pick::Name(name.to_owned()))
+    fn visit_str<E: Error>(self, name: &str) -> Result<RawPick, E> {
+        Ok(RawPick::Name(name.to_owned()))
     }
 }
 
@@ -393,6 +399,13 @@ pub(crate) struct RawEvent {
     pub actions: Option<RawDo>,
 }
 
+impl RawEvent {
+    /// Whether it puts on the brakes of body `name`.
+    pub fn brakes(&self, name: &str) -> bool {
+        self.actions.as_ref().is_some_and(|actions| actions.brake.as_deref() == Some(name))
+    }
+}
+
 /// What an event does.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
@@ -457,6 +470,22 @@ pub(crate) struct RawFatigue {
     pub material: Option<f64>,
     pub history: Option<String>,
     pub crossings: Option<f64>,
+}
+
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawPractice {
+    pub crane: Option<String>,
+    pub kind: Option<String>,
+    pub hoisting: Option<String>,
+    pub drives: Option<String>,
+    pub release: Option<String>,
+    pub guide: Option<String>,
+    pub approach: Option<f64>,
+    pub rail_head: Option<f64>,
+    pub bridge_speed: Option<f64>,
+    pub trolley_speed: Option<f64>,
+    pub hoist_speed: Option<f64>,
 }
 
 /// All, none, or some by their names.

@@ -5,6 +5,7 @@ use super::words::FREEDOMS;
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
+use crate::text::names::resolve;
 
 /// The points of a spec, as references to them are resolved.
 pub(super) struct Points<'s> {
@@ -72,7 +73,7 @@ pub(super) fn refer(
         Reference::Index(index) => {
             index_below(*index, names.len(), &format!("{what}s"), at, check).then_some(*index)
         }
-        Reference::Name(name) => crate::scene::resolve(name, names, what, at, check.faults),
+        Reference::Name(name) => resolve(name, names, what, at, check.faults),
     }
 }
 

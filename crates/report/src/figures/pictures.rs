@@ -11,7 +11,7 @@ use formats::block::GridBlock;
 use formats::motion::{Cast, CastWheel};
 use formats::scene::{Body, Scene};
 use formats::units::{Dimension, Units};
-use foundations::Solution;
+use foundations::SolvedModel;
 use results::record::{NamedColumns, peak};
 
 /// Points along a rail at which smooth pictures are sampled.
@@ -227,7 +227,7 @@ fn rolling(run: &LabelledRun, wheel: &CastWheel) -> Vec<RunFigure> {
 ///
 /// # Errors
 /// What cannot be drawn, or evaluated.
-pub fn structure(name: &str, units: Units, solved: &Solution) -> Result<Vec<RunFigure>, FigureError> {
+pub fn structure(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<RunFigure>, FigureError> {
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
     let supports: Vec<f64> =
@@ -291,7 +291,7 @@ pub fn girder(
     structure: usize,
     run: &LabelledRun,
     cast: &Cast,
-    solved: &Solution,
+    solved: &SolvedModel,
 ) -> Result<Option<RunFigure>, FigureError> {
     let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
     let Some([from, to]) = surface.range(0) else { return Ok(None) };

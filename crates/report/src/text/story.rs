@@ -5,7 +5,7 @@ use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use formats::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
 use formats::units::Dimension;
-use foundations::Solution;
+use foundations::SolvedModel;
 use results::outcome::CaseResult;
 use results::record::peak;
 use results::response::RunComparison;
@@ -17,7 +17,7 @@ use results::warning;
 pub fn report(
     document: &Document,
     outcomes: &[CaseResult],
-    solved: &[Option<&Solution>],
+    solved: &[Option<&SolvedModel>],
     comparison: &RunComparison,
     plates: Vec<RunFigure>,
 ) -> Report {
@@ -102,7 +102,7 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
 }
 
 /// What every structure is and how it was made.
-fn structures(scene: &Scene, solved: &[Option<&Solution>], choices: &[sim::Choice]) -> ReportSection {
+fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Choice]) -> ReportSection {
     let mut section = ReportSection::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
         let choice = choices.iter().find(|choice| choice.structure == s);

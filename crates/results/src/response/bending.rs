@@ -8,7 +8,7 @@ use super::line::{ColumnInfluence, Part};
 use super::loaded::{LoadedStructure, spread};
 use formats::scene::columns::{Column, Kind};
 use formats::units::Dimension;
-use foundations::Solution;
+use foundations::SolvedModel;
 
 /// Sections along a rail, about.
 const SECTIONS: usize = 192;
@@ -32,7 +32,7 @@ pub struct Bending {
 ///
 /// # Errors
 /// What the frame refuses.
-pub(super) fn of(loaded: &LoadedStructure<'_>, solved: &Solution) -> Result<Vec<Bending>, fea::Error> {
+pub(super) fn of(loaded: &LoadedStructure<'_>, solved: &SolvedModel) -> Result<Vec<Bending>, fea::Error> {
     let LoadedStructure { scene, s, history, laid, .. } = *loaded;
     let (model, rails) = (&solved.model, &solved.rails);
     let frame = Frame::new(model, rails)?;

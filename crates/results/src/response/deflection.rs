@@ -8,7 +8,7 @@ use super::loaded::{LoadedStructure, spread};
 use super::spans::spans;
 use super::wheel_load::WheelLoadHistory;
 use formats::scene::Origin;
-use foundations::Solution;
+use foundations::SolvedModel;
 
 /// Places looked at within a span.
 const PLACES: usize = 7;
@@ -73,7 +73,10 @@ impl Deflection {
 ///
 /// # Errors
 /// A place beyond a rail.
-pub(super) fn of(loaded: &LoadedStructure<'_>, solved: Option<&Solution>) -> Result<Vec<Deflection>, Error> {
+pub(super) fn of(
+    loaded: &LoadedStructure<'_>,
+    solved: Option<&SolvedModel>,
+) -> Result<Vec<Deflection>, Error> {
     let LoadedStructure { scene, s, history, laid, .. } = *loaded;
     let (Origin::Spec { spec, .. }, Some(solved), true, None) =
         (&scene.structures[s].origin, solved, loaded.is_known(), &laid.foundation.parts)

@@ -11,7 +11,7 @@ use super::wheel_load::WheelLoadHistory;
 use formats::scene::Origin;
 use formats::spec::Form;
 use formats::units::{Dimension, Scale, Units};
-use foundations::Solution;
+use foundations::SolvedModel;
 
 /// Output times looked at.
 const TIMES: usize = 300;
@@ -62,7 +62,7 @@ impl Drift {
 ///
 /// # Errors
 /// A place beyond a rail.
-pub(super) fn of(loaded: &LoadedStructure<'_>, solved: Option<&Solution>) -> Result<Vec<Drift>, Error> {
+pub(super) fn of(loaded: &LoadedStructure<'_>, solved: Option<&SolvedModel>) -> Result<Vec<Drift>, Error> {
     let LoadedStructure { scene, s, history, laid, .. } = *loaded;
     let own = &scene.structures[s];
     let (Origin::Spec { spec, .. }, Some(solved), true, None, None) =

@@ -13,7 +13,7 @@ use formats::scene::columns;
 use formats::scene::columns::{Column, Direction, Kind};
 use formats::spec::{Spec, StressPoint};
 use formats::units::Dimension;
-use foundations::{BuiltFoundation, MotionBasis, Solution};
+use foundations::{BuiltFoundation, MotionBasis, SolvedModel};
 
 /// Share of the largest of a kind below which a column is rounding.
 const ROUNDING: f64 = 1e-12;
@@ -51,7 +51,7 @@ impl ColumnInfluence {
     pub fn new(
         name: &str,
         spec: &Spec,
-        solved: &Solution,
+        solved: &SolvedModel,
         laid: &BuiltFoundation,
         gravity: f64,
         wanted: &dyn Fn(Kind, &str) -> bool,
@@ -132,7 +132,7 @@ impl ColumnInfluence {
     /// What the frame refuses.
     pub(super) fn of(
         frame: &Frame,
-        solved: &Solution,
+        solved: &SolvedModel,
         laid: &BuiltFoundation,
         gravity: f64,
         columns: Vec<Column>,
@@ -295,7 +295,7 @@ impl ColumnInfluence {
 fn inertia(
     effects: &[Effect],
     laid: &BuiltFoundation,
-    solved: &Solution,
+    solved: &SolvedModel,
 ) -> Result<DMatrix<f64>, fea::Error> {
     match &laid.motion {
         None => Ok(DMatrix::zeros(effects.len(), 0)),

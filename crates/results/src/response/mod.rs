@@ -37,7 +37,7 @@ use crate::record::NamedColumns;
 use formats::motion::Cast;
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::{Origin, Pick, Scene};
-use foundations::{BuiltFoundation, Solution, SolvedStructure, solution_of};
+use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
 /// What a run's structures answered.
 #[derive(Clone, Debug, Default)]
@@ -86,7 +86,7 @@ pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<
 pub fn lines(
     scene: &Scene,
     laid: &[BuiltFoundation],
-    solved: &[Option<&Solution>],
+    solved: &[Option<&SolvedModel>],
 ) -> Result<Vec<Option<ColumnInfluence>>, Error> {
     let few = columns::few(scene);
     let each = scene.structures.iter().zip(laid).zip(solved).map(|((structure, laid), solved)| {
@@ -115,7 +115,7 @@ impl Response {
         cast: &Cast,
         history: &History,
         laid: &[BuiltFoundation],
-        solved: &[Option<&Solution>],
+        solved: &[Option<&SolvedModel>],
         lines: &[Option<ColumnInfluence>],
         record: &mut NamedColumns,
     ) -> Result<Response, Error> {
@@ -172,7 +172,7 @@ impl Response {
         cast: &Cast,
         history: &History,
         laid: &[BuiltFoundation],
-        solved: &[Option<&Solution>],
+        solved: &[Option<&SolvedModel>],
     ) -> Result<(), Error> {
         let loads = WheelLoadHistories::new(scene, cast, history);
         for (s, (laid, solved)) in laid.iter().zip(solved).enumerate() {

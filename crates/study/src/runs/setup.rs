@@ -16,7 +16,7 @@ use formats::grid::GridRail;
 use formats::motion::{Cast, cast};
 use formats::quantity::quantities;
 use formats::scene::Scene;
-use foundations::{BuiltFoundation, ModeCache, Solution};
+use foundations::{BuiltFoundation, ModeCache, SolvedModel};
 use foundations::{SolvedStructure, solution_of};
 use results::cases::records_structure;
 use results::record::NamedColumns;
@@ -79,7 +79,7 @@ impl<'k> SetupCache<'k> {
         let scene = &rig.scene;
         let laid = self.build(scene, rig.stations)?;
         let known = self.known;
-        let solved: Vec<Option<&Solution>> =
+        let solved: Vec<Option<&SolvedModel>> =
             scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
         let lines = response::lines(scene, &laid, &solved)?;
         let mut record = NamedColumns::new(scene, &run.history);
@@ -122,7 +122,7 @@ impl<'k> SetupCache<'k> {
 }
 
 /// The same structure with grids at `count` even stations a rail.
-fn table(solved: &Solution, count: usize) -> Result<Solution, Error> {
+fn table(solved: &SolvedModel, count: usize) -> Result<SolvedModel, Error> {
     let Some(surface) = &solved.surface else {
         return Err(Error::NoSurface);
     };
@@ -135,7 +135,7 @@ fn table(solved: &Solution, count: usize) -> Result<Solution, Error> {
         named.push(GridRail { name: known.name.clone(), stations: given.stations.clone() });
     }
     let grid = stations::at(&solved.grid, surface, named)?;
-    Ok(Solution {
+    Ok(SolvedModel {
         model: solved.model.clone(),
         rails,
         surface: Some(surface.clone()),

@@ -5,7 +5,7 @@ use splines::{Axis, Compliance, Influence, Probe, Surface};
 
 use formats::scene::{Scene, Structure};
 use formats::units::{Dimension, Units};
-use foundations::Solution;
+use foundations::SolvedModel;
 use foundations::{SolvedStructure, solution_of};
 
 /// A straight girder and the wheels on it.
@@ -19,7 +19,7 @@ pub struct MapSubject<'a> {
     /// The structure.
     pub structure: &'a Structure,
     /// What is known of it.
-    pub solved: &'a Solution,
+    pub solved: &'a SolvedModel,
     /// Its exact surface.
     pub surface: &'a Surface,
     /// The girder.

@@ -1,0 +1,158 @@
+//! A scene file with its comparisons: the scene, and the scene again with the changes of each comparison.
+
+use std::path::Path;
+
+use super::raw::RawScene;
+use super::read::{Files, scene};
+use super::values::scene::{FORMAT, Scene};
+use crate::text::convert::convert;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::fault::{Fault, Faults};
+use crate::text::inputs::Inputs;
+use crate::text::names::check_name;
+use crate::text::place::Place;
+use crate::text::source::Tree;
+use crate::text::tree::{Node, Value};
+
+/// A scene file with its comparisons, read and checked with all files that it names.
+///
+/// ```
+/// use std::path::Path;
+///
+/// use formats::scene::Document;
+///
+/// let document = Document::open(Path::new("../../examples/bogie/scene.json")).expect("an example is right");
+/// let scene = document.scene();
+/// assert_eq!(scene.bodies[0].name, "bogie");
+/// assert!(document.cases.iter().skip(1).all(|case| case.label.is_some()));
+///
+/// let missing = Document::open(Path::new("no.json")).expect_err("there is no such file");
+/// assert_eq!(missing[0].to_string(), "no.json: cannot be read: no such file");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// The scene itself, then one case for each entry of `compare`.
+    pub cases: Vec<Case>,
+    /// All files read.
+    pub inputs: Inputs,
+}
+
+/// One run of a scene.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Label of the comparison; none for the scene itself.
+    pub label: Option<String>,
+    /// The scene with that comparison's changes.
+    pub scene: Scene,
+}
+
+impl Document {
+    /// Reads a scene, the files it names, and its comparisons.
+    ///
+    /// # Errors
+    /// The first syntax or type error, or everything else that is wrong, in all files.
+    pub fn open(path: &Path) -> Result<Document, Vec<Diagnostic>> {
+        let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
+        let tree = source.tree();
+        let raw: RawScene = tree.convert(FORMAT).map_err(|error| vec![*error])?;
+        let mut faults = tree.duplicates_below("compare");
+        let mut files = Files::of(&mut inputs);
+        let scene = scene::read(&raw, &source.name, &mut files, &mut faults);
+        let comparisons =
+            tree.root().member("compare").map(|member| member.value.items()).unwrap_or_default();
+        check_labels(comparisons, &mut faults);
+        let mut wrong = tree.diagnose(&faults);
+        wrong.append(&mut files.wrong);
+        let base_is_right = wrong.is_empty();
+        let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
+        if base_is_right {
+            for (index, changes) in comparisons.iter().enumerate() {
+                match case(&tree, &source.name, index, changes, &mut inputs) {
+                    Ok(case) => cases.push(case),
+                    Err(diagnostics) => wrong.extend(
+                        diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>(),
+                    ),
+                }
+            }
+        }
+        if wrong.is_empty() { Ok(Document { cases, inputs }) } else { Err(wrong) }
+    }
+
+    /// The scene itself.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.cases[0].scene
+    }
+}
+
+/// Checks that every comparison has a label of its own that fits file names, and that it does not change `format`,
+/// `units`, `name` and `compare`.
+fn check_labels(comparisons: &[Node<'_>], faults: &mut Faults) {
+    let root = Place::root();
+    let list = root.key("compare");
+    let mut seen: Vec<&str> = Vec::new();
+    for (index, changes) in comparisons.iter().enumerate() {
+        let at = list.index(index);
+        if !matches!(changes.value, Value::Object(_)) {
+            faults.add(Fault::new(&at, "must be an object with a `label` and changes"));
+            continue;
+        }
+        match changes.member("label").map(|label| label.value.as_text()) {
+            Some(Some(label)) => {
+                check_name(label, &at.key("label"), faults);
+                if seen.contains(&label) {
+                    faults.add(
+                        Fault::new(&at.key("label"), "must differ from the other labels")
+                            .got(format!("{label:?} again")),
+                    );
+                }
+                seen.push(label);
+            }
+            Some(None) => faults.add(Fault::new(&at.key("label"), "must be a string")),
+            None => faults.add(Fault::new(&at, "missing key `label`").hint("it names history-<label>.csv")),
+        }
+        for key in ["format", "units", "name", "compare"] {
+            if changes.member(key).is_some() {
+                let expected = format!("a comparison cannot change `{key}`");
+                faults.add(Fault::new(&at.key(key), expected).at_key());
+            }
+        }
+    }
+}
+
+/// The scene of a document with the changes of `compare[index]` merged into it.
+fn case(
+    tree: &Tree<'_>,
+    file: &str,
+    index: usize,
+    changes: &Node<'_>,
+    inputs: &mut Inputs,
+) -> Result<Case, Vec<Diagnostic>> {
+    let label =
+        changes.member("label").and_then(|label| label.value.as_text()).unwrap_or_default().to_owned();
+    let mut merged = tree.root().without("compare");
+    merged.merge(changes.without("label"));
+    let mut faults = Faults::default();
+    let mut files = Files::of(inputs);
+    let (raw, wrong) = convert::<RawScene>(&merged);
+    let scene = match (raw, wrong.into_iter().next()) {
+        (Some(raw), None) => scene::read(&raw, file, &mut files, &mut faults),
+        (_, first) => {
+            first.into_iter().for_each(|located| faults.add(located.fault));
+            None
+        }
+    };
+    match scene {
+        Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => {
+            Ok(Case { label: Some(label), scene })
+        }
+        _ => {
+            let mut wrong = tree.diagnose_merged(index, &faults);
+            for diagnostic in wrong.iter_mut().filter(|found| !found.path.starts_with("compare")) {
+                diagnostic.expected = format!("in comparison \"{label}\": {}", diagnostic.expected);
+            }
+            wrong.append(&mut files.wrong);
+            Err(wrong)
+        }
+    }
+}

@@ -1,0 +1,268 @@
+//! Bodies of a scene, and how they move along their rails.
+
+use sim::{Given, Profile};
+
+use super::actuator::read_drive;
+use super::schedule::read_rows;
+use super::spin;
+use crate::check::Check;
+use crate::scene::raw::{RawBody, RawMotion, RawStart};
+use crate::scene::values::body::{Along, Body, FREEDOMS, SPACE};
+use crate::text::entries::Entries;
+use crate::text::fault::{Fault, alternatives, nearest, number};
+use crate::text::names::{names, resolve};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+pub(super) fn read(
+    name: &str,
+    raw: &RawBody,
+    at: &Place<'_>,
+    gravity: Option<f64>,
+    check: &mut Check<'_>,
+) -> Body {
+    let mass = read_mass(raw, at, gravity, check);
+    let mut inertia = [0.0; 3];
+    let place = at.key("inertia");
+    for (index, value) in raw.inertia.unwrap_or_default().into_iter().enumerate() {
+        let hint = "[roll, yaw, pitch]; 0 for none";
+        inertia[index] = check.not_negative(value, &place.index(index), Dimension::INERTIA, hint);
+    }
+    let cg = check.vector(raw.cg.unwrap_or_default(), &at.key("cg"), Dimension::LENGTH);
+    let free = read_freedoms(raw, at, check);
+    let x0 = check.number(raw.x0.unwrap_or_default(), &at.key("x0"), Dimension::LENGTH);
+    let v0 = check.number(raw.v0.unwrap_or_default(), &at.key("v0"), Dimension::SPEED);
+    let start = raw.start.as_ref().map(|start| read_start(start, &free, &at.key("start"), check));
+    let motion = if free[0] { Along::Free } else { Along::Held };
+    Body {
+        name: name.to_owned(),
+        mass,
+        by_mass: raw.mass.is_some(),
+        inertia,
+        cg,
+        free,
+        in_space: raw.dof.iter().flatten().any(|word| SPACE.contains(&word.as_str())),
+        track: Vec::new(),
+        x0,
+        v0,
+        start,
+        motion,
+        pinned: None,
+        brake: None,
+    }
+}
+
+fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Check<'_>) -> f64 {
+    match (raw.mass, raw.weight) {
+        (Some(mass), None) => check.positive(mass, &at.key("mass"), Dimension::MASS, "force time^2 / length"),
+        (None, Some(weight)) => {
+            let weight = check.positive(weight, &at.key("weight"), Dimension::FORCE, "");
+            if gravity == Some(0.0) {
+                let fault = Fault::new(&at.key("weight"), "needs a gravity above 0").hint("or give `mass`");
+                check.faults.add(fault);
+            }
+            weight / gravity.filter(|g| *g > 0.0).unwrap_or(1.0)
+        }
+        (found, _) => {
+            let found = if found.is_some() { "both" } else { "neither" };
+            let hint = "`weight` is a force; `mass` is force time^2 / length";
+            check.faults.add(Fault::new(at, "must have either `mass` or `weight`").got(found).hint(hint));
+            1.0
+        }
+    }
+}
+
+fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
+    let mut free = [false; 6];
+    let Some(words) = check.faults.need(&raw.dof, at, "dof") else { return free };
+    let place = at.key("dof");
+    if words.iter().any(|word| SPACE.contains(&word.as_str())) {
+        if *words != SPACE {
+            let fault = Fault::new(&place, "a body in space must have \"X\", \"Y\" and \"Z\", in this order");
+            check.faults.add(fault.hint("a body on a track has x, y, z, roll, yaw, pitch"));
+        }
+        return [true, true, true, false, false, false];
+    }
+    for (index, word) in words.iter().enumerate() {
+        let item = place.index(index);
+        match FREEDOMS.iter().position(|known| known == word) {
+            Some(known) if free[known] => {
+                check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+            }
+            Some(known) => free[known] = true,
+            None => {
+                let mut fault = Fault::new(&item, format!("must be {}", alternatives(&FREEDOMS)));
+                fault = fault.got(format!("\"{word}\""));
+                if let Some(near) = nearest(word, &FREEDOMS) {
+                    fault = fault.hint(format!("did you mean \"{near}\"?"));
+                }
+                check.faults.add(fault);
+            }
+        }
+    }
+    free
+}
+
+fn read_start(raw: &RawStart, free: &[bool; 6], at: &Place<'_>, check: &mut Check<'_>) -> [f64; 5] {
+    let given = [raw.y, raw.z, raw.roll, raw.yaw, raw.pitch];
+    let mut start = [0.0; 5];
+    for (index, value) in given.into_iter().enumerate() {
+        let Some(value) = value else { continue };
+        let word = FREEDOMS[index + 1];
+        let dimension = if index < 2 { Dimension::LENGTH } else { Dimension::NUMBER };
+        start[index] = check.number(value, &at.key(word), dimension);
+        if !free[index + 1] {
+            let fault =
+                Fault::new(&at.key(word), format!("`{word}` is held")).hint("list it in `dof` to free it");
+            check.faults.add(fault);
+        }
+    }
+    start
+}
+
+/// Sets the motions of the bodies.
+pub(super) fn read_motions(
+    raw: &[RawMotion],
+    raw_bodies: &Entries<RawBody>,
+    bodies: &mut [Body],
+    check: &mut Check<'_>,
+) {
+    let root = Place::root();
+    let list = root.key("motions");
+    let mut first: Vec<Option<usize>> = vec![None; bodies.len()];
+    for (index, motion) in raw.iter().enumerate().filter(|(_, motion)| !spin::is_spin(motion)) {
+        let at = list.index(index);
+        for (key, given) in [("truck", motion.truck.is_some()), ("wheel", motion.wheel.is_some())] {
+            if given {
+                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion of a spin"));
+                check.faults.add(fault.at_key().hint("\"dof\": \"spin\""));
+            }
+        }
+        let body = check.faults.need(&motion.body, &at, "body").and_then(|name| {
+            let known = names(bodies, |body| &body.name);
+            resolve(name, &known, "body", &at.key("body"), check.faults)
+        });
+        if let Some(dof) = check.faults.need(&motion.dof, &at, "dof") {
+            let place = at.key("dof");
+            if FREEDOMS[1..].contains(&dof.as_str()) {
+                let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
+                check.faults.add(fault.hint("motions along the rail, \"dof\": \"x\", are"));
+            } else {
+                check.faults.word(dof, &place, &[("x", ())]);
+            }
+        }
+        let Some(body) = body else {
+            read_kind(motion, &at, check);
+            continue;
+        };
+        if let Some(earlier) = first[body].replace(index) {
+            let expected = format!("body {} has its motion in motions[{earlier}] already", bodies[body].name);
+            check.faults.add(Fault::new(&at, expected).hint("every body has one motion along the rail"));
+            continue;
+        }
+        if bodies[body].in_space {
+            let fault = Fault::new(&at.key("body"), format!("body {} runs on no rail", bodies[body].name));
+            check.faults.add(fault.hint("a body in space moves by its ropes, stops and weight"));
+            continue;
+        }
+        if raw_bodies.0[body].1.pinned.is_some() {
+            let fault = Fault::new(&at.key("body"), format!("body {} is pinned", bodies[body].name));
+            check.faults.add(fault.hint("move the body that carries it"));
+            continue;
+        }
+        read_motion(motion, &raw_bodies.0[body].1, &mut bodies[body], &at, check);
+    }
+    for (body, (name, raw)) in bodies.iter().zip(&raw_bodies.0) {
+        let at = root.key("bodies");
+        let at = at.key(name);
+        if raw.v0.is_some() && raw.pinned.is_none() && body.motion == Along::Held {
+            let fault = Fault::new(&at.key("v0"), "the body cannot move along its rail");
+            check.faults.add(fault.hint("list \"x\" in `dof` to free it"));
+        }
+    }
+}
+
+/// The words of `kind`.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Kind {
+    Prescribed,
+    Drive,
+    Free,
+}
+
+fn read_kind(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Kind> {
+    let kind = check.faults.need(&motion.kind, at, "kind")?;
+    let words = [("prescribed", Kind::Prescribed), ("drive", Kind::Drive), ("free", Kind::Free)];
+    check.faults.word(kind, &at.key("kind"), &words)
+}
+
+fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_>, check: &mut Check<'_>) {
+    let Some(kind) = read_kind(motion, at, check) else { return };
+    for (key, given, holds, owner) in [
+        ("gain", motion.gain.is_some(), kind == Kind::Drive, "\"drive\""),
+        ("max_force", motion.max_force.is_some(), kind == Kind::Drive, "\"drive\""),
+        ("brake", motion.brake.is_some(), kind != Kind::Prescribed, "\"drive\" or \"free\""),
+    ] {
+        if given && !holds {
+            let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion {owner}"));
+            check.faults.add(fault.at_key());
+        }
+    }
+    let tables = [
+        ("position", Given::Position, &motion.position, Dimension::LENGTH),
+        ("speed", Given::Speed, &motion.speed, Dimension::SPEED),
+        ("acceleration", Given::Acceleration, &motion.acceleration, Dimension::ACCELERATION),
+    ];
+    let given: Vec<_> = tables
+        .into_iter()
+        .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
+        .collect();
+    if kind != Kind::Prescribed {
+        for (key, what, ..) in &given {
+            if kind == Kind::Free || *what != Given::Speed {
+                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\""));
+                check.faults.add(fault.at_key());
+            }
+        }
+        if !body.free[0] {
+            let expected = format!("body {} cannot move freely: \"x\" is not in its `dof`", body.name);
+            check.faults.add(Fault::new(at, expected));
+        }
+        body.brake = motion.brake.map(|time| {
+            check.not_negative(time, &at.key("brake"), Dimension::TIME, "time from which the brakes are on")
+        });
+        let drive = if kind == Kind::Drive { read_drive(motion, at, check) } else { None };
+        body.motion = drive.map_or(Along::Free, Along::Driven);
+        return;
+    }
+    let [(key, what, table, unit)] = given[..] else {
+        let expected = "must have one table: `position`, `speed` or `acceleration`";
+        check.faults.add(Fault::new(at, expected).got(if given.is_empty() { "none" } else { "several" }));
+        return;
+    };
+    let place = at.key(key);
+    let Some(rows) = read_rows(table, &place, unit, check) else { return };
+    let travel = match Profile::new(what, &rows, body.x0, body.v0) {
+        Ok(travel) => travel,
+        Err(error) => {
+            check.faults.add(Fault::new(&place, error.to_string()));
+            return;
+        }
+    };
+    let begin = travel.at(0.0);
+    let clashes = [
+        ("x0", what == Given::Position, raw.x0, begin.x),
+        ("v0", what != Given::Acceleration, raw.v0, begin.v),
+    ];
+    for (key, fixed, own, table) in clashes {
+        if let Some(own) = own.filter(|own| fixed && *own != table) {
+            let root = Place::root();
+            let at = root.key("bodies");
+            let at = at.key(&body.name);
+            let expected = format!("must be {}, as the motion prescribes at time 0", number(table));
+            check.faults.add(Fault::new(&at.key(key), expected).got(number(own)).hint("or leave it out"));
+        }
+    }
+    (body.x0, body.v0) = (begin.x, begin.v);
+    body.motion = Along::Prescribed(travel);
+}

@@ -1,0 +1,313 @@
+//! Events: actions that are taken when a quantity of the run passes a value.
+
+use sim::{Action, Channel, Compare, Condition, Rule};
+
+use crate::check::Check;
+use crate::scene::motion::wheels;
+use crate::scene::quantity::{Quantity, quantities};
+use crate::scene::raw::{RawDo, RawEvent};
+use crate::scene::values::actuator::{Event, Rope};
+use crate::scene::values::body::{Along, Body};
+use crate::scene::values::scene::{Analysis, Scene};
+use crate::text::fault::{Fault, nearest, number};
+use crate::text::names::{check_name, names, resolve};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// Gives a brake that never comes on by itself to free bodies that only events brake.
+pub(super) fn fit_brakes(raw: &[RawEvent], bodies: &mut [Body]) {
+    for body in bodies.iter_mut().filter(|body| body.brake.is_none() && body.motion.is_free()) {
+        if raw.iter().any(|event| event.brakes(&body.name)) {
+            body.brake = Some(f64::INFINITY);
+        }
+    }
+}
+
+/// Reads the events of a scene whose bodies, trucks, ropes and stops are known.
+pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -> Vec<Event> {
+    if raw.is_empty() {
+        return Vec::new();
+    }
+    let root = Place::root();
+    let list = root.key("events");
+    if scene.analysis == Analysis::QuasiStatic {
+        let fault = Fault::new(&list, "a quasi-static scene has no events").at_key();
+        check.faults.add(fault.hint("leave `analysis` out for the equations of motion"));
+    }
+    let known = quantities(scene);
+    let mut events: Vec<Event> = Vec::new();
+    for (index, raw) in raw.iter().enumerate() {
+        let at = list.index(index);
+        let name = raw.name.clone().unwrap_or_else(|| format!("event{}", index + 1));
+        check_name(&name, &at.key("name"), check.faults);
+        let when = check.faults.need(&raw.when, &at, "when").cloned();
+        let place = at.key("when");
+        let condition = when.as_ref().and_then(|text| read_condition(text, &known, scene, &place, check));
+        let actions = check.faults.need(&raw.actions, &at, "do");
+        let actions = actions.and_then(|raw| read_actions(raw, scene, &at.key("do"), check));
+        let (Some(condition), Some((actions, what))) = (condition, actions) else { continue };
+        let event =
+            Event { name, when: when.unwrap_or_default(), what, rule: Rule { when: condition, actions } };
+        compare_with(&event, &events, &at, check);
+        events.push(event);
+    }
+    events
+}
+
+/// Compares an event with those before it: its name must be free, none of them may end the run before its condition can
+/// be met, and actions on the same condition must not contradict each other.
+fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Check<'_>) {
+    if before.iter().any(|other| other.name == event.name) {
+        let expected = format!("the name \"{}\" is taken by another event", event.name);
+        check.faults.add(Fault::new(&at.key("name"), expected));
+    }
+    for other in before {
+        let ends = other.rule.actions.contains(&Action::End);
+        if let (true, Some(end), Some(time)) = (ends, time_of(&other.rule.when), time_of(&event.rule.when))
+            && end < time
+        {
+            let expected = format!("can never be met: {} ends the run at {}", other.name, number(end));
+            check.faults.add(Fault::new(&at.key("when"), expected).got(format!("{:?}", event.when)));
+        }
+        let together = other.rule.when == event.rule.when;
+        let pairs = || event.rule.actions.iter().flat_map(|a| other.rule.actions.iter().map(move |b| (a, b)));
+        if together && pairs().any(|(a, b)| contradict(a, b)) {
+            let expected = format!("contradicts {}, which happens at once: {}", other.name, other.what);
+            let fault = Fault::new(&at.key("do"), expected).got(event.what.clone());
+            check.faults.add(fault.hint("give them different conditions"));
+        }
+    }
+}
+
+/// Whether two actions at one instant leave open what is meant.
+fn contradict(a: &Action, b: &Action) -> bool {
+    match (a, b) {
+        (Action::Brake { body: a, on: x }, Action::Brake { body: b, on: y }) => a == b && x != y,
+        (Action::Drive { body: a, speed: x }, Action::Drive { body: b, speed: y }) => a == b && x != y,
+        (Action::Hoist { rope: a, speed: x }, Action::Hoist { rope: b, speed: y }) => a == b && x != y,
+        (Action::Hoist { rope: a, .. }, Action::Release { rope: b })
+        | (Action::Release { rope: a }, Action::Hoist { rope: b, .. }) => a == b,
+        _ => false,
+    }
+}
+
+/// The time from which a condition on time alone is met.
+fn time_of(condition: &Condition) -> Option<f64> {
+    let rises = matches!(condition.compare, Compare::AtLeast | Compare::Above);
+    (rises && matches!(condition.terms[..], [(Channel::Time, _)])).then_some(condition.level)
+}
+
+/// `<quantity> <comparison> <number>`.
+fn read_condition(
+    text: &str,
+    known: &[Quantity],
+    scene: &Scene,
+    place: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Condition> {
+    let words =
+        [(">=", Compare::AtLeast), ("<=", Compare::AtMost), (">", Compare::Above), ("<", Compare::Below)];
+    let hint = "such as \"trolley.x >= 44\", with >=, >, <= or <";
+    let split = words.iter().find_map(|(word, compare)| text.split_once(word).map(|(a, b)| (a, *compare, b)));
+    let parts = split.and_then(|(name, compare, level)| {
+        let level = level.trim().parse().ok().filter(|level: &f64| level.is_finite())?;
+        Some((name.trim(), compare, level))
+    });
+    let Some((name, compare, level)) = parts else {
+        let fault = Fault::new(place, "must be a quantity, a comparison and a number");
+        check.faults.add(fault.got(format!("{text:?}")).hint(hint));
+        return None;
+    };
+    let Some(quantity) = known.iter().find(|quantity| quantity.name == name) else {
+        let names: Vec<&str> = known.iter().map(|quantity| quantity.name.as_str()).collect();
+        let owner = name.split_once('.').map_or(name, |(owner, _)| owner);
+        let own: Vec<&str> =
+            names.iter().copied().filter(|known| known.split('.').next() == Some(owner)).collect();
+        let mut hint = match &own[..] {
+            [] => "names are those of the history's columns".to_owned(),
+            own => format!("known: {}", own.join(", ")),
+        };
+        if let Some(near) = nearest(name, &names) {
+            hint = format!("did you mean \"{near}\"? {hint}");
+        }
+        check.faults.add(Fault::new(place, "must compare a quantity").got(format!("\"{name}\"")).hint(hint));
+        return None;
+    };
+    let level = check.number(level, place, quantity.dimension);
+    let condition = Condition { terms: quantity.terms.clone(), compare, level };
+    if let Some(why) = why_useless(&condition, quantity, scene) {
+        check.faults.add(Fault::new(place, why).got(format!("{text:?}")));
+    }
+    Some(condition)
+}
+
+/// Why a condition can never be met, or is met from the start, as far as that follows from the scene.
+fn why_useless(condition: &Condition, quantity: &Quantity, scene: &Scene) -> Option<String> {
+    let rises = matches!(condition.compare, Compare::AtLeast | Compare::Above);
+    let level = condition.level;
+    let least = |least: f64, what: &str| {
+        let below = if condition.compare == Compare::Below { level <= least } else { level < least };
+        (!rises && below).then(|| format!("can never be met: {what}"))
+    };
+    let &[(channel, _), ..] = &quantity.terms[..] else {
+        return Some(format!("can never be met: {} is always 0", quantity.name));
+    };
+    match channel {
+        Channel::Time if !rises => Some("is met from the start: time only grows".to_owned()),
+        Channel::Time if level >= scene.end => {
+            Some(format!("can never be met: the scene ends at {}", number(scene.end)))
+        }
+        Channel::Tension(_) => least(0.0, "a rope never pushes"),
+        Channel::Stop(_) => least(0.0, "a stop never pulls"),
+        Channel::Vertical(w) => {
+            let wheels = wheels(scene);
+            let pulls = scene.wheels[wheels[w].kind].vertical.bilateral;
+            if pulls { None } else { least(0.0, "a wheel never pulls") }
+        }
+        Channel::Place(w) => {
+            let wheels = wheels(scene);
+            let [low, high] = scene.rails[wheels[w].rail].range;
+            let beyond = if rises { level > high } else { level < low };
+            let range = format!("the rail reaches from {} to {}", number(low), number(high));
+            beyond.then(|| format!("can never be met: {range}"))
+        }
+        Channel::Displacement(b, sim::Freedom::X) | Channel::Speed(b, sim::Freedom::X) => {
+            why_out_of_range(b, matches!(channel, Channel::Displacement(..)).then_some(level), rises, scene)
+        }
+        _ => None,
+    }
+}
+
+/// Why a condition on x of body `b` at `level`, or on its speed where there is no level, can never be met.
+fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) -> Option<String> {
+    let body = &scene.bodies[b];
+    if body.pinned.is_some() || body.in_space {
+        return None;
+    }
+    if body.motion == Along::Held {
+        return Some(format!("body {} cannot move along its rail", body.name));
+    }
+    let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+    for truck in scene.trucks.iter().filter(|truck| truck.body == b) {
+        let range = scene.rails[truck.rail].range;
+        for offset in truck.wheel_offsets() {
+            (low, high) = (low.max(range[0] - offset), high.min(range[1] - offset));
+        }
+    }
+    let beyond = level.is_some_and(|level| if rises { level > high } else { level < low });
+    beyond
+        .then(|| format!("can never be met: the wheels hold x between {} and {}", number(low), number(high)))
+}
+
+/// The actions of an event, and their description.
+fn read_actions(
+    raw: &RawDo,
+    scene: &Scene,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<(Vec<Action>, String)> {
+    let faults = check.faults.0.len();
+    let (mut actions, mut words) = (Vec::new(), Vec::new());
+    for (key, name, on) in [("release_brake", &raw.release_brake, false), ("brake", &raw.brake, true)] {
+        let Some(name) = name else { continue };
+        let place = at.key(key);
+        let Some(b) = body(name, &place, scene, check) else { continue };
+        let given = &scene.bodies[b];
+        if !given.motion.is_free() {
+            let fault = Fault::new(&place, format!("body {name} does not move freely along its rail"));
+            check.faults.add(fault.hint("brakes need a motion \"drive\" or \"free\""));
+        } else if given.brake.is_none() {
+            let fault = Fault::new(&place, format!("nothing puts the brakes of body {name} on"));
+            check.faults.add(fault.hint("`brake` of its motion or of another event does"));
+        }
+        if on && matches!(given.motion, Along::Driven(_)) && raw.drive.is_none() {
+            actions.push(Action::Drive { body: b, speed: None });
+        }
+        actions.push(Action::Brake { body: b, on });
+        words.push(format!("{} {name}", if on { "brake" } else { "release the brake of" }));
+    }
+    if let Some(name) = &raw.drive_off {
+        let place = at.key("drive_off");
+        if let Some(b) = driven(name, &place, scene, check) {
+            actions.push(Action::Drive { body: b, speed: None });
+            words.push(format!("turn the drive of {name} off"));
+        }
+    }
+    if let Some(follow) = &raw.drive {
+        let place = at.key("drive");
+        let name = check.faults.need(&follow.body, &place, "body");
+        let b = name.and_then(|name| driven(name, &place.key("body"), scene, check));
+        let speed = check.faults.need(&follow.speed, &place, "speed").copied();
+        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
+        if let (Some(b), Some(speed)) = (b, speed) {
+            actions.push(Action::Drive { body: b, speed: Some(speed) });
+            words.push(format!("drive {} at {}", scene.bodies[b].name, number(speed)));
+        }
+    }
+    if let Some(hoist) = &raw.hoist {
+        let place = at.key("hoist");
+        let known = names(&scene.ropes, |rope| &rope.name);
+        let name = check.faults.need(&hoist.rope, &place, "rope");
+        let rope = name.and_then(|name| resolve(name, &known, "rope", &place.key("rope"), check.faults));
+        let speed = check.faults.need(&hoist.speed, &place, "speed").copied();
+        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
+        if let (Some(rope), Some(speed)) = (rope, speed) {
+            actions.push(Action::Hoist { rope, speed });
+            words.push(format!("hoist with {} at {}", scene.ropes[rope].name, number(speed)));
+        }
+    }
+    if let Some(name) = &raw.drop {
+        let ropes = dropped(name, &at.key("drop"), scene, check);
+        actions.extend(ropes.into_iter().map(|rope| Action::Release { rope }));
+        words.push(format!("drop {name}"));
+    }
+    if raw.end == Some(true) {
+        actions.push(Action::End);
+        words.push("end the run".to_owned());
+    }
+    if words.is_empty() && check.faults.0.len() == faults {
+        let hint = "`brake`, `release_brake`, `drive`, `drive_off`, `hoist`, `drop` or `end`";
+        check.faults.add(Fault::new(at, "must do something").hint(hint));
+    }
+    let mut pairs = actions.iter().enumerate().flat_map(|(i, a)| actions[..i].iter().map(move |b| (a, b)));
+    if pairs.any(|(a, b)| contradict(a, b)) {
+        check.faults.add(Fault::new(at, "contradicts itself").got(words.join("; ")));
+    }
+    (check.faults.0.len() == faults).then(|| (actions, words.join("; ")))
+}
+
+fn body(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Option<usize> {
+    let known = names(&scene.bodies, |body| &body.name);
+    resolve(name, &known, "body", place, check.faults)
+}
+
+/// A body that has a drive.
+fn driven(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Option<usize> {
+    let b = body(name, place, scene, check)?;
+    if !matches!(scene.bodies[b].motion, Along::Driven(_)) {
+        let fault = Fault::new(place, format!("body {name} has no drive"));
+        check.faults.add(fault.hint("give it a motion of \"kind\": \"drive\""));
+        return None;
+    }
+    Some(b)
+}
+
+/// The rope of that name, or all ropes that carry the body of that name.
+fn dropped(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Vec<usize> {
+    if let Some(rope) = scene.ropes.iter().position(|rope| rope.name == name) {
+        return vec![rope];
+    }
+    let ropes = names(&scene.ropes, |rope| &rope.name);
+    let bodies = scene.bodies.iter().filter(|body| body.in_space).map(|body| (body.name.as_str(), 0));
+    let known: Vec<(&str, usize)> = ropes.into_iter().chain(bodies).collect();
+    if resolve(name, &known, "rope, or of a body on ropes", place, check.faults).is_none() {
+        return Vec::new();
+    }
+    let own = |rope: &&Rope| rope.bodies.iter().flatten().any(|&b| scene.bodies[b].name == name);
+    let all: Vec<usize> =
+        scene.ropes.iter().enumerate().filter(|(_, rope)| own(rope)).map(|(index, _)| index).collect();
+    if all.is_empty() {
+        check.faults.add(Fault::new(place, format!("no rope holds body {name}")));
+    }
+    all
+}

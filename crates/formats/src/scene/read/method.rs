@@ -1,0 +1,49 @@
+//! How a scene is integrated: `stepper` and `step`.
+
+use sim::{Method, Stepping};
+
+use crate::check::Check;
+use crate::scene::motion::cast;
+use crate::scene::raw::RawScene;
+use crate::scene::values::scene::{Analysis, STEPPERS, Scene, stepper_word};
+use crate::scene::values::structure::{Foundation, Handover};
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// Gauss needs a fixed step: its steps are equal, or energy is not kept.
+pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Stepping {
+    let place = root.key("stepper");
+    let word = raw.stepper.as_ref().and_then(|word| check.faults.word(word, &place, &STEPPERS));
+    let method = word.unwrap_or_default();
+    let length = root.key("step");
+    let step = check.optional_positive(raw.step, &length, Dimension::TIME, "leave it out for adaptive steps");
+    if matches!(method, Method::Gauss2 | Method::Gauss3) && step.is_none() {
+        let fault = Fault::new(root, "missing key `step`");
+        check.faults.add(fault.hint("the time of a step of \"gauss2\" and \"gauss3\", which are all equal"));
+    }
+    Stepping { method, step }
+}
+
+/// Refuses a method that does not suit a scene in which nothing else is wrong.
+pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
+    let method = scene.stepping.method;
+    if scene.analysis == Analysis::QuasiStatic || matches!(method, Method::Auto | Method::Sdirk4) {
+        return;
+    }
+    let Ok(cast) = cast(scene) else { return };
+    let rigid: Vec<sim::Foundation> = scene.structures.iter().map(|_| sim::Foundation::rigid()).collect();
+    let wanted = match method.suits(&cast.scene, &rigid) {
+        Err(sim::Error::Method { wanted, .. }) => Some(wanted),
+        _ => scene.structures.iter().find_map(|structure| match structure.foundation {
+            Foundation::Parts { handover: Handover::PerPart { .. }, .. } => Some("one force a wheel"),
+            Foundation::Ties { moves: true, c, .. } if c > 0.0 => Some("ties without dampers"),
+            _ => None,
+        }),
+    };
+    if let Some(wanted) = wanted {
+        let word = stepper_word(method);
+        let fault = Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
+        faults.add(fault.hint("\"sdirk4\" integrates every scene, \"auto\" takes what suits"));
+    }
+}

@@ -1,0 +1,28 @@
+//! From a scene as written to a checked scene: one file for each kind of member, `scene` over all of them.
+
+mod actuator;
+mod body;
+mod event;
+mod files;
+mod gauge;
+mod irregularity;
+mod method;
+mod mount;
+mod output;
+mod pin;
+mod practice;
+mod profile;
+mod rail;
+mod rope;
+pub(super) mod scene;
+mod schedule;
+mod spin;
+mod stop;
+mod structure;
+mod tables;
+mod ties;
+mod truck;
+mod truck_spacing;
+mod wheel;
+
+pub(super) use files::Files;

@@ -1,0 +1,99 @@
+//! Structures that bodies carry.
+
+use crate::check::Check;
+use crate::scene::raw::RawStructure;
+use crate::scene::values::body::{Along, Body, root_of};
+use crate::scene::values::scene::Scene;
+use crate::scene::values::structure::{Foundation, On, Origin, Structure};
+use crate::scene::values::truck::Truck;
+use crate::spec::Spec;
+use crate::text::entries::Entries;
+use crate::text::fault::{Fault, Faults};
+use crate::text::names::{names, resolve};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// Sets the bodies that carry structures.
+pub(super) fn read(
+    raw: &Entries<RawStructure>,
+    structures: &mut [Structure],
+    bodies: &[Body],
+    check: &mut Check<'_>,
+) {
+    let root = Place::root();
+    let list = root.key("structures");
+    for (name, raw) in &raw.0 {
+        let at = list.key(name);
+        let Some(carrier) = &raw.on else {
+            if raw.at.is_some() {
+                let fault = Fault::new(&at.key("at"), "`at` belongs to a structure `on` a body");
+                check.faults.add(fault.at_key());
+            }
+            continue;
+        };
+        let known = names(bodies, |body| &body.name);
+        let carrier = resolve(carrier, &known, "body", &at.key("on"), check.faults);
+        let position = check.vector(raw.at.unwrap_or_default(), &at.key("at"), Dimension::LENGTH);
+        let Some(structure) = structures.iter_mut().find(|structure| structure.name == *name) else {
+            continue;
+        };
+        if matches!(structure.foundation, Foundation::Ties { .. }) {
+            check.faults.unavailable(&at.key("foundation"), "ties on a body");
+        }
+        match &structure.origin {
+            Origin::Tables { .. } => {
+                check.faults.unavailable(&at.key("tables"), "tables of a structure on a body")
+            }
+            Origin::Spec { spec, .. } => refuse(spec, &at, check),
+        }
+        structure.on = carrier.map(|body| On { body, at: position, moves: moves(bodies, body) });
+    }
+}
+
+/// Which degrees of freedom of a body may change; all of them where it is pinned.
+fn moves(bodies: &[Body], b: usize) -> [bool; 6] {
+    let body = &bodies[b];
+    let mut moves = body.free;
+    moves[0] = body.motion != Along::Held;
+    if body.pinned.is_some() { [true; 6] } else { moves }
+}
+
+/// Refuses specs whose rails are not level.
+fn refuse(spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) {
+    // a spec whose numbers make no model is refused where it is solved
+    let Ok((model, rails)) = spec.model() else { return };
+    if rails.iter().any(|rail| rail.axis[1] != 0.0 || model.up != [0.0, 1.0, 0.0]) {
+        check
+            .faults
+            .unavailable(&at.key("spec"), "a rail that is not level, or another `up` than y, on a body");
+    }
+}
+
+/// Refuses carried bodies for which there are no equations of motion: a body on two carriers, on a body that is carried
+/// itself, or on a structure that it carries; and loads on carried bodies.
+pub(super) fn check(scene: &Scene, faults: &mut Faults) {
+    let root = Place::root();
+    let (trucks, loads) = (root.key("trucks"), root.key("loads"));
+    let tree = |body: usize| root_of(&scene.bodies, body).map_or(body, |(root, _)| root);
+    let carrier = |truck: &Truck| scene.structures[scene.rails[truck.rail].structure].on.map(|on| on.body);
+    let name = |body: usize| &scene.bodies[body].name;
+    for (index, truck) in scene.trucks.iter().enumerate() {
+        let Some(on) = carrier(truck) else { continue };
+        let at = trucks.index(index);
+        let (own, below) = (tree(truck.body), tree(on));
+        let apart = |other: &&Truck| tree(other.body) == own && carrier(other).map(tree) != Some(below);
+        if below == own {
+            let fault = Fault::new(&at, format!("\"{}\" cannot ride on what it carries", name(truck.body)));
+            faults.add(fault.got(format!("rail {}", scene.rails[truck.rail].name)));
+        } else if let Some(other) = scene.trucks.iter().find(apart) {
+            let expected = format!("all wheels of \"{}\" must run on structures of one body", name(own));
+            let fault = Fault::new(&at, expected);
+            faults.add(fault.got(format!("others on rail {}", scene.rails[other.rail].name)));
+        } else if scene.trucks.iter().any(|other| tree(other.body) == below && carrier(other).is_some()) {
+            faults.unavailable(&at, &format!("\"{}\", which rides itself, as a carrier", name(below)));
+        }
+        for (load, _) in scene.loads.iter().enumerate().filter(|(_, load)| tree(load.body) == own) {
+            faults.unavailable(&loads.index(load), "a load on a body that rides on another");
+        }
+    }
+}

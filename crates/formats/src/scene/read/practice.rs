@@ -1,0 +1,166 @@
+//! The member `practice`: what the codes of crane engineers need beside the scene itself.
+
+use practice::aist::CraneKind;
+use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::skew::Guide;
+
+use crate::check::Check;
+use crate::scene::raw::RawPractice;
+use crate::scene::values::practice::Practice;
+use crate::scene::values::scene::{Scene, across, seat};
+use crate::text::fault::{Fault, number};
+use crate::text::names::{names, resolve};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// Words of the hoisting classes.
+const HOISTING: [(&str, HoistingClass); 4] = [
+    ("HC1", HoistingClass::Hc1),
+    ("HC2", HoistingClass::Hc2),
+    ("HC3", HoistingClass::Hc3),
+    ("HC4", HoistingClass::Hc4),
+];
+/// Words of how drives come on.
+const DRIVES: [(&str, DriveOnset); 4] = [
+    ("steady", DriveOnset::Steady),
+    ("smooth", DriveOnset::Smooth),
+    ("sudden", DriveOnset::Sudden),
+    ("backlash", DriveOnset::Backlash),
+];
+
+/// Words of how fast a payload is released.
+const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Release::Rapid)];
+
+/// Words of what guides a crane.
+const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
+
+/// Words of kinds of cranes.
+const KINDS: [(&str, CraneKind); 7] = [
+    ("mill", CraneKind::Mill),
+    ("ladle", CraneKind::Ladle),
+    ("bucket", CraneKind::Bucket),
+    ("soaking pit", CraneKind::SoakingPit),
+    ("stripping", CraneKind::Stripping),
+    ("motor room", CraneKind::MotorRoom),
+    ("stacker", CraneKind::Stacker),
+];
+
+/// Reads the member of a scene whose bodies, trucks and ropes are known.
+pub(super) fn read(
+    raw: &Option<RawPractice>,
+    scene: &Scene,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Practice> {
+    let raw = raw.as_ref()?;
+    let at = root.key("practice");
+    let kind = raw.kind.as_ref().and_then(|word| check.faults.word(word, &at.key("kind"), &KINDS));
+    let hoisting =
+        raw.hoisting.as_ref().and_then(|word| check.faults.word(word, &at.key("hoisting"), &HOISTING));
+    let drives = raw.drives.as_ref().and_then(|word| check.faults.word(word, &at.key("drives"), &DRIVES));
+    let release = raw.release.as_ref().and_then(|word| check.faults.word(word, &at.key("release"), &RELEASE));
+    let guide = raw.guide.as_ref().and_then(|word| check.faults.word(word, &at.key("guide"), &GUIDE));
+    let mut size = |value: Option<f64>, key: &str, dimension: Dimension, hint: &str| {
+        check.optional_positive(value, &at.key(key), dimension, hint)
+    };
+    let approach = size(raw.approach, "approach", Dimension::LENGTH, "from the hook to the nearer rail");
+    let rail_head = size(raw.rail_head, "rail_head", Dimension::LENGTH, "width of the rail's head");
+    let speeds = [
+        size(raw.bridge_speed, "bridge_speed", Dimension::SPEED, "rated"),
+        size(raw.trolley_speed, "trolley_speed", Dimension::SPEED, "rated"),
+        size(raw.hoist_speed, "hoist_speed", Dimension::SPEED, "rated"),
+    ];
+    let (crane, place) = match &raw.crane {
+        Some(name) => {
+            let known = names(&scene.bodies, |body| &body.name);
+            let place = at.key("crane");
+            (resolve(name, &known, "body", &place, check.faults)?, place)
+        }
+        None => (only_crane(scene, &at, check)?, at),
+    };
+    let rails = rails_of(scene, crane, &place, check)?;
+    let rides = |body: usize| {
+        scene.trucks.iter().any(|truck| {
+            let on = scene.structures[scene.rails[truck.rail].structure].on;
+            seat(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
+        })
+    };
+    let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
+    let holds = |body: Option<usize>| body.is_some() && (body == Some(crane) || body == trolley);
+    let mut loads = Vec::new();
+    for rope in &scene.ropes {
+        let [from, to] = rope.bodies;
+        let hung = if holds(from) { to } else { from.filter(|_| holds(to)) };
+        loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
+    }
+    if let Some(approach) = approach {
+        let span = (across(scene, crane, rails[0]) - across(scene, crane, rails[1])).abs();
+        if approach > span {
+            let at = root.key("practice");
+            let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
+            check.faults.add(fault.got(approach).hint(format!("its rails are {span} apart")));
+        }
+    }
+    Some(Practice {
+        crane,
+        rails,
+        trolley,
+        loads,
+        kind: kind.unwrap_or(CraneKind::Mill),
+        hoisting,
+        drives: drives.unwrap_or(DriveOnset::Smooth),
+        release: release.unwrap_or(Release::Rapid),
+        guide: guide.unwrap_or(Guide::Flanges),
+        approach,
+        rail_head,
+        speeds,
+    })
+}
+
+/// The only body that carries structures; where none does, the only one on rails.
+fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
+    let mut found: Vec<usize> =
+        scene.structures.iter().filter_map(|structure| Some(structure.on?.body)).collect();
+    if found.is_empty() {
+        found = scene.trucks.iter().map(|truck| seat(scene, truck.body).0).collect();
+    }
+    found.sort_unstable();
+    found.dedup();
+    match found[..] {
+        [crane] => Some(crane),
+        _ => {
+            let names: Vec<String> =
+                found.iter().map(|body| format!("\"{}\"", scene.bodies[*body].name)).collect();
+            let fault = Fault::new(at, "missing key `crane`");
+            check.faults.add(fault.hint(format!("which body is the crane: {}", names.join(", "))));
+            None
+        }
+    }
+}
+
+/// The two rails of a crane, in the order of the scene.
+fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) -> Option<[usize; 2]> {
+    let mut rails: Vec<usize> = scene
+        .trucks
+        .iter()
+        .filter(|truck| seat(scene, truck.body).0 == crane)
+        .map(|truck| truck.rail)
+        .collect();
+    rails.sort_unstable();
+    rails.dedup();
+    match rails[..] {
+        [one, other] if across(scene, crane, one) != across(scene, crane, other) => Some([one, other]),
+        _ => {
+            let found = match rails.len() {
+                2 => format!("trucks on both at z = {}", number(across(scene, crane, rails[0]))),
+                count => count.to_string(),
+            };
+            let fault =
+                Fault::new(at, format!("\"{}\" must run on two rails, apart", scene.bodies[crane].name));
+            check.faults.add(fault.got(found).hint(
+                "the codes speak of cranes on a runway of two rails; z of a truck's `at` is its place across",
+            ));
+            None
+        }
+    }
+}

@@ -1,0 +1,112 @@
+//! Wheels whose spin a motion prescribes.
+
+use sim::{Given, Profile};
+
+use super::schedule::read_rows;
+use crate::check::Check;
+use crate::scene::raw::RawMotion;
+use crate::scene::values::actuator::Spin;
+use crate::scene::values::body::Along;
+use crate::scene::values::scene::Scene;
+use crate::text::fault::Fault;
+use crate::text::names::{names, resolve};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// The word of `dof`.
+pub(super) const SPIN: &str = "spin";
+
+/// Whether a motion is one of a wheel's spin.
+pub(super) fn is_spin(motion: &RawMotion) -> bool {
+    motion.dof.as_deref() == Some(SPIN)
+}
+
+/// The motions of spins of a scene whose trucks are known.
+pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) -> Vec<Spin> {
+    let root = Place::root();
+    let list = root.key("motions");
+    let mut spins: Vec<Spin> = Vec::new();
+    for (index, motion) in raw.iter().enumerate().filter(|(_, motion)| is_spin(motion)) {
+        let at = list.index(index);
+        let Some(spin) = read(motion, scene, &at, check) else { continue };
+        if spins.iter().any(|other| (other.truck, other.wheel) == (spin.truck, spin.wheel)) {
+            check.faults.add(Fault::new(&at, "the spin of this wheel has its motion already"));
+        }
+        spins.push(spin);
+    }
+    for (truck, owner) in scene.trucks.iter().enumerate() {
+        let kind = &scene.wheels[owner.wheel];
+        let body = &scene.bodies[owner.body];
+        let acts =
+            (kind.driven && matches!(body.motion, Along::Driven(_))) || (kind.braked && body.brake.is_some());
+        if acts && spins.iter().any(|spin| spin.truck == truck) {
+            let fault = Fault::new(&list, format!("truck {} has a drive or a brake, and a spin", owner.name));
+            check.faults.add(fault.hint("one or the other acts on a wheel"));
+        }
+    }
+    spins
+}
+
+fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<Spin> {
+    if let Some(kind) = check.faults.need(&motion.kind, at, "kind") {
+        check.faults.word(kind, &at.key("kind"), &[("prescribed", ())]);
+    }
+    for (key, given) in [
+        ("body", motion.body.is_some()),
+        ("gain", motion.gain.is_some()),
+        ("max_force", motion.max_force.is_some()),
+        ("brake", motion.brake.is_some()),
+    ] {
+        if given {
+            let fault = Fault::new(&at.key(key), format!("`{key}` does not belong to the motion of a spin"));
+            check.faults.add(fault.at_key().hint("it has `truck`, `wheel`, `kind` and one table"));
+        }
+    }
+    let rate = |power| Dimension::of(0, 0, power);
+    let tables = [
+        ("position", Given::Position, &motion.position, rate(0)),
+        ("speed", Given::Speed, &motion.speed, rate(-1)),
+        ("acceleration", Given::Acceleration, &motion.acceleration, rate(-2)),
+    ];
+    let given: Vec<_> = tables
+        .into_iter()
+        .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
+        .collect();
+    let profile = match given[..] {
+        [(key, what, table, unit)] => {
+            let place = at.key(key);
+            let rows = read_rows(table, &place, unit, check);
+            rows.and_then(|rows| {
+                let profile = Profile::new(what, &rows, 0.0, 0.0);
+                profile.map_err(|error| check.faults.add(Fault::new(&place, error.to_string()))).ok()
+            })
+        }
+        _ => {
+            let expected = "must have one table: `position`, `speed` or `acceleration`";
+            check.faults.add(Fault::new(at, expected).got(if given.is_empty() { "none" } else { "several" }));
+            None
+        }
+    };
+    let known = names(&scene.trucks, |truck| &truck.name);
+    let truck = match (&motion.truck, known.len()) {
+        (Some(name), _) => resolve(name, &known, "truck", &at.key("truck"), check.faults)?,
+        (None, 1) => 0,
+        (None, _) => check.faults.need(&motion.truck, at, "truck").map(|_| 0)?,
+    };
+    let owner = &scene.trucks[truck];
+    let count = owner.wheel_offsets().len();
+    let number = motion.wheel.unwrap_or(1);
+    if number == 0 || number > count {
+        let fault = Fault::new(&at.key("wheel"), format!("must be a wheel of truck {}", owner.name));
+        check.faults.add(fault.got(number).hint(format!("it has {count}, counted from 1")));
+        return None;
+    }
+    let kind = &scene.wheels[owner.wheel];
+    if kind.friction.is_none() {
+        let place = Place::root();
+        let place = place.key("wheels");
+        let fault = Fault::new(&place.key(&kind.name), "a wheel whose spin is prescribed needs `friction`");
+        check.faults.add(fault.at_key().hint("friction takes its body along"));
+    }
+    Some(Spin { truck, wheel: number - 1, motion: profile? })
+}

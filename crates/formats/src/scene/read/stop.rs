@@ -1,0 +1,201 @@
+//! End stops of rails, and floors.
+
+use super::rail::rail_named;
+use crate::check::Check;
+use crate::scene::raw::RawStop;
+use crate::scene::values::actuator::{Meeting, Stop};
+use crate::scene::values::body::{Along, root_of};
+use crate::scene::values::scene::Scene;
+use crate::scene::values::truck::Truck;
+use crate::text::fault::{Fault, number};
+use crate::text::names::{check_name, names, resolve};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// Reads the stops of a scene whose bodies and trucks are known.
+pub(super) fn read_all(raw: &[RawStop], scene: &Scene, check: &mut Check<'_>) -> Vec<Stop> {
+    let root = Place::root();
+    let list = root.key("stops");
+    let mut stops: Vec<Stop> = Vec::new();
+    for (index, raw) in raw.iter().enumerate() {
+        let at = list.index(index);
+        let Some(stop) = read(raw, index + 1, scene, &at, check) else { continue };
+        let others = stops.iter().map(|other| &other.name);
+        let others = others.chain(scene.bodies.iter().map(|body| &body.name));
+        if others.chain(scene.ropes.iter().map(|rope| &rope.name)).any(|other| *other == stop.name) {
+            let expected = format!("the name \"{}\" is taken", stop.name);
+            check.faults.add(Fault::new(&at, expected).hint("stops, ropes and bodies name columns"));
+        }
+        stops.push(stop);
+    }
+    stops
+}
+
+fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<Stop> {
+    let name = raw.name.clone().unwrap_or_else(|| format!("stop{count}"));
+    check_name(&name, &at.key("name"), check.faults);
+    let stiffness = check.needed(raw.k, at, "k", Dimension::STIFFNESS, "force per length");
+    let damping =
+        check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "force per speed");
+    let body = raw.body.as_ref().map(|name| {
+        let known = names(&scene.bodies, |body| &body.name);
+        resolve(name, &known, "body", &at.key("body"), check.faults)
+    });
+    let point = raw.at.map(|point| check.vector(point, &at.key("at"), Dimension::LENGTH));
+    if point.is_some() && body.is_none() {
+        check
+            .faults
+            .add(Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("a point of that body"));
+    }
+    if raw.gap.is_some() && raw.against.is_none() {
+        check.faults.add(Fault::new(&at.key("gap"), "`gap` needs `against`").at_key().hint("a body"));
+    }
+    if let (Some(other), None, None, None) = (&raw.against, &raw.rail, raw.x, raw.height) {
+        check.faults.need(&raw.body, at, "body")?;
+        let met = (body??, point.unwrap_or_default());
+        let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
+        let meetings = vec![Meeting { body: met.0, at: met.1, side }];
+        let against = Some(against);
+        return Some(Stop { name, axis: 0, against, place, rail: None, stiffness, damping, meetings });
+    }
+    let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
+        (Some(rail), Some(x), None) => {
+            let rail = rail_named(rail, &scene.rails, &at.key("rail"), check.faults)?;
+            let x = check.number(x, &at.key("x"), Dimension::LENGTH);
+            (0, x, Some(rail), on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+        }
+        (None, None, Some(height)) => {
+            let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
+            let words = [("above", -1.0), ("below", 1.0)];
+            let side =
+                raw.side.as_ref().map_or(Some(-1.0), |word| check.faults.word(word, &at.key("side"), &words));
+            check.faults.need(&raw.body, at, "body")?;
+            (1, height, None, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
+        }
+        _ => {
+            let fault = Fault::new(at, "must have `rail` and `x`, `body` and `Y`, or `body` and `against`");
+            check
+                .faults
+                .add(fault.hint("an end stop of a rail, a floor below a body, or a buffer between bodies"));
+            return None;
+        }
+    };
+    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, meetings })
+}
+
+/// A buffer between a point of one body and the body named `other`, which it meets after `gap`: the body that bears it,
+/// its place from that body's origin, and the side.
+fn buffer(
+    raw: &RawStop,
+    (body, point): (usize, [f64; 3]),
+    other: &str,
+    scene: &Scene,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<(usize, f64, f64)> {
+    let known = names(&scene.bodies, |body| &body.name);
+    let against = resolve(other, &known, "body", &at.key("against"), check.faults)?;
+    let gap = raw.gap.unwrap_or_default();
+    let gap = check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "the way until they meet");
+    if let Some(side) = &raw.side {
+        let fault = Fault::new(&at.key("side"), "a buffer between bodies has no `side`").at_key();
+        check.faults.add(fault.got(format!("\"{side}\"")).hint("where they stand at the start says it"));
+    }
+    let place = |b: usize| root_of(&scene.bodies, b).map(|(root, ahead)| scene.bodies[root].x0 + ahead);
+    let roots = [body, against].map(|b| root_of(&scene.bodies, b).map(|(root, _)| &scene.bodies[root]));
+    let [Some(one), Some(two)] = roots else { return None };
+    let shares = one.track.iter().any(|rail| two.track.contains(rail));
+    if one.name == two.name || !shares {
+        let fault = Fault::new(&at.key("against"), "must be another body on the same rail");
+        check.faults.add(fault.got(format!("\"{other}\"")));
+        return None;
+    }
+    let apart = place(body)? + point[0] - place(against)?;
+    let side = if place(body)? <= place(against)? { 1.0 } else { -1.0 };
+    Some((against, apart + side * gap, side))
+}
+
+/// What meets the stop at `x` of a rail: of one body, or of all that move on the rail, the wheel that is nearest to it.
+fn on_rail(
+    raw: &RawStop,
+    [body, rail]: [Option<Option<usize>>; 2],
+    point: Option<[f64; 3]>,
+    x: f64,
+    scene: &Scene,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Vec<Meeting>> {
+    let words = [("before", 1.0), ("beyond", -1.0)];
+    let side = match &raw.side {
+        Some(word) => Some(check.faults.word(word, &at.key("side"), &words)?),
+        None => None,
+    };
+    let meant: Vec<usize> = match body {
+        Some(body) => vec![body?],
+        None => (0..scene.bodies.len()).filter(|&b| scene.bodies[b].pinned.is_none()).collect(),
+    };
+    let mut meetings = Vec::new();
+    for b in meant {
+        let Some((root, ahead)) = root_of(&scene.bodies, b) else { continue };
+        if body.is_none() && scene.bodies[root].motion == Along::Held {
+            continue;
+        }
+        let x0 = scene.bodies[root].x0;
+        let points: Vec<(usize, [f64; 3], f64)> = match point {
+            Some(point) => vec![(b, point, x0 + ahead + point[0])],
+            None => treads(scene, b, rail.flatten()),
+        };
+        let first = points.iter().min_by(|a, b| a.2.total_cmp(&b.2));
+        let last = points.iter().max_by(|a, b| a.2.total_cmp(&b.2));
+        let (Some(first), Some(last)) = (first, last) else {
+            if body.is_some() {
+                let expected = format!("no wheel of body {} is on that rail", scene.bodies[b].name);
+                check
+                    .faults
+                    .add(Fault::new(&at.key("body"), expected).hint("`at` is the point that meets the stop"));
+            }
+            continue;
+        };
+        let side = match side {
+            Some(side) => side,
+            None if last.2 <= x => 1.0,
+            None if first.2 >= x => -1.0,
+            None => {
+                let expected = format!("body {} stands astride the stop", scene.bodies[b].name);
+                let found = format!("wheels from x = {} to {}", number(first.2), number(last.2));
+                let hint = "\"side\": \"before\" or \"beyond\" says where the body belongs";
+                check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
+                1.0
+            }
+        };
+        let (body, at, _) = if side > 0.0 { *last } else { *first };
+        meetings.push(Meeting { body, at, side });
+    }
+    if meetings.is_empty() && body.is_none() {
+        check.faults.add(Fault::new(&at.key("rail"), "no body moves on that rail"));
+    }
+    Some(meetings)
+}
+
+/// Wheels of the tree of body `b` on a rail where they touch it: their bodies, treads from those bodies' origins, and x
+/// at the start.
+fn treads(scene: &Scene, b: usize, rail: Option<usize>) -> Vec<(usize, [f64; 3], f64)> {
+    let below = |truck: &&Truck| {
+        let mut at = truck.body;
+        while let (true, Some((to, _))) = (at != b, scene.bodies[at].pinned) {
+            at = to;
+        }
+        at == b && Some(truck.rail) == rail
+    };
+    let trucks = scene.trucks.iter().filter(below);
+    trucks
+        .flat_map(|truck| {
+            let (root, ahead) = root_of(&scene.bodies, truck.body).unwrap_or((truck.body, 0.0));
+            let radius = scene.wheels[truck.wheel].radius;
+            truck.wheel_offsets().into_iter().map(move |offset| {
+                let tread = [offset, truck.at[1] - radius, truck.at[2]];
+                (truck.body, tread, scene.bodies[root].x0 + ahead + offset)
+            })
+        })
+        .collect()
+}

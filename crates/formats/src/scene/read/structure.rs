@@ -1,0 +1,268 @@
+//! Structures of a scene: their origin, and how the simulation models them.
+
+use std::sync::Arc;
+
+use splines::Couplings;
+
+use super::files::Files;
+use super::{gauge, irregularity, tables, ties};
+use crate::check::Check;
+use crate::scene::raw::{RawStructure, RawTables};
+use crate::scene::values::structure::{
+    ELEMENTS, Foundation, Handover, MODES, Origin, PARTS, Reading, Structure, TOLERANCE,
+};
+use crate::spec::{RailOutline, Spec};
+use crate::text::fault::{Fault, nearest};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+/// Smallest tolerance: runs cannot be compared more accurately.
+const SMALLEST_TOLERANCE: f64 = 1e-7;
+
+/// The foundations that a scene can ask for.
+#[derive(Clone, Copy)]
+enum FoundationWord {
+    Rigid,
+    Parts,
+    Influence,
+    Modal,
+    Full,
+    Ties,
+    Auto,
+}
+
+/// Reads a structure; `others` are the names of the scene's other structures.
+pub(super) fn read(
+    name: &str,
+    others: &[&str],
+    raw: &RawStructure,
+    at: &Place<'_>,
+    files: &mut Files<'_>,
+    check: &mut Check<'_>,
+) -> Option<Structure> {
+    let word = foundation_word(raw, at, check);
+    let count = raw.count.unwrap_or(PARTS);
+    if count < 2 {
+        check
+            .faults
+            .add(Fault::new(&at.key("count"), "must be at least 2").got(count).hint("parts of the chain"));
+    }
+    let handover = read_handover(raw, at, check);
+    let damping = read_damping(raw, at, check);
+    let reading = match &raw.reading {
+        Some(word) => check.faults.word(word, &at.key("reading"), &Reading::WORDS).unwrap_or(Reading::Exact),
+        None => Reading::Exact,
+    };
+    let couplings = read_couplings(raw, word, at, check);
+    let tolerance = read_tolerance(raw, at, check);
+    let ties = ties::read(raw, matches!(word, FoundationWord::Ties), at, check);
+    let origin = match (&raw.spec, &raw.tables) {
+        (None, None) if ties.is_some() || matches!(word, FoundationWord::Ties) => {
+            ties::on_ground(name, raw, ties.as_ref(), at, check)
+        }
+        (Some(file), None) if matches!(word, FoundationWord::Ties) => {
+            let origin = read_spec(file, &at.key("spec"), files, check);
+            origin.and_then(|origin| ties::on_structure(origin, raw, ties.as_ref(), at, check))
+        }
+        (Some(file), None) => read_spec(file, &at.key("spec"), files, check),
+        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, files, check),
+        (Some(_), Some(_)) => {
+            let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
+            check
+                .faults
+                .add(fault.hint("`spec` is a beam spec to solve, `tables` are SPLINEs that exist already"));
+            None
+        }
+        (None, None) => {
+            let fault = Fault::new(at, "must have either `spec` or `tables`").got("neither");
+            let meant = nearest(name, others).map(|near| format!("did you mean \"{near}\"? "));
+            let hint = "`spec` is a beam spec to solve, `tables` are SPLINEs that exist already";
+            check.faults.add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
+            None
+        }
+    };
+    let foundation = match word {
+        FoundationWord::Rigid => Foundation::Rigid,
+        FoundationWord::Parts => Foundation::Parts { count, handover, damping },
+        FoundationWord::Influence | FoundationWord::Auto => Foundation::Influence,
+        FoundationWord::Modal => Foundation::Modal { modes: raw.modes.unwrap_or(MODES), damping },
+        FoundationWord::Ties => ties::foundation(raw, ties.as_ref(), damping, at, check),
+        FoundationWord::Full => Foundation::Full { elements: raw.elements.unwrap_or(ELEMENTS), damping },
+    };
+    let origin = origin?;
+    if let (FoundationWord::Parts, Origin::Spec { spec, .. }) = (word, &origin)
+        && spec.girder().is_none()
+    {
+        let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
+        check.faults.add(fault.hint("the short form of a spec, with `girder`"));
+    }
+    let rails = origin.rails();
+    if reading != Reading::Exact {
+        enough_stations(&rails, reading, at, check);
+    }
+    let auto = matches!(word, FoundationWord::Auto);
+    let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
+    let longitudinal = read_longitudinal(raw, word, at, check);
+    let place = at.key("irregularities");
+    let irregularities = irregularity::read(&raw.irregularities, &rails, &place, files, check);
+    Some(Structure {
+        name: name.to_owned(),
+        origin,
+        rails,
+        foundation,
+        auto,
+        damping,
+        reading,
+        couplings,
+        tolerance,
+        gauges,
+        longitudinal,
+        irregularities,
+        on: None,
+    })
+}
+
+fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> FoundationWord {
+    let Some(word) = &raw.foundation else {
+        return if raw.ties.is_some() { FoundationWord::Ties } else { FoundationWord::Auto };
+    };
+    let place = at.key("foundation");
+    let words = [
+        ("rigid", FoundationWord::Rigid),
+        ("parts", FoundationWord::Parts),
+        ("influence", FoundationWord::Influence),
+        ("modal", FoundationWord::Modal),
+        ("full", FoundationWord::Full),
+        ("ties", FoundationWord::Ties),
+        ("auto", FoundationWord::Auto),
+    ];
+    check.faults.word(word, &place, &words).unwrap_or(FoundationWord::Auto)
+}
+
+/// Words of which couplings are taken into account.
+const COUPLINGS: [(&str, Couplings); 3] =
+    [("all", Couplings::All), ("within rails", Couplings::WithinRails), ("none", Couplings::None)];
+
+/// Couplings can be neglected where a structure has no degrees of freedom of its own; natural modes move all rails
+/// together.
+fn read_couplings(
+    raw: &RawStructure,
+    word: FoundationWord,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Couplings {
+    let Some(given) = &raw.couplings else { return Couplings::All };
+    let place = at.key("couplings");
+    let couplings = check.faults.word(given, &place, &COUPLINGS).unwrap_or_default();
+    if couplings != Couplings::All && !matches!(word, FoundationWord::Influence | FoundationWord::Rigid) {
+        let fault = Fault::new(&place, "can be left out of the foundation \"influence\" alone").at_key();
+        check
+            .faults
+            .add(fault.hint("modes and parts move all that they join; \"rigid\" has nothing to leave out"));
+    }
+    couplings
+}
+
+/// Whether a structure is compliant along its rails.
+fn read_longitudinal(
+    raw: &RawStructure,
+    word: FoundationWord,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> bool {
+    let longitudinal = raw.longitudinal.unwrap_or(false);
+    let place = at.key("longitudinal");
+    if longitudinal && raw.tables.is_some() {
+        let fault = Fault::new(&place, "needs a `spec`").at_key();
+        check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
+    }
+    if longitudinal && raw.on.is_some() {
+        check.faults.unavailable(&place, "give along the rails of a structure on a body");
+    }
+    if longitudinal && matches!(word, FoundationWord::Parts) {
+        let fault = Fault::new(&place, "\"parts\" do not give along the rail").at_key();
+        check.faults.add(fault.hint("use \"influence\" or \"modal\""));
+    }
+    longitudinal
+}
+
+/// Relative error that the choice of a foundation may cause.
+fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    let (place, given) = (at.key("tolerance"), raw.tolerance.unwrap_or(TOLERANCE));
+    let tolerance = check.positive(given, &place, Dimension::NUMBER, "a relative error, such as 1e-3");
+    if given > 0.0 && !(SMALLEST_TOLERANCE..1.0).contains(&given) {
+        let fault = Fault::new(&place, "must be at least 1e-7 and below 1").got(given);
+        check.faults.add(fault.hint("a relative error, such as 1e-3"));
+    }
+    tolerance
+}
+
+/// Damping ratio of the natural modes; the numbers of modes and elements must not be 0.
+fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    for (key, count) in [("modes", raw.modes), ("elements", raw.elements)] {
+        if count == Some(0) {
+            check.faults.add(Fault::new(&at.key(key), "must be at least 1").got(0));
+        }
+    }
+    let (place, given) = (at.key("damping"), raw.damping.unwrap_or(0.0));
+    let damping = check.not_negative(given, &place, Dimension::NUMBER, "a share of critical, such as 0.01");
+    if damping >= 1.0 {
+        let fault = Fault::new(&place, "must be below 1").got(damping);
+        check.faults.add(fault.hint("a share of critical, such as 0.01"));
+    }
+    damping
+}
+
+fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Handover {
+    let words = [("blend", false), ("per-part", true)];
+    let per_part = match &raw.handover {
+        Some(word) => check.faults.word(word, &at.key("handover"), &words).unwrap_or(false),
+        None => false,
+    };
+    let hint = "the length over which the datum is blended";
+    let length = check.optional_positive(raw.blend, &at.key("blend"), Dimension::LENGTH, hint);
+    if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
+}
+
+fn read_spec(file: &str, at: &Place<'_>, files: &mut Files<'_>, check: &mut Check<'_>) -> Option<Origin> {
+    files.read(file, at, check, |input, check| {
+        let source = input.source().map_err(|error| vec![*error])?;
+        let spec = Spec::read(&source, Some(check.scale.to))?;
+        Ok(Origin::Spec { file: file.to_owned(), spec: Arc::new(spec) })
+    })
+}
+
+fn read_tables(
+    raw: &RawTables,
+    at: &Place<'_>,
+    word: FoundationWord,
+    files: &mut Files<'_>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
+    if matches!(
+        word,
+        FoundationWord::Parts | FoundationWord::Modal | FoundationWord::Full | FoundationWord::Ties
+    ) {
+        let fault = Fault::new(at, "this foundation needs a `spec`")
+            .hint("tables know neither masses nor what lies between");
+        check.faults.add(fault);
+    }
+    if raw.vertical.is_none() && raw.lateral.is_none() {
+        let fault = Fault::new(at, "must name a table as `vertical`, `lateral` or both");
+        check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6, or its name in quotes"));
+    }
+    let file = check.faults.need(&raw.file, at, "file")?;
+    let read = files.read(file, &at.key("file"), check, |input, check| tables::read(raw, input, at, check));
+    read.flatten()
+}
+
+/// Checks that there are enough stations for the interpolation.
+fn enough_stations(rails: &[RailOutline], reading: Reading, at: &Place<'_>, check: &mut Check<'_>) {
+    let least = if reading == Reading::Natural { 2 } else { 4 };
+    for rail in rails {
+        if rail.stations.len() < least {
+            let expected = format!("needs at least {least} stations on rail {}", rail.name);
+            check.faults.add(Fault::new(&at.key("reading"), expected).got(rail.stations.len()));
+        }
+    }
+}

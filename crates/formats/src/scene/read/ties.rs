@@ -1,0 +1,146 @@
+//! Rails on elastic ties.
+
+use std::sync::Arc;
+
+use fea::Section;
+
+use crate::check::Check;
+use crate::scene::raw::{RawStructure, RawTieRail};
+use crate::scene::values::structure::{Foundation, Origin};
+use crate::text::fault::{Fault, number};
+use crate::text::place::Place;
+use crate::track::{self, Refusal, Ties};
+use crate::units::Dimension;
+
+/// Default number of elements between two ties where there is mass.
+const ELEMENTS: usize = 2;
+
+/// The member `ties`, which the foundation "ties" needs; `range` where the ground carries it.
+pub(super) fn read(raw: &RawStructure, needed: bool, at: &Place<'_>, check: &mut Check<'_>) -> Option<Ties> {
+    if raw.ties.is_none() && needed {
+        check.faults.need(&raw.ties, at, "ties");
+    }
+    let given = raw.ties.as_ref()?;
+    let at = at.key("ties");
+    let spacing = check.needed(given.spacing, &at, "spacing", Dimension::LENGTH, "from tie to tie");
+    let k = check.needed(given.k, &at, "k", Dimension::STIFFNESS, "of one tie, force per length");
+    let hint = "of one tie, force per length; leave it out where nothing moves sideways";
+    let lateral_k =
+        check.optional_positive(given.lateral_k, &at.key("lateral_k"), Dimension::STIFFNESS, hint);
+    let first = given.first.map(|first| check.number(first, &at.key("first"), Dimension::LENGTH));
+    let mut or_zero = |value: Option<f64>, place: &Place<'_>, dimension, hint| {
+        value.map_or(0.0, |value| check.not_negative(value, place, dimension, hint))
+    };
+    let c = or_zero(given.c, &at.key("c"), Dimension::DAMPING, "of one tie, force per speed");
+    let mass = or_zero(given.mass, &at.key("mass"), Dimension::MASS, "of one tie");
+    let rail = match check.faults.need(&given.rail, &at, "rail") {
+        Some(rail) => read_rail(rail, lateral_k.is_some(), &at.key("rail"), check),
+        None => Section { e: 1.0, iz: 1.0, ..Section::default() },
+    };
+    let mut ties = Ties { spacing, first, k, lateral_k, c, mass, rail, elements: 1 };
+    if ties.has_mass() {
+        ties.elements = raw.elements.unwrap_or(ELEMENTS).max(1);
+    }
+    Some(ties)
+}
+
+fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<'_>) -> Section {
+    let mut or_zero = |value: Option<f64>, key: &str, dimension| {
+        check.optional_positive(value, &at.key(key), dimension, "").unwrap_or(0.0)
+    };
+    let area = or_zero(raw.area, "A", Dimension::AREA);
+    let g = or_zero(raw.g, "G", Dimension::STRESS);
+    let j = or_zero(raw.j, "J", Dimension::SECOND_MOMENT);
+    let iy = or_zero(raw.i_lateral, "I_lateral", Dimension::SECOND_MOMENT);
+    let e = check.needed(raw.e, at, "E", Dimension::STRESS, "");
+    let iz = check.needed(raw.i_vertical, at, "I_vertical", Dimension::SECOND_MOMENT, "");
+    if raw.i_lateral.is_some() != lateral {
+        let key = if lateral { "I_lateral" } else { "lateral_k" };
+        let fault = Fault::new(at, format!("missing key `{key}`"));
+        check.faults.add(fault.hint("`I_lateral` of the rail and `lateral_k` of the ties go together"));
+    }
+    let mass = raw.mass_per_length;
+    let mass =
+        mass.map(|mass| check.not_negative(mass, &at.key("mass_per_length"), Dimension::LINE_MASS, ""));
+    Section { e, g, area, iy, iz, j, mass: mass.unwrap_or(0.0), ..Section::default() }
+}
+
+/// A rail on ties over the ground.
+pub(super) fn on_ground(
+    name: &str,
+    raw: &RawStructure,
+    ties: Option<&Ties>,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
+    let given = *check.faults.need(&raw.range, at, "range")?;
+    let place = at.key("range");
+    let range = [0, 1].map(|k| check.number(given[k], &place.index(k), Dimension::LENGTH));
+    if given[1] <= given[0] {
+        let fault = Fault::new(&place.index(1), format!("must be above {}", number(given[0])));
+        check.faults.add(fault.got(number(given[1])).hint("first and last coordinate of the rail"));
+    }
+    is_right(check)?;
+    match track::on_ground(name, check.scale.to, ties?, range) {
+        Ok(spec) => Some(Origin::Spec { file: String::new(), spec: Arc::new(spec) }),
+        Err(refusal) => refuse(refusal, at, check),
+    }
+}
+
+/// A rail on ties over the rails of a structure.
+pub(super) fn on_structure(
+    origin: Origin,
+    raw: &RawStructure,
+    ties: Option<&Ties>,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
+    if raw.range.is_some() {
+        let fault = Fault::new(&at.key("range"), "`range` cannot stand beside `spec`").at_key();
+        check.faults.add(fault.hint("ties over a structure run along its rails"));
+    }
+    is_right(check)?;
+    let Origin::Spec { file, spec } = origin else { return None };
+    match track::on_structure(&spec, ties?) {
+        Ok(spec) => Some(Origin::Spec { file, spec: Arc::new(spec) }),
+        Err(refusal) => refuse(refusal, at, check),
+    }
+}
+
+/// Some where nothing is wrong so far: ties are placed by numbers that have been checked.
+fn is_right(check: &Check<'_>) -> Option<()> {
+    check.faults.0.is_empty().then_some(())
+}
+
+fn refuse(refusal: Refusal, at: &Place<'_>, check: &mut Check<'_>) -> Option<Origin> {
+    let ties = at.key("ties");
+    let (place, hint) = match refusal {
+        Refusal::Few { .. } => (ties.key("spacing"), "from the `first`, ties stand `spacing` apart"),
+        Refusal::Many { .. } => (ties.key("spacing"), "a shorter rail, or fewer `elements`"),
+        Refusal::Hinge { .. } => (ties, "move the `first`"),
+        Refusal::Oblique { .. } | Refusal::Model => (ties, "use \"influence\""),
+    };
+    check.faults.add(Fault::new(&place, refusal.to_string()).hint(hint));
+    None
+}
+
+/// How a rail on ties is simulated; without mass there are no modes to damp.
+pub(super) fn foundation(
+    raw: &RawStructure,
+    ties: Option<&Ties>,
+    damping: f64,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Foundation {
+    let (moves, c) = ties.map_or((false, 0.0), |ties| (ties.has_mass(), ties.c));
+    if ties.is_some() && !moves {
+        let under = at.key("ties");
+        let given = [(c > 0.0, under.key("c")), (damping > 0.0, at.key("damping"))];
+        let others = [(raw.modes.is_some(), at.key("modes")), (raw.elements.is_some(), at.key("elements"))];
+        for (_, place) in given.iter().chain(&others).filter(|(given, _)| *given) {
+            let fault = Fault::new(place, "needs a rail or ties with mass").at_key();
+            check.faults.add(fault.hint("give `mass_per_length` of the rail or `mass` of a tie"));
+        }
+    }
+    Foundation::Ties { moves, modes: raw.modes, damping, c }
+}

@@ -1,0 +1,125 @@
+//! Wheels: radius, contact laws, friction, spin.
+
+use crate::check::Check;
+use crate::scene::raw::{RawFriction, RawLateral, RawVertical, RawWheel};
+use crate::scene::values::wheel::{
+    Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel,
+};
+use crate::text::fault::{Fault, number};
+use crate::text::place::Place;
+use crate::units::Dimension;
+
+pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check<'_>) -> Wheel {
+    let radius = check.needed(raw.radius, at, "radius", Dimension::LENGTH, "");
+    let vertical = match check.faults.need(&raw.vertical, at, "vertical") {
+        Some(vertical) => read_vertical(vertical, &at.key("vertical"), check),
+        None => Vertical { law: Law::Linear, k: 1.0, c: 0.0, damper: Damper::Rail, bilateral: false },
+    };
+    let lateral = raw.lateral.as_ref().map(|lateral| read_lateral(lateral, &at.key("lateral"), check));
+    let friction = raw.friction.as_ref().map(|friction| read_friction(friction, &at.key("friction"), check));
+    let spin_inertia = check.optional_positive(
+        raw.spin_inertia,
+        &at.key("spin_inertia"),
+        Dimension::INERTIA,
+        "leave it out for a wheel without inertia",
+    );
+    Wheel {
+        name: name.to_owned(),
+        radius,
+        vertical,
+        lateral,
+        friction,
+        spin_inertia,
+        driven: raw.driven,
+        braked: raw.braked,
+    }
+}
+
+fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Vertical {
+    let impact = match &raw.law {
+        Some(word) => {
+            check.faults.word(word, &at.key("law"), &[("linear", false), ("impact", true)]).unwrap_or(false)
+        }
+        None => false,
+    };
+    let exponent = if impact { raw.exponent.unwrap_or(IMPACT_EXPONENT) } else { 1.0 };
+    if impact && exponent < 1.0 {
+        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(number(exponent));
+        check.faults.add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
+    }
+    let k = match check.faults.need(&raw.k, at, "k") {
+        Some(k) => {
+            let place = at.key("k");
+            check.positive(*k, &place, Dimension::NUMBER, "");
+            let factor = check.scale.power_law(exponent.max(1.0));
+            check.scaled(*k, &place, factor)
+        }
+        None => 1.0,
+    };
+    let c = check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "0 for none");
+    let law = if impact {
+        let depth = match raw.depth {
+            None if c == 0.0 => 1.0,
+            depth => check.needed(
+                depth,
+                at,
+                "depth",
+                Dimension::LENGTH,
+                "penetration at which the damping is full",
+            ),
+        };
+        Law::Impact { exponent, depth }
+    } else {
+        for (key, given) in [("exponent", raw.exponent.is_some()), ("depth", raw.depth.is_some())] {
+            if given {
+                let fault =
+                    Fault::new(&at.key(key), format!("`{key}` belongs to the law \"impact\"")).at_key();
+                check.faults.add(fault.hint("give \"law\": \"impact\" or leave it out"));
+            }
+        }
+        Law::Linear
+    };
+    let dampers = [("rail", Damper::Rail), ("ground", Damper::Ground)];
+    let damper = match &raw.damper {
+        Some(word) => check.faults.word(word, &at.key("damper"), &dampers).unwrap_or(Damper::Rail),
+        None => Damper::Rail,
+    };
+    Vertical { law, k, c, damper, bilateral: raw.bilateral.unwrap_or_default() }
+}
+
+fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Lateral {
+    let k = check.needed(raw.k, at, "k", Dimension::STIFFNESS, "");
+    let clearance = raw.clearance.unwrap_or_default();
+    let clearance = check.not_negative(clearance, &at.key("clearance"), Dimension::LENGTH, "0 for none");
+    let place = at.key("release");
+    let release = raw.release.map(|heights| {
+        check.faults.increasing(&heights, &place);
+        let hint = "heights of the wheel's centre over the rail";
+        let mut converted = [0.0; 2];
+        for (index, height) in heights.into_iter().enumerate() {
+            converted[index] = check.positive(height, &place.index(index), Dimension::LENGTH, hint);
+        }
+        converted
+    });
+    Lateral { k, clearance, release }
+}
+
+fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Friction {
+    let laws = [("step", FrictionLaw::Step), ("coulomb", FrictionLaw::Coulomb)];
+    let given = raw.law.as_ref().and_then(|word| check.faults.word(word, &at.key("law"), &laws));
+    let law = given.unwrap_or(FrictionLaw::Step);
+    Friction {
+        law,
+        mu: check.needed(raw.mu, at, "mu", Dimension::NUMBER, "leave `friction` out for none"),
+        slip: check.needed(
+            raw.slip,
+            at,
+            "slip",
+            Dimension::SPEED,
+            match law {
+                FrictionLaw::Step => "slip speed at which the friction is full",
+                FrictionLaw::Coulomb => "slip speed at which the friction is 76 % of mu N",
+            },
+        ),
+    }
+}

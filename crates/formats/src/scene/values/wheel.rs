@@ -1,0 +1,95 @@
+//! Kinds of wheels: radius, contact laws, friction, spin.
+
+/// A kind of wheel, shared by trucks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wheel {
+    /// Its name.
+    pub name: String,
+    /// Radius of the tread.
+    pub radius: f64,
+    /// Vertical contact of the tread.
+    pub vertical: Vertical,
+    /// Contact of the flange; none: the wheel never touches sideways.
+    pub lateral: Option<Lateral>,
+    /// Friction along the rail; none: the wheel rolls without traction.
+    pub friction: Option<Friction>,
+    /// Moment of inertia about the axle, mass length^2; none: the spin follows from rolling without slip.
+    pub spin_inertia: Option<f64>,
+    /// Whether the drive of its body acts on it; its friction limits the drive.
+    pub driven: bool,
+    /// Whether the brake of its body acts on it.
+    pub braked: bool,
+}
+
+/// Vertical contact: force from penetration and its rate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Vertical {
+    /// Law of the contact force.
+    pub law: Law,
+    /// Stiffness, force per length^exponent (exponent 1 for the linear law).
+    pub k: f64,
+    /// Damping, force per speed.
+    pub c: f64,
+    /// Which velocity the damper acts on.
+    pub damper: Damper,
+    /// Whether the contact can pull.
+    pub bilateral: bool,
+}
+
+/// Law of a vertical contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Law {
+    /// N = k p + c dp/dt of the penetration p.
+    Linear,
+    /// IMPACT of ADAMS: N = k p^exponent + STEP(p, 0, 0, depth, c) dp/dt.
+    Impact {
+        /// Exponent of the penetration, at least 1.
+        exponent: f64,
+        /// Penetration at which the damping reaches c, length.
+        depth: f64,
+    },
+}
+
+/// The velocity that the damper of a contact acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Damper {
+    /// That of the wheel relative to the rail.
+    Rail,
+    /// That of the wheel in space.
+    Ground,
+}
+
+/// Flange contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Lateral {
+    /// Stiffness, force / length.
+    pub k: f64,
+    /// Clearance to either side, length, not negative.
+    pub clearance: f64,
+    /// Heights of the wheel's centre over the rail between which the flange force fades to zero; none: it is released
+    /// when the tread lifts off.
+    pub release: Option<[f64; 2]>,
+}
+
+/// How friction grows with the sliding speed s.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrictionLaw {
+    /// STEP(s, -slip, -1, slip, 1).
+    Step,
+    /// tanh(s / slip).
+    Coulomb,
+}
+
+/// Friction along the rail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    /// Law of the sliding speed.
+    pub law: FrictionLaw,
+    /// Coefficient of friction, above 0.
+    pub mu: f64,
+    /// Sliding speed at which friction is full (STEP) or 76 % of mu N (tanh), length / time, above 0.
+    pub slip: f64,
+}
+
+/// Default exponent of IMPACT.
+pub const IMPACT_EXPONENT: f64 = 1.1;

@@ -1,0 +1,223 @@
+//! Faults of a document by path; they are collected first and placed in the text afterwards.
+
+pub use super::number::number;
+use super::place::{Path, Place};
+
+/// How the fault of a key given twice begins.
+const DUPLICATE: &str = "duplicate key ";
+
+/// One thing wrong, by path; `Source::diagnose` finds its line and column.
+///
+/// ```
+/// use formats::fault::Fault;
+/// use formats::place::Place;
+///
+/// let root = Place::root();
+/// let girder = root.key("girder");
+/// let fault = Fault::new(&girder.key("E"), "must be positive").got(-29000).hint("a stress");
+/// assert_eq!(fault.path.to_string(), "girder.E");
+/// assert_eq!(fault.found.as_deref(), Some("-29000"));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The value (or, with `at_key`, the key) that is wrong.
+    pub path: Path,
+    /// Whether the key itself is meant, not its value.
+    pub at_key: bool,
+    /// What would be right.
+    pub expected: String,
+    /// What was found.
+    pub found: Option<String>,
+    /// What the user can do.
+    pub hint: Option<String>,
+}
+
+impl Fault {
+    /// A fault of the value at `place`.
+    #[must_use]
+    pub fn new(place: &Place<'_>, expected: impl Into<String>) -> Self {
+        Fault { path: place.path(), at_key: false, expected: expected.into(), found: None, hint: None }
+    }
+
+    /// A key given twice in the object at `path`; it is placed where the key stands for the second time.
+    #[must_use]
+    pub(super) fn duplicate(path: Path, key: &str) -> Self {
+        let expected = format!("{DUPLICATE}`{key}`");
+        let hint = Some("give each key once".to_owned());
+        Fault { path, at_key: false, expected, found: None, hint }
+    }
+
+    /// Whether it is a key given twice.
+    pub(super) fn is_duplicate(&self) -> bool {
+        self.expected.starts_with(DUPLICATE)
+    }
+
+    /// The same with the value that was found.
+    #[must_use]
+    pub fn got(mut self, found: impl ToString) -> Self {
+        self.found = Some(found.to_string());
+        self
+    }
+
+    /// The same with a hint.
+    #[must_use]
+    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// The same, placed at the key instead of its value.
+    #[must_use]
+    pub fn at_key(mut self) -> Self {
+        self.at_key = true;
+        self
+    }
+}
+
+/// All faults of a document so far.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Faults(pub Vec<Fault>);
+
+impl Faults {
+    /// Adds one.
+    pub fn add(&mut self, fault: Fault) {
+        self.0.push(fault);
+    }
+
+    /// `Some` where there is a value; a fault that names the missing key where there is none.
+    pub fn need<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
+        if value.is_none() {
+            self.add(Fault::new(place, format!("missing key `{key}`")));
+        }
+        value.as_ref()
+    }
+
+    /// One of a few words; unknown ones are a fault that lists them and suggests the nearest.
+    pub fn word<T: Copy>(&mut self, found: &str, place: &Place<'_>, words: &[(&str, T)]) -> Option<T> {
+        if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
+            return Some(*value);
+        }
+        let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
+        let mut fault =
+            Fault::new(place, format!("must be {}", alternatives(&known))).got(format!("\"{found}\""));
+        if let Some(near) = nearest(found, &known).filter(|_| known.len() > 1) {
+            fault = fault.hint(format!("did you mean \"{near}\"?"));
+        }
+        self.add(fault);
+        None
+    }
+
+    /// Adds the fault of a key that the format has and this version does not support.
+    pub fn unavailable(&mut self, place: &Place<'_>, what: &str) {
+        self.add(Fault::new(place, format!("{what} is not available in this version")).at_key());
+    }
+
+    /// Whether numbers increase strictly; a fault of the first that does not where they do not.
+    pub fn increasing(&mut self, numbers: &[f64], place: &Place<'_>) -> bool {
+        let descent = numbers.windows(2).position(|pair| pair[1] <= pair[0]);
+        if let Some(first) = descent {
+            self.add(
+                Fault::new(
+                    &place.index(first + 1),
+                    format!("must be above the one before it, {}", number(numbers[first])),
+                )
+                .got(numbers[first + 1])
+                .hint("list them in increasing order, each once"),
+            );
+        }
+        descent.is_none()
+    }
+}
+
+/// `"a"`, `"a" or "b"`, `"a", "b" or "c"`.
+#[must_use]
+pub fn alternatives(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|word| format!("\"{word}\"")).collect();
+    match quoted.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+    }
+}
+
+/// The known word that a misspelt word most probably stands for: one that begins with it, or the one with the fewest
+/// edits, at most 1 to 3 by its length; none where there is no such word.
+#[must_use]
+pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
+    let allowed = match word.chars().count() {
+        0..=2 => 1,
+        3..=5 => 2,
+        _ => 3,
+    };
+    let lower = word.to_lowercase();
+    let begun =
+        known.iter().find(|candidate| lower.len() > 2 && candidate.to_lowercase().starts_with(&lower));
+    if let Some(candidate) = begun {
+        return Some(candidate);
+    }
+    known
+        .iter()
+        .map(|candidate| (distance(&lower, &candidate.to_lowercase()), *candidate))
+        .filter(|(edits, candidate)| *edits <= allowed && *edits < candidate.chars().count())
+        .min_by_key(|(edits, _)| *edits)
+        .map(|(_, candidate)| candidate)
+}
+
+/// Edits between two words: insertions, deletions, substitutions, and exchanges of two neighbours.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let mut before: Vec<usize> = Vec::new();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for i in 0..a.len() {
+        let mut next = vec![i + 1];
+        for j in 0..b.len() {
+            let mut least = (row[j] + usize::from(a[i] != b[j])).min(row[j + 1] + 1).min(next[j] + 1);
+            if i > 0 && j > 0 && a[i] == b[j - 1] && a[i - 1] == b[j] {
+                least = least.min(before[j - 1] + 1);
+            }
+            next.push(least);
+        }
+        before = std::mem::replace(&mut row, next);
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn distance_counts_single_edits() {
+        for (a, b, edits) in [
+            ("", "abc", 3),
+            ("spans", "span", 1),
+            ("kitten", "sitting", 3),
+            ("heigth", "height", 1),
+            ("x", "x", 0),
+        ] {
+            assert_eq!(distance(a, b), edits, "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn nearest_suggests_a_misspelling_and_keeps_quiet_otherwise() {
+        let known = ["spans", "overhangs", "E", "G", "I_vertical", "I_lateral"];
+        assert_eq!(nearest("span", &known), Some("spans"));
+        assert_eq!(nearest("i_vertical", &known), Some("I_vertical"));
+        assert_eq!(nearest("overhang", &known), Some("overhangs"));
+        assert_eq!(nearest("over", &known), Some("overhangs"));
+        assert_eq!(nearest("colour", &known), None);
+        assert_eq!(nearest("q", &known), None);
+    }
+
+    #[test]
+    fn word_lists_what_is_known() {
+        let mut faults = Faults::default();
+        let root = Place::root();
+        assert_eq!(faults.word("rail", &root, &[("rail", 1), ("ground", 2)]), Some(1));
+        assert_eq!(faults.word("grund", &root, &[("rail", 1), ("ground", 2)]), None);
+        assert_eq!(faults.0.len(), 1);
+        assert_eq!(faults.0[0].expected, "must be \"rail\" or \"ground\"");
+        assert_eq!(faults.0[0].hint.as_deref(), Some("did you mean \"ground\"?"));
+    }
+}

@@ -1,0 +1,111 @@
+//! Input files: read once, remembered with their hashes.
+
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
+
+use super::diagnostic::Diagnostic;
+use super::source::Source;
+
+/// One input file of a job.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// As named by the user or by the file that refers to it.
+    pub name: String,
+    /// Its name in messages.
+    pub shown: String,
+    /// SHA-256 of its bytes, in hexadecimal.
+    pub sha256: String,
+    /// Its contents.
+    pub bytes: Vec<u8>,
+}
+
+impl Input {
+    fn read(name: String, path: &Path) -> Result<Input, String> {
+        let bytes = std::fs::read(path).map_err(|error| cannot_read(&error))?;
+        Ok(Input { name, shown: path.display().to_string(), sha256: sha256(&bytes), bytes })
+    }
+
+    /// Its text.
+    ///
+    /// # Errors
+    /// Bytes that are not UTF-8, placed in it.
+    pub fn source(&self) -> Result<Source, Box<Diagnostic>> {
+        Source::from_bytes(self.shown.clone(), self.bytes.clone())
+    }
+}
+
+/// The input files of a job; names are relative to the folder of the first.
+#[derive(Clone, Debug, Default)]
+pub struct Inputs {
+    folder: PathBuf,
+    read: Vec<Input>,
+}
+
+impl Inputs {
+    /// Starts with the file that the user named.
+    ///
+    /// # Errors
+    /// A file that cannot be read or is not text.
+    pub fn open(path: &Path) -> Result<(Inputs, Source), Box<Diagnostic>> {
+        let inputs = Inputs::open_bytes(path)?;
+        let source = inputs.read[0].source()?;
+        Ok((inputs, source))
+    }
+
+    /// Starts with the file that the user named, of any bytes: the first of [`Inputs::all`].
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn open_bytes(path: &Path) -> Result<Inputs, Box<Diagnostic>> {
+        let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
+        let name = path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+        let first = Input::read(name, path)
+            .map_err(|why| Box::new(Diagnostic::of_file(path.display().to_string(), why)))?;
+        Ok(Inputs { folder, read: vec![first] })
+    }
+
+    /// Reads a file that another one refers to, or takes it from memory where it was read before.
+    ///
+    /// # Errors
+    /// Why it cannot be read, in words.
+    pub fn refer(&mut self, name: &str) -> Result<&Input, String> {
+        let index = match self.read.iter().position(|input| input.name == name) {
+            Some(index) => index,
+            None => {
+                self.read.push(Input::read(name.to_owned(), &self.folder.join(name))?);
+                self.read.len() - 1
+            }
+        };
+        Ok(&self.read[index])
+    }
+
+    /// The file that was read under this name.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<&Input> {
+        self.read.iter().find(|input| input.name == name)
+    }
+
+    /// All files read, in the order of reading.
+    #[must_use]
+    pub fn all(&self) -> &[Input] {
+        &self.read
+    }
+}
+
+/// Message of an error of the file system.
+pub fn cannot_read(error: &std::io::Error) -> String {
+    let why = match error.kind() {
+        std::io::ErrorKind::NotFound => "no such file".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        std::io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
+        _ => error.to_string(),
+    };
+    format!("cannot be read: {why}")
+}
+
+/// SHA-256 in hexadecimal.
+#[must_use]
+pub fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}

@@ -1,0 +1,46 @@
+//! Names that a file gives to its items, and uses of these names.
+
+use super::fault::{Fault, Faults, nearest};
+use super::place::Place;
+
+/// The names of items with their indices, for [`resolve`].
+pub fn names<T>(all: &[T], name: impl Fn(&T) -> &str) -> Vec<(&str, usize)> {
+    all.iter().enumerate().map(|(index, item)| (name(item), index)).collect()
+}
+
+/// Index of the item of that name; a fault that lists the known names where there is none. `what` says what the name
+/// stands for, such as "body".
+pub fn resolve(
+    name: &str,
+    known: &[(&str, usize)],
+    what: &str,
+    place: &Place<'_>,
+    faults: &mut Faults,
+) -> Option<usize> {
+    let found = known.iter().find(|(word, _)| *word == name).map(|(_, index)| *index);
+    if found.is_none() {
+        let words: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
+        let mut hint = if words.is_empty() {
+            "the file has none".to_owned()
+        } else {
+            format!("known: {}", words.join(", "))
+        };
+        if let Some(near) = nearest(name, &words) {
+            hint = format!("did you mean \"{near}\"? {hint}");
+        }
+        faults.add(
+            Fault::new(place, format!("must be the name of a {what}")).got(format!("\"{name}\"")).hint(hint),
+        );
+    }
+    found
+}
+
+/// Checks that a name consists of letters, digits, spaces, `_` and `-`: names become parts of column and file names.
+pub fn check_name(name: &str, place: &Place<'_>, faults: &mut Faults) {
+    let fits = name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
+    if name.trim() != name || name.is_empty() || !fits {
+        let fault = Fault::new(place, "must be a name of letters, digits, spaces, `_` and `-`")
+            .got(format!("{name:?}"));
+        faults.add(fault.hint("names become parts of column and file names"));
+    }
+}

@@ -1,0 +1,235 @@
+//! The text of an input file: read into a located tree, converted from it, and searched for the places of faults.
+
+use serde::de::DeserializeOwned;
+
+use super::convert::{Located, convert};
+use super::diagnostic::Diagnostic;
+use super::fault::{Fault, Faults};
+use super::json::{self, SyntaxError};
+use super::place::{Path, Place, Step};
+use super::tree::{Node, Value};
+use super::wording::syntax;
+
+/// An input file's name, as users know it, and its text.
+///
+/// ```
+/// use formats::fault::{Fault, Faults};
+/// use formats::place::Place;
+/// use formats::source::Source;
+///
+/// let text = "{\n  \"spans\": [60, -60]\n}";
+/// let source = Source { name: "girder.json".to_owned(), text: text.to_owned() };
+///
+/// let root = Place::root();
+/// let mut faults = Faults::default();
+/// faults.add(Fault::new(&root.key("spans").index(1), "must be positive").got(-60));
+/// let wrong = source.diagnose(&faults);
+/// assert_eq!(wrong[0].to_string(), "girder.json:2:17: spans[1]: must be positive, got -60");
+/// ```
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// As it appears in messages.
+    pub name: String,
+    /// The whole text.
+    pub text: String,
+}
+
+impl Source {
+    /// Takes the bytes of a file.
+    ///
+    /// # Errors
+    /// Bytes that are not UTF-8, with their line and column.
+    pub fn from_bytes(name: impl Into<String>, bytes: Vec<u8>) -> Result<Source, Box<Diagnostic>> {
+        let name = name.into();
+        match String::from_utf8(bytes) {
+            Ok(text) => Ok(Source { name, text }),
+            Err(error) => {
+                let valid = error.utf8_error().valid_up_to();
+                let byte = error.as_bytes().get(valid).copied().unwrap_or_default();
+                let before = String::from_utf8_lossy(&error.as_bytes()[..valid]).into_owned();
+                let (line, column) = line_and_column(&before, before.len());
+                Err(Box::new(Diagnostic {
+                    line: Some(line),
+                    column: Some(column),
+                    found: Some(format!("the byte 0x{byte:02x}")),
+                    hint: Some("save the file as UTF-8".to_owned()),
+                    ..Diagnostic::of_file(name, "must be UTF-8 text")
+                }))
+            }
+        }
+    }
+
+    /// The text as a tree.
+    #[must_use]
+    pub fn tree(&self) -> Tree<'_> {
+        let json::Reading { root, error } = json::read(&self.text);
+        Tree { source: self, root, error }
+    }
+
+    /// Converts the text to `T`, the contents of a file of this format.
+    ///
+    /// # Errors
+    /// The first error of syntax or type, placed; another `format`, where that explains it.
+    pub fn parse<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
+        self.tree().convert(format)
+    }
+
+    /// Places faults in the text, in the text's order.
+    #[must_use]
+    pub fn diagnose(&self, faults: &Faults) -> Vec<Diagnostic> {
+        self.tree().diagnose(faults)
+    }
+}
+
+/// The text of an input file as a tree of values, each with its byte range.
+#[derive(Clone, Debug)]
+pub struct Tree<'s> {
+    source: &'s Source,
+    root: Node<'s>,
+    /// Why the text is not JSON.
+    error: Option<SyntaxError>,
+}
+
+impl<'s> Tree<'s> {
+    /// The value of the text.
+    #[must_use]
+    pub const fn root(&self) -> &Node<'s> {
+        &self.root
+    }
+
+    /// Converts the tree to `T`, the contents of a file of this format.
+    ///
+    /// # Errors
+    /// The first error of syntax or type, placed; another `format`, where that explains it.
+    pub fn convert<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
+        let (value, faults) = convert(&self.root);
+        let first = match (faults.first(), &self.error, value) {
+            (None, None, Some(value)) => return Ok(value),
+            (Some(first), ..) => match first.excess {
+                Some(offset) => self.not_json("trailing characters", offset, &first.fault.path),
+                None => self.other_format(format).unwrap_or_else(|| self.located(first)),
+            },
+            (None, Some(SyntaxError { message, offset, path }), _) => self.not_json(message, *offset, path),
+            // a value without faults comes from every whole text
+            (None, None, None) => Diagnostic::of_file(&self.source.name, "cannot be read"),
+        };
+        Err(Box::new(first))
+    }
+
+    /// What to say of a file whose `format` is another one.
+    fn other_format(&self, format: &str) -> Option<Diagnostic> {
+        let found = self.root.member("format")?.value.as_text()?;
+        let mut faults = Faults::default();
+        faults.word(found, &Place::root().key("format"), &[(format, ())]);
+        self.diagnose(&faults).pop()
+    }
+
+    fn not_json(&self, message: &str, offset: usize, path: &Path) -> Diagnostic {
+        let (line, column) = line_and_column(&self.source.text, offset);
+        let (expected, hint) = syntax(message, &self.source.text);
+        let is_deep = message == "recursion limit exceeded";
+        Diagnostic {
+            line: Some(line),
+            column: Some(column),
+            path: if is_deep { String::new() } else { path.to_string() },
+            hint,
+            ..Diagnostic::of_file(&self.source.name, expected)
+        }
+    }
+
+    fn located(&self, Located { fault, offset, .. }: &Located) -> Diagnostic {
+        self.diagnostic(fault, &fault.path, Some(*offset))
+    }
+
+    /// Places faults in the text, in the text's order.
+    #[must_use]
+    pub fn diagnose(&self, faults: &Faults) -> Vec<Diagnostic> {
+        sorted(faults.0.iter().map(|fault| self.place(fault, &fault.path)).collect())
+    }
+
+    /// Places faults of the document that the object at `compare[index]`, merged into this one, gave:
+    /// in that object where it has the path, in the rest of the document otherwise.
+    #[must_use]
+    pub fn diagnose_merged(&self, index: usize, faults: &Faults) -> Vec<Diagnostic> {
+        let entry = [Step::Key("compare".to_owned()), Step::Index(index)];
+        let place = |fault: &Fault| {
+            let inside = Path(entry.iter().chain(&fault.path.0).cloned().collect());
+            let is_own = self.root.find(&inside).is_whole;
+            let is_base = self.root.find(&fault.path).is_whole;
+            self.place(fault, if is_own || !is_base { &inside } else { &fault.path })
+        };
+        sorted(faults.0.iter().map(place).collect())
+    }
+
+    /// A fault at the byte where `path` leads, as far as the text has it.
+    fn place(&self, fault: &Fault, path: &Path) -> Diagnostic {
+        // of a text that is no JSON, such as a table, no place is known
+        let hit = self.error.is_none().then(|| self.root.find(path));
+        let offset = hit.map(|hit| match hit.node.second_of_a_key().filter(|_| fault.is_duplicate()) {
+            Some(second) => second.start,
+            None if fault.at_key => hit.key,
+            None => hit.node.start,
+        });
+        self.diagnostic(fault, path, offset)
+    }
+
+    fn diagnostic(&self, fault: &Fault, path: &Path, offset: Option<usize>) -> Diagnostic {
+        let position = offset.map(|offset| line_and_column(&self.source.text, offset));
+        Diagnostic {
+            file: self.source.name.clone(),
+            line: position.map(|(line, _)| line),
+            column: position.map(|(_, column)| column),
+            path: path.to_string(),
+            expected: fault.expected.clone(),
+            found: fault.found.clone(),
+            hint: fault.hint.clone(),
+        }
+    }
+
+    /// Keys given twice in the value at `key` and anywhere within it.
+    #[must_use]
+    pub fn duplicates_below(&self, key: &str) -> Faults {
+        let mut faults = Faults::default();
+        if let Some(member) = self.root.member(key) {
+            find_duplicates(&member.value, Path(vec![Step::Key(key.to_owned())]), &mut faults);
+        }
+        faults
+    }
+}
+
+fn sorted(mut placed: Vec<Diagnostic>) -> Vec<Diagnostic> {
+    placed.sort_by_key(|found| (found.line, found.column));
+    placed.dedup();
+    placed
+}
+
+fn find_duplicates(node: &Node<'_>, path: Path, faults: &mut Faults) {
+    let below = |step: Step| Path(path.0.iter().cloned().chain([step]).collect());
+    if let Some(second) = node.second_of_a_key() {
+        faults.add(Fault::duplicate(path.clone(), &second.key));
+    }
+    match &node.value {
+        Value::Object(members) => {
+            for member in members {
+                find_duplicates(&member.value, below(Step::Key(member.key.clone().into_owned())), faults);
+            }
+        }
+        Value::List(items) => {
+            for (index, item) in items.iter().enumerate() {
+                find_duplicates(item, below(Step::Index(index)), faults);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Line and column (in characters) of a byte offset, both counted from 1.
+fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
+    let mut end = offset.min(text.len());
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    let before = &text[..end];
+    let start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
+}

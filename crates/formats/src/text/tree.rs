@@ -1,0 +1,216 @@
+//! A JSON text as a tree of values that know where they stand in it.
+
+use std::borrow::Cow;
+
+use super::place::{Path, Step};
+
+/// One value of a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node<'t> {
+    /// Byte offset of its first byte.
+    pub start: usize,
+    /// Byte offset behind its last byte; 0 where the text breaks off within the value.
+    pub end: usize,
+    /// What it is.
+    pub value: Value<'t>,
+}
+
+/// What a value is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value<'t> {
+    /// `null`.
+    Null,
+    /// `true` or `false`.
+    Bool(bool),
+    /// A number without sign, point and exponent that an unsigned integer of 64 bits can hold.
+    Unsigned(u64),
+    /// A negative number without point and exponent that an integer of 64 bits can hold.
+    Signed(i64),
+    /// Any other number, correctly rounded to double precision; it is finite.
+    Float(f64),
+    /// A string, without its escapes.
+    Text(Cow<'t, str>),
+    /// The items of a list.
+    List(Vec<Node<'t>>),
+    /// The members of an object in the order of the text; a key may stand there twice.
+    Object(Vec<Member<'t>>),
+}
+
+/// One member of an object.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Member<'t> {
+    /// Byte offset of its key.
+    pub start: usize,
+    /// Its key, without escapes.
+    pub key: Cow<'t, str>,
+    /// Its value.
+    pub value: Node<'t>,
+}
+
+/// How far a path leads into a tree.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit<'n, 't> {
+    /// The last value on the path that the tree has.
+    pub node: &'n Node<'t>,
+    /// Byte offset of that value's key where it is a member, of the value itself otherwise.
+    pub key: usize,
+    /// Whether the tree has the whole path.
+    pub is_whole: bool,
+}
+
+impl<'t> Node<'t> {
+    /// Whether the text has the value from its first byte to its last.
+    #[must_use]
+    pub const fn is_whole(&self) -> bool {
+        self.end > self.start
+    }
+
+    /// The string, where the value is one.
+    #[must_use]
+    pub fn as_text(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The member of that name, where the value is an object that has it; the last of several.
+    #[must_use]
+    pub fn member(&self, key: &str) -> Option<&Member<'t>> {
+        match &self.value {
+            Value::Object(members) => members.iter().rfind(|member| member.key == key),
+            _ => None,
+        }
+    }
+
+    /// The items, where the value is a list; none where it is not.
+    #[must_use]
+    pub fn items(&self) -> &[Node<'t>] {
+        match &self.value {
+            Value::List(items) => items,
+            _ => &[],
+        }
+    }
+
+    /// The first member whose key stands before it in the same object, where the value is an object that has one.
+    #[must_use]
+    pub fn second_of_a_key(&self) -> Option<&Member<'t>> {
+        let Value::Object(members) = &self.value else { return None };
+        let mut seen = std::collections::BTreeSet::new();
+        members.iter().find(|member| !seen.insert(&member.key))
+    }
+
+    /// The same without a member.
+    #[must_use]
+    pub fn without(&self, key: &str) -> Node<'t> {
+        let mut node = self.clone();
+        if let Value::Object(members) = &mut node.value {
+            members.retain(|member| member.key != key);
+        }
+        node
+    }
+
+    /// Follows a path as far as the tree has it.
+    pub(super) fn find(&self, path: &Path) -> Hit<'_, 't> {
+        let mut hit = Hit { node: self, key: self.start, is_whole: true };
+        for step in &path.0 {
+            let next = match step {
+                Step::Key(key) => hit.node.member(key).map(|member| (&member.value, member.start)),
+                Step::Index(index) => hit.node.items().get(*index).map(|item| (item, item.start)),
+            };
+            match next {
+                Some((node, key)) => hit = Hit { node, key, is_whole: true },
+                None => return Hit { is_whole: false, ..hit },
+            }
+        }
+        hit
+    }
+
+    /// Merges changes into this value (RFC 7386): objects member by member, `null` removes a member, everything else
+    /// replaces the value. An object that is changed stands where its changes stand.
+    pub fn merge(&mut self, changes: Node<'t>) {
+        let Value::Object(changed) = changes.value else {
+            *self = changes;
+            return;
+        };
+        (self.start, self.end) = (changes.start, changes.end);
+        if !matches!(self.value, Value::Object(_)) {
+            self.value = Value::Object(Vec::new());
+        }
+        let Value::Object(members) = &mut self.value else { return };
+        for change in changed {
+            let old = members.iter().position(|member| member.key == change.key);
+            match (old, &change.value.value) {
+                (Some(old), Value::Null) => drop(members.remove(old)),
+                (None, Value::Null) => {}
+                (Some(old), _) => members[old].value.merge(change.value),
+                (None, _) => {
+                    // merged into nothing, so that a `null` below it is not taken over
+                    let (start, end) = (change.value.start, change.value.end);
+                    let mut value = Node { start, end, value: Value::Null };
+                    value.merge(change.value);
+                    members.push(Member { value, ..change });
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::json;
+    use super::*;
+
+    /// The value alone, as text.
+    fn plain(node: &Node<'_>) -> String {
+        match &node.value {
+            Value::Null => "null".to_owned(),
+            Value::Bool(value) => value.to_string(),
+            Value::Unsigned(value) => value.to_string(),
+            Value::Signed(value) => value.to_string(),
+            Value::Float(value) => format!("{value:?}"),
+            Value::Text(text) => format!("{text:?}"),
+            Value::List(items) => format!("[{}]", items.iter().map(plain).collect::<Vec<_>>().join(",")),
+            Value::Object(members) => {
+                let member = |member: &Member<'_>| format!("{:?}:{}", member.key, plain(&member.value));
+                format!("{{{}}}", members.iter().map(member).collect::<Vec<_>>().join(","))
+            }
+        }
+    }
+
+    #[test]
+    fn merge_follows_the_examples_of_rfc_7386() {
+        // appendix A of the RFC: original, patch, result
+        let cases = [
+            (r#"{"a":"b"}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"b":"c"}"#, r#"{"a":"b","b":"c"}"#),
+            (r#"{"a":"b"}"#, r#"{"a":null}"#, "{}"),
+            (r#"{"a":["b"]}"#, r#"{"a":"c"}"#, r#"{"a":"c"}"#),
+            (r#"{"a":{"b":"c"}}"#, r#"{"a":{"b":"d","c":null}}"#, r#"{"a":{"b":"d"}}"#),
+            (r#"{"a":[{"b":"c"}]}"#, r#"{"a":[1]}"#, r#"{"a":[1]}"#),
+            ("{}", r#"{"a":{"bb":{"ccc":null}}}"#, r#"{"a":{"bb":{}}}"#),
+            ("[1,2]", r#"{"a":"b","c":null}"#, r#"{"a":"b"}"#),
+        ];
+        for (original, patch, result) in cases {
+            let mut merged = json::read(original).root;
+            merged.merge(json::read(patch).root);
+            assert_eq!(plain(&merged), result, "{patch}");
+        }
+    }
+
+    #[test]
+    fn every_value_knows_its_bytes() {
+        let text = "{\"a\": [1, \"x\\n\"],\n \"b\": {\"c\": null}}";
+        let root = json::read(text).root;
+        let cut = |path: &[Step]| {
+            let hit = root.find(&Path(path.to_vec()));
+            assert!(hit.is_whole);
+            &text[hit.node.start..hit.node.end]
+        };
+        let key = |key: &str| Step::Key(key.to_owned());
+        assert_eq!(cut(&[]), text);
+        assert_eq!(cut(&[key("a"), Step::Index(1)]), "\"x\\n\"");
+        assert_eq!(cut(&[key("b"), key("c")]), "null");
+        assert!(!root.find(&Path(vec![key("b"), key("d")])).is_whole);
+    }
+}

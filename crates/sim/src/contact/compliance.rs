@@ -1,0 +1,235 @@
+//! Compliance of the rails without mass where the wheels are, with as few evaluations as the accuracy asks.
+//!
+//! For each structure, in this order: 1. along a path that was set for the steps to come G is interpolated
+//! ([`CompliancePath`]); 2. where every wheel has moved by less than a distance from the place of the last
+//! evaluation, G is extrapolated by its slope, G + dG/dx dx; 3. else G is evaluated. Both distances are zero until an
+//! accuracy is set.
+
+use splines::{Influence, Probe};
+
+use super::matrices::RailMatrices;
+use super::path::CompliancePath;
+use super::probes::{Entry, Probes};
+use crate::Error;
+use crate::mechanics::assembly::Mechanics;
+
+/// Distance a wheel may move, in radii per unit of step tolerance, before the compliance is evaluated again instead of
+/// extrapolated by its slope.
+const NEAR: f64 = 1e-3;
+
+/// The compliance between all elements.
+#[derive(Clone)]
+pub(crate) struct RailCompliance {
+    matrices: RailMatrices,
+    providers: Vec<Provider>,
+    /// Distance from the last evaluation, in radii of a wheel, over which G is extrapolated.
+    near: f64,
+    /// Distance from the path over which G is extrapolated.
+    reach: f64,
+}
+
+/// What is known of the compliance of one structure.
+#[derive(Clone)]
+struct Provider {
+    influence: Influence,
+    /// Where `influence` was evaluated, and how far each wheel has moved from there.
+    probes: Vec<Probe>,
+    moved: Vec<f64>,
+    path: Option<CompliancePath>,
+    /// Whether the matrices are those of the path.
+    is_on_path: bool,
+    is_evaluated: bool,
+}
+
+impl RailCompliance {
+    pub fn new(mechanics: &Mechanics, probes: &Probes, elements: usize) -> Self {
+        let own = std::iter::zip(mechanics.foundations, &probes.entries);
+        let providers = own.map(|(foundation, entries)| Provider {
+            influence: Influence::zeros(entries.len()),
+            probes: entries.iter().map(|entry| entry.probe).collect(),
+            moved: vec![0.0; entries.len()],
+            path: CompliancePath::new(mechanics, foundation, entries),
+            is_on_path: false,
+            is_evaluated: false,
+        });
+        RailCompliance {
+            matrices: RailMatrices::zeros(elements, probes.tangential.len()),
+            providers: providers.collect(),
+            near: 0.0,
+            reach: 0.0,
+        }
+    }
+
+    /// G and its slopes where the wheels were at the last update.
+    pub fn matrices(&self) -> &RailMatrices {
+        &self.matrices
+    }
+
+    /// Puts other values in place of G; its slopes are left.
+    pub fn set_value(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>, elements: usize) {
+        for (row, values) in self.matrices.value.chunks_exact_mut(elements).zip(rows) {
+            row.copy_from_slice(&values.as_ref()[..elements]);
+        }
+    }
+
+    /// Lets G be extrapolated as far as steps of the relative error `tolerance` allow; `radius` is that of the smallest
+    /// wheel.
+    pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
+        self.near = NEAR * tolerance;
+        self.reach = (NEAR * tolerance).sqrt() * radius;
+    }
+
+    /// Whether paths are of use.
+    pub fn wants_paths(&self) -> bool {
+        self.reach != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
+    }
+
+    /// Brings G to the rail coordinates `x` of all wheels.
+    ///
+    /// # Errors
+    /// What the compliance of a structure refuses.
+    pub fn update(&mut self, mechanics: &Mechanics, probes: &Probes, x: &[f64]) -> Result<(), Error> {
+        let m = probes.slots.len();
+        let RailCompliance { matrices, providers, near, reach } = self;
+        for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
+            let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
+            if let Some(path) = &mut provider.path
+                && path.follow(x, *reach)
+            {
+                path.put(m, matrices);
+                provider.is_on_path = true;
+                continue;
+            }
+            let (farthest, has_changed) = provider.move_to(mechanics, entries, x);
+            let allowed = if compliance.is_symmetric() { *near } else { 0.0 };
+            if provider.is_evaluated && farthest <= allowed {
+                if has_changed {
+                    provider.extrapolate(entries, m, matrices);
+                }
+                continue;
+            }
+            provider.moved.fill(0.0);
+            for (probe, entry) in provider.probes.iter_mut().zip(entries) {
+                probe.x = x[entry.wheel];
+            }
+            compliance
+                .fill(&provider.probes, &mut provider.influence)
+                .map_err(|source| Error::Compliance { structure: s, source })?;
+            provider.is_evaluated = true;
+            if probes.is_direct[s] {
+                transpose(provider.influence.value.as_slice(), &mut matrices.value, m);
+                transpose(provider.influence.slope.as_slice(), &mut matrices.slope, m);
+                continue;
+            }
+            provider.extrapolate(entries, m, matrices);
+        }
+        Ok(())
+    }
+
+    /// Sets the paths of all wheels from `from`, to `beyond` or to `to`, so that no rail element ends before it. Paths
+    /// that lead to `to` already stay.
+    pub fn set_paths(&mut self, mechanics: &Mechanics, probes: &Probes, [from, to, beyond]: [&[f64]; 3]) {
+        let reach = self.reach;
+        for (s, (provider, entries)) in self.providers.iter_mut().zip(&probes.entries).enumerate() {
+            let foundation = &mechanics.foundations[s];
+            let Some(path) = &mut provider.path else { continue };
+            if path.leads_to(from, reach) && path.leads_to(to, reach) {
+                continue;
+            }
+            let is_free = |start: &[f64], end: &[f64]| {
+                !entries.iter().any(|Entry { wheel, probe, .. }| {
+                    foundation.breaks_between(probe.rail, start[*wheel], end[*wheel]).next().is_some()
+                })
+            };
+            let inner = |end: &[f64]| -> [Vec<f64>; 2] {
+                let of = |k: usize| (0..from.len()).map(|w| within([from[w], end[w]], reach)[k]).collect();
+                [of(0), of(1)]
+            };
+            // What the rail refuses here, it refuses the step itself.
+            let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
+            let is_set = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
+                let goes_on = is_free(path.end(), &ends[0]);
+                path.set(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), reach, goes_on).is_ok()
+            });
+            if !is_set {
+                path.clear();
+            }
+        }
+    }
+
+    /// Drops all paths.
+    pub fn clear_paths(&mut self) {
+        self.providers
+            .iter_mut()
+            .filter_map(|provider| provider.path.as_mut())
+            .for_each(CompliancePath::clear);
+    }
+}
+
+impl Provider {
+    /// Notes how far the wheels at `x` are from the last evaluation; returns the largest distance in radii, and whether
+    /// the matrices are no longer those of `x`.
+    fn move_to(&mut self, mechanics: &Mechanics, entries: &[Entry], x: &[f64]) -> (f64, bool) {
+        let (mut farthest, mut has_changed) = (0.0_f64, std::mem::take(&mut self.is_on_path));
+        for ((moved, probe), entry) in self.moved.iter_mut().zip(&self.probes).zip(entries) {
+            let now = x[entry.wheel] - probe.x;
+            has_changed |= now != *moved;
+            *moved = now;
+            let radius = mechanics.scene.wheels[mechanics.wheels[entry.wheel].kind].radius;
+            farthest = farthest.max(now.abs() / radius);
+        }
+        (farthest, has_changed)
+    }
+
+    /// Sums the compliance over the elements, with what the wheels have moved since it was evaluated: G + dG/dx dx.
+    fn extrapolate(&self, entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
+        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
+        for row in entries {
+            sums[row.element * m..(row.element + 1) * m].fill(0.0);
+            rates[row.element * m..(row.element + 1) * m].fill(0.0);
+            if let Some(own) = row.tangential {
+                tangential[own * m..(own + 1) * m].fill(0.0);
+            }
+        }
+        let (count, moved) = (entries.len(), &self.moved);
+        let (values, slopes) = (self.influence.value.as_slice(), self.influence.slope.as_slice());
+        for (i, row) in entries.iter().enumerate() {
+            let span = row.element * m..(row.element + 1) * m;
+            let (sums, rates) = (&mut sums[span.clone()], &mut rates[span]);
+            // The values are symmetric; their slope by the column's place is that of the mirrored entry.
+            let mirrored = &slopes[i * count..(i + 1) * count];
+            for (j, column) in entries.iter().enumerate() {
+                let weight = row.weight * column.weight;
+                let (value, slope) = (values[i + j * count], slopes[i + j * count]);
+                sums[column.element] += weight * (value + slope * moved[i] + mirrored[j] * moved[j]);
+                rates[column.element] += weight * slope;
+                if let Some(own) = row.tangential {
+                    tangential[own * m + column.element] += weight * slope;
+                }
+            }
+        }
+    }
+}
+
+/// A stretch of the rail without its ends, which may lie at a break: a quarter of `reach` less, or of itself.
+fn within([from, to]: [f64; 2], reach: f64) -> [f64; 2] {
+    let off = 0.25 * (to - from).clamp(-reach, reach);
+    [from + off, to - off]
+}
+
+/// Copies the first rows and columns of a column-major square matrix into a row-major one of `m` columns, in tiles
+/// that stay in the cache.
+fn transpose(from: &[f64], to: &mut [f64], m: usize) {
+    const TILE: usize = 16;
+    let size = from.len().isqrt();
+    for first in (0..size).step_by(TILE) {
+        let rows = first..(first + TILE).min(size);
+        for left in (0..size).step_by(TILE) {
+            for i in rows.clone() {
+                for j in left..(left + TILE).min(size) {
+                    to[i * m + j] = from[j * size + i];
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! The kinds of force elements: one line each.
+
+use std::ops::Deref;
+
+use super::brake::BrakeForce;
+use super::drive::DriveForce;
+use super::element::Element;
+use super::flange::FlangeContact;
+use super::rope::RopeForce;
+use super::stop::StopForce;
+use super::traction::Traction;
+use super::vertical::Vertical;
+use crate::mechanics::assembly::Mechanics;
+
+/// Makes the enum of all kinds, the list of all elements of a scene, and the one match that finds the answers.
+macro_rules! force_elements {
+    ($($(#[$doc:meta])* $kind:ident($element:ty),)+) => {
+        /// One unknown scalar force.
+        pub(crate) enum ForceElement<'a> {
+            $($(#[$doc])* $kind($element),)+
+        }
+
+        impl<'a> ForceElement<'a> {
+            /// All elements of a scene, kind by kind.
+            pub fn all(mechanics: &Mechanics<'a>) -> Vec<ForceElement<'a>> {
+                let mut all = Vec::new();
+                $(all.extend(<$element>::all(mechanics).into_iter().map(ForceElement::$kind));)+
+                all
+            }
+        }
+
+        impl<'a> Deref for ForceElement<'a> {
+            type Target = dyn Element + 'a;
+
+            fn deref(&self) -> &Self::Target {
+                match self {
+                    $(ForceElement::$kind(element) => element,)+
+                }
+            }
+        }
+    };
+}
+
+// Vertical contacts stand first: a vertical contact and its wheel group have one index.
+force_elements! {
+    /// A wheel on its rail.
+    Vertical(Vertical<'a>),
+    /// The flange of a wheel.
+    Flange(FlangeContact<'a>),
+    /// Friction below a wheel that spins.
+    Traction(Traction<'a>),
+    /// A drive.
+    Drive(DriveForce<'a>),
+    /// A braked contact.
+    Brake(BrakeForce<'a>),
+    /// A rope.
+    Rope(RopeForce<'a>),
+    /// A stop.
+    Stop(StopForce<'a>),
+}

@@ -1,0 +1,406 @@
+//! The forces of all elements at one instant or one stage of a step: F = law(p, r), p = e - W F, r = r_0 - Y F.
+//!
+//! W holds the compliance G of the rails and, inside a step, the mobility of the bodies; Y is the mobility that the
+//! rates feel. Which elements are active is given; the caller checks that they push and that the others stay open.
+//!
+//! Newton's method on rho(F) = F - law(e - W F, r_0 - Y F), with the Jacobian I + law_p W + law_r Y less the slopes of
+//! the laws by other forces, over the elements whose laws act; those that do not have the row F_i = 0. Steps are halved
+//! while the residual grows. It ends where the change of the forces or their residual is rounding, or the residual is
+//! within the slack that the caller allows. Linear vertical contacts alone are one linear system.
+
+use super::element::{Coupling, Law, Local, Query};
+use super::system::System;
+use crate::numerics::dense::{along, factor_general, solve_factored, solve_general, solve_spd};
+
+/// Relative change of the forces at which Newton's method ends.
+const TOLERANCE: f64 = 1e-13;
+const ITERATIONS: usize = 60;
+/// Fraction of Newton's step below which a smaller one is not tried. A brake on a rail that complies grips within 1e-6
+/// of the forces on either side, and less in short steps.
+const SHORTEST: f64 = 1e-12;
+/// A rate at which every law along the rail gives its limit.
+const SATURATED: f64 = 1e150;
+
+/// How an element enters the problem.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum RowKind {
+    /// By its law.
+    Law,
+    /// By its law, the rate being that of the penetration: its row of Y is the one of W times this number.
+    Memory(f64),
+    /// Its force is known already.
+    Given,
+    /// Its force keeps the displacement of its rail at this value, as far as its law allows.
+    Keeps(f64),
+}
+
+/// The effect of all forces on penetrations and rates; matrices over the elements, row-major.
+pub(crate) struct Effects {
+    pub w: Vec<f64>,
+    pub y: Vec<f64>,
+    /// Approach e and rate r_0 without forces.
+    pub approach: Vec<f64>,
+    pub rate: Vec<f64>,
+    pub kind: Vec<RowKind>,
+}
+
+/// Residuals of the laws, and their slopes.
+struct Residuals {
+    /// Penetration and rate of each element under the forces at hand; not kept up for idle elements.
+    reached: Vec<[f64; 2]>,
+    /// F - law(F) of every element; then Newton's change.
+    value: Vec<f64>,
+    /// Elements whose law acts, and the slopes of these laws.
+    acting: Vec<usize>,
+    slopes: Vec<Law>,
+    couplings: Vec<Coupling>,
+    /// Largest force of what does not act.
+    idle: f64,
+}
+
+/// LU factors of a Jacobian over the elements that acted when it was formed.
+struct Factors {
+    elements: Vec<usize>,
+    jacobian: Vec<f64>,
+    pivots: Vec<usize>,
+}
+
+/// One problem of the forces, solved again and again without allocation.
+pub(crate) struct Problem {
+    pub effects: Effects,
+    /// Elements that are taken to have no force whatever their law says: their columns of the mobility are not filled.
+    pub idle: Vec<bool>,
+    /// Relative residual of the forces that may be left; rounding alone where it is zero.
+    pub slack: f64,
+    residuals: Residuals,
+    factors: Factors,
+    /// Scratch: the matrix and the unknowns of the linear problem, forces and changes of Newton's method.
+    matrix: Vec<f64>,
+    unknown: Vec<usize>,
+    start: Vec<f64>,
+    newton: Vec<f64>,
+    change: Vec<f64>,
+}
+
+impl Effects {
+    /// Penetration of element `i` under `force`.
+    pub fn penetration(&self, i: usize, force: &[f64]) -> f64 {
+        self.approach[i] - along(&self.w, i, force)
+    }
+
+    fn rate_under(&self, i: usize, force: &[f64]) -> f64 {
+        self.rate[i] - along(&self.y, i, force)
+    }
+
+    /// Force of element `i` that keeps the displacement of its rail, beside the others of `force`.
+    fn keeping(&self, i: usize, force: &[f64]) -> Option<f64> {
+        let RowKind::Keeps(displacement) = self.kind[i] else { return None };
+        let own = self.w[i * force.len() + i];
+        Some(force[i] + (displacement - along(&self.w, i, force)) / own)
+    }
+}
+
+impl Residuals {
+    fn clear(&mut self) {
+        self.acting.clear();
+        self.slopes.clear();
+        self.couplings.clear();
+        self.value.fill(0.0);
+        self.idle = 0.0;
+    }
+
+    fn set_idle(&mut self, i: usize, force: f64) {
+        self.value[i] = force;
+        self.idle = self.idle.max(force.abs());
+    }
+
+    fn set_acting(&mut self, i: usize, force: f64, law: Law) {
+        self.value[i] = force - law.force;
+        self.acting.push(i);
+        self.slopes.push(law);
+    }
+}
+
+impl Problem {
+    pub fn new(elements: usize) -> Self {
+        let m = elements;
+        Problem {
+            effects: Effects {
+                w: vec![0.0; m * m],
+                y: vec![0.0; m * m],
+                approach: vec![0.0; m],
+                rate: vec![0.0; m],
+                kind: vec![RowKind::Law; m],
+            },
+            idle: vec![false; m],
+            slack: 0.0,
+            residuals: Residuals {
+                reached: vec![[0.0; 2]; m],
+                value: vec![0.0; m],
+                acting: Vec::with_capacity(m),
+                slopes: Vec::with_capacity(m),
+                couplings: Vec::new(),
+                idle: 0.0,
+            },
+            factors: Factors {
+                elements: Vec::with_capacity(m),
+                jacobian: vec![0.0; m * m],
+                pivots: vec![0; m],
+            },
+            matrix: vec![0.0; m * m],
+            unknown: Vec::with_capacity(m),
+            start: vec![0.0; m],
+            newton: vec![0.0; m],
+            change: vec![0.0; m],
+        }
+    }
+
+    /// Solves for the forces of the `active` elements; `force` holds a first guess. Returns false where Newton's method
+    /// does not converge.
+    pub fn solve(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
+        if system.traits.has_linear_laws && system.traits.is_vertical {
+            return self.solve_linear(system, local, active, force);
+        }
+        self.solve_newton(system, local, active, force)
+    }
+
+    /// One linear system: F/k + W F + (c/k) Y F = e + (c/k) r, k and c times wheels and fraction.
+    fn solve_linear(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
+        let m = force.len();
+        let Effects { w, y, approach, rate, kind } = &self.effects;
+        self.factors.elements.clear();
+        self.unknown.clear();
+        self.unknown.extend((0..m).filter(|&i| active[i] && kind[i] != RowKind::Given));
+        let count = self.unknown.len();
+        for (row, &i) in self.unknown.iter().enumerate() {
+            let law = system.law(i);
+            let ratio = law.damping / law.stiffness;
+            // A damper between wheel and rail has Y = W/step: divide its row by 1 + ratio/step.
+            let (scale, by_rate) = match kind[i] {
+                RowKind::Memory(per_step) => (1.0 / (1.0 + ratio * per_step), 0.0),
+                _ => (1.0, ratio),
+            };
+            let mut rhs = (approach[i] + ratio * rate[i]) * scale;
+            for (column, &j) in self.unknown.iter().enumerate() {
+                self.matrix[row * count + column] = w[i * m + j] + by_rate * y[i * m + j];
+            }
+            for j in (0..m).filter(|&j| kind[j] == RowKind::Given) {
+                rhs -= (w[i * m + j] + by_rate * y[i * m + j]) * force[j];
+            }
+            let wheels = system.mechanics.groups[i].count();
+            self.matrix[row * count + row] += scale / (law.stiffness * wheels * local[i].fraction[0]);
+            self.residuals.value[row] = rhs;
+        }
+        let (matrix, rhs) = (&mut self.matrix[..count * count], &mut self.residuals.value[..count]);
+        let is_solved =
+            if system.traits.is_symmetric { solve_spd(matrix, rhs) } else { solve_general(matrix, rhs) };
+        for i in (0..m).filter(|&i| kind[i] != RowKind::Given) {
+            force[i] = 0.0;
+        }
+        for (row, &i) in self.unknown.iter().enumerate() {
+            force[i] = self.residuals.value[row];
+        }
+        is_solved
+    }
+
+    /// Newton's method with step halving on F - law(F) = 0.
+    fn solve_newton(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
+        for i in (0..system.verticals()).filter(|&i| !active[i]) {
+            force[i] = 0.0;
+        }
+        let mut size = self.evaluate(system, local, active, force);
+        for _ in 0..ITERATIONS {
+            if !self.factor() {
+                return false;
+            }
+            self.take_newton_step();
+            let scale = largest(force);
+            let change = largest(&self.residuals.value);
+            self.start.copy_from_slice(force);
+            self.newton.copy_from_slice(&self.residuals.value);
+            let mut damping = 1.0;
+            loop {
+                for (f, (start, newton)) in force.iter_mut().zip(self.start.iter().zip(&self.newton)) {
+                    *f = start - damping * newton;
+                }
+                let now = self.evaluate(system, local, active, force);
+                if now <= size || now <= TOLERANCE * scale || damping < SHORTEST {
+                    size = now;
+                    break;
+                }
+                damping *= 0.5;
+            }
+            let done = TOLERANCE * scale.max(f64::MIN_POSITIVE);
+            if change <= done || size <= (0.1 * done).max(self.slack * scale) {
+                return true;
+            }
+        }
+        // The residual may stall at rounding; accept it where it is small beside the forces.
+        size <= 1e-9 * largest(force)
+    }
+
+    /// Residual of the laws under `force`, by W and Y; returns its largest entry.
+    fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
+        for i in 0..force.len() {
+            if !self.idle[i] || system.fixed[i].is_followed {
+                self.residuals.reached[i] =
+                    [self.effects.penetration(i, force), self.effects.rate_under(i, force)];
+            }
+        }
+        self.evaluate_laws(system, local, active, force);
+        largest(&self.residuals.value)
+    }
+
+    /// Fills the residuals F - law(p, r) under `force` at the penetrations and rates reached, the elements that act,
+    /// and the slopes of their laws. What does not act has its force for a residual.
+    fn evaluate_laws(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) {
+        let Problem { effects, idle, residuals, .. } = self;
+        residuals.clear();
+        let m = force.len();
+        for (i, element) in system.elements.iter().enumerate() {
+            if effects.kind[i] == RowKind::Given {
+                continue;
+            }
+            let mut query = Query {
+                index: i,
+                rate: residuals.reached[i][1],
+                reached: &residuals.reached,
+                force,
+                local: &local[i],
+                is_active: active[i] && !idle[i],
+                fall: effects.y[i * m + i],
+            };
+            let keeping = effects.keeping(i, force);
+            if let Some(wanted) = keeping {
+                // The force that keeps the rail where it is, within what the law gives at the largest rate.
+                (query.rate, query.fall) = (SATURATED.copysign(wanted), 0.0);
+            }
+            let known = residuals.couplings.len();
+            let Some(mut law) = element.law(&query, &mut residuals.couplings) else {
+                residuals.set_idle(i, force[i]);
+                continue;
+            };
+            if let Some(wanted) = keeping {
+                law = Law { force: law.force, ..Law::default() };
+                if wanted.abs() <= law.force * wanted.signum() {
+                    // The row is W F/W_ii = displacement/W_ii: the identity of the Jacobian and the diagonal of W/W_ii
+                    // are one.
+                    residuals.couplings.truncate(known);
+                    residuals.couplings.push(Coupling { element: i, by: i, slope: 1.0 });
+                    law = Law { force: wanted, by_penetration: 1.0 / effects.w[i * m + i], ..Law::default() };
+                }
+            }
+            residuals.set_acting(i, force[i], law);
+        }
+    }
+
+    /// Factors the Jacobian of the laws that act: I + law_p W + law_r Y, less what the laws take from other forces.
+    /// Returns false where it is singular.
+    fn factor(&mut self) -> bool {
+        let Problem { effects: Effects { w, y, .. }, residuals, factors, .. } = self;
+        let Factors { elements, jacobian, pivots } = factors;
+        let (m, count) = (residuals.value.len(), residuals.acting.len());
+        for (row, &i) in residuals.acting.iter().enumerate() {
+            let line = &mut jacobian[row * count..(row + 1) * count];
+            let (own_w, own_y) = (&w[i * m..(i + 1) * m], &y[i * m..(i + 1) * m]);
+            let Law { by_penetration, by_rate, by_other, .. } = residuals.slopes[row];
+            for (entry, &j) in line.iter_mut().zip(&residuals.acting) {
+                *entry = by_penetration * own_w[j] + by_rate * own_y[j];
+            }
+            if let Some((other, slope)) = by_other {
+                let w = &w[other * m..(other + 1) * m];
+                line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry += slope * w[j]);
+            }
+            line[row] += 1.0;
+        }
+        elements.clear();
+        elements.extend_from_slice(&residuals.acting);
+        for &Coupling { element, by, slope } in &residuals.couplings {
+            let place = |of| residuals.acting.iter().position(|own| *own == of);
+            if let (Some(row), Some(column)) = (place(element), place(by)) {
+                jacobian[row * count + column] -= slope;
+            }
+        }
+        factor_general(&mut jacobian[..count * count], &mut pivots[..count])
+    }
+
+    /// Puts Newton's change of the forces in place of their residual, by the factors of the Jacobian. What does not
+    /// act has the rows of the identity.
+    fn take_newton_step(&mut self) {
+        let Problem { effects: Effects { w, y, .. }, residuals, factors, change, .. } = self;
+        let (m, count) = (residuals.value.len(), factors.elements.len());
+        let is_idle = residuals.idle > 0.0;
+        for (row, &i) in factors.elements.iter().enumerate() {
+            change[row] = residuals.value[i];
+            if is_idle {
+                let Law { by_penetration, by_rate, .. } = residuals.slopes[row];
+                for j in (0..m).filter(|j| !factors.elements.contains(j)) {
+                    let entry = by_penetration * w[i * m + j] + by_rate * y[i * m + j];
+                    change[row] -= entry * residuals.value[j];
+                }
+            }
+        }
+        let (jacobian, pivots) = (&factors.jacobian[..count * count], &factors.pivots[..count]);
+        solve_factored(jacobian, pivots, &mut change[..count]);
+        for (row, &i) in factors.elements.iter().enumerate() {
+            residuals.value[i] = change[row];
+        }
+    }
+
+    /// Whether the factors of a Jacobian are there.
+    pub fn is_factored(&self) -> bool {
+        !self.factors.elements.is_empty()
+    }
+
+    /// Newton's change at penetrations and rates that the caller found, by the factors of an earlier Jacobian; `None`
+    /// where other laws act than those whose slopes are factored.
+    pub fn corrections(
+        &mut self,
+        system: &System,
+        local: &[Local],
+        active: &[bool],
+        force: &[f64],
+    ) -> Option<&[f64]> {
+        self.evaluate_laws(system, local, active, force);
+        if self.residuals.acting != self.factors.elements {
+            return None;
+        }
+        self.take_newton_step();
+        Some(&self.residuals.value)
+    }
+
+    /// Force of element `i` at a penetration and a rate that are given.
+    pub fn force_at(
+        &mut self,
+        system: &System,
+        local: &[Local],
+        i: usize,
+        reached: [f64; 2],
+        force: &[f64],
+    ) -> f64 {
+        self.residuals.reached[i] = reached;
+        let query = Query {
+            index: i,
+            rate: reached[1],
+            reached: &self.residuals.reached,
+            force,
+            local: &local[i],
+            is_active: true,
+            fall: 0.0,
+        };
+        let known = self.residuals.couplings.len();
+        let law = system.elements[i].law(&query, &mut self.residuals.couplings);
+        self.residuals.couplings.truncate(known);
+        law.map_or(0.0, |law| law.force)
+    }
+
+    /// Takes the penetration and the rate that element `i` has reached.
+    pub fn set_reached(&mut self, i: usize, reached: [f64; 2]) {
+        self.residuals.reached[i] = reached;
+    }
+}
+
+/// Largest absolute entry.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0_f64, |max, value| max.max(value.abs()))
+}

@@ -1,0 +1,180 @@
+//! Motion of the degrees of freedom without forces of elements, and the mobility that answers to these.
+
+use nalgebra::{DMatrix, DVector, SVector};
+
+use super::system::System;
+use crate::Error;
+use crate::mechanics::mobility::Mobility;
+use crate::mechanics::state::{Known, State};
+
+/// Loads, mass and mobility at one state, and the motion that they give.
+pub(crate) struct FreeMotion<'a> {
+    /// Accelerations a_0 = Z (f - C v - K q); in a stage also the displacements and speeds that they lead to.
+    pub a: DVector<f64>,
+    pub q: DVector<f64>,
+    pub v: DVector<f64>,
+    /// Forces that do not depend on the elements.
+    load: DVector<f64>,
+    /// Z = (M + g C + g^2 K)^-1 of a stage, and M^-1.
+    stage: Mobility<'a>,
+    inverse: Mobility<'a>,
+    /// Mass of the bodies, carried ones among them, and scratch for it.
+    mass: DMatrix<f64>,
+    columns: Vec<SVector<f64, 6>>,
+}
+
+impl<'a> FreeMotion<'a> {
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn new(system: &'a System<'a>) -> Result<Self, Error> {
+        let (n, bodies) = (system.mechanics.dofs, system.mechanics.body_dofs());
+        Ok(FreeMotion {
+            a: DVector::zeros(n),
+            q: DVector::zeros(n),
+            v: DVector::zeros(n),
+            load: DVector::zeros(n),
+            stage: Mobility::new(&system.mechanics)?,
+            inverse: Mobility::new(&system.mechanics)?,
+            mass: DMatrix::zeros(bodies, bodies),
+            columns: Vec::new(),
+        })
+    }
+
+    /// Sets the coefficient g of the stage's mobility.
+    ///
+    /// # Errors
+    /// A structure that is not positive definite.
+    pub fn set_step(&mut self, system: &System, g: f64) -> Result<(), Error> {
+        self.stage.set_step(&system.mechanics, g)
+    }
+
+    /// Z of the stage.
+    pub fn mobility(&self) -> &Mobility<'a> {
+        &self.stage
+    }
+
+    /// M^-1.
+    pub fn inverse(&self) -> &Mobility<'a> {
+        &self.inverse
+    }
+
+    /// Motion of a stage of the coefficient `g` about `at`: A = Z (f - C v* - K (q* + g v*)), V = v* + g A, Q = q* +
+    /// g V.
+    ///
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn move_in_stage(&mut self, system: &System, g: f64, known: &Known, at: &State) -> Result<(), Error> {
+        self.fill_load(system, at.t);
+        self.fill_mass(system, at, true)?;
+        if system.mechanics.has_structures() {
+            self.q.copy_from(&known.q);
+            self.q.axpy(g, &known.v, 1.0);
+            for block in &system.mechanics.blocks {
+                block.resist(known.v.as_slice(), self.q.as_slice(), self.load.as_mut_slice());
+            }
+        }
+        self.stage.apply(self.load.as_slice(), self.a.as_mut_slice());
+        self.follow(g, known);
+        Ok(())
+    }
+
+    /// V = v* + g A and Q = q* + g V by the accelerations at hand.
+    fn follow(&mut self, g: f64, known: &Known) {
+        for k in 0..self.a.len() {
+            self.v[k] = known.v[k] + g * self.a[k];
+            self.q[k] = known.q[k] + g * self.v[k];
+        }
+    }
+
+    /// Adds to the accelerations of `at` what they lack for its forces, Z (f - M a - B^T F), F those of the elements
+    /// `acting` with the rows `force_row`; the motion of the stage follows. Of bodies alone.
+    pub fn improve<'r>(
+        &mut self,
+        system: &System,
+        g: f64,
+        known: &Known,
+        at: &State,
+        acting: &[usize],
+        force_row: impl Fn(usize) -> &'r [f64],
+    ) {
+        self.fill_load(system, at.t);
+        if let Some(constant) = system.mechanics.blocks[0].body_mass() {
+            self.mass.copy_from(constant);
+            if !system.mechanics.carried.is_empty() {
+                let sums = (&mut self.mass, &mut self.load);
+                let state = (at.t, &at.q, &at.v);
+                system.mechanics.carried.add(&system.mechanics.kinematics, state, sums, &mut self.columns);
+            }
+            for (column, a) in self.mass.column_iter().zip(at.a.iter()) {
+                self.load.iter_mut().zip(column.iter()).for_each(|(load, mass)| *load -= mass * a);
+            }
+        }
+        for &j in acting {
+            let force = at.force[j];
+            self.load.iter_mut().zip(force_row(j)).for_each(|(load, share)| *load -= share * force);
+        }
+        self.stage.apply(self.load.as_slice(), self.a.as_mut_slice());
+        for (a, own) in self.a.iter_mut().zip(at.a.iter()) {
+            *a += own;
+        }
+        self.follow(g, known);
+    }
+
+    /// Accelerations of `at` by all forces: M^-1 (f - C v - K q - B^T F), with the rows B of all elements.
+    ///
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn accelerate(&mut self, system: &System, at: &mut State, rows: &[f64]) -> Result<(), Error> {
+        self.fill_load(system, at.t);
+        self.fill_mass(system, at, false)?;
+        for block in &system.mechanics.blocks {
+            block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
+        }
+        for (row, force) in rows.chunks_exact(self.load.len().max(1)).zip(&at.force) {
+            for (load, entry) in self.load.iter_mut().zip(row) {
+                *load -= entry * force;
+            }
+        }
+        self.inverse.apply(self.load.as_slice(), at.a.as_mut_slice());
+        Ok(())
+    }
+
+    /// M^-1 times the forces at `t` that do not depend on the elements.
+    pub fn accelerations(&mut self, system: &System, t: f64) -> &DVector<f64> {
+        self.fill_load(system, t);
+        self.inverse.apply(self.load.as_slice(), self.a.as_mut_slice());
+        &self.a
+    }
+
+    /// Weights, loads, and what a prescribed x does to the other degrees of freedom.
+    fn fill_load(&mut self, system: &System, t: f64) {
+        self.load.copy_from(&system.mechanics.gravity);
+        for load in &system.scene.actuators.loads {
+            if let Some(number) = system.mechanics.loaded(load) {
+                self.load[number] += load.value.at(t);
+            }
+        }
+        for (b, body) in system.scene.bodies.iter().enumerate() {
+            let Some(profile) = &body.motion else { continue };
+            let acceleration = profile.at(t).a;
+            if acceleration == 0.0 {
+                continue;
+            }
+            for &(number, inertia) in system.mechanics.kinematics.travel_inertia(b) {
+                self.load[number] -= inertia * acceleration;
+            }
+        }
+    }
+
+    /// Inertia of carried bodies at `at`, and the forces it adds to the load; the mobility follows.
+    fn fill_mass(&mut self, system: &System, at: &State, in_stage: bool) -> Result<(), Error> {
+        let mechanics = &system.mechanics;
+        let constant = mechanics.blocks[0].body_mass();
+        let Some(constant) = constant.filter(|_| !mechanics.carried.is_empty()) else { return Ok(()) };
+        self.mass.copy_from(constant);
+        let sums = (&mut self.mass, &mut self.load);
+        mechanics.carried.add(&mechanics.kinematics, (at.t, &at.q, &at.v), sums, &mut self.columns);
+        let mobility = if in_stage { &mut self.stage } else { &mut self.inverse };
+        mobility.set_mass(&self.mass)
+    }
+}

@@ -1,0 +1,347 @@
+//! The force elements where the wheels are now: places, compliance of the rails, rows.
+//!
+//! An update to (t, q) follows this order, since each part reads those before it:
+//! 1. places: prescribed travel and the rail coordinates of all wheels; heights stay those of the last solution;
+//! 2. compliance: G between the elements there, and the fractions of contacts that rigid parts hand over;
+//! 3. rows: the constant part of every element's row, what follows places and time, then the shapes of structures;
+//! 4. forces: the slope of the deflected rail under the latest forces, and the rows by which forces load the bodies.
+
+use nalgebra::DVector;
+use splines::Probe;
+
+use super::compliance::RailCompliance;
+use super::element::{Frame, Local, Where};
+use super::matrices::RailMatrices;
+use super::places::Places;
+use super::rows::Rows;
+use super::switches::Switches;
+use super::system::System;
+use crate::mechanics::state::State;
+use crate::numerics::dense::along;
+use crate::scene::dof::arm_rows;
+use crate::{Action, Error};
+
+/// Everything about the elements that depends on where the wheels are.
+#[derive(Clone)]
+pub(crate) struct Geometry {
+    places: Places,
+    rails: RailCompliance,
+    rows: Rows,
+    /// The part of the rows that is the same at every state.
+    constant: Rows,
+    local: Vec<Local>,
+    /// What rules have switched.
+    switches: Switches,
+    /// Slope of the deflected rail under each element, d u/d x, that of its own shape included.
+    rail_slope: Vec<f64>,
+    shapes: ShapeSlopes,
+    is_built: bool,
+}
+
+/// Shapes of structures with mass below the elements.
+#[derive(Clone)]
+struct ShapeSlopes {
+    /// Slopes of the shapes under each element, over the degrees of freedom, row-major.
+    all: Vec<f64>,
+    /// Scratch of one probe.
+    value: Vec<f64>,
+    slope: Vec<f64>,
+}
+
+impl Geometry {
+    pub fn new(system: &System) -> Self {
+        let (m, n) = (system.elements.len(), system.mechanics.dofs);
+        let mut constant = Rows::zeros(m, n);
+        for (i, element) in system.elements.iter().enumerate() {
+            element.constant_row(&system.mechanics, &mut constant.row_mut(i));
+        }
+        Geometry {
+            places: Places::new(&system.mechanics),
+            rails: RailCompliance::new(&system.mechanics, &system.probes, m),
+            rows: Rows::zeros(m, n),
+            constant,
+            local: vec![Local::default(); m],
+            switches: Switches::new(&system.scene.actuators),
+            rail_slope: vec![0.0; m],
+            shapes: ShapeSlopes { all: vec![0.0; m * n], value: vec![0.0; n], slope: vec![0.0; n] },
+            is_built: false,
+        }
+    }
+
+    /// Places of the wheels.
+    pub fn places(&self) -> &Places {
+        &self.places
+    }
+
+    /// Compliance of the rails without mass.
+    pub fn rails(&self) -> &RailMatrices {
+        self.rails.matrices()
+    }
+
+    /// Rows of the elements.
+    pub fn rows(&self) -> &Rows {
+        &self.rows
+    }
+
+    /// What changes about the elements beside their rows.
+    pub fn local(&self) -> &[Local] {
+        &self.local
+    }
+
+    /// Fraction of the law of element `i` that acts.
+    pub fn fraction(&self, i: usize) -> f64 {
+        self.local[i].fraction[0]
+    }
+
+    /// What rules have switched.
+    pub fn switches(&self) -> &Switches {
+        &self.switches
+    }
+
+    /// Slope of the deflected rail under element `i`.
+    pub fn rail_slope(&self, i: usize) -> f64 {
+        self.rail_slope[i]
+    }
+
+    /// Approach of element `i` at the degrees of freedom `q`, before the deflection of the rails.
+    pub fn approach(&self, i: usize, q: &DVector<f64>) -> f64 {
+        self.rows.approach_at(i, q)
+    }
+
+    /// Rate that the damper or the friction of element `i` feels at the speeds `v`.
+    pub fn rate(&self, i: usize, v: &DVector<f64>) -> f64 {
+        self.rows.rate_at(i, v)
+    }
+
+    /// Deflection of the rail without mass at element `i` under `force`.
+    pub fn deflection(&self, i: usize, force: &[f64]) -> f64 {
+        self.rails().deflection(i, force)
+    }
+
+    /// Compliance of the rail at element `i` by its own force.
+    pub fn own_compliance(&self, i: usize) -> f64 {
+        self.rails().value[i * self.local.len() + i]
+    }
+
+    /// The scene at `state`, to which this geometry belongs.
+    pub fn frame<'c>(&'c self, system: &'c System<'c>, state: &'c State) -> Frame<'c> {
+        Frame {
+            mechanics: &system.mechanics,
+            probes: &system.probes,
+            state,
+            rows: &self.rows,
+            rails: self.rails(),
+            places: &self.places,
+            switches: &self.switches,
+            local: &self.local,
+            rail_slope: &self.rail_slope,
+            is_uneven: system.traits.is_uneven,
+        }
+    }
+
+    /// Updates everything to (t, q); `force` are the latest forces, for the slopes of the rails.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+        let mechanics = &system.mechanics;
+        self.places.move_to(mechanics, t, q);
+        if system.traits.has_parts {
+            for (element, local) in system.elements.iter().zip(&mut self.local) {
+                local.fraction = element.fraction(mechanics, &self.places).unwrap_or(local.fraction);
+            }
+        }
+        self.rails.update(mechanics, &system.probes, &self.places.x)?;
+        let rows_stay = self.is_built && system.traits.has_constant_rows;
+        self.is_built = true;
+        if rows_stay {
+            return Ok(());
+        }
+        self.update_rows(system, t, q)?;
+        self.update_force_rows(system, q, force);
+        Ok(())
+    }
+
+    fn update_rows(&mut self, system: &System, t: f64, q: &DVector<f64>) -> Result<(), Error> {
+        let mechanics = &system.mechanics;
+        let is_uneven = system.traits.is_uneven;
+        let Geometry { places, rows, local, switches, .. } = self;
+        rows.reset(&self.constant);
+        let at = Where { mechanics, t, q, places, switches, is_uneven };
+        for (i, (element, local)) in system.elements.iter().zip(local).enumerate() {
+            element.update_row(&at, &mut rows.row_mut(i), local);
+        }
+        if mechanics.has_structures() {
+            self.add_shapes(system)?;
+        }
+        Ok(())
+    }
+
+    /// Adds the shapes of structures with mass to the rows of the elements on them.
+    fn add_shapes(&mut self, system: &System) -> Result<(), Error> {
+        let n = system.mechanics.dofs;
+        let ShapeSlopes { all, value, slope } = &mut self.shapes;
+        all.fill(0.0);
+        for (s, entries) in system.probes.entries.iter().enumerate() {
+            let Some(structure) = &system.foundations[s].structure else { continue };
+            let range = system.mechanics.structures[s].clone();
+            let size = range.len();
+            for entry in entries {
+                let at = Probe { x: self.places.x[entry.wheel], ..entry.probe };
+                let (value, slope) = (&mut value[..size], &mut slope[..size]);
+                structure
+                    .shapes
+                    .row(at, value, slope)
+                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                let span = entry.element * n + range.start..entry.element * n + range.end;
+                let is_along = system.fixed[entry.element].is_tangential;
+                let rows = if is_along { &mut self.rows.rate } else { &mut self.rows.approach };
+                for (target, shape) in rows[span.clone()].iter_mut().zip(value.iter()) {
+                    *target -= entry.weight * shape;
+                }
+                for (target, shape) in all[span].iter_mut().zip(slope.iter()) {
+                    *target += entry.weight * shape;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Slope of the deflected rail under each element that presses, for the forces and degrees of freedom given and the
+    /// wheels where the last update found them. Where nothing presses, nothing feels it: zero.
+    pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
+        for (i, own) in force.iter().enumerate() {
+            if *own == 0.0 {
+                self.rail_slope[i] = 0.0;
+                continue;
+            }
+            self.rail_slope[i] = along(&self.rails.matrices().slope, i, force);
+            if system.mechanics.has_structures() {
+                self.rail_slope[i] += along(&self.shapes.all, i, q.as_slice());
+            }
+            if system.traits.is_uneven {
+                self.rail_slope[i] -= self.rows.rise[i];
+            }
+        }
+    }
+
+    /// Rows of the forces: those of the approach, or of the rate along the rail, less the rail's slope times the rows
+    /// of the wheel's x.
+    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
+        let n = system.mechanics.dofs;
+        for (i, fixed) in system.fixed.iter().enumerate() {
+            let span = i * n..(i + 1) * n;
+            let own = if fixed.is_tangential { &self.rows.rate } else { &self.rows.approach };
+            self.rows.force[span.clone()].copy_from_slice(&own[span]);
+        }
+        if !system.mechanics.moves_freely {
+            return;
+        }
+        self.update_rail_slope(system, q, force);
+        for (i, element) in system.elements.iter().enumerate() {
+            let Some(w) = element.tilted_wheel() else { continue };
+            let wheel = &system.mechanics.wheels[w];
+            let row = arm_rows(wheel.hub)[0];
+            for (k, coefficient) in row.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+                for &(number, share) in &system.mechanics.kinematics.terms(wheel.body)[k] {
+                    self.rows.force[i * n + number] -= self.rail_slope[i] * coefficient * share;
+                }
+            }
+        }
+    }
+
+    /// Heights of the wheels' centres above their rails by the penetrations of `at`; returns the largest relative
+    /// change where heights matter.
+    pub fn update_heights(&mut self, system: &System, at: &State) -> f64 {
+        if !system.traits.uses_heights {
+            return 0.0;
+        }
+        let mut moved = 0.0_f64;
+        for w in 0..system.mechanics.wheels.len() {
+            let deepest = system.mechanics.groups_of(w).map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
+            let height = system.scene.wheels[system.mechanics.wheels[w].kind].radius - deepest;
+            moved = moved.max((height - self.places.height[w]).abs() / height.abs());
+            self.places.height[w] = height;
+        }
+        moved
+    }
+
+    /// Sets the heights of all wheels to their radii.
+    pub fn reset_heights(&mut self, system: &System) {
+        self.places.reset_heights(&system.mechanics);
+    }
+
+    /// Puts wheel `w` on a piece of its uneven rail.
+    pub fn set_piece(&mut self, w: usize, piece: usize) {
+        self.places.piece[w] = piece;
+    }
+
+    /// Puts all wheels on pieces of their uneven rails.
+    pub fn set_pieces(&mut self, pieces: &[usize]) {
+        self.places.piece.copy_from_slice(pieces);
+    }
+
+    /// Carries out `action` of a rule at time `t`; whether the run ends.
+    ///
+    /// # Errors
+    /// Hoisting that would take in more rope than there is before the end.
+    pub fn switch(&mut self, system: &System, action: Action, t: f64) -> Result<bool, Error> {
+        self.switches.switch(system.scene, action, t)
+    }
+
+    /// Lets the compliance be extrapolated as far as steps of the relative error `tolerance` allow.
+    pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
+        self.rails.set_accuracy(tolerance, radius);
+    }
+
+    /// Whether paths are of use.
+    pub fn wants_paths(&self) -> bool {
+        self.rails.wants_paths()
+    }
+
+    /// Sets the paths along which the compliance is interpolated, from the first of three times and degrees of
+    /// freedom to the second or, where no rail element ends before it, to the third.
+    pub fn set_paths(&mut self, system: &System, ends: [(f64, &DVector<f64>); 3]) {
+        let mechanics = &system.mechanics;
+        let places = ends.map(|(t, q)| {
+            self.places.travel_to(mechanics, t);
+            (0..mechanics.wheels.len()).map(|w| self.places.of_wheel(mechanics, w, q)).collect::<Vec<_>>()
+        });
+        self.rails.set_paths(mechanics, &system.probes, places.each_ref().map(Vec::as_slice));
+    }
+
+    /// Drops the paths of the compliance.
+    pub fn clear_paths(&mut self) {
+        self.rails.clear_paths();
+    }
+
+    /// Puts the wheels of a crossing at uniform `speed` where they are at time `t`, from their `start`, without an
+    /// update of anything else.
+    pub fn move_uniformly(
+        &mut self,
+        system: &System,
+        start: &[f64],
+        speed: f64,
+        t: f64,
+        root: Option<usize>,
+    ) {
+        for (x, place) in self.places.x.iter_mut().zip(start) {
+            *x = place + speed * t;
+        }
+        if let Some(root) = root {
+            let travel = &mut self.places.travel[root];
+            travel.x = system.scene.bodies[root].motion.as_ref().map_or(0.0, |motion| motion.at(t).x);
+            travel.v = speed;
+        }
+    }
+
+    /// Takes slopes of the deflected rails that were found otherwise.
+    pub fn set_rail_slope(&mut self, slope: &[f64]) {
+        self.rail_slope.copy_from_slice(slope);
+    }
+
+    /// Takes a compliance that was found otherwise, row by row.
+    pub fn set_compliance(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>) {
+        self.rails.set_value(rows, self.local.len());
+    }
+}

@@ -1,0 +1,76 @@
+//! Where the wheels are: travel of bodies, rail coordinates, heights, and the pieces of uneven rails.
+
+use nalgebra::DVector;
+
+use crate::Moving;
+use crate::mechanics::assembly::Mechanics;
+
+/// Places of the wheels at one state.
+#[derive(Clone)]
+pub(crate) struct Places {
+    /// Travel of each body whose x is prescribed.
+    pub travel: Vec<Moving>,
+    /// Rail coordinate of each wheel.
+    pub x: Vec<f64>,
+    /// Piece of the uneven rail that each wheel is on; it changes where a wheel crosses a corner, not within a step.
+    pub piece: Vec<usize>,
+    /// Height of each wheel's centre above its rail, from the last solution.
+    pub height: Vec<f64>,
+}
+
+impl Places {
+    pub fn new(mechanics: &Mechanics) -> Self {
+        let count = mechanics.wheels.len();
+        let mut places = Places {
+            travel: vec![Moving::default(); mechanics.scene.bodies.len()],
+            x: vec![0.0; count],
+            piece: vec![0; count],
+            height: vec![0.0; count],
+        };
+        places.reset_heights(mechanics);
+        places
+    }
+
+    /// Sets every height to the wheel's radius.
+    pub fn reset_heights(&mut self, mechanics: &Mechanics) {
+        for (height, wheel) in self.height.iter_mut().zip(&mechanics.wheels) {
+            *height = mechanics.scene.wheels[wheel.kind].radius;
+        }
+    }
+
+    /// Brings the prescribed travel to time `t`.
+    pub fn travel_to(&mut self, mechanics: &Mechanics, t: f64) {
+        for (travel, body) in self.travel.iter_mut().zip(&mechanics.scene.bodies) {
+            if let Some(profile) = &body.motion {
+                *travel = profile.at(t);
+            }
+        }
+    }
+
+    /// Brings travel and rail coordinates to (t, q).
+    pub fn move_to(&mut self, mechanics: &Mechanics, t: f64, q: &DVector<f64>) {
+        self.travel_to(mechanics, t);
+        for w in 0..mechanics.wheels.len() {
+            self.x[w] = self.of_wheel(mechanics, w, q);
+        }
+    }
+
+    /// Rail coordinate of wheel `w` at the degrees of freedom `q`, its prescribed travel being that of the last update.
+    pub fn of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
+        let wheel = &mechanics.wheels[w];
+        let body = &mechanics.scene.bodies[wheel.body];
+        let kinematics = &mechanics.kinematics;
+        if body.pinned.is_some() {
+            let (moved, constant) = (kinematics.apply(wheel.body, q), kinematics.constant(wheel.body));
+            let root = kinematics.root(wheel.body);
+            let travel =
+                if mechanics.scene.bodies[root].motion.is_some() { self.travel[root].x } else { 0.0 };
+            let value = |i: usize| moved[i] + constant[i];
+            return travel + value(0) + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1];
+        }
+        let numbers = &kinematics.numbers[wheel.body];
+        let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
+        let x = if body.motion.is_some() { self.travel[wheel.body].x } else { value(0) };
+        x + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1]
+    }
+}

@@ -1,0 +1,104 @@
+//! The mobility of bodies and structures as the elements see it: Z B^T, R Z B^T and R' Z B^T.
+//!
+//! Columns are those of the elements that may have a force in a stage; idle ones are left out.
+
+use nalgebra::DVector;
+
+use super::rows::Rows;
+use super::system::System;
+use crate::mechanics::mobility::Mobility;
+use crate::numerics::dense::dot;
+
+/// Products of rows and mobility.
+pub(crate) struct Projection {
+    /// Elements of the columns.
+    columns: Vec<usize>,
+    /// Z B^T, degrees of freedom x columns, row-major.
+    spread: Vec<f64>,
+    /// R Z B^T, elements x columns, row-major; and the same with the rows of rates that are felt.
+    approach: Vec<f64>,
+    rate: Vec<f64>,
+    /// Whether the products stay, since rows and mobility do.
+    is_constant: bool,
+    /// Scratch: forces of the columns, and an answer of the mobility.
+    force: Vec<f64>,
+    answer: DVector<f64>,
+}
+
+impl Projection {
+    pub fn new(system: &System) -> Self {
+        let (m, n) = (system.elements.len(), system.mechanics.dofs);
+        Projection {
+            columns: Vec::with_capacity(m),
+            spread: vec![0.0; n * m],
+            approach: vec![0.0; m * m],
+            rate: vec![0.0; m * m],
+            is_constant: false,
+            force: Vec::with_capacity(m),
+            answer: DVector::zeros(n),
+        }
+    }
+
+    /// Elements of the columns.
+    pub fn columns(&self) -> &[usize] {
+        &self.columns
+    }
+
+    /// Row `i` of R Z B^T, over the columns.
+    pub fn approach_row(&self, i: usize) -> &[f64] {
+        let count = self.columns.len();
+        &self.approach[i * count..(i + 1) * count]
+    }
+
+    /// Row `i` of R' Z B^T, over the columns; only of elements that feel rates.
+    pub fn rate_row(&self, i: usize) -> &[f64] {
+        let count = self.columns.len();
+        &self.rate[i * count..(i + 1) * count]
+    }
+
+    /// Fills the products for the elements that are not `idle`.
+    pub fn fill(&mut self, system: &System, rows: &Rows, mobility: &Mobility, idle: &[bool]) {
+        if self.is_constant {
+            return;
+        }
+        // Rows that stay serve whatever acts later.
+        let all = system.traits.has_constant_rows && system.mechanics.carried.is_empty();
+        self.columns.clear();
+        self.columns.extend((0..idle.len()).filter(|&j| all || !idle[j]));
+        let count = self.columns.len();
+        for (column, &j) in self.columns.iter().enumerate() {
+            mobility.apply(rows.force_row(j), self.answer.as_mut_slice());
+            for (k, answer) in self.answer.iter().enumerate() {
+                self.spread[k * count + column] = *answer;
+            }
+        }
+        let spread = &self.spread[..self.answer.len() * count];
+        for (i, fixed) in system.fixed.iter().enumerate() {
+            let span = i * count..(i + 1) * count;
+            product(rows.approach_row(i), spread, &mut self.approach[span.clone()]);
+            if fixed.feels_rates {
+                product(rows.rate_row(i), spread, &mut self.rate[span]);
+            }
+        }
+        self.is_constant = all;
+    }
+
+    /// `a` = `free` + `sign` Z B^T F, with the forces F of the columns in `force`.
+    pub fn add_forces(&mut self, free: &DVector<f64>, sign: f64, force: &[f64], a: &mut DVector<f64>) {
+        self.force.clear();
+        self.force.extend(self.columns.iter().map(|&j| force[j]));
+        let count = self.columns.len();
+        for (k, a) in a.iter_mut().enumerate() {
+            *a = free[k] + sign * dot(&self.spread[k * count..(k + 1) * count], &self.force);
+        }
+    }
+}
+
+/// `sum` = `row` times a row-major matrix as wide as `sum`.
+fn product(row: &[f64], matrix: &[f64], sum: &mut [f64]) {
+    sum.fill(0.0);
+    let width = sum.len().max(1);
+    for (share, line) in row.iter().zip(matrix.chunks_exact(width)).filter(|(share, _)| **share != 0.0) {
+        sum.iter_mut().zip(line).for_each(|(sum, entry)| *sum += share * entry);
+    }
+}

@@ -1,0 +1,120 @@
+//! The rows of all force elements over the degrees of freedom.
+//!
+//! Element i approaches its rail (or stretches, or meets its stop) by e_i = R_i q + offset, and moves at the rate
+//! R'_i v + offset'; its force loads the degrees of freedom by f = -B_i^T F_i. B_i is R_i (or R'_i, for forces along a
+//! rail) and, where wheels roll freely, the force along the rail by its slope.
+
+use nalgebra::DVector;
+
+use crate::mechanics::kinematics::Kinematics;
+use crate::numerics::dense::along;
+
+/// Rows of all elements, row-major.
+#[derive(Clone)]
+pub(crate) struct Rows {
+    dofs: usize,
+    /// R, the approach by the degrees of freedom, before the deflection of the rails; and its offset.
+    pub approach: Vec<f64>,
+    pub approach_offset: Vec<f64>,
+    /// R', the rates that dampers and friction feel; and their offset.
+    pub rate: Vec<f64>,
+    pub rate_offset: Vec<f64>,
+    /// B, the loads on the degrees of freedom.
+    pub force: Vec<f64>,
+    /// Growth of each approach along the rail by the shape of the unloaded rail, d e/d x.
+    pub rise: Vec<f64>,
+}
+
+/// The row of one element while it is written.
+pub(crate) struct RowMut<'r> {
+    pub approach: &'r mut [f64],
+    pub approach_offset: &'r mut f64,
+    pub rate: &'r mut [f64],
+    pub rate_offset: &'r mut f64,
+    pub rise: &'r mut f64,
+}
+
+impl Rows {
+    /// Rows of zeros for `elements` elements.
+    pub fn zeros(elements: usize, dofs: usize) -> Self {
+        Rows {
+            dofs,
+            approach: vec![0.0; elements * dofs],
+            approach_offset: vec![0.0; elements],
+            rate: vec![0.0; elements * dofs],
+            rate_offset: vec![0.0; elements],
+            force: vec![0.0; elements * dofs],
+            rise: vec![0.0; elements],
+        }
+    }
+
+    /// Takes approach and rate rows with the offset of the approach from `constant`; the shape of the rail is flat.
+    pub fn reset(&mut self, constant: &Rows) {
+        self.approach.copy_from_slice(&constant.approach);
+        self.rate.copy_from_slice(&constant.rate);
+        self.approach_offset.copy_from_slice(&constant.approach_offset);
+        self.rise.fill(0.0);
+    }
+
+    /// The row of element `i`, to be written.
+    pub fn row_mut(&mut self, i: usize) -> RowMut<'_> {
+        let span = i * self.dofs..(i + 1) * self.dofs;
+        RowMut {
+            approach: &mut self.approach[span.clone()],
+            approach_offset: &mut self.approach_offset[i],
+            rate: &mut self.rate[span],
+            rate_offset: &mut self.rate_offset[i],
+            rise: &mut self.rise[i],
+        }
+    }
+
+    /// R_i.
+    pub fn approach_row(&self, i: usize) -> &[f64] {
+        &self.approach[i * self.dofs..(i + 1) * self.dofs]
+    }
+
+    /// R'_i.
+    pub fn rate_row(&self, i: usize) -> &[f64] {
+        &self.rate[i * self.dofs..(i + 1) * self.dofs]
+    }
+
+    /// B_i.
+    pub fn force_row(&self, i: usize) -> &[f64] {
+        &self.force[i * self.dofs..(i + 1) * self.dofs]
+    }
+
+    /// Approach of element `i` at the degrees of freedom `q`, before the deflection of the rails.
+    pub fn approach_at(&self, i: usize, q: &DVector<f64>) -> f64 {
+        self.approach_offset[i] + along(&self.approach, i, q.as_slice())
+    }
+
+    /// Rate that the damper or the friction of element `i` feels at the speeds `v`.
+    pub fn rate_at(&self, i: usize, v: &DVector<f64>) -> f64 {
+        self.rate_offset[i] + along(&self.rate, i, v.as_slice())
+    }
+}
+
+impl RowMut<'_> {
+    /// Adds `scale` times a combination `line` of the displacements of a body to the approach. A constant part of x is
+    /// left out: it is the place along the rail.
+    pub fn add_approach(&mut self, kinematics: &Kinematics, body: usize, line: [f64; 6], scale: f64) {
+        let (terms, constant) = (kinematics.terms(body), kinematics.constant(body));
+        for (i, entry) in line.into_iter().enumerate() {
+            for &(number, coefficient) in &terms[i] {
+                self.approach[number] += scale * entry * coefficient;
+            }
+            if i > 0 {
+                *self.approach_offset += scale * entry * constant[i];
+            }
+        }
+    }
+
+    /// Adds a combination `line` of the speeds of a body to the rate.
+    pub fn add_rate(&mut self, kinematics: &Kinematics, body: usize, line: [f64; 6]) {
+        for (entry, terms) in line.into_iter().zip(kinematics.terms(body)) {
+            for &(number, coefficient) in terms {
+                self.rate[number] += entry * coefficient;
+            }
+        }
+    }
+}

@@ -1,0 +1,87 @@
+//! Corrections of a stage by matrices that an earlier pass of the step left factored.
+//!
+//! Newton's method with a Jacobian that is kept: the residuals are those of the stage itself,
+//! r_a = M a + C v + K q + B^T F - f at (q, v) = (q*, v*) + g (v, a), r_F = F - law(p, r),
+//! and with Z, W and J = I + F_p W + F_r Y of the earlier pass
+//!
+//! a <- a - Z r_a,   dF = -J^-1 r_F,   F <- F + dF,   a <- a - Z B^T dF.
+//!
+//! A pass leaves as much of an error as the matrices have changed since, and costs a few products of vectors.
+//!
+//! # Source
+//! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: simplified Newton iterations.
+
+use super::Solver;
+use crate::Error;
+use crate::contact::element::passing;
+use crate::mechanics::state::{Known, State};
+
+impl Solver<'_> {
+    /// Whether a stage of the coefficient `g` may be corrected: matrices of such a stage are factored, of bodies alone.
+    pub(super) fn may_correct(&self, g: f64) -> bool {
+        let is_factored = self.factored_for == Some(g) && self.problem.is_factored();
+        is_factored && !self.system.mechanics.has_structures() && self.charts.is_empty()
+    }
+
+    /// Corrects the stage at `at`. Returns the largest changes beside the degrees of freedom themselves and beside
+    /// their scales; `None` where other laws act than those whose slopes are factored: only the accelerations are
+    /// better then.
+    pub(super) fn correct(
+        &mut self,
+        g: f64,
+        known: &Known,
+        at: &mut State,
+    ) -> Result<Option<[f64; 2]>, Error> {
+        let system = self.system;
+        self.update(at)?;
+        let rows = self.geometry.rows();
+        self.free.improve(system, g, known, at, self.projection.columns(), |j| rows.force_row(j));
+        if !self.reach(g, &known.p, at) {
+            return Ok(None);
+        }
+        let (local, active) = (self.geometry.local(), self.active.flags());
+        let Some(change) = self.problem.corrections(system, local, active, &at.force) else {
+            return Ok(None);
+        };
+        let size = at.force.iter().fold(f64::MIN_POSITIVE, |max, force| force.abs().max(max));
+        let largest = change.iter().fold(0.0_f64, |max, change| change.abs().max(max));
+        at.force.iter_mut().zip(change).for_each(|(force, change)| *force -= change);
+        self.projection.add_forces(&self.free.a, 1.0, change, &mut at.a);
+        let [moved, beside] = self.arrive(g, known, at, |solver, i, at| {
+            solver.geometry.approach(i, &at.q) - solver.geometry.deflection(i, &at.force)
+        });
+        Ok(Some([moved, beside.max(largest / size)]))
+    }
+
+    /// Penetrations and rates of all elements at the free motion under the forces of `at`; false where an element
+    /// touches that is taken as idle.
+    fn reach(&mut self, g: f64, known: &[f64], at: &State) -> bool {
+        let system = self.system;
+        for (i, element) in system.elements.iter().enumerate() {
+            let (is_idle, fixed) = (self.problem.idle[i], system.fixed[i]);
+            if is_idle && !fixed.is_followed {
+                continue;
+            }
+            let deflection = self.geometry.deflection(i, &at.force);
+            let penetration = self.geometry.approach(i, &self.free.q) - deflection;
+            let mut rate = 0.0;
+            if self.remembers(i) {
+                rate = (penetration - known[i]) / g;
+            } else if fixed.feels_rates {
+                rate = self.geometry.rate(i, &self.free.v);
+            }
+            if fixed.is_tangential
+                && let Some(slot) = system.probes.slots[i]
+            {
+                rate -= (deflection - known[slot]) / g;
+                let rails = self.geometry.rails();
+                rate += passing(&system.mechanics, &system.probes, rails, at, i);
+            }
+            if is_idle && element.touches(penetration) {
+                return false;
+            }
+            self.problem.set_reached(i, [penetration, rate]);
+        }
+        true
+    }
+}

@@ -1,0 +1,365 @@
+//! Everything needed to solve a scene again and again without allocation: at one instant here, in one stage of a step
+//! in [`stage`].
+
+mod correct;
+mod ropes;
+mod stage;
+
+use nalgebra::DVector;
+
+use super::active::ActiveSet;
+use super::charts::Charts;
+use super::convergence::Convergence;
+use super::element::tangential_of;
+use super::forces::{Problem, RowKind};
+use super::free_motion::FreeMotion;
+use super::geometry::Geometry;
+use super::projection::Projection;
+use super::system::System;
+use crate::mechanics::state::State;
+use crate::numerics::dense::along;
+use crate::{Action, Error};
+
+/// Compliance of a rail, relative to that of the wheel, below which it counts as rigid.
+pub(crate) const RIGID: f64 = 1e-9;
+
+/// Iterations on the places and heights of the wheels inside one solution.
+const PASSES: usize = 30;
+
+/// Whether an instant knows the displacements along x of rails without mass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum RailMemory {
+    /// They are states.
+    Known,
+    /// They follow from the forces.
+    Unknown,
+}
+
+/// A numbered scene, the elements where they are, which of them act, and the problem of their forces.
+pub(crate) struct Solver<'a> {
+    system: &'a System<'a>,
+    geometry: Geometry,
+    active: ActiveSet,
+    /// Coordinates of hanging bodies during a step.
+    charts: Charts,
+    free: FreeMotion<'a>,
+    projection: Projection,
+    problem: Problem,
+    /// Coefficient g of the stage whose matrices the problem of the forces has factored.
+    factored_for: Option<f64>,
+    convergence: Convergence,
+    rail_memory: RailMemory,
+}
+
+impl<'a> Solver<'a> {
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn new(system: &'a System<'a>, rail_memory: RailMemory) -> Result<Self, Error> {
+        let begin = system.elements.iter().map(|element| element.begins_active()).collect();
+        Ok(Solver {
+            system,
+            geometry: Geometry::new(system),
+            active: ActiveSet::new(begin, system.verticals()),
+            charts: Charts::default(),
+            free: FreeMotion::new(system)?,
+            projection: Projection::new(system),
+            problem: Problem::new(system.elements.len()),
+            factored_for: None,
+            convergence: Convergence::default(),
+            rail_memory,
+        })
+    }
+
+    /// The numbered scene.
+    pub fn system(&self) -> &'a System<'a> {
+        self.system
+    }
+
+    /// The elements where the last update found them.
+    pub fn geometry(&self) -> &Geometry {
+        &self.geometry
+    }
+
+    /// Which elements act.
+    pub fn active(&self) -> &ActiveSet {
+        &self.active
+    }
+
+    /// Brings the geometry to `at`.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn update(&mut self, at: &State) -> Result<(), Error> {
+        self.geometry.update(self.system, at.t, &at.q, &at.force)
+    }
+
+    /// Brings the geometry to `at` with the degrees of freedom `q`.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn update_to(&mut self, at: &State, q: &DVector<f64>) -> Result<(), Error> {
+        self.geometry.update(self.system, at.t, q, &at.force)
+    }
+
+    /// Brings the slopes of the deflected rails to the forces of `at`, with the wheels where they are.
+    pub fn update_rail_slope(&mut self, at: &State) {
+        self.geometry.update_rail_slope(self.system, &at.q, &at.force);
+    }
+
+    /// Sets the heights of all wheels to their radii.
+    pub fn reset_heights(&mut self) {
+        self.geometry.reset_heights(self.system);
+    }
+
+    /// Puts wheel `w` on a piece of its uneven rail.
+    pub fn set_piece(&mut self, w: usize, piece: usize) {
+        self.geometry.set_piece(w, piece);
+    }
+
+    /// Carries out `action` of a rule at time `t`; whether the run ends.
+    ///
+    /// # Errors
+    /// Hoisting that would take in more rope than there is before the end.
+    pub fn switch(&mut self, action: Action, t: f64) -> Result<bool, Error> {
+        self.geometry.switch(self.system, action, t)
+    }
+
+    /// Whether paths of the compliance are of use, see [`Geometry::set_paths`].
+    pub fn wants_paths(&self) -> bool {
+        self.geometry.wants_paths()
+    }
+
+    /// Sets the paths of the compliance, see [`Geometry::set_paths`].
+    pub fn set_paths(&mut self, ends: [(f64, &DVector<f64>); 3]) {
+        self.geometry.set_paths(self.system, ends);
+    }
+
+    /// Drops the paths of the compliance.
+    pub fn clear_paths(&mut self) {
+        self.geometry.clear_paths();
+    }
+
+    /// Takes a geometry that belongs to the state at hand, and gives its own.
+    pub fn exchange_geometry(&mut self, geometry: &mut Geometry) {
+        std::mem::swap(&mut self.geometry, geometry);
+    }
+
+    /// Activates or deactivates element `i`.
+    pub fn set_active(&mut self, i: usize, is_active: bool) {
+        self.active.set(i, is_active);
+    }
+
+    /// Opens vertical contact `i` at `at`; its damper keeps the penetration of now.
+    pub fn open(&mut self, i: usize, at: &State) {
+        self.active.set(i, false);
+        self.active.store(i, at);
+    }
+
+    /// Lets the dampers of open contacts that have not opened during the run keep the penetrations of `at`.
+    pub fn store_open(&mut self, at: &State) {
+        for i in 0..self.system.verticals() {
+            if !self.active.has(i) && self.active.stored(i).is_none() {
+                self.active.store(i, at);
+            }
+        }
+    }
+
+    /// Takes which elements act, and the pieces of uneven rails that the wheels are on.
+    pub fn restore(&mut self, active: &ActiveSet, pieces: &[usize]) {
+        self.active.copy_from(active);
+        self.geometry.set_pieces(pieces);
+    }
+
+    /// Finds which ropes and stops act at `at`, where the geometry is.
+    pub fn settle_springs(&mut self, at: &State) {
+        for &i in self.system.springs() {
+            let spring = &self.geometry.local()[i].spring;
+            let margin = spring.margin(self.geometry.approach(i, &at.q), self.geometry.rate(i, &at.v));
+            let is_released = self.system.elements[i].is_released(self.geometry.switches());
+            self.active.set(i, !is_released && margin > 0.0);
+        }
+    }
+
+    /// Whether element `i` keeps its penetration as a state while it acts.
+    pub fn remembers(&self, i: usize) -> bool {
+        self.active.has(i) && self.system.fixed[i].has_memory
+    }
+
+    /// Whether active vertical contact `i` must open.
+    pub fn opens(&self, i: usize, at: &State) -> bool {
+        self.system.vertical(i).opens(at.force[i], self.geometry.fraction(i))
+    }
+
+    /// Force of one wheel that open contact `i` would have if it closed now; positive: it must close.
+    pub fn closing(&self, i: usize, at: &State) -> f64 {
+        let rate = || self.geometry.rate(i, &at.v);
+        self.system.vertical(i).closing(i, self.geometry.fraction(i), &self.active, at, rate)
+    }
+
+    /// Positive where element `i` must begin or cease to act: the force by which it has gone too far.
+    pub fn switch_guard(&self, i: usize, at: &State) -> Option<f64> {
+        let frame = self.geometry.frame(self.system, at);
+        self.system.elements[i].switch(&frame.at(i), &self.active)
+    }
+
+    /// Whether the rail below vertical contact `i` is rigid beside the wheel.
+    pub fn is_on_rigid_rail(&self, i: usize) -> bool {
+        self.geometry.own_compliance(i) * self.system.law(i).stiffness <= RIGID
+    }
+
+    /// Penetration of element `i` by the matrices of the last solution under `force`.
+    pub fn solved_penetration(&self, i: usize, force: &[f64]) -> f64 {
+        self.problem.effects.penetration(i, force)
+    }
+
+    /// Rate at which wheel and unloaded rail approach each other at vertical contact `i`.
+    pub fn approach_rate(&self, i: usize, at: &State) -> f64 {
+        let rows = self.geometry.rows();
+        let own = along(&rows.approach, i, at.v.as_slice());
+        if !self.system.traits.is_uneven {
+            return own;
+        }
+        own + rows.rise[i] * self.system.contact_speed(i, at)
+    }
+
+    /// M^-1 times the forces at `t` that do not depend on the elements.
+    pub fn free_accelerations(&mut self, t: f64) -> &DVector<f64> {
+        self.free.accelerations(self.system, t)
+    }
+
+    /// `out` = M^-1 times `row`.
+    pub fn apply_inverse(&self, row: &[f64], out: &mut [f64]) {
+        self.free.inverse().apply(row, out);
+    }
+
+    /// Sets the displacements of rails without mass along x to those under the forces of `at`, at rest.
+    pub fn rest_rails(&self, at: &mut State) {
+        for (i, slot) in self.sliding() {
+            at.p[slot] = self.geometry.deflection(i, &at.force);
+            at.p_rate[slot] = 0.0;
+        }
+    }
+
+    /// Sets the displacements of rails without mass along x to those under the forces of `at`.
+    pub fn move_rails(&self, at: &mut State) {
+        for (i, slot) in self.sliding() {
+            at.p[slot] = self.geometry.deflection(i, &at.force);
+        }
+    }
+
+    /// Elements whose rail's displacement along x is a state, with its place there.
+    fn sliding(&self) -> impl Iterator<Item = (usize, usize)> + use<'a> {
+        let (probes, first) = (&self.system.probes, self.system.verticals());
+        probes.sliding.iter().enumerate().map(move |(k, &i)| (i, first + k))
+    }
+
+    /// Forces, penetrations and accelerations at (t, q, v) for the elements that are active; the penetration of those
+    /// that remember it is given, inside a step its rate: p + G F = e with F = k p + c p' errs by c/(1 + k G) of the
+    /// rate's error, where F = k p + c p' alone errs by k of the penetration's. Returns whether it converged.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
+        let system = self.system;
+        self.problem.idle.fill(false);
+        self.factored_for = None;
+        self.problem.slack = 0.0;
+        for _ in 0..PASSES {
+            self.update(at)?;
+            self.fill_instant(at);
+            let (local, active) = (self.geometry.local(), self.active.flags());
+            if !self.problem.solve(system, local, active, &mut at.force) {
+                return Ok(false);
+            }
+            for i in 0..system.verticals() {
+                if self.problem.effects.kind[i] != RowKind::Given {
+                    at.p[i] = self.problem.effects.penetration(i, &at.force);
+                }
+            }
+            if self.geometry.update_heights(system, at) < 1e-13 {
+                break;
+            }
+        }
+        self.update(at)?;
+        self.update_rail_slope(at);
+        self.free.accelerate(system, at, &self.geometry.rows().force)?;
+        Ok(true)
+    }
+
+    /// Fills the problem of the forces of an instant: W = G, and the states that are given.
+    fn fill_instant(&mut self, at: &mut State) {
+        let m = at.force.len();
+        for i in 0..m {
+            let remembers = self.remembers(i);
+            let effects = &mut self.problem.effects;
+            effects.approach[i] = self.geometry.approach(i, &at.q);
+            effects.rate[i] = self.geometry.rate(i, &at.v);
+            effects.kind[i] = RowKind::Law;
+            if remembers && at.is_between {
+                effects.rate[i] = at.p_rate[i];
+            } else if remembers {
+                effects.kind[i] = RowKind::Given;
+                let (local, reached) = (self.geometry.local(), [at.p[i], at.p_rate[i]]);
+                at.force[i] = self.problem.force_at(self.system, local, i, reached, &at.force);
+            }
+        }
+        let effects = &mut self.problem.effects;
+        effects.w.copy_from_slice(&self.geometry.rails().value);
+        effects.y.fill(0.0);
+        // Forces keep the displacements of rails without mass, as far as their laws allow. A rail that hardly complies
+        // takes its rate from before.
+        for (i, slot) in self.sliding() {
+            let complies = self.geometry.own_compliance(i) * self.stiffest() > RIGID;
+            let effects = &mut self.problem.effects;
+            if complies && self.rail_memory == RailMemory::Known {
+                effects.kind[i] = RowKind::Keeps(at.p[slot]);
+            }
+            effects.rate[i] -= at.p_rate[slot];
+            self.take_passing(i, at);
+        }
+    }
+
+    /// Largest stiffness of a wheel on its rail.
+    fn stiffest(&self) -> f64 {
+        self.system.scene.wheels.iter().fold(0.0, |max, wheel| wheel.normal.stiffness.max(max))
+    }
+
+    /// Takes the wheels' own motion over the deflected rail, x' dG/dx F, from the rate of element `i`.
+    fn take_passing(&mut self, i: usize, at: &State) {
+        let (system, m) = (self.system, at.force.len());
+        for (contact, speed) in tangential_of(&system.mechanics, &system.probes, at, i) {
+            let slopes = &self.geometry.rails().tangential[contact * m..(contact + 1) * m];
+            let rows = &mut self.problem.effects.y[i * m..(i + 1) * m];
+            for (y, slope) in rows.iter_mut().zip(slopes) {
+                *y -= speed * slope;
+            }
+        }
+    }
+
+    /// Sets `at` to the interpolant between the ends of the step just tried, at this fraction.
+    ///
+    /// # Errors
+    /// What the rail refuses.
+    pub fn interpolate(
+        &mut self,
+        [from, to]: [&State; 2],
+        fraction: f64,
+        at: &mut State,
+    ) -> Result<(), Error> {
+        at.interpolate(from, to, fraction);
+        self.charts.interpolate(self.system, self.geometry.switches(), [from, to], fraction, at);
+        self.stretch_ropes(to.t - from.t, at)
+    }
+
+    /// Calls `each` with the number of every degree of freedom and its errors of displacement and speed, which `of`
+    /// gives by number; those of hanging bodies are errors of their coordinates.
+    pub fn for_errors(
+        &self,
+        at: &State,
+        of: impl Fn(usize) -> [f64; 2],
+        mut each: impl FnMut(usize, [f64; 2]),
+    ) {
+        (0..at.q.len()).filter(|&k| !self.charts.has(k)).for_each(|k| each(k, of(k)));
+        self.charts.errors(self.system, self.geometry.switches(), at, of, each);
+    }
+}

@@ -1,0 +1,77 @@
+//! The law that ropes and stops share: a one-sided spring with a damper, F = k p + c p' where p > 0 and F > 0.
+
+use super::active::ActiveSet;
+use super::element::{At, Law, Query, Spring, Where};
+use super::energy::{Exchanged, Stored};
+use super::rows::RowMut;
+use crate::mechanics::point::PointPair;
+use crate::numerics::dense::dot;
+
+/// Rounding of a stretch or depth, relative to the places it comes from.
+pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
+
+impl Spring {
+    /// Force by stretch or depth `p` and its rate, as if it could both pull and push.
+    pub fn force(&self, p: f64, rate: f64) -> f64 {
+        self.stiffness * p + self.damping * rate
+    }
+
+    /// The force at `p` and `rate`; negative where it must not act: the lesser of the law and its spring, since the
+    /// damper's force may jump where it begins.
+    pub fn margin(&self, p: f64, rate: f64) -> f64 {
+        self.force(p, rate).min(self.stiffness * p)
+    }
+}
+
+/// Law of an active spring.
+pub(crate) fn law(query: &Query) -> Option<Law> {
+    let spring = &query.local.spring;
+    query.is_active.then(|| Law {
+        force: spring.force(query.penetration(), query.rate),
+        by_penetration: spring.stiffness,
+        by_rate: spring.damping,
+        by_other: None,
+    })
+}
+
+/// Guard of a spring: its force beyond the noise of its places.
+pub(crate) fn switch(at: &At, active: &ActiveSet) -> f64 {
+    let spring = &at.local().spring;
+    let margin = spring.margin(at.approach(), at.rate());
+    if active.has(at.index) { -margin - spring.noise } else { margin - spring.noise }
+}
+
+/// Adds the elastic energy of an active spring.
+pub(crate) fn stored(at: &At, energy: &mut Stored) {
+    if at.force() != 0.0 {
+        let p = at.approach();
+        energy.ropes += 0.5 * at.local().spring.stiffness * p * p;
+    }
+}
+
+/// Adds what the damper of an active spring dissipates.
+pub(crate) fn dissipate(at: &At, power: &mut Exchanged) {
+    power.dampers += at.local().spring.damping * at.rate() * at.rate();
+}
+
+/// What an active spring asks of the prescribed motion of root body `b`.
+pub(crate) fn resistance(points: &PointPair, at: &At, b: usize) -> f64 {
+    let state = at.state;
+    let by_travel = points.by_travel(at.mechanics, b, (state.t, &state.q), at.local().spring.direction);
+    by_travel * at.force()
+}
+
+/// Writes the row of a pair of points whose `approach` grows along `direction`, with its `rate` by prescribed motions.
+pub(crate) fn write_row(
+    points: &PointPair,
+    at: &Where,
+    direction: [f64; 3],
+    [approach, rate]: [f64; 2],
+    row: &mut RowMut,
+) {
+    row.approach.fill(0.0);
+    points.add_row(at.mechanics, (at.t, at.q), direction, row.approach);
+    row.rate.copy_from_slice(row.approach);
+    *row.approach_offset = approach - dot(row.approach, at.q.as_slice());
+    *row.rate_offset = rate;
+}

@@ -1,0 +1,227 @@
+//! The numbered scene with its force elements: M q'' + C q' + K q = f(t) - B^T F.
+//!
+//! Vertical contacts stand first among the elements, then come flanges, frictions, drives, brakes, ropes and stops.
+
+use splines::{Axis, Probe};
+
+use super::element::{ElementProbe, Fixed, Role};
+use super::elements::ForceElement;
+use super::probes::{Entry, Probes, TangentialContact};
+use super::rope::RopeForce;
+use super::vertical::Vertical;
+use crate::mechanics::assembly::Mechanics;
+use crate::mechanics::state::State;
+use crate::{Error, Foundation, NormalLaw, Scene};
+
+/// The numbered scene.
+pub(crate) struct System<'a> {
+    pub scene: &'a Scene,
+    pub foundations: &'a [Foundation],
+    pub mechanics: Mechanics<'a>,
+    pub elements: Vec<ForceElement<'a>>,
+    /// What never changes about each element.
+    pub fixed: Vec<Fixed>,
+    pub probes: Probes,
+    pub traits: Traits,
+    /// Elements that guide across the rails, and elements that join points by springs.
+    guides: Vec<usize>,
+    springs: Vec<usize>,
+    /// The element of each rope.
+    ropes: Vec<usize>,
+}
+
+/// Simplifications that hold for a scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Traits {
+    /// Whether some wheel runs on an uneven rail.
+    pub is_uneven: bool,
+    /// Whether the rows of all elements are the same at every time and place.
+    pub has_constant_rows: bool,
+    /// Whether rigid parts hand wheels over, one force a part.
+    pub has_parts: bool,
+    /// Whether vertical contacts are the only elements.
+    pub is_vertical: bool,
+    /// Whether every vertical law is linear.
+    pub has_linear_laws: bool,
+    /// Whether some law depends on the heights of wheels.
+    pub uses_heights: bool,
+    /// Whether places or rows follow the motion within a stage, so that its matrices change with its solution.
+    pub follows_motion: bool,
+    /// Whether the linear contact equations are symmetric: see [`crate::contact::forces`].
+    pub is_symmetric: bool,
+}
+
+impl<'a> System<'a> {
+    /// Numbers a scene.
+    ///
+    /// # Errors
+    /// What [`Mechanics::new`] refuses.
+    pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
+        let mechanics = Mechanics::new(scene, foundations)?;
+        let elements = ForceElement::all(&mechanics);
+        let with = |role: Role| (0..elements.len()).filter(|&i| elements[i].role() == role).collect();
+        let (guides, springs) = (with(Role::Guides), with(Role::Spring));
+        let is_rope = |i: &usize| matches!(elements[*i], ForceElement::Rope(_));
+        let ropes = (0..elements.len()).filter(is_rope).collect();
+        let probes = find_probes(&mechanics, &elements);
+        let traits = find_traits(&mechanics, &elements);
+        let fixed = elements.iter().map(|element| Fixed::of(&**element)).collect();
+        Ok(System { scene, foundations, mechanics, elements, fixed, probes, traits, guides, springs, ropes })
+    }
+
+    /// Number of vertical contacts, the first of all elements.
+    pub fn verticals(&self) -> usize {
+        self.mechanics.groups.len()
+    }
+
+    /// Vertical contact `i`.
+    pub fn vertical(&self, i: usize) -> &Vertical<'a> {
+        match &self.elements[i] {
+            ForceElement::Vertical(vertical) => vertical,
+            _ => unreachable!("vertical contacts are the first elements"),
+        }
+    }
+
+    /// Law of vertical contact `i`, of one wheel.
+    pub fn law(&self, i: usize) -> &'a NormalLaw {
+        &self.scene.wheels[self.mechanics.groups[i].kind].normal
+    }
+
+    /// Elements that guide across the rails.
+    pub fn guides(&self) -> &[usize] {
+        &self.guides
+    }
+
+    /// Elements that join points by springs: ropes and stops.
+    pub fn springs(&self) -> &[usize] {
+        &self.springs
+    }
+
+    /// Rope `index` of the scene with its element.
+    pub fn rope(&self, index: usize) -> Option<(usize, &RopeForce<'a>)> {
+        let element = *self.ropes.get(index)?;
+        match &self.elements[element] {
+            ForceElement::Rope(rope) => Some((element, rope)),
+            _ => None,
+        }
+    }
+
+    /// Force of the friction below wheel `w` at `at`; zero where it has none.
+    pub fn friction_of(&self, w: usize, at: &State) -> f64 {
+        let is_own = |element: &ForceElement| match element {
+            ForceElement::Traction(traction) => traction.wheel() == w,
+            _ => false,
+        };
+        self.elements.iter().position(is_own).map_or(0.0, |i| at.force[i])
+    }
+
+    /// Speed along the rail of the wheels of vertical contact `i`.
+    pub fn contact_speed(&self, i: usize, at: &State) -> f64 {
+        self.mechanics.speed_along(self.mechanics.groups[i].wheels.start, at)
+    }
+
+    /// The state zero.
+    pub fn state(&self) -> State {
+        let slots = self.verticals() + self.probes.sliding.len();
+        State::zeros(self.mechanics.dofs, slots, self.elements.len())
+    }
+}
+
+/// Lists the probes of all elements.
+fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
+    let of_elements: Vec<Vec<ElementProbe>> =
+        elements.iter().map(|element| element.probes(mechanics)).collect();
+    let slides = mechanics.has_sliding_rails();
+    let sliding: Vec<usize> =
+        (0..elements.len()).filter(|&i| slides && elements[i].is_tangential()).collect();
+    let verticals = mechanics.groups.len();
+    let slot = |i: usize| {
+        let place = || sliding.iter().position(|&element| element == i).map(|k| verticals + k);
+        if i < verticals { Some(i) } else { place() }
+    };
+    let slots = (0..elements.len()).map(slot).collect();
+    let contact_of = |wheel: usize| mechanics.wheels[wheel].contact;
+    let structure_of = |wheel: usize| mechanics.scene.contacts[contact_of(wheel)].structure;
+    // Wheels of one contact move alike: one tangential contact serves them.
+    let mut tangential: Vec<TangentialContact> = Vec::new();
+    let find = |all: &[TangentialContact], element: usize, wheel: usize| {
+        let same = |known: &TangentialContact| {
+            known.element == element && contact_of(known.wheel) == contact_of(wheel)
+        };
+        all.iter().position(same)
+    };
+    for (element, probes) in of_elements.iter().enumerate() {
+        for &ElementProbe { wheel, axis, .. } in probes {
+            let is_dragged = mechanics.foundations[structure_of(wheel)].is_dragged;
+            if axis == Axis::Longitudinal && is_dragged && find(&tangential, element, wheel).is_none() {
+                tangential.push(TangentialContact { element, wheel });
+            }
+        }
+    }
+    let entries_of = |s: usize| {
+        let foundation = &mechanics.foundations[s];
+        let mut entries = Vec::new();
+        for (element, probes) in of_elements.iter().enumerate() {
+            for &ElementProbe { wheel, weight, axis, part } in probes {
+                let complies = match axis {
+                    Axis::Vertical => true,
+                    Axis::Lateral => foundation.parts.is_none(),
+                    Axis::Longitudinal => foundation.is_dragged,
+                };
+                if structure_of(wheel) != s || !complies {
+                    continue;
+                }
+                let rail = mechanics.scene.contacts[contact_of(wheel)].rail;
+                let rail = match (&foundation.parts, part) {
+                    (Some(chains), Some(part)) => chains[rail].rail(part),
+                    _ => rail,
+                };
+                let own = if axis == Axis::Longitudinal { find(&tangential, element, wheel) } else { None };
+                let probe = Probe { rail, x: 0.0, axis };
+                entries.push(Entry { element, weight, wheel, probe, tangential: own });
+            }
+        }
+        entries
+    };
+    let entries: Vec<Vec<Entry>> = (0..mechanics.foundations.len()).map(entries_of).collect();
+    let is_direct = |entries: &Vec<Entry>| {
+        entries.len() == elements.len()
+            && entries.iter().enumerate().all(|(i, entry)| entry.element == i && entry.weight == -1.0)
+    };
+    let is_direct = entries.iter().map(is_direct).collect();
+    Probes { entries, is_direct, tangential, slots, sliding }
+}
+
+/// Finds which simplifications hold.
+fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
+    let is_uneven = (0..mechanics.wheels.len()).any(|w| mechanics.irregularity(w).is_some());
+    let is_vertical = elements.len() == mechanics.groups.len();
+    let has_constant_rows = !mechanics.moves_freely
+        && !is_uneven
+        && is_vertical
+        && mechanics.foundations.iter().all(|foundation| foundation.structure.is_none());
+    let scene = mechanics.scene;
+    let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
+    let ratio = |law: &NormalLaw| law.damping / law.stiffness;
+    let grounded = laws().find(|law| !law.has_memory());
+    let is_symmetric = !mechanics.moves_freely
+        && mechanics.foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
+        && grounded.is_none_or(|first| {
+            laws().all(|law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) })
+        });
+    let has_linear_laws = laws().all(NormalLaw::is_linear);
+    let uses_heights = elements.iter().any(|element| element.uses_height());
+    let follows_motion = mechanics.moves_freely
+        || !mechanics.carried.is_empty()
+        || elements.iter().any(|element| element.follows_motion());
+    Traits {
+        is_uneven,
+        has_constant_rows,
+        has_parts: mechanics.foundations.iter().any(|foundation| foundation.parts.is_some()),
+        is_vertical,
+        has_linear_laws,
+        uses_heights,
+        follows_motion,
+        is_symmetric,
+    }
+}

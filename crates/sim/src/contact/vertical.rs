@@ -1,0 +1,232 @@
+//! Vertical contact of a wheel, or of the wheels of massless equalisers, with a rail: F = n s (k p^e + S(p) c r).
+//!
+//! p is the penetration, r its rate or that of the wheel alone, n the number of wheels and s the fraction of the law
+//! that acts where rigid parts hand a wheel over. The contact is one-sided: it opens where its force would pull, and
+//! closes where spring and damper would push.
+
+use std::ops::Range;
+
+use splines::Axis;
+
+use super::active::ActiveSet;
+use super::element::{At, Coupling, Element, ElementProbe, Law, Local, Query, Role, Where};
+use super::energy::{Exchanged, Stored};
+use super::places::Places;
+use super::rows::RowMut;
+use crate::mechanics::assembly::Mechanics;
+use crate::mechanics::state::State;
+use crate::numerics::dense::along;
+use crate::numerics::step::step_integral;
+use crate::scene::dof::arm_rows;
+use crate::scene::wheel::LawPoint;
+use crate::{Channel, Damper, NormalLaw};
+
+/// A vertical contact.
+pub(crate) struct Vertical<'a> {
+    law: &'a NormalLaw,
+    body: usize,
+    wheels: Range<usize>,
+    contact: usize,
+    /// The rigid part that it presses on, where every part has its own force.
+    part: Option<usize>,
+}
+
+impl<'a> Vertical<'a> {
+    /// One contact for each wheel group, in their order.
+    pub fn all(mechanics: &Mechanics<'a>) -> Vec<Self> {
+        let groups = mechanics.groups.iter();
+        groups
+            .map(|group| Vertical {
+                law: &mechanics.scene.wheels[group.kind].normal,
+                body: mechanics.scene.contacts[group.contact].body,
+                wheels: group.wheels.clone(),
+                contact: group.contact,
+                part: group.part,
+            })
+            .collect()
+    }
+
+    /// Number of wheels that share the force.
+    pub fn count(&self) -> f64 {
+        self.wheels.len() as f64
+    }
+
+    /// Whether an active contact must open: it pulls though it may not, or its part has let go of the wheel.
+    pub fn opens(&self, force: f64, fraction: f64) -> bool {
+        fraction == 0.0 || (force < 0.0 && !self.law.bilateral)
+    }
+
+    /// Force of one wheel that open contact `i` would have if it closed now at `at`, where its damper feels `rate`;
+    /// positive: it must close.
+    pub fn closing(
+        &self,
+        i: usize,
+        fraction: f64,
+        active: &ActiveSet,
+        at: &State,
+        rate: impl FnOnce() -> f64,
+    ) -> f64 {
+        let law = self.law;
+        if fraction == 0.0 {
+            return -1.0;
+        }
+        if law.bilateral {
+            return 1.0;
+        }
+        if let Some(left) = self.relaxed(active.stored(i), at.t) {
+            return law.spring(at.p[i] - left);
+        }
+        let rate = if law.has_memory() { at.p_rate[i] } else { rate() };
+        let spring = law.spring(at.p[i]);
+        if at.p[i] <= 0.0 { spring } else { law.at(at.p[i], rate).force }
+    }
+
+    /// Penetration that spring and damper of an open contact still have at `t`. Free of force they relax from the one
+    /// `stored` as it opened by k p + c p' = 0, and wheel and rail are apart until they meet there. `None` where that
+    /// is not known.
+    fn relaxed(&self, stored: Option<[f64; 2]>, t: f64) -> Option<f64> {
+        let law = self.law;
+        let [p, since] = stored.filter(|_| law.has_memory() && law.is_linear())?;
+        Some(p * (-(t - since) * law.stiffness / law.damping).exp())
+    }
+}
+
+impl Element for Vertical<'_> {
+    fn constant_row(&self, mechanics: &Mechanics, row: &mut RowMut) {
+        for w in self.wheels.clone() {
+            let wheel = &mechanics.wheels[w];
+            row.add_approach(&mechanics.kinematics, wheel.body, arm_rows(wheel.hub)[1], -1.0 / self.count());
+        }
+        row.rate.copy_from_slice(row.approach);
+    }
+
+    /// The shape of the unloaded rail: y0 up brings the rail nearer.
+    fn update_row(&self, at: &Where, row: &mut RowMut, _: &mut Local) {
+        if !at.is_uneven {
+            return;
+        }
+        for w in self.wheels.clone() {
+            if let Some(shape) = at.mechanics.irregularity(w) {
+                let [height, slope] = shape.vertical(at.places.piece[w], at.places.x[w]);
+                *row.approach_offset += height / self.count();
+                *row.rise += slope / self.count();
+            }
+        }
+    }
+
+    fn fraction(&self, mechanics: &Mechanics, places: &Places) -> Option<[f64; 2]> {
+        let contact = &mechanics.scene.contacts[self.contact];
+        let chains = mechanics.foundations[contact.structure].parts.as_ref()?;
+        let part = self.part?;
+        let mean = self.wheels.clone().map(|w| places.x[w]).sum::<f64>() / self.count();
+        Some(chains[contact.rail].share(part, mean))
+    }
+
+    fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
+        let weight = -1.0 / self.count();
+        let wheels = self.wheels.clone();
+        wheels.map(|wheel| ElementProbe { wheel, weight, axis: Axis::Vertical, part: self.part }).collect()
+    }
+
+    fn tilted_wheel(&self) -> Option<usize> {
+        Some(self.wheels.start)
+    }
+
+    fn role(&self) -> Role {
+        Role::Carries
+    }
+
+    fn begins_active(&self) -> bool {
+        false
+    }
+
+    fn feels_rates(&self) -> bool {
+        self.law.damper == Damper::Ground
+    }
+
+    fn has_memory(&self) -> bool {
+        self.law.has_memory()
+    }
+
+    fn is_followed(&self) -> bool {
+        true
+    }
+
+    fn law(&self, query: &Query, _: &mut Vec<Coupling>) -> Option<Law> {
+        if !query.is_active {
+            return None;
+        }
+        let LawPoint { force, by_penetration, by_rate } = self.law.at(query.penetration(), query.rate);
+        let scale = self.count() * query.local.fraction[0];
+        Some(Law {
+            force: scale * force,
+            by_penetration: scale * by_penetration,
+            by_rate: scale * by_rate,
+            by_other: None,
+        })
+    }
+
+    /// A contact closes where its spring is pressed and its law pushes: the lesser of the two, since the damper's
+    /// force may jump where wheel and rail meet, the spring's where a pressed contact begins to push.
+    fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {
+        let i = at.index;
+        if active.has(i) {
+            return Some(if self.law.bilateral { -1.0 } else { -at.force() });
+        }
+        let closing = self.closing(i, at.local().fraction[0], active, at.state, || at.rate());
+        Some(if closing > 0.0 { closing.min(self.law.spring(at.state.p[i])) } else { closing })
+    }
+
+    fn stored(&self, at: &At, energy: &mut Stored) {
+        if at.force() != 0.0 {
+            energy.contact += self.count() * at.local().fraction[0] * self.law.energy(at.state.p[at.index]);
+        }
+        energy.structure += at.rail_energy();
+    }
+
+    fn power(&self, at: &At, power: &mut Exchanged) {
+        if at.force() == 0.0 {
+            return;
+        }
+        let (law, i) = (self.law, at.index);
+        let [fraction, slope] = at.local().fraction;
+        let rate =
+            if slope == 0.0 { 0.0 } else { slope * at.mechanics.speed_along(self.wheels.start, at.state) };
+        power.handover -= self.count() * rate * law.energy(at.state.p[i]);
+        match law.damper {
+            Damper::Rail => {
+                power.dampers +=
+                    (at.force() - self.count() * fraction * law.spring(at.state.p[i])) * at.state.p_rate[i];
+            }
+            Damper::Ground => {
+                let acceleration = along(&at.rows.rate, i, at.state.a.as_slice());
+                power.dampers -= self.count()
+                    * law.damping
+                    * (fraction * acceleration + rate * at.rate())
+                    * step_integral(law.depth, at.state.p[i]);
+            }
+        }
+    }
+
+    /// With d the wheel's displacement and S the ramp of a damper to ground, integral of c S(p) d' dp =
+    /// [c d' Q(p)] - integral of c d'' Q(p) dt, Q' = S.
+    fn boundary(&self, at: &At) -> f64 {
+        let law = self.law;
+        if !law.is_grounded() || at.force() == 0.0 {
+            return 0.0;
+        }
+        self.count()
+            * at.local().fraction[0]
+            * law.damping
+            * at.rate()
+            * step_integral(law.depth, at.state.p[at.index])
+    }
+
+    fn resistance(&self, at: &At, b: usize) -> f64 {
+        if at.mechanics.kinematics.root(self.body) == b { -(at.rail_slope() * at.force()) } else { 0.0 }
+    }
+
+    fn channels(&self, _: &Mechanics) -> Vec<(Channel, f64)> {
+        self.wheels.clone().map(|w| (Channel::Vertical(w), self.count())).collect()
+    }
+}

@@ -1,0 +1,178 @@
+//! Contact forces at states that the caller gives: what another program's forces are compared with.
+
+use nalgebra::DMatrix;
+
+use crate::contact::solver::{RailMemory, Solver};
+use crate::contact::system::System;
+use crate::instant::rates::solve_rates_of;
+use crate::instant::uneven::locate_wheels;
+use crate::mechanics::state::State;
+use crate::{Channel, Error, Foundation, Scene};
+
+/// A state of a scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instant {
+    /// Time; it gives x and its rate where they are prescribed.
+    pub time: f64,
+    /// Six displacements a body; those that are not free are not read.
+    pub displacement: Vec<[f64; 6]>,
+    /// Their rates.
+    pub speed: Vec<[f64; 6]>,
+    /// Speed of spin a wheel; read where the wheel has a spin of its own.
+    pub spin: Vec<f64>,
+    /// Penetration a contact of the scene, where a damper between wheel and rail makes it a state: `Some` for a
+    /// contact that acts, `None` for one that is open. Not read elsewhere.
+    pub penetration: Vec<Option<f64>>,
+}
+
+/// What acts between wheels and rails at an instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ContactForces {
+    /// Force on the rail, positive down, a wheel.
+    pub vertical: Vec<f64>,
+    /// Force of the flange on the rail, positive along +z, a wheel.
+    pub lateral: Vec<f64>,
+    /// Friction on the wheel along -x, a wheel.
+    pub traction: Vec<f64>,
+    /// Force that the slope of the deflected rail exerts on the wheel along +x, a wheel; of vertical forces alone.
+    pub slope: Vec<f64>,
+    /// Approach of wheel and rail before the rail deflects, a contact of the scene.
+    pub approach: Vec<f64>,
+    /// Penetration, a contact of the scene; negative where it is open.
+    pub penetration: Vec<f64>,
+    /// Compliance of the rails, contacts x contacts: downwards at the row per unit force down at the column.
+    pub compliance: DMatrix<f64>,
+}
+
+/// Contact forces of `scene` on `foundations` at each of `instants`.
+///
+/// Vertical forces solve p + G F = e over the contacts that act, F the law of p and its rate; where p is given,
+/// its rate follows. Structures with degrees of freedom of their own rest where they are unloaded.
+///
+/// # Errors
+/// A scene that cannot be set up, foundations of parts with one force each, an instant of the wrong shape, and
+/// [`Error::NoForces`] where the equations have no solution: a penetration given where the rail cannot comply.
+pub fn contact_forces(
+    scene: &Scene,
+    foundations: &[Foundation],
+    instants: &[Instant],
+) -> Result<Vec<ContactForces>, Error> {
+    let system = System::new(scene, foundations)?;
+    if let Some(index) = foundations.iter().position(|foundation| foundation.parts.is_some()) {
+        return Err(Error::NoSuch { what: "one force a wheel on structure", index });
+    }
+    let mut solver = Solver::new(&system, RailMemory::Unknown)?;
+    let mut state = system.state();
+    instants.iter().map(|instant| forces_at(&mut solver, instant, &mut state)).collect()
+}
+
+fn forces_at(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<ContactForces, Error> {
+    place(solver, instant, at)?;
+    let system = solver.system();
+    let count = system.verticals();
+    let none = Error::NoForces { time: at.t };
+    for i in 0..count {
+        let is_given = given(solver, instant, i).is_some();
+        solver.set_active(i, is_given || system.law(i).bilateral);
+    }
+    for _ in 0..4 * count + 8 {
+        if !solve_rates(solver, instant, at)? {
+            return Err(none);
+        }
+        let free = |i: usize| !system.law(i).has_memory() || solver.is_on_rigid_rail(i);
+        let weakest = (0..count)
+            .filter(|&i| free(i) && solver.active().has(i) && solver.opens(i, at))
+            .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
+        let deepest = (0..count)
+            .filter(|&i| free(i) && !solver.active().has(i) && solver.closing(i, at) > 0.0)
+            .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
+        match (weakest, deepest) {
+            (Some(i), _) => solver.set_active(i, false),
+            (None, Some(i)) => solver.set_active(i, true),
+            (None, None) => return Ok(answer(solver, at)),
+        }
+    }
+    Err(none)
+}
+
+/// Puts the instant's numbers into the state.
+fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    for (what, found, expected) in [
+        ("displacements of an instant", instant.displacement.len(), system.scene.bodies.len()),
+        ("speeds of an instant", instant.speed.len(), system.scene.bodies.len()),
+        ("spins of an instant", instant.spin.len(), system.mechanics.wheels.len()),
+        ("penetrations of an instant", instant.penetration.len(), system.scene.contacts.len()),
+    ] {
+        if found != expected {
+            return Err(Error::Number { what, wanted: "one each", found: found as f64 });
+        }
+    }
+    at.t = instant.time;
+    at.force.fill(0.0);
+    for (b, numbers) in system.mechanics.kinematics.numbers.iter().enumerate() {
+        for (i, number) in numbers.iter().enumerate() {
+            if let Some(number) = *number {
+                (at.q[number], at.v[number]) = (instant.displacement[b][i], instant.speed[b][i]);
+            }
+        }
+    }
+    for (wheel, speed) in system.mechanics.wheels.iter().zip(&instant.spin) {
+        if let Some(number) = wheel.spin {
+            at.v[number] = *speed;
+        }
+    }
+    for i in 0..system.verticals() {
+        (at.p[i], at.p_rate[i]) = (given(solver, instant, i).unwrap_or(0.0), 0.0);
+    }
+    solver.reset_heights();
+    locate_wheels(solver, at)?;
+    solver.update(at)
+}
+
+/// The penetration that the instant gives to vertical contact `i`.
+fn given(solver: &Solver, instant: &Instant, i: usize) -> Option<f64> {
+    let remembers = solver.system().law(i).has_memory();
+    instant.penetration[solver.system().mechanics.groups[i].contact].filter(|_| remembers)
+}
+
+/// Finds the rates of the penetrations that are given such that p + G F = e; a rigid rail takes the wheel's
+/// own penetration and rate. Returns whether it converged.
+fn solve_rates(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<bool, Error> {
+    let system = solver.system();
+    for i in (0..system.verticals()).filter(|&i| system.law(i).has_memory() && solver.is_on_rigid_rail(i)) {
+        at.p[i] = solver.geometry().approach(i, &at.q);
+        at.p_rate[i] = solver.approach_rate(i, at);
+    }
+    let unknown: Vec<usize> = (0..system.verticals())
+        .filter(|&i| {
+            solver.active().has(i) && given(solver, instant, i).is_some() && !solver.is_on_rigid_rail(i)
+        })
+        .collect();
+    solve_rates_of(solver, &unknown, at)
+}
+
+fn answer(solver: &Solver, at: &State) -> ContactForces {
+    let system = solver.system();
+    let (m, count) = (system.elements.len(), system.verticals());
+    let normal = |w: usize| system.mechanics.groups_of(w).next().unwrap_or(0);
+    let vertical = |w: usize| at.force[normal(w)] / system.mechanics.groups[normal(w)].count();
+    let wheels = 0..system.mechanics.wheels.len();
+    let mut lateral = vec![0.0; wheels.len()];
+    for (element, force) in system.elements.iter().zip(&at.force) {
+        for (channel, divisor) in element.channels(&system.mechanics) {
+            if let Channel::Lateral(w) = channel {
+                lateral[w] += force / divisor;
+            }
+        }
+    }
+    ContactForces {
+        vertical: wheels.clone().map(vertical).collect(),
+        lateral,
+        traction: wheels.clone().map(|w| system.friction_of(w, at)).collect(),
+        slope: wheels.map(|w| solver.geometry().rail_slope(normal(w)) * vertical(w)).collect(),
+        approach: (0..count).map(|i| solver.geometry().approach(i, &at.q)).collect(),
+        penetration: at.p[..count].to_vec(),
+        compliance: DMatrix::from_fn(count, count, |i, j| solver.geometry().rails().value[i * m + j]),
+    }
+}

@@ -1,0 +1,356 @@
+//! Static equilibrium: weights, loads, wheels and the deflection of the rail in balance.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::contact::solver::Solver;
+use crate::contact::system::System;
+use crate::mechanics::state::State;
+use crate::numerics::dense::dot;
+use crate::{Error, Freedom};
+
+/// Sweeps of the active set.
+const SWEEPS: usize = 60;
+/// Iterations on the forces of flanges.
+const FLANGES: usize = 60;
+/// Change of the degrees of freedom, by the largest penetration, at which wheels are taken to be where they will stay.
+const SETTLED: f64 = 1e-9;
+/// Newton iterations on the laws of one active set.
+const ITERATIONS: usize = 50;
+/// Relative error of the balance beyond which the wheels cannot carry the weight.
+const BALANCE: f64 = 1e-6;
+
+/// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the degrees of freedom of
+/// the structures to static equilibrium at `at.t`; the other degrees of freedom stay.
+///
+/// Unknowns are the penetrations p and forces F of the vertical contacts and the degrees of freedom q. With the
+/// active contacts, p + (G + Phi K^-1 Phi^T) F = R q + constant, F = law(p) and R^T F = weights and loads are solved
+/// by Newton's method; sweeps over the active set drop contacts that pull and add contacts that are pressed until it
+/// stays. The balance is repeated with the slopes of the rails and the places of the wheels that it leads to, and
+/// with the forces of flanges, which are relaxed by Aitken's method, until nothing changes.
+///
+/// # Errors
+/// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
+pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let none = Error::NoEquilibrium { time: at.t };
+    at.v.fill(0.0);
+    // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
+    let springs: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
+    let restore = |force: &mut [f64]| {
+        system.springs().iter().zip(&springs).for_each(|(&i, pull)| force[i] = *pull);
+    };
+    at.force.fill(0.0);
+    restore(&mut at.force);
+    let guides = system.guides();
+    let mut relaxation = Relaxation::default();
+    for _ in 0..FLANGES {
+        let before = at.q.clone();
+        balance(solver, at)?;
+        let rests = !system.mechanics.moves_freely || has_settled(&before, at);
+        if guides.is_empty() {
+            if rests {
+                return Ok(());
+            }
+            continue;
+        }
+        let taken: Vec<f64> = guides.iter().map(|&i| at.force[i]).collect();
+        if !solver.instant(at)? {
+            return Err(none);
+        }
+        restore(&mut at.force);
+        let largest =
+            at.force.iter().fold(system.mechanics.gravity.amax(), |max, force| max.max(force.abs()));
+        let mut followed: Vec<f64> = guides.iter().map(|&i| at.force[i]).collect();
+        let change = relaxation.step(&taken, &mut followed);
+        guides.iter().zip(followed).for_each(|(&i, force)| at.force[i] = force);
+        if change <= 1e-12 * largest && rests {
+            return Ok(());
+        }
+    }
+    Err(none)
+}
+
+/// Whether the degrees of freedom have stayed where they were `before`.
+pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
+    let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
+    let pairs = before.iter().zip(at.q.iter());
+    pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
+}
+
+/// The balance under the flange forces of `at`.
+fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let none = Error::NoEquilibrium { time: at.t };
+    solver.update(at)?;
+    let moving = balancing(solver);
+    let mut balance = Balance::new(solver, moving, at)?;
+    if !balance.solve() {
+        return Err(none);
+    }
+    for (&number, &q) in balance.moving.iter().zip(balance.q.iter()) {
+        at.q[number] = q;
+    }
+    at.force[..system.verticals()].copy_from_slice(&balance.force);
+    at.p[..balance.p.len()].copy_from_slice(&balance.p);
+    at.p_rate.fill(0.0);
+    solver.rest_rails(at);
+    for i in 0..system.verticals() {
+        solver.set_active(i, balance.active.contains(&i));
+    }
+    rest_structures(solver, at)
+}
+
+/// Degrees of freedom of the bodies that balance the weights: those of y, roll and pitch that some wheel resists.
+fn balancing(solver: &Solver) -> Vec<usize> {
+    let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
+    let numbers = solver.system().mechanics.kinematics.numbers.iter();
+    numbers
+        .flat_map(|numbers| [Freedom::Y, Freedom::Roll, Freedom::Pitch].map(|f| numbers[f as usize]))
+        .flatten()
+        .filter(|&number| (0..count).any(|i| rows.approach_row(i)[number] != 0.0))
+        .collect()
+}
+
+/// Elements that press on rails at rest: the vertical contacts, then the guides.
+fn pressing(system: &System) -> Vec<usize> {
+    (0..system.verticals()).chain(system.guides().iter().copied()).collect()
+}
+
+/// G + Phi K^-1 Phi^T over the elements that press on rails at rest.
+fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
+    let system = solver.system();
+    let (m, pressing) = (system.elements.len(), pressing(system));
+    let count = pressing.len();
+    let (value, rows) = (&solver.geometry().rails().value, solver.geometry().rows());
+    let mut compliance = DMatrix::from_fn(count, count, |i, j| value[pressing[i] * m + pressing[j]]);
+    for block in &system.mechanics.blocks[1..] {
+        let first = block.range.start;
+        let phi =
+            DMatrix::from_fn(block.range.len(), count, |k, i| rows.approach_row(pressing[i])[first + k]);
+        compliance += phi.transpose() * block.rest(&phi)?;
+    }
+    Ok(compliance)
+}
+
+/// Degrees of degree of freedom of structures under the vertical and the guiding forces of `at`.
+fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let (rows, pressing) = (solver.geometry().rows(), pressing(system));
+    for block in &system.mechanics.blocks[1..] {
+        let (first, size) = (block.range.start, block.range.len());
+        let load = DMatrix::from_fn(size, 1, |k, _| {
+            let loads = pressing.iter().map(|&i| rows.approach_row(i)[first + k] * at.force[i]);
+            -loads.sum::<f64>()
+        });
+        at.q.rows_mut(first, size).copy_from(&block.rest(&load)?.column(0));
+    }
+    Ok(())
+}
+
+/// Weight on degree of freedom `number` that ropes and stops take, at the forces of `at`.
+fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
+    let rows = solver.geometry().rows();
+    solver.system().springs().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
+}
+
+/// Aitken's relaxation of a fixed-point iteration on forces: omega <- -omega r_old . (r - r_old) / |r - r_old|^2, r the
+/// change of the forces by one iteration.
+///
+/// # Source
+/// Irons, Tuck, Int. J. Numer. Meth. Engng 1 (1969) 275-277.
+#[derive(Default)]
+struct Relaxation {
+    share: Option<f64>,
+    residual: Vec<f64>,
+}
+
+impl Relaxation {
+    /// From the forces `taken` and those that `followed`: the next ones to take, in place of these, and the change.
+    fn step(&mut self, taken: &[f64], followed: &mut [f64]) -> f64 {
+        let residual: Vec<f64> = followed.iter().zip(taken).map(|(new, old)| new - old).collect();
+        let bend: Vec<f64> = residual.iter().zip(&self.residual).map(|(new, old)| new - old).collect();
+        let square: f64 = bend.iter().map(|b| b * b).sum();
+        let share = match self.share {
+            Some(share) if square > 0.0 => -share * dot(&self.residual, &bend) / square,
+            _ => 1.0,
+        };
+        for (next, (old, change)) in followed.iter_mut().zip(taken.iter().zip(&residual)) {
+            *next = old + share * change;
+        }
+        let largest = residual.iter().fold(0.0_f64, |max, r| max.max(r.abs()));
+        (self.share, self.residual) = (Some(share), residual);
+        largest
+    }
+}
+
+/// The balance of the vertical contacts at one place: p + A F = `constant` + `rows` q, F = law(p), `rows`^T F = weight.
+struct Balance<'a> {
+    system: &'a System<'a>,
+    /// Share of each contact's law that acts, times its wheels.
+    share: Vec<f64>,
+    /// Numbers of the degrees of freedom q.
+    moving: Vec<usize>,
+    /// A, contacts x contacts.
+    compliance: DMatrix<f64>,
+    /// Contacts x degrees of freedom.
+    rows: DMatrix<f64>,
+    constant: Vec<f64>,
+    weight: DVector<f64>,
+    active: Vec<usize>,
+    q: DVector<f64>,
+    p: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl<'a> Balance<'a> {
+    /// The balance of `moving` where the solver's geometry is; every wheel that may act is taken to carry alike.
+    /// Where nothing moves, the wheels that reach into their rails carry.
+    fn new(solver: &Solver<'a>, moving: Vec<usize>, at: &State) -> Result<Self, Error> {
+        let (system, geometry) = (solver.system(), solver.geometry());
+        let rows = geometry.rows();
+        let (n, count) = (system.mechanics.dofs, system.verticals());
+        let stays = |k: usize| {
+            !moving.contains(&k) && !system.mechanics.structures.iter().any(|range| range.contains(&k))
+        };
+        let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
+        let all = static_compliance(solver)?;
+        let guides = || system.guides().iter().enumerate().map(|(k, &l)| (system.verticals() + k, l));
+        let constant: Vec<f64> = (0..count)
+            .map(|i| {
+                let staid = staying.iter().map(|&k| rows.approach_row(i)[k] * at.q[k]).sum::<f64>();
+                let taken = guides().map(|(place, l)| all[(i, place)] * at.force[l]).sum::<f64>();
+                rows.approach_offset[i] + staid - taken
+            })
+            .collect();
+        let share: Vec<f64> =
+            (0..count).map(|i| system.mechanics.groups[i].count() * geometry.fraction(i)).collect();
+        let reach = |i: usize| if moving.is_empty() { Some(constant[i]) } else { None };
+        let active: Vec<usize> =
+            (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
+        let mut gravity = system.mechanics.gravity.clone();
+        system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), &mut gravity);
+        let mut weight = DVector::from_fn(moving.len(), |j, _| {
+            gravity[moving[j]] + pull_of_springs(solver, moving[j], at)
+        });
+        for load in &system.scene.actuators.loads {
+            if let Some(j) = moving.iter().position(|&k| system.mechanics.loaded(load) == Some(k)) {
+                weight[j] += load.value.at(at.t);
+            }
+        }
+        // A rail pushes along itself where it slopes: on the hub, so that a body is turned.
+        let tilted = |i: usize, k: usize| (rows.force_row(i)[k] - rows.approach_row(i)[k]) * at.force[i];
+        for (j, &k) in moving.iter().enumerate() {
+            weight[j] -= (0..count).map(|i| tilted(i, k)).sum::<f64>();
+            weight[j] -= guides().map(|(_, l)| rows.force_row(l)[k] * at.force[l]).sum::<f64>();
+        }
+        let each = weight.amax() / active.len().max(1) as f64;
+        Ok(Balance {
+            compliance: all.view((0, 0), (count, count)).into_owned(),
+            rows: DMatrix::from_fn(count, moving.len(), |i, j| rows.approach_row(i)[moving[j]]),
+            p: (0..count).map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each))).collect(),
+            q: DVector::zeros(moving.len()),
+            force: vec![0.0; count],
+            system,
+            share,
+            moving,
+            constant,
+            weight,
+            active,
+        })
+    }
+
+    /// Sweeps of the active set; false where no set balances the weights.
+    fn solve(&mut self) -> bool {
+        for _ in 0..SWEEPS {
+            if self.active.is_empty() {
+                return self.moving.is_empty();
+            }
+            let Some(converged) = self.iterate() else { return false };
+            if !self.sweep() {
+                return converged;
+            }
+        }
+        false
+    }
+
+    /// Newton's method with the active contacts; `None` where they cannot carry the weight, else whether it
+    /// converged.
+    fn iterate(&mut self) -> Option<bool> {
+        for _ in 0..ITERATIONS {
+            let solved = self.linearised()?;
+            let change = self.advance(&solved);
+            let depth = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
+            if change <= 1e-14 * depth {
+                return Some(true);
+            }
+        }
+        Some(false)
+    }
+
+    /// Forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k, R^T F = weight, with f and k force
+    /// and stiffness of the laws at p; sets q.
+    fn linearised(&mut self) -> Option<DVector<f64>> {
+        let size = self.active.len();
+        let mut matrix =
+            DMatrix::from_fn(size, size, |r, c| self.compliance[(self.active[r], self.active[c])]);
+        let mut free = DVector::zeros(size);
+        for (r, &i) in self.active.iter().enumerate() {
+            let point = self.system.law(i).at(self.p[i], 0.0);
+            matrix[(r, r)] += 1.0 / (self.share[i] * point.by_penetration);
+            free[r] = self.constant[i] - self.p[i] + point.force / point.by_penetration;
+        }
+        let lever = DMatrix::from_fn(size, self.moving.len(), |r, j| self.rows[(self.active[r], j)]);
+        let lu = matrix.lu();
+        if self.moving.is_empty() {
+            return lu.solve(&free);
+        }
+        let (by_lever, by_free) = (lu.solve(&lever)?, lu.solve(&free)?);
+        let stiffness = lever.transpose() * &by_lever;
+        let balance = &self.weight - lever.transpose() * &by_free;
+        let next = stiffness.clone().lu().solve(&balance)?;
+        let scale = self.weight.amax().max(f64::MIN_POSITIVE);
+        let balanced = (&stiffness * &next - &balance).amax() <= BALANCE * scale;
+        if !(balanced && next.iter().all(|q| q.is_finite())) {
+            return None;
+        }
+        let solved = by_lever * &next + by_free;
+        self.q = next;
+        Some(solved)
+    }
+
+    /// Moves the penetrations to the forces `solved`, kept positive for curved laws; returns the largest change.
+    fn advance(&mut self, solved: &DVector<f64>) -> f64 {
+        let mut change = 0.0_f64;
+        self.force.fill(0.0);
+        for (r, &i) in self.active.iter().enumerate() {
+            let (law, share) = (self.system.law(i), self.share[i]);
+            let point = law.at(self.p[i], 0.0);
+            let wanted = self.p[i] + (solved[r] - share * point.force) / (share * point.by_penetration);
+            let floor = 0.1 * self.p[i].abs();
+            let bounded = if law.exponent == 1.0 { wanted } else { wanted.max(floor) };
+            change = change.max((bounded - self.p[i]).abs());
+            self.p[i] = bounded;
+            self.force[i] = solved[r];
+        }
+        change
+    }
+
+    /// Drops the contacts that pull, adds those that are pressed; returns whether the active set changed.
+    fn sweep(&mut self) -> bool {
+        let deepest = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
+        let before = self.active.clone();
+        let system = self.system;
+        let force = &self.force;
+        self.active.retain(|&i| force[i] >= 0.0 || system.law(i).bilateral);
+        for i in (0..self.share.len()).filter(|i| !before.contains(i) && self.share[*i] > 0.0) {
+            let reach: f64 = self.rows.row(i).iter().zip(self.q.iter()).map(|(r, q)| r * q).sum();
+            let give: f64 = self.compliance.row(i).iter().zip(&self.force).map(|(g, f)| g * f).sum();
+            self.p[i] = self.constant[i] + reach - give;
+            if self.p[i] > 1e-13 * deepest {
+                self.active.push(i);
+            }
+        }
+        self.active.sort_unstable();
+        self.active != before
+    }
+}

@@ -1,0 +1,176 @@
+//! Static equilibrium of bodies that stand on nothing, below their ropes or on their floors.
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::Error;
+use crate::contact::solver::Solver;
+use crate::contact::system::System;
+use crate::instant::equilibrium::{balance_wheels, has_settled};
+use crate::mechanics::point::{Point, scalar};
+use crate::mechanics::state::State;
+
+/// Newton iterations, and sweeps between hanging bodies and those on rails.
+const ITERATIONS: usize = 200;
+const SWEEPS: usize = 100;
+
+/// Moves everything that may settle to static equilibrium at `at.t`: bodies on rails by
+/// [`balance_wheels`], hanging bodies below their ropes, until the tensions stay.
+///
+/// # Errors
+/// [`Error::NoEquilibrium`] where the tensions do not come to rest, and what [`balance_wheels`] refuses.
+pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    if system.springs().is_empty() {
+        return balance_wheels(solver, at);
+    }
+    let hanging = hanging(system);
+    let mut before = vec![f64::INFINITY; system.springs().len()];
+    let mut places = at.q.clone();
+    at.v.fill(0.0);
+    for _ in 0..SWEEPS {
+        // the carriers have moved: a rope that fell slack would say nothing
+        place_below_ropes(solver, at)?;
+        rest_hanging(solver, &hanging, at)?;
+        let tensions: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
+        let scale = tensions.iter().fold(weight(solver), |max, force| max.max(force.abs()));
+        let pairs = tensions.iter().zip(&before);
+        let moved = pairs.fold(0.0_f64, |max, (now, then)| max.max((now - then).abs()));
+        // A rope that leans with what it hangs from pulls as hard, to the first order, but not as it should.
+        if moved <= 1e-12 * scale && has_settled(&places, at) {
+            return Ok(());
+        }
+        before.copy_from_slice(&tensions);
+        places.copy_from(&at.q);
+        balance_wheels(solver, at)?;
+    }
+    Err(Error::NoEquilibrium { time: at.t })
+}
+
+fn weight(solver: &Solver) -> f64 {
+    solver.system().mechanics.gravity.amax()
+}
+
+/// Newton's method with step halving on the potential of the `hanging` degrees of freedom, which is convex; sets the
+/// forces of the links.
+fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<(), Error> {
+    let mut potential = springs_at(solver, hanging, at)?;
+    for _ in 0..ITERATIONS {
+        let Some(step) = descent(solver, hanging, at) else { break };
+        let start = at.q.clone();
+        let mut share = 1.0;
+        loop {
+            for (&number, d) in hanging.iter().zip(step.iter()) {
+                at.q[number] = start[number] + share * d;
+            }
+            let now = springs_at(solver, hanging, at)?;
+            if now <= potential || share < 1e-6 {
+                potential = now;
+                break;
+            }
+            share *= 0.5;
+        }
+        let size = hanging.iter().fold(1.0_f64, |max, &k| max.max(at.q[k].abs()));
+        if share * step.amax() <= 1e-15 * size {
+            break;
+        }
+    }
+    solver.settle_springs(at);
+    Ok(())
+}
+
+/// Potential of weight, loads and links at `at`, whose link forces it sets.
+fn springs_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<f64, Error> {
+    let system = solver.system();
+    solver.update(at)?;
+    let mut potential = -hanging.iter().map(|&k| static_load(solver, k, at.t) * at.q[k]).sum::<f64>();
+    for &i in system.springs() {
+        let hold = &solver.geometry().local()[i].spring;
+        let p = solver.geometry().approach(i, &at.q).max(0.0);
+        at.force[i] = hold.stiffness * p;
+        potential += 0.5 * hold.stiffness * p * p;
+    }
+    Ok(potential)
+}
+
+fn static_load(solver: &Solver, number: usize, t: f64) -> f64 {
+    let system = solver.system();
+    let loads =
+        system.scene.actuators.loads.iter().filter(|load| system.mechanics.loaded(load) == Some(number));
+    system.mechanics.gravity[number] + loads.map(|load| load.value.at(t)).sum::<f64>()
+}
+
+/// Newton's step of the `hanging` degrees of freedom; `None` where there is none to take.
+fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64>> {
+    let system = solver.system();
+    let n = system.mechanics.dofs;
+    let size = hanging.len();
+    let mut force = DVector::from_fn(size, |r, _| static_load(solver, hanging[r], at.t));
+    let mut matrix = DMatrix::zeros(size, size);
+    let mut row = vec![0.0; n];
+    for &i in system.springs() {
+        let (hold, own) = (&solver.geometry().local()[i].spring, solver.geometry().rows().approach_row(i));
+        if at.force[i] <= 0.0 {
+            continue;
+        }
+        let pull = DVector::from_fn(size, |r, _| own[hanging[r]]);
+        force -= &pull * at.force[i];
+        matrix += &pull * pull.transpose() * hold.stiffness;
+        if let Some(points) = system.elements[i].points().filter(|points| points.swings) {
+            for axis in 0..3 {
+                let mut unit = [0.0; 3];
+                unit[axis] = 1.0;
+                let lean = scalar(unit, hold.direction);
+                row.fill(0.0);
+                points.add_row(&system.mechanics, (at.t, &at.q), unit, &mut row);
+                let across = DVector::from_fn(size, |r, _| row[hanging[r]] - lean * own[hanging[r]]);
+                matrix += &across * across.transpose() * (at.force[i] / hold.length);
+            }
+        }
+    }
+    let stiffest = matrix.diagonal().amax();
+    if size == 0 || stiffest <= 0.0 {
+        return None;
+    }
+    for k in 0..size {
+        matrix[(k, k)] += 1e-14 * stiffest;
+    }
+    matrix.cholesky().map(|factor| factor.solve(&force))
+}
+
+/// Puts hanging bodies below the ends of their ropes, stretched by their weight.
+pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    for &b in &system.scene.actuators.hung {
+        let ropes = (0..system.scene.actuators.ropes.len()).filter_map(|index| Some(system.rope(index)?.1));
+        let mut ends = ropes.filter_map(|rope| {
+            let [from, to] = rope.ends()?;
+            let is_own = |end: &Point| end.body == Some(b);
+            let at_from = is_own(from).then_some((rope.rope, to, from));
+            if is_own(to) { Some((rope.rope, from, to)) } else { at_from }
+        });
+        let Some((rope, other, own)) = ends.next() else { continue };
+        let place = other.position(&system.mechanics, at.t, &at.q);
+        let weight = system.scene.bodies[b].mass * system.scene.gravity;
+        let stretched = rope.length * (1.0 + weight / rope.stiffness);
+        let wanted = [place[0], place[1] - stretched, place[2]];
+        for (axis, number) in system.mechanics.kinematics.numbers[b].iter().take(3).enumerate() {
+            if let Some(number) = *number {
+                at.q[number] = wanted[axis] - own.at[axis];
+            }
+        }
+    }
+    solver.update(at)
+}
+
+/// Degrees of freedom of the hanging bodies that links reach.
+fn hanging(system: &System) -> Vec<usize> {
+    let is_joined = |b: usize| {
+        let mut points = system.springs().iter().filter_map(|&i| system.elements[i].points());
+        points.any(|points| points.is_on(b))
+    };
+    let bodies = system.scene.actuators.hung.iter();
+    bodies
+        .filter(|&&b| is_joined(b))
+        .flat_map(|&b| system.mechanics.kinematics.numbers[b].iter().take(3).flatten().copied())
+        .collect()
+}

@@ -1,0 +1,93 @@
+//! Which vertical contacts act: the complementarity problem of one instant.
+
+use crate::Error;
+use crate::contact::active::ROUNDING;
+use crate::contact::solver::{RIGID, Solver};
+use crate::mechanics::state::State;
+use crate::numerics::complementarity::complementarity;
+
+/// Finds which elements act at (t, q, v), and the forces.
+///
+/// Ropes and stops act where they would pull or push. For the vertical contacts this is a complementarity problem,
+/// solved by sweeps of the active set: with the forces of the contacts that act, the one that pulls hardest opens;
+/// where none pulls, the one that is pressed deepest of those that should push closes; where there is none either,
+/// the set is found. Returns whether that happened within a number of sweeps that grows with the contacts.
+///
+/// # Errors
+/// What the rails refuse.
+pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
+    let count = solver.system().verticals();
+    if !solver.system().springs().is_empty() {
+        solver.update(at)?;
+        solver.settle_springs(at);
+    }
+    guess_active(solver, at)?;
+    for _ in 0..4 * count + 8 {
+        if !solver.instant(at)? {
+            return Ok(false);
+        }
+        let weakest = (0..count)
+            .filter(|&i| solver.active().has(i) && solver.opens(i, at))
+            .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
+        if let Some(i) = weakest {
+            solver.open(i, at);
+            continue;
+        }
+        let deepest = (0..count)
+            .filter(|&i| !solver.active().has(i) && solver.closing(i, at) > 0.0)
+            .max_by(|&i, &j| at.p[i].total_cmp(&at.p[j]));
+        let Some(i) = deepest else { return Ok(true) };
+        solver.set_active(i, true);
+        at.p_rate[i] = closing_rate(solver, i, at);
+    }
+    Ok(false)
+}
+
+/// Rate of penetration of a contact that closes now. Where the rail complies, its penetration and so its force go on
+/// without a jump: the force starts at zero, on the side where the contact presses. On a rigid rail it is the rate of
+/// the wheel itself.
+fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {
+    let system = solver.system();
+    let law = system.law(i);
+    if solver.geometry().own_compliance(i) * law.stiffness > RIGID {
+        let point = law.at(at.p[i], 0.0);
+        if point.by_rate > 0.0 { (ROUNDING - 1.0) * point.force / point.by_rate } else { 0.0 }
+    } else {
+        solver.approach_rate(i, at)
+    }
+}
+
+/// Active contacts of the complementarity problem (G + 1/k) F - e >= 0, F >= 0, where every law is
+/// linear and undamped: the sweeps of [`settle`] start from its solution.
+fn guess_active(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+    let system = solver.system();
+    let (m, count) = (system.elements.len(), system.verticals());
+    if !system.traits.has_linear_laws
+        || !system.traits.is_symmetric
+        || (0..count).any(|i| system.law(i).damping > 0.0 || system.law(i).bilateral)
+    {
+        return Ok(());
+    }
+    solver.update(at)?;
+    let share = |i: usize| solver.geometry().fraction(i);
+    let felt: Vec<usize> = (0..count).filter(|&i| share(i) > 0.0).collect();
+    let mut matrix: Vec<f64> = felt
+        .iter()
+        .flat_map(|&i| felt.iter().map(move |&j| i * m + j))
+        .map(|at| solver.geometry().rails().value[at])
+        .collect();
+    let mut reach = vec![0.0; felt.len()];
+    for (r, &i) in felt.iter().enumerate() {
+        let per_wheel = system.law(i).stiffness * system.mechanics.groups[i].count() * share(i);
+        matrix[r * felt.len() + r] += 1.0 / per_wheel;
+        reach[r] = solver.geometry().approach(i, &at.q);
+    }
+    let mut force: Vec<f64> = felt.iter().map(|&i| at.force[i]).collect();
+    if complementarity(&matrix, &reach, &mut force).is_some() {
+        (0..count).for_each(|i| solver.set_active(i, false));
+        for (&i, f) in felt.iter().zip(force) {
+            solver.set_active(i, f > 0.0);
+        }
+    }
+    Ok(())
+}

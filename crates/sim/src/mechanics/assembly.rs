@@ -1,0 +1,249 @@
+//! The equations of motion without forces between wheels and rails: numbered degrees of freedom, kinematics and
+//! inertia.
+//!
+//! M q'' + C q' + K q = f(t) - R^T F. The degrees of freedom are numbered body by body, then come the spins of wheels,
+//! then those of each structure. M, C and K are block diagonal but for the couplings between bodies and the structures
+//! that they carry. The forces F and their rows R are added by the wing `contact`.
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::carried::CarriedBodies;
+use super::coupling::InertialCoupling;
+use super::inertia::Block;
+use super::kinematics::{Kinematics, Terms};
+use super::state::State;
+use super::wheels::{WheelGroup, WheelPoint, Wheels};
+use crate::scene::check::check_carriers;
+use crate::scene::dof::arm_rows;
+use crate::{Error, Foundation, Freedom, Irregularity, Load, Moving, Scene};
+
+/// Fraction of a degree of freedom's mass below which what it moves by itself is rounding.
+const MASSLESS: f64 = 1e-13;
+
+/// A scene with its degrees of freedom numbered.
+pub(crate) struct Mechanics<'a> {
+    pub scene: &'a Scene,
+    pub foundations: &'a [Foundation],
+    /// Displacements of the bodies over the degrees of freedom.
+    pub kinematics: Kinematics<'a>,
+    /// All physical wheels.
+    pub wheels: Vec<WheelPoint<'a>>,
+    /// Wheels that share one vertical force.
+    pub groups: Vec<WheelGroup>,
+    /// Groups of each contact.
+    of_contact: Vec<Range<usize>>,
+    /// Bodies that are carried by bodies.
+    pub carried: CarriedBodies,
+    /// Numbers of each structure's degrees of freedom.
+    pub structures: Vec<Range<usize>>,
+    /// Number of all degrees of freedom.
+    pub dofs: usize,
+    /// Whether some wheel's place along its rail depends on the degrees of freedom.
+    pub moves_freely: bool,
+    /// M, C and K: the bodies and spins, then each structure; without bodies that are carried by others.
+    pub blocks: Vec<Block>,
+    /// Inertia between the bodies and structures on them.
+    pub couplings: Vec<InertialCoupling>,
+    /// Weights, without those of bodies that are carried by others.
+    pub gravity: DVector<f64>,
+}
+
+impl<'a> Mechanics<'a> {
+    /// Numbers a scene and adds up its inertia.
+    ///
+    /// # Errors
+    /// What the checks of the scene refuse, carried bodies in an unknown arrangement, and degrees of freedom without
+    /// inertia.
+    pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
+        scene.check(foundations.len())?;
+        check_carriers(scene, foundations)?;
+        let mut dofs = 0;
+        let mut next = || {
+            dofs += 1;
+            dofs - 1
+        };
+        let numbers: Vec<[Option<usize>; 6]> = scene
+            .bodies
+            .iter()
+            .map(|body| {
+                let mut numbers = [None; 6];
+                for (i, number) in numbers.iter_mut().enumerate() {
+                    if body.free[i] && !(i == 0 && body.motion.is_some()) {
+                        *number = Some(next());
+                    }
+                }
+                numbers
+            })
+            .collect();
+        let Wheels { points: wheels, groups, of_contact } = Wheels::new(scene, foundations, &mut next)?;
+        let structures: Vec<Range<usize>> = foundations
+            .iter()
+            .map(|foundation| {
+                let first = dofs;
+                dofs += foundation.freedoms();
+                first..dofs
+            })
+            .collect();
+        let mut kinematics = Kinematics::new(scene, numbers)?;
+        let carried = CarriedBodies::new(foundations, &kinematics)?;
+        kinematics.add_masses(foundations, &structures, |b| carried.has(b));
+        let mut mechanics = Mechanics {
+            scene,
+            foundations,
+            kinematics,
+            wheels,
+            groups,
+            of_contact,
+            carried,
+            structures,
+            dofs,
+            moves_freely: false,
+            blocks: Vec::new(),
+            couplings: Vec::new(),
+            gravity: DVector::zeros(dofs),
+        };
+        mechanics.assemble()?;
+        mechanics.moves_freely = mechanics
+            .wheels
+            .iter()
+            .any(|wheel| !mechanics.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
+        Ok(mechanics)
+    }
+
+    /// Number of the degrees of freedom of bodies and spins, the first of all.
+    pub fn body_dofs(&self) -> usize {
+        self.structures.first().map_or(self.dofs, |range| range.start)
+    }
+
+    /// Whether some structure has degrees of freedom of its own.
+    pub fn has_structures(&self) -> bool {
+        self.structures.iter().any(|range| !range.is_empty())
+    }
+
+    /// Whether some structure is loaded along its rails.
+    pub fn has_sliding_rails(&self) -> bool {
+        self.foundations.iter().any(|foundation| foundation.is_dragged)
+    }
+
+    /// The wheel groups that `wheel` belongs to: one, or one a rigid part.
+    pub fn groups_of(&self, wheel: usize) -> Range<usize> {
+        self.of_contact[self.wheels[wheel].contact].clone()
+    }
+
+    /// Number of the degree of freedom on which `load` acts.
+    pub fn loaded(&self, load: &Load) -> Option<usize> {
+        self.kinematics.numbers[load.body][load.freedom as usize]
+    }
+
+    /// Shape of the unloaded rail of wheel `w`, where it is uneven.
+    pub fn irregularity(&self, w: usize) -> Option<&'a Irregularity> {
+        let contact = &self.scene.contacts[self.wheels[w].contact];
+        let shapes = &self.foundations[contact.structure].irregularities;
+        shapes.get(contact.rail).filter(|shape| !shape.is_straight())
+    }
+
+    /// Displacements and speeds of body `b` in all six degrees of freedom at time `t`.
+    pub fn body(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
+        self.kinematics.motion(b, t, q, v)
+    }
+
+    /// Speed of wheel `w` along its rail, that of its hub.
+    pub fn speed_along(&self, w: usize, at: &State) -> f64 {
+        let wheel = &self.wheels[w];
+        let (_, speed) = self.body(wheel.body, at.t, &at.q, &at.v);
+        arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
+    }
+
+    /// Angle, speed and acceleration of the spin of wheel `w` at `t`, where it is prescribed.
+    pub fn turn(&self, w: usize, t: f64) -> Option<Moving> {
+        self.wheels[w].turn.map(|motion| motion.at(t))
+    }
+
+    /// Inertia of the spin of wheel `w`.
+    pub fn spin_inertia(&self, w: usize) -> f64 {
+        self.scene.wheels[self.wheels[w].kind].spin_inertia.unwrap_or_default()
+    }
+
+    /// Kinetic energy of the wheels whose spin is prescribed, without that of their bodies.
+    pub fn energy_of_turns(&self, t: f64) -> f64 {
+        let all = (0..self.wheels.len()).filter_map(|w| Some((w, self.turn(w, t)?)));
+        all.map(|(w, at)| 0.5 * self.spin_inertia(w) * at.v * at.v).sum()
+    }
+
+    fn assemble(&mut self) -> Result<(), Error> {
+        let bodies = self.body_dofs();
+        let mut mass = DMatrix::zeros(bodies, bodies);
+        for (b, body) in self.scene.bodies.iter().enumerate().filter(|(b, _)| !self.carried.has(*b)) {
+            self.kinematics.add_mass(b, &body.mass_matrix(), &mut mass);
+            let line = arm_rows(body.cg)[1].map(|arm| body.mass * arm);
+            add_weight(&mut self.gravity, self.scene, self.kinematics.terms(b), &line);
+        }
+        for mount in self.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+            self.kinematics.add_mass(mount.body, &mount.mass, &mut mass);
+            let terms = self.kinematics.terms(mount.body);
+            add_weight(&mut self.gravity, self.scene, terms, &mount.mass[1]);
+        }
+        let mut whole = mass.clone();
+        if !self.carried.is_empty() {
+            let rest = DVector::zeros(self.dofs);
+            let sums = (&mut whole, &mut rest.clone());
+            self.carried.add(&self.kinematics, (0.0, &rest, &rest), sums, &mut Vec::new());
+        }
+        let own = self.kinematics.numbers.iter().flatten().flatten().count();
+        if let Some(massless) = first_massless(&whole, own) {
+            for (body, numbers) in self.kinematics.numbers.iter().enumerate() {
+                if let Some(k) = numbers.iter().position(|number| *number == Some(massless)) {
+                    return Err(Error::NoInertia { body, freedom: Freedom::ALL[k] });
+                }
+            }
+        }
+        for wheel in &self.wheels {
+            if let (Some(number), Some(inertia)) = (wheel.spin, self.scene.wheels[wheel.kind].spin_inertia) {
+                mass[(number, number)] = inertia;
+            }
+        }
+        self.blocks.push(Block::bodies(mass));
+        for (range, foundation) in self.structures.iter().zip(self.foundations) {
+            if let Some(structure) = &foundation.structure {
+                self.blocks.push(Block::structure(range.clone(), structure));
+                let coupling = foundation
+                    .on
+                    .as_ref()
+                    .and_then(|mount| InertialCoupling::new(&self.kinematics, mount, range.clone(), bodies));
+                self.couplings.extend(coupling);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The first of `count` degrees of freedom that moves no mass but what those before it move: where the factor L L^T of
+/// their mass ends.
+fn first_massless(mass: &DMatrix<f64>, count: usize) -> Option<usize> {
+    let mut factor = DMatrix::<f64>::zeros(count, count);
+    for i in 0..count {
+        for j in 0..=i {
+            let taken: f64 = (0..j).map(|k| factor[(i, k)] * factor[(j, k)]).sum();
+            let left = mass[(i, j)] - taken;
+            if j < i {
+                factor[(i, j)] = left / factor[(j, j)];
+            } else if left > MASSLESS * mass[(i, i)] && left.is_finite() {
+                factor[(i, i)] = left.sqrt();
+            } else {
+                return Some(i);
+            }
+        }
+    }
+    None
+}
+
+/// Adds the weight of a mass that moves with a body, given by its line of y and the body's displacements.
+fn add_weight(gravity: &mut DVector<f64>, scene: &Scene, terms: &[Terms; 6], line: &[f64; 6]) {
+    for (mass, terms) in line.iter().zip(terms) {
+        for &(number, coefficient) in terms {
+            gravity[number] -= scene.gravity * mass * coefficient;
+        }
+    }
+}

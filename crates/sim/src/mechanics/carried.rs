@@ -1,0 +1,179 @@
+//! Bodies on structures that are carried by bodies: a trolley on the girders of a bridge.
+//!
+//! The degrees of freedom of a carried body are relative to its track. Let r be the place of a point of it from the
+//! carrier's origin, e the axis of its rail, and R the turn from the rail's frame to the carrier's axes. Then
+//!
+//! p' = u_c' + theta_c' cross r(x) + R (u' + theta' cross at) + x' theta_c cross e = J q' + prescribed parts,
+//! p'' = J q'' + 2 x' theta_c' cross e + X'' (e + theta_c cross e) + X_c''.
+//!
+//! Forces between the trolley's wheels and their rails act within carrier and trolley: their rows have entries for
+//! relative degrees of freedom alone, and the carrier feels them through J^T M J and J^T M g.
+
+use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
+
+use super::carried_point::{CarriedPoint, Track, hub};
+use super::kinematics::Kinematics;
+use crate::{Axle, Error, Foundation};
+
+/// Slack allowed between directions of rails of one track.
+const SLACK: f64 = 1e-9;
+
+/// All bodies that are carried by bodies.
+pub(crate) struct CarriedBodies {
+    /// The track of each body's tree, by its root.
+    tracks: Vec<Option<Track>>,
+    /// The centres of mass of the carried bodies.
+    centres: Vec<CarriedPoint>,
+}
+
+impl CarriedBodies {
+    /// The carried bodies of a scene, found by their contacts.
+    ///
+    /// # Errors
+    /// [`Error::Mounted`]: a tree with contacts on several carriers or rails of different directions, one that
+    /// carries what it rides on, loads on carried bodies, and structures on carried bodies.
+    pub fn new(foundations: &[Foundation], kinematics: &Kinematics) -> Result<Self, Error> {
+        let scene = kinematics.scene;
+        let count = scene.bodies.len();
+        let root = |b: usize| kinematics.root(b);
+        let mut tracks: Vec<Option<Track>> = vec![None; count];
+        let mut grounded = vec![false; count];
+        for contact in &scene.contacts {
+            let tree = root(contact.body);
+            let refused = Error::Mounted { body: tree };
+            let Some(mount) = &foundations[contact.structure].on else {
+                grounded[tree] = true;
+                continue;
+            };
+            let rail =
+                mount.rails.get(contact.rail).ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
+            let turn = frame(rail).ok_or(refused.clone())?;
+            let [_, y, z] = hub(scene, contact.body, contact.at);
+            let drop = Vector3::new(0.0, y - scene.wheels[contact.wheel].radius, z);
+            let track = Track { carrier: mount.body, turn, origin: Vector3::from(rail.origin) - turn * drop };
+            match &tracks[tree] {
+                None => tracks[tree] = Some(track),
+                Some(first) if first.carrier == track.carrier && (first.turn - turn).amax() < SLACK => {}
+                Some(_) => return Err(refused),
+            }
+        }
+        for mount in foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+            if tracks[root(mount.body)].is_some() {
+                return Err(Error::Mounted { body: mount.body });
+            }
+        }
+        let mut centres = Vec::new();
+        for (b, body) in scene.bodies.iter().enumerate() {
+            let Some(track) = &tracks[root(b)] else { continue };
+            let loaded = scene.actuators.loads.iter().any(|load| load.body == b);
+            if grounded[root(b)] || root(track.carrier) == root(b) || loaded {
+                return Err(Error::Mounted { body: b });
+            }
+            centres.push(CarriedPoint::new(kinematics, track, b, body.cg));
+        }
+        tracks = (0..count).map(|b| tracks[root(b)].clone()).collect();
+        Ok(CarriedBodies { tracks, centres })
+    }
+
+    /// Whether no body is carried by another.
+    pub fn is_empty(&self) -> bool {
+        self.centres.is_empty()
+    }
+
+    /// Whether body `b` is carried.
+    pub fn has(&self, b: usize) -> bool {
+        self.tracks[b].is_some()
+    }
+
+    /// The point `at` of body `b`, where it is carried.
+    pub fn point(&self, kinematics: &Kinematics, b: usize, at: [f64; 3]) -> Option<CarriedPoint> {
+        self.tracks[b].as_ref().map(|track| CarriedPoint::new(kinematics, track, b, at))
+    }
+
+    /// Adds to `mass` and `load` what the carried bodies do at (t, q, v): J^T M J, and -J^T M (bias + g). `columns` is
+    /// scratch.
+    pub fn add(
+        &self,
+        kinematics: &Kinematics,
+        (t, q, v): (f64, &DVector<f64>, &DVector<f64>),
+        (mass, load): (&mut DMatrix<f64>, &mut DVector<f64>),
+        columns: &mut Vec<SVector<f64, 6>>,
+    ) {
+        for point in &self.centres {
+            let pose = point.pose(kinematics, t, q, v);
+            let body = &kinematics.scene.bodies[point.body];
+            let weights = inertias(body);
+            let force =
+                (point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity) * body.mass;
+            columns.clear();
+            columns.extend((0..point.count()).map(|i| point.column(i, &pose)));
+            for (i, column) in columns.iter().enumerate() {
+                let row = point.number(i);
+                load[row] -= column.fixed_rows::<3>(0).dot(&force);
+                let weighted = column.component_mul(&weights);
+                for (j, other) in columns[..=i].iter().enumerate() {
+                    let (sum, number) = (weighted.dot(other), point.number(j));
+                    mass[(row, number)] += sum;
+                    if i != j {
+                        mass[(number, row)] += sum;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Adds to `load` the weights of the carried bodies at (t, q): -J^T M g.
+    pub fn weigh(&self, kinematics: &Kinematics, (t, q): (f64, &DVector<f64>), load: &mut DVector<f64>) {
+        for point in &self.centres {
+            let pose = point.pose(kinematics, t, q, q);
+            let weight = kinematics.scene.bodies[point.body].mass * kinematics.scene.gravity;
+            for i in 0..point.count() {
+                load[point.number(i)] -= weight * point.column(i, &pose)[1];
+            }
+        }
+    }
+
+    /// Kinetic energy and energy of weight at (t, q, v).
+    pub fn energy(&self, kinematics: &Kinematics, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
+        let mut sum = [0.0; 2];
+        for point in &self.centres {
+            let pose = point.pose(kinematics, t, q, v);
+            let body = &kinematics.scene.bodies[point.body];
+            let speed = point.speed(&pose);
+            sum[0] += 0.5 * speed.component_mul(&inertias(body)).dot(&speed);
+            sum[1] += body.mass * kinematics.scene.gravity * point.shift(&pose)[1];
+        }
+        sum
+    }
+
+    /// Force along its track that the carried bodies ask of the prescribed x of root `b`, at accelerations `a`.
+    pub fn drive(&self, kinematics: &Kinematics, [q, v, a]: [&DVector<f64>; 3], t: f64, b: usize) -> f64 {
+        let mut sum = 0.0;
+        for point in &self.centres {
+            let roots = [point.body, point.carrier].map(|body| kinematics.root(body));
+            if !roots.contains(&b) {
+                continue;
+            }
+            let pose = point.pose(kinematics, t, q, v);
+            let mut acceleration = point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity;
+            for i in 0..point.count() {
+                acceleration += point.column(i, &pose).fixed_rows::<3>(0) * a[point.number(i)];
+            }
+            let along = if roots[0] == b { acceleration.dot(&point.along(&pose)) } else { acceleration[0] };
+            sum += kinematics.scene.bodies[point.body].mass * along;
+        }
+        sum
+    }
+}
+
+fn inertias(body: &crate::Body) -> SVector<f64, 6> {
+    let [roll, yaw, pitch] = body.inertia;
+    SVector::from([body.mass, body.mass, body.mass, roll, yaw, pitch])
+}
+
+/// Axes of a rail's frame as columns; `None` where it is not level or not of length 1.
+fn frame(rail: &Axle) -> Option<Matrix3<f64>> {
+    let x = Vector3::from(rail.along);
+    let level = x[1].abs() < SLACK && (x.norm() - 1.0).abs() < SLACK;
+    level.then(|| Matrix3::from_columns(&[x, Vector3::y(), x.cross(&Vector3::y())]))
+}

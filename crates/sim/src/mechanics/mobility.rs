@@ -1,0 +1,257 @@
+//! The mobility Z = (M + g C + g^2 K)^-1: accelerations per unit load inside a step with the coefficient g; M^-1 for
+//! g = 0.
+//!
+//! The bodies and every structure are inverted block by block. Where a body carries a structure with mass, B couples
+//! the two blocks ([`InertialCoupling`]): with Z_s = (M_s + g C_s + g^2 K_s)^-1 the bodies respond through the inverse
+//! of S = M_b - B^T Z_s B.
+
+use std::ops::Range;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::assembly::Mechanics;
+use super::coupling::InertialCoupling;
+use super::inertia::{Block, Matrices};
+use crate::Error;
+use crate::numerics::dense::invert_spd;
+
+/// (M + g C + g^2 K)^-1 of the whole scene.
+pub(crate) struct Mobility<'a> {
+    parts: BlockMobility,
+    couplings: &'a [InertialCoupling],
+    /// Z_s B of each tie.
+    answers: Vec<DMatrix<f64>>,
+    /// Sum of B^T Z_s B.
+    reduced: DMatrix<f64>,
+    /// Mass of the bodies.
+    mass: DMatrix<f64>,
+    /// S^-1 B^T of each tie.
+    pulls: Vec<DMatrix<f64>>,
+    /// Scratch.
+    row: DVector<f64>,
+    step: f64,
+}
+
+impl<'a> Mobility<'a> {
+    /// M^-1; where bodies are carried by others, what [`Mobility::set_mass`] makes it later.
+    ///
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn new(mechanics: &'a Mechanics) -> Result<Mobility<'a>, Error> {
+        let later = !mechanics.carried.is_empty() || !mechanics.couplings.is_empty();
+        let bodies = mechanics.body_dofs();
+        let mass = mechanics.blocks[0].body_mass().cloned().unwrap_or_else(|| DMatrix::zeros(bodies, bodies));
+        let mut whole = Mobility {
+            parts: BlockMobility::new(&mechanics.blocks, later)?,
+            couplings: &mechanics.couplings,
+            answers: mechanics.couplings.iter().map(|tie| tie.between.clone()).collect(),
+            reduced: DMatrix::zeros(bodies, bodies),
+            mass,
+            pulls: mechanics.couplings.iter().map(|tie| tie.between.transpose()).collect(),
+            row: DVector::zeros(bodies),
+            step: 0.0,
+        };
+        whole.reduce(mechanics.dofs);
+        if mechanics.carried.is_empty() && !mechanics.couplings.is_empty() {
+            whole.answer()?;
+        }
+        Ok(whole)
+    }
+
+    /// Changes the mass of the bodies.
+    ///
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
+        self.mass.copy_from(mass);
+        self.answer()
+    }
+
+    /// Changes the coefficient g; where bodies are carried by others, [`Mobility::set_mass`] must follow.
+    ///
+    /// # Errors
+    /// A structure that is not positive definite.
+    pub fn set_step(&mut self, mechanics: &Mechanics, g: f64) -> Result<(), Error> {
+        self.parts.set_step(&mechanics.blocks, g)?;
+        if g != self.step && !self.couplings.is_empty() {
+            self.reduce(mechanics.dofs);
+            if mechanics.carried.is_empty() {
+                self.answer()?;
+            }
+        }
+        self.step = g;
+        Ok(())
+    }
+
+    fn reduce(&mut self, freedoms: usize) {
+        if self.couplings.is_empty() {
+            return;
+        }
+        let (mut load, mut out) = (vec![0.0; freedoms], vec![0.0; freedoms]);
+        self.reduced.fill(0.0);
+        for (tie, answer) in self.couplings.iter().zip(&mut self.answers) {
+            for j in 0..tie.between.ncols() {
+                load.fill(0.0);
+                load[tie.range.clone()].copy_from_slice(tie.between.column(j).as_slice());
+                self.parts.apply(&load, &mut out);
+                answer.column_mut(j).copy_from_slice(&out[tie.range.clone()]);
+            }
+            self.reduced += tie.between.transpose() * &*answer;
+        }
+    }
+
+    fn answer(&mut self) -> Result<(), Error> {
+        if self.couplings.is_empty() {
+            return self.parts.set_mass(&self.mass);
+        }
+        self.mass -= &self.reduced;
+        let set = self.parts.set_mass(&self.mass);
+        self.mass += &self.reduced;
+        set?;
+        for (tie, pull) in self.couplings.iter().zip(&mut self.pulls) {
+            for (k, mut column) in pull.column_iter_mut().enumerate() {
+                self.row.copy_from(&tie.between.row(k).transpose());
+                self.parts.apply_to_bodies(self.row.as_slice(), column.as_mut_slice());
+            }
+        }
+        Ok(())
+    }
+
+    /// `out` = Z `load`.
+    pub fn apply(&self, load: &[f64], out: &mut [f64]) {
+        self.parts.apply(load, out);
+        let (bodies, others) = out.split_at_mut(self.mass.nrows());
+        for (tie, pull) in self.couplings.iter().zip(&self.pulls) {
+            for (y, column) in others[self.own(tie)].iter().zip(pull.column_iter()) {
+                bodies.iter_mut().zip(column.iter()).for_each(|(out, p)| *out -= p * y);
+            }
+        }
+        for (tie, answer) in self.couplings.iter().zip(&self.answers) {
+            let own = &mut others[self.own(tie)];
+            for (column, a) in answer.column_iter().zip(bodies.iter()) {
+                own.iter_mut().zip(column.iter()).for_each(|(out, y)| *out -= y * a);
+            }
+        }
+    }
+
+    /// Degrees of freedom of a structure after those of the bodies.
+    fn own(&self, tie: &InertialCoupling) -> Range<usize> {
+        let bodies = self.mass.nrows();
+        tie.range.start - bodies..tie.range.end - bodies
+    }
+}
+
+/// Inverse of a block of M + g C + g^2 K.
+enum Inverse {
+    Matrix(DMatrix<f64>),
+    Diagonal(Vec<f64>),
+}
+
+/// (M + g C + g^2 K)^-1 without inertial couplings, block by block.
+struct BlockMobility {
+    step: f64,
+    blocks: Vec<(Range<usize>, Inverse)>,
+    scratch: Vec<f64>,
+}
+
+impl BlockMobility {
+    /// Changes the mass of the bodies.
+    ///
+    /// # Errors
+    /// A mass that is not positive definite.
+    pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
+        if let Some((_, Inverse::Matrix(bodies))) = self.blocks.first_mut() {
+            bodies.copy_from(mass);
+            if !invert_spd(bodies.as_mut_slice(), &mut self.scratch, mass.nrows()) {
+                return Err(not_definite(mass.diagonal().min()));
+            }
+        }
+        Ok(())
+    }
+
+    /// `out` = Z `load` of the bodies alone, both over their degrees of freedom.
+    pub fn apply_to_bodies(&self, load: &[f64], out: &mut [f64]) {
+        if let Some((_, inverse)) = self.blocks.first() {
+            inverse.apply(load, out);
+        }
+    }
+
+    /// M^-1; of bodies whose mass changes, what [`BlockMobility::set_mass`] makes it later.
+    pub fn new(blocks: &[Block], mass_changes: bool) -> Result<BlockMobility, Error> {
+        let of = |block: &Block| {
+            let inverse = match &block.matrices {
+                Matrices::Bodies(mass) if mass_changes => Inverse::Matrix(mass.clone()),
+                _ => inverse_of(block, 0.0)?,
+            };
+            Ok((block.range.clone(), inverse))
+        };
+        let bodies = blocks.first().map_or(0, |block| block.range.len());
+        let blocks = blocks.iter().map(of).collect::<Result<_, Error>>()?;
+        Ok(BlockMobility { step: 0.0, blocks, scratch: vec![0.0; bodies * bodies] })
+    }
+
+    /// Changes the coefficient g; the bodies' block does not depend on it.
+    pub fn set_step(&mut self, blocks: &[Block], g: f64) -> Result<(), Error> {
+        if g != self.step {
+            for ((_, inverse), block) in self.blocks.iter_mut().zip(blocks) {
+                if !matches!(block.matrices, Matrices::Bodies(_)) {
+                    *inverse = inverse_of(block, g)?;
+                }
+            }
+            self.step = g;
+        }
+        Ok(())
+    }
+
+    /// `out` = Z `load`.
+    pub fn apply(&self, load: &[f64], out: &mut [f64]) {
+        for (range, inverse) in &self.blocks {
+            inverse.apply(&load[range.clone()], &mut out[range.clone()]);
+        }
+    }
+}
+
+impl Inverse {
+    fn apply(&self, load: &[f64], out: &mut [f64]) {
+        match self {
+            Inverse::Matrix(matrix) => {
+                out.fill(0.0);
+                for (j, factor) in load.iter().enumerate().filter(|(_, load)| **load != 0.0) {
+                    for (out, entry) in out.iter_mut().zip(matrix.column(j).as_slice()) {
+                        *out += entry * factor;
+                    }
+                }
+            }
+            Inverse::Diagonal(diagonal) => {
+                for ((out, load), entry) in out.iter_mut().zip(load).zip(diagonal) {
+                    *out = entry * load;
+                }
+            }
+        }
+    }
+}
+
+/// The inverse of M + g C + g^2 K of a block.
+fn inverse_of(block: &Block, g: f64) -> Result<Inverse, Error> {
+    match &block.matrices {
+        Matrices::Bodies(mass) => inverse(mass.clone()).map(Inverse::Matrix),
+        Matrices::General { mass, damping, stiffness } => {
+            inverse(mass + g * damping + g * g * stiffness).map(Inverse::Matrix)
+        }
+        Matrices::Modes { damping, stiffness } => Ok(Inverse::Diagonal(
+            damping.iter().zip(stiffness).map(|(c, k)| 1.0 / (1.0 + g * c + g * g * k)).collect(),
+        )),
+    }
+}
+
+fn inverse(matrix: DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
+    if matrix.is_empty() {
+        return Ok(matrix);
+    }
+    let smallest = matrix.diagonal().min();
+    matrix.cholesky().map(|factor| factor.inverse()).ok_or(not_definite(smallest))
+}
+
+fn not_definite(found: f64) -> Error {
+    Error::Number { what: "mass matrix", wanted: "positive definite", found }
+}

@@ -1,0 +1,92 @@
+//! The wheels of all contacts, and the groups of them that share one vertical force.
+
+use std::ops::Range;
+
+use crate::{Error, Foundation, Profile, Scene};
+
+/// One physical wheel.
+pub(crate) struct WheelPoint<'a> {
+    pub body: usize,
+    pub contact: usize,
+    pub kind: usize,
+    /// Hub from the body's origin.
+    pub hub: [f64; 3],
+    /// Number of its spin among the degrees of freedom.
+    pub spin: Option<usize>,
+    /// Its spin over time, where it is prescribed.
+    pub turn: Option<&'a Profile>,
+}
+
+/// The wheels that share one vertical force: those of a contact, once for each rigid part that they press on.
+pub(crate) struct WheelGroup {
+    pub wheels: Range<usize>,
+    pub kind: usize,
+    pub contact: usize,
+    /// Which rigid part it presses on, where every part has its own force.
+    pub part: Option<usize>,
+}
+
+impl WheelGroup {
+    /// Number of wheels that share the force.
+    pub fn count(&self) -> f64 {
+        self.wheels.len() as f64
+    }
+}
+
+/// Wheels and wheel groups of all contacts.
+pub(crate) struct Wheels<'a> {
+    pub points: Vec<WheelPoint<'a>>,
+    pub groups: Vec<WheelGroup>,
+    /// Groups of each contact.
+    pub of_contact: Vec<Range<usize>>,
+}
+
+impl<'a> Wheels<'a> {
+    /// Lists them; `next` numbers the spins.
+    pub fn new(
+        scene: &'a Scene,
+        foundations: &[Foundation],
+        mut next: impl FnMut() -> usize,
+    ) -> Result<Self, Error> {
+        let (mut points, mut groups, mut of_contact) = (Vec::new(), Vec::new(), Vec::new());
+        for (index, contact) in scene.contacts.iter().enumerate() {
+            let first = points.len();
+            let kind = &scene.wheels[contact.wheel];
+            for (own, offset) in contact.offsets.iter().enumerate() {
+                let [x, y, z] = contact.at;
+                let mut turns = scene.actuators.turns.iter();
+                let turn =
+                    turns.find(|turn| (turn.contact, turn.wheel) == (index, own)).map(|turn| &turn.motion);
+                let spins = kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();
+                let spin = if spins { Some(next()) } else { None };
+                points.push(WheelPoint {
+                    body: contact.body,
+                    contact: index,
+                    kind: contact.wheel,
+                    hub: [x + offset, y, z],
+                    spin,
+                    turn,
+                });
+            }
+            let parts: Vec<Option<usize>> = match &foundations[contact.structure].parts {
+                Some(chains) => {
+                    let chain = chains
+                        .get(contact.rail)
+                        .ok_or(Error::NoSuch { what: "rail", index: contact.rail })?;
+                    (0..chain.count()).map(Some).collect()
+                }
+                None => vec![None],
+            };
+            of_contact.push(groups.len()..groups.len() + parts.len());
+            for part in parts {
+                groups.push(WheelGroup {
+                    wheels: first..points.len(),
+                    kind: contact.wheel,
+                    contact: index,
+                    part,
+                });
+            }
+        }
+        Ok(Wheels { points, groups, of_contact })
+    }
+}

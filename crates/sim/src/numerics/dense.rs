@@ -1,0 +1,299 @@
+//! Small dense products and systems, without allocation: the innermost loop of the contact solver.
+
+/// Scalar product of two vectors of one length, in four partial sums: the same on every machine.
+#[inline]
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut sums = [0.0; 4];
+    for (a, b) in a.iter().zip(b) {
+        sums = std::array::from_fn(|k| sums[k] + a[k] * b[k]);
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest
+}
+
+/// Row `i` of a row-major matrix times `vector`, whose length is the row's.
+#[inline]
+pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
+    let n = vector.len();
+    dot(&rows[i * n..(i + 1) * n], vector)
+}
+
+/// Order from which sums run in lanes: below, the plain loop is quicker.
+const WIDE: usize = 16;
+/// Rows that stay in the cache together.
+const BLOCK: usize = 32;
+/// Partial sums of a scalar product, enough to hide the latency of an addition.
+const LANES: usize = 16;
+
+/// Scalar product in [`LANES`] partial sums: the same sums on every machine.
+fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
+    let mut sums = [0.0; LANES];
+    let (first, second) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest = dot(first.remainder(), second.remainder());
+    for (a, b) in first.zip(second) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+/// Solves A x = b for a symmetric positive definite A (n x n, row-major, lower triangle used), by Cholesky.
+///
+/// `a` is overwritten by its factor and `b` by x. Rows are finished from the top, each from the rows above it, which
+/// lie in one piece. Returns false, with both spoilt, where A is not positive definite to working precision.
+#[must_use]
+pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
+    if b.len() < WIDE { factor_and_solve(a, b, dot) } else { factor_and_solve(a, b, dot_wide) }
+}
+
+#[inline]
+fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
+    let n = b.len();
+    // Rows above `i` in blocks that stay in the cache while the rows of a block below pass over them.
+    for first in (0..n).step_by(BLOCK) {
+        let last = (first + BLOCK).min(n);
+        for upper in (0..=first).step_by(BLOCK) {
+            let end = (upper + BLOCK).min(n);
+            for i in first..last {
+                let (above, row) = a.split_at_mut(i * n);
+                for j in upper..end.min(i) {
+                    let other = &above[j * n..(j + 1) * n];
+                    row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
+                }
+                if end > i {
+                    let pivot = row[i] - dot(&row[..i], &row[..i]);
+                    if !(pivot > 0.0 && pivot.is_finite()) {
+                        return false;
+                    }
+                    row[i] = pivot.sqrt();
+                }
+            }
+        }
+    }
+    for i in 0..n {
+        let row = &a[i * n..=i * n + i];
+        b[i] = (b[i] - dot(&row[..i], &b[..i])) / row[i];
+    }
+    // Columns of the factor's transpose are rows of the factor.
+    for i in (0..n).rev() {
+        let (before, rest) = b.split_at_mut(i);
+        let row = &a[i * n..=i * n + i];
+        rest[0] /= row[i];
+        before.iter_mut().zip(row).for_each(|(b, l)| *b -= rest[0] * l);
+    }
+    true
+}
+
+/// Solves A x = b (n x n, row-major) by elimination with partial pivoting; `a` and `b` are overwritten, `b` by x.
+///
+/// Returns false where A is singular.
+#[must_use]
+pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
+    let n = b.len();
+    for j in 0..n {
+        let Some(pivot) = exchange(a, j, n) else { return false };
+        b.swap(pivot, j);
+        let (above, below) = a.split_at_mut((j + 1) * n);
+        let row = &above[j * n..];
+        let (head, tail) = b.split_at_mut(j + 1);
+        for (line, b) in below.chunks_exact_mut(n).zip(tail) {
+            let factor = line[j] / row[j];
+            if factor != 0.0 {
+                line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+                *b -= factor * head[j];
+            }
+        }
+    }
+    for i in (0..n).rev() {
+        let mut sum = b[i];
+        for k in i + 1..n {
+            sum -= a[i * n + k] * b[k];
+        }
+        b[i] = sum / a[i * n + i];
+    }
+    true
+}
+
+/// Puts the factors of A (n x n, row-major) in its place, P A = L U with partial pivoting: L below the diagonal, its
+/// own diagonal left out; `pivots` are the rows exchanged.
+///
+/// Returns false where A is singular.
+#[must_use]
+pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
+    let n = pivots.len();
+    for (j, pivot) in pivots.iter_mut().enumerate() {
+        let Some(row) = exchange(a, j, n) else { return false };
+        *pivot = row;
+        eliminate(a, j, n);
+    }
+    true
+}
+
+/// Solves A x = b by the factors and the rows exchanged of [`factor_general`]; `b` is overwritten by x.
+pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
+    let n = b.len();
+    for (j, &pivot) in pivots.iter().enumerate() {
+        b.swap(j, pivot);
+    }
+    for i in 1..n {
+        b[i] -= dot(&a[i * n..i * n + i], &b[..i]);
+    }
+    substitute(a, b);
+}
+
+/// Brings the row with the largest entry of column `j` below the diagonal to row `j`, whole; `None` where it has none.
+fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
+    let size = |row: usize| a[row * n + j].abs();
+    let pivot = (j..n).max_by(|&p, &q| size(p).total_cmp(&size(q))).unwrap_or(j);
+    if !(size(pivot) > 0.0 && size(pivot).is_finite()) {
+        return None;
+    }
+    if pivot != j {
+        let (above, below) = a.split_at_mut(pivot * n);
+        above[j * n..(j + 1) * n].swap_with_slice(&mut below[..n]);
+    }
+    Some(pivot)
+}
+
+/// Takes row `j` from those below and leaves its shares in column `j`.
+fn eliminate(a: &mut [f64], j: usize, n: usize) {
+    let (above, below) = a.split_at_mut((j + 1) * n);
+    let row = &above[j * n..];
+    let scale = 1.0 / row[j];
+    for line in below.chunks_exact_mut(n) {
+        let factor = line[j] * scale;
+        line[j] = factor;
+        if factor != 0.0 {
+            line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+}
+
+/// Solves U x = b, U on and above the diagonal of `a`.
+fn substitute(a: &[f64], b: &mut [f64]) {
+    let n = b.len();
+    for i in (0..n).rev() {
+        let line = &a[i * n..(i + 1) * n];
+        b[i] = (b[i] - dot(&line[i + 1..], &b[i + 1..])) / line[i];
+    }
+}
+
+/// Puts the inverse of a symmetric positive definite matrix (n x n, lower triangle used) in its place: L^-T L^-1, with
+/// `scratch` as large.
+///
+/// Returns false, with it spoilt, where it is not positive definite to working precision.
+#[must_use]
+pub(crate) fn invert_spd(a: &mut [f64], scratch: &mut [f64], n: usize) -> bool {
+    for i in 0..n {
+        let (above, row) = a.split_at_mut(i * n);
+        for j in 0..i {
+            let other = &above[j * n..(j + 1) * n];
+            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
+        }
+        let pivot = row[i] - dot(&row[..i], &row[..i]);
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return false;
+        }
+        row[i] = pivot.sqrt();
+    }
+    // Rows of L^-1 from the top, each from those above it.
+    let inverse = &mut scratch[..n * n];
+    inverse.fill(0.0);
+    for i in 0..n {
+        let (above, row) = inverse.split_at_mut(i * n);
+        let factor = &a[i * n..=i * n + i];
+        let scale = 1.0 / factor[i];
+        for (line, share) in above.chunks_exact(n).zip(factor).take(i) {
+            row[..i].iter_mut().zip(line).for_each(|(x, entry)| *x -= scale * share * entry);
+        }
+        row[i] = scale;
+    }
+    a[..n * n].fill(0.0);
+    for line in inverse.chunks_exact(n) {
+        for (share, sum) in line.iter().zip(a.chunks_exact_mut(n)).filter(|(share, _)| **share != 0.0) {
+            sum.iter_mut().zip(line).for_each(|(x, entry)| *x += share * entry);
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{factor_general, invert_spd, solve_factored, solve_general, solve_spd};
+
+    #[test]
+    fn both_solvers_recover_a_planted_solution() {
+        let a = [4.0, 1.0, -2.0, 1.0, 5.0, 0.5, -2.0, 0.5, 6.0];
+        let x = [1.0, -2.0, 3.0];
+        let b: Vec<f64> = (0..3).map(|i| (0..3).map(|j| a[3 * i + j] * x[j]).sum()).collect();
+        for solve in [solve_spd, solve_general] {
+            let (mut m, mut r) = (a, b.clone());
+            assert!(solve(&mut m, &mut r));
+            for (found, planted) in r.iter().zip(x) {
+                assert!((found - planted).abs() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn large_definite_systems_recover_a_planted_solution() {
+        for n in [15, 16, 17, 31, 32, 33, 64, 100, 257] {
+            // Green's function of a string, min(x, y) (1 - max(x, y)), and springs.
+            let at = |i: usize| (i + 1) as f64 / (n + 1) as f64;
+            let entry =
+                |i: usize, j: usize| at(i.min(j)) * (1.0 - at(i.max(j))) + if i == j { 0.1 } else { 0.0 };
+            let mut a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
+            let x: Vec<f64> = (0..n).map(|i| (i as f64).sin()).collect();
+            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| entry(i, j) * x[j]).sum()).collect();
+            assert!(solve_spd(&mut a, &mut b));
+            let error = b.iter().zip(&x).fold(0.0_f64, |max, (b, x)| max.max((b - x).abs()));
+            assert!(error < 1e-11, "n {n}: {error}");
+            // Minus one in the last place of the diagonal is refused at the end.
+            let mut a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
+            a[n * n - 1] = -1.0;
+            assert!(!solve_spd(&mut a, &mut b));
+        }
+    }
+
+    #[test]
+    fn factors_of_a_matrix_whose_rows_are_exchanged_solve_for_every_right_side() {
+        let n = 9;
+        let entry = |i: usize, j: usize| {
+            ((7 * i + 3 * j) % 11) as f64 - 5.0 + if i + j == n - 1 { 30.0 } else { 0.0 }
+        };
+        let a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
+        let (mut factors, mut pivots) = (a.clone(), vec![0; n]);
+        assert!(factor_general(&mut factors, &mut pivots));
+        for k in 0..3 {
+            let x: Vec<f64> = (0..n).map(|i| (i as f64 + f64::from(k)).cos()).collect();
+            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| a[i * n + j] * x[j]).sum()).collect();
+            solve_factored(&factors, &pivots, &mut b);
+            assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-13));
+        }
+    }
+
+    #[test]
+    fn inverse_times_the_matrix_is_the_identity() {
+        for n in [1, 2, 5, 13] {
+            let entry = |i: usize, j: usize| 1.0 / (1 + i + j) as f64 + if i == j { 1.0 } else { 0.0 };
+            let a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
+            let (mut inverse, mut scratch) = (a.clone(), vec![f64::NAN; n * n]);
+            assert!(invert_spd(&mut inverse, &mut scratch, n));
+            for i in 0..n {
+                for j in 0..n {
+                    let sum: f64 = (0..n).map(|k| a[i * n + k] * inverse[k * n + j]).sum();
+                    assert!((sum - if i == j { 1.0 } else { 0.0 }).abs() < 1e-13);
+                }
+            }
+        }
+        assert!(!invert_spd(&mut [-1.0], &mut [0.0], 1));
+    }
+
+    #[test]
+    fn refuses_what_they_cannot_factor() {
+        assert!(!solve_spd(&mut [1.0, 2.0, 2.0, 1.0], &mut [1.0, 1.0]));
+        assert!(!solve_general(&mut [1.0, 2.0, 2.0, 4.0], &mut [1.0, 1.0]));
+    }
+}

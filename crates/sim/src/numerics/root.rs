@@ -1,0 +1,78 @@
+//! Roots of functions of one variable that change their sign between two places.
+
+/// Narrows [0, 1], at whose ends `f` has the values `ends` of different sign, to `width` or to rounding; returns the
+/// last place with the sign of the value at 0 and the first with that of the value at 1. `f` may end the search by
+/// `None`.
+///
+/// At most one evaluation more than bisection needs; on smooth functions a few in all.
+///
+/// # Source
+/// The ITP method: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2020) 5.
+pub(crate) fn narrow(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Option<f64>) -> [f64; 2] {
+    let sign = ends[1].signum();
+    let ([mut low, mut high], [mut below, mut above]) = ([0.0_f64, 1.0_f64], ends.map(|end| sign * end));
+    // Bisection from the middle would end within this reach of the root.
+    let mut reach = width * (-width.log2()).ceil().exp2();
+    while high - low > width {
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let secant = (above * low - below * high) / (above - below);
+        let aside = (middle - secant).clamp(-half, half);
+        // A little beyond the secant's root, so that both ends draw near.
+        let beyond = (0.8 * half * half).min(aside.abs());
+        let apart = (aside.abs() - beyond).min((reach - half).max(0.0));
+        let near = 0.5 * width.min(high - low);
+        let mut at = (middle - apart.copysign(aside)).clamp(low + near, high - near);
+        if !(at > low && at < high) {
+            at = middle;
+        }
+        if !(at > low && at < high) {
+            break;
+        }
+        let Some(value) = f(at).map(|value| sign * value) else { break };
+        if value > 0.0 {
+            (high, above) = (at, value);
+        } else {
+            (low, below) = (at, value);
+        }
+        reach *= 0.5;
+    }
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::narrow;
+
+    #[test]
+    fn roots_of_smooth_functions_take_few_evaluations() {
+        let functions: [fn(f64) -> f64; 4] =
+            [|x| x - 0.3, |x| (x - 0.7) * (1.0 + x * x), |x| (1.5 * x).sin() - 0.5, |x| 0.2 - x.powi(5)];
+        let roots = [0.3, 0.7, std::f64::consts::PI / 9.0, 0.2_f64.powf(0.2)];
+        for (f, root) in functions.into_iter().zip(roots) {
+            let mut count = 0;
+            let [low, high] = narrow([f(0.0), f(1.0)], 1e-12, |x| {
+                count += 1;
+                Some(f(x))
+            });
+            assert!(high - low <= 1e-12 && (low - root).abs() < 2e-12, "{low} for {root}");
+            assert!(count <= 12, "{count}");
+        }
+    }
+
+    #[test]
+    fn jumps_take_hardly_more_evaluations_than_bisection() {
+        let mut count = 0;
+        let [low, high] = narrow([-1.0, 1.0], 1e-12, |x| {
+            count += 1;
+            Some(if x < 1e-9 { -1.0 } else { 1e6 })
+        });
+        assert!(low < 1e-9 && high >= 1e-9 && high - low <= 1e-12);
+        assert!(count <= 41, "{count}");
+    }
+
+    #[test]
+    fn width_of_rounding_ends() {
+        let [low, high] = narrow([-1.0, 2.0], 1e-17, |x| Some(3.0 * x - 1.0));
+        assert!(high - low < 1e-15 && (low - 1.0 / 3.0).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,128 @@
+//! The energy audit: what is stored, what was dissipated, what was supplied.
+//!
+//! Stored energy and powers are sums over bodies, structures and force elements at one state; each element adds its own
+//! ([`Element`](crate::contact::element::Element)). Steppers integrate the powers; nothing here knows of steps.
+
+use crate::contact::geometry::Geometry;
+use crate::contact::system::System;
+use crate::mechanics::coupling::kinetic;
+use crate::mechanics::state::State;
+use crate::numerics::dense::dot;
+use crate::scene::dof::arm_rows;
+use crate::{Exchanged, Stored};
+
+/// Result of the audit of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Audit {
+    /// Largest |stored + lost - put in - stored at the start| over the run, an energy.
+    pub imbalance: f64,
+    /// Peak elastic energy over the run, or, where there are ropes or stops, the kinetic one if that is larger: the
+    /// scale of `residual`.
+    pub peak_stored: f64,
+    /// Everything exchanged until the end.
+    pub exchanged: Exchanged,
+    /// Stored at the start.
+    pub start: Stored,
+    /// Stored at the end.
+    pub end: Stored,
+}
+
+impl Audit {
+    /// Imbalance relative to the peak stored energy.
+    #[must_use]
+    pub fn residual(&self) -> f64 {
+        if self.peak_stored > 0.0 { self.imbalance / self.peak_stored } else { self.imbalance }
+    }
+}
+
+/// Energy stored at `state`; `geometry` must belong to it.
+pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
+    let mechanics = &system.mechanics;
+    let kinetic = kinetic(&mechanics.blocks, &mechanics.couplings, &state.v);
+    let mut energy = Stored { kinetic, ..Stored::default() };
+    energy.kinetic += mechanics.energy_of_turns(state.t);
+    energy.structure = mechanics.blocks.iter().map(|block| block.elastic(state.q.as_slice())).sum();
+    let [motion, lift] = mechanics.carried.energy(&mechanics.kinematics, state.t, &state.q, &state.v);
+    energy.kinetic += motion;
+    energy.gravity += lift;
+    let kinematics = &mechanics.kinematics;
+    for (b, body) in system.scene.bodies.iter().enumerate().filter(|(b, _)| !mechanics.carried.has(*b)) {
+        let (displacement, speed) = mechanics.body(b, state.t, &state.q, &state.v);
+        let lift = dot(&arm_rows(body.cg)[1], &displacement);
+        energy.gravity += body.mass * system.scene.gravity * lift;
+        if body.motion.is_some() {
+            let (mass, coupling) = (kinematics.mass(b), kinematics.travel_inertia(b));
+            energy.kinetic += 0.5 * mass * speed[0] * speed[0];
+            energy.kinetic +=
+                coupling.iter().map(|&(number, inertia)| inertia * speed[0] * state.v[number]).sum::<f64>();
+        }
+    }
+    for mount in system.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        let (displacement, _) = mechanics.body(mount.body, state.t, &state.q, &state.v);
+        energy.gravity += system.scene.gravity * dot(&mount.mass[1], &displacement);
+    }
+    let frame = geometry.frame(system, state);
+    for (i, element) in system.elements.iter().enumerate() {
+        element.stored(&frame.at(i), &mut energy);
+    }
+    energy
+}
+
+/// Rates of everything exchanged at `state`, less the rate of [`boundary`].
+pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
+    let structure = system.mechanics.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
+    let mut power = Exchanged { structure, ..Exchanged::default() };
+    for (b, body) in system.scene.bodies.iter().enumerate() {
+        if body.motion.is_some() {
+            power.drives += motion_force(system, geometry, state, b) * geometry.places().travel[b].v;
+        }
+    }
+    power.drives += power_of_turns(system, geometry, state);
+    let frame = geometry.frame(system, state);
+    for (i, element) in system.elements.iter().enumerate() {
+        element.power(&frame.at(i), &mut power);
+    }
+    for load in &system.scene.actuators.loads {
+        if let Some(number) = system.mechanics.loaded(load) {
+            power.loads += load.value.at(state.t) * state.v[number];
+        }
+    }
+    power
+}
+
+/// Boundary terms of the losses in dampers, which [`power`] leaves out.
+pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f64 {
+    let (frame, elements) = (geometry.frame(system, state), system.elements.iter().enumerate());
+    elements.fold(0.0, |sum, (i, element)| sum + element.boundary(&frame.at(i)))
+}
+
+/// Force along +x that the prescribed motion of body `b` needs: its inertia and that of all that is pinned to it, less
+/// what their elements take.
+pub(crate) fn motion_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
+    let mechanics = &system.mechanics;
+    let kinematics = &mechanics.kinematics;
+    let mut force = kinematics.mass(b) * geometry.places().travel[b].a;
+    force += mechanics.carried.drive(kinematics, [&state.q, &state.v, &state.a], state.t, b);
+    for &(number, inertia) in kinematics.travel_inertia(b) {
+        force += inertia * state.a[number];
+    }
+    let frame = geometry.frame(system, state);
+    for (i, element) in system.elements.iter().enumerate() {
+        force += element.resistance(&frame.at(i), b);
+    }
+    force
+}
+
+/// Power of the moments that prescribe spins.
+fn power_of_turns(system: &System, geometry: &Geometry, state: &State) -> f64 {
+    let mechanics = &system.mechanics;
+    let all = (0..mechanics.wheels.len()).filter_map(|w| Some((w, mechanics.turn(w, state.t)?)));
+    all.map(|(w, at)| spin_moment(system, geometry, state, w) * at.v).sum()
+}
+
+/// Moment about z that prescribes the spin of wheel `w`: I times its acceleration and the friction below it; zero where
+/// the spin is free.
+pub(crate) fn spin_moment(system: &System, geometry: &Geometry, state: &State, w: usize) -> f64 {
+    let Some(at) = system.mechanics.turn(w, state.t) else { return 0.0 };
+    system.mechanics.spin_inertia(w) * at.a + geometry.places().height[w] * system.friction_of(w, state)
+}

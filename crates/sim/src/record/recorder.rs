@@ -1,0 +1,214 @@
+//! Samples of a run, channel by channel.
+
+use std::ops::Range;
+
+use splines::{Influence, Probe};
+
+use crate::contact::geometry::Geometry;
+use crate::contact::system::System;
+use crate::mechanics::state::State;
+use crate::numerics::dense::dot;
+use crate::record::energy::{motion_force, spin_moment};
+use crate::record::history::History;
+use crate::scene::dof::arm_rows;
+use crate::{Analysis, Channel, Error, Freedom, Gauge};
+
+/// Structures whose degrees of freedom are recorded, with the numbers of these.
+fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
+    let all = system.mechanics.structures.iter().zip(system.foundations).enumerate();
+    all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
+}
+
+/// Writes samples.
+pub(crate) struct Recorder {
+    history: History,
+    /// Columns to which the elements add their forces.
+    forces: Vec<ForceColumn>,
+    /// Columns of the lengths of elements.
+    lengths: Vec<(usize, usize)>,
+    /// Number of columns that are the elements' own.
+    own_columns: usize,
+    /// Scratch of the gauges.
+    probes: Vec<Probe>,
+    shape: Vec<f64>,
+}
+
+/// A column to which an element adds its force by a divisor.
+struct ForceColumn {
+    element: usize,
+    column: usize,
+    divisor: f64,
+}
+
+impl Recorder {
+    pub fn new(system: &System) -> Self {
+        let channels = channels_of(system);
+        let column = |channel: &Channel| channels.iter().position(|known| known == channel);
+        let (mut forces, mut lengths) = (Vec::new(), Vec::new());
+        for (i, element) in system.elements.iter().enumerate() {
+            for (channel, divisor) in element.channels(&system.mechanics) {
+                forces.extend(column(&channel).map(|column| ForceColumn { element: i, column, divisor }));
+            }
+            let length = element.length_channel();
+            lengths.extend(length.and_then(|channel| column(&channel)).map(|column| (i, column)));
+        }
+        let own_columns = system.elements.iter().map(|element| element.own_channels().len()).sum();
+        let (probes, shape) = (Vec::new(), vec![0.0; 2 * system.mechanics.dofs]);
+        Recorder { history: History::new(channels), forces, lengths, own_columns, probes, shape }
+    }
+
+    /// What was recorded.
+    pub fn history(&self) -> &History {
+        &self.history
+    }
+
+    /// All that was recorded.
+    pub fn into_history(self) -> History {
+        self.history
+    }
+
+    /// Makes room for `samples` more.
+    pub fn reserve(&mut self, samples: usize) {
+        self.history.reserve(samples);
+    }
+
+    /// Adds a sample; `geometry` belongs to `at`.
+    ///
+    /// # Errors
+    /// What the rails refuse at the gauges.
+    pub fn record(&mut self, system: &System, geometry: &Geometry, at: &State) -> Result<(), Error> {
+        let mut values = self.history.take_values();
+        let done = self.row(system, geometry, at, &mut values);
+        self.history.put_values(values);
+        done
+    }
+
+    /// Appends a sample to `values`; `geometry` belongs to `at`.
+    ///
+    /// # Errors
+    /// What the rails refuse at the gauges.
+    pub fn row(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        at: &State,
+        values: &mut Vec<f64>,
+    ) -> Result<(), Error> {
+        let (first, mechanics) = (values.len(), &system.mechanics);
+        values.push(at.t);
+        for (b, body) in system.scene.bodies.iter().enumerate() {
+            let (displacement, speed) = mechanics.body(b, at.t, &at.q, &at.v);
+            values.extend(displacement);
+            values.extend(speed);
+            // The sum of no forces is -0.0, as that of an empty iterator.
+            let drive = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, geometry, at, b));
+            values.extend([drive, -0.0]);
+        }
+        for w in 0..mechanics.wheels.len() {
+            values.extend(wheel_values(system, geometry, at, w));
+        }
+        values.extend(std::iter::repeat_n(0.0, self.own_columns));
+        let own = &mut values[first..];
+        for &ForceColumn { element, column, divisor } in &self.forces {
+            own[column] += 0.0 + at.force[element] / divisor;
+        }
+        for &(element, column) in &self.lengths {
+            own[column] = geometry.local()[element].spring.length;
+        }
+        for gauge in &system.scene.gauges {
+            let displacement = self.displacement(system, geometry, at, gauge)?;
+            values.push(displacement);
+        }
+        let moves = system.scene.analysis == Analysis::Dynamic;
+        for (_, range) in recorded(system) {
+            values.extend(range.clone().map(|k| at.q[k]));
+            values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
+        }
+        Ok(())
+    }
+
+    /// G F + Phi q at a gauge.
+    fn displacement(
+        &mut self,
+        system: &System,
+        geometry: &Geometry,
+        at: &State,
+        gauge: &Gauge,
+    ) -> Result<f64, Error> {
+        let (foundation, s) = (&system.foundations[gauge.structure], gauge.structure);
+        let failed = |source| Error::Compliance { structure: s, source };
+        let mut sum = 0.0;
+        if let Some(compliance) = &foundation.compliance {
+            let entries = &system.probes.entries[s];
+            self.probes.clear();
+            self.probes.push(gauge.probe);
+            let wheels = entries.iter().map(|e| Probe { x: geometry.places().x[e.wheel], ..e.probe });
+            self.probes.extend(wheels);
+            let mut influence = Influence::zeros(self.probes.len());
+            compliance.fill(&self.probes, &mut influence).map_err(failed)?;
+            for (j, entry) in entries.iter().enumerate() {
+                sum += influence.value[(0, j + 1)] * entry.weight * at.force[entry.element];
+            }
+        }
+        if let Some(structure) = &foundation.structure {
+            let range = system.mechanics.structures[s].clone();
+            let (value, slope) = self.shape.split_at_mut(system.mechanics.dofs);
+            let value = &mut value[..range.len()];
+            structure.shapes.row(gauge.probe, value, &mut slope[..range.len()]).map_err(failed)?;
+            sum += dot(value, &at.q.as_slice()[range]);
+        }
+        Ok(sum)
+    }
+}
+
+/// All channels of a scene, in the order of each sample.
+fn channels_of(system: &System) -> Vec<Channel> {
+    let (bodies, wheels) = (system.scene.bodies.len(), system.mechanics.wheels.len());
+    let others = 2 * system.elements.len() + system.scene.gauges.len();
+    let mut channels = Vec::with_capacity(1 + 14 * bodies + 9 * wheels + others);
+    channels.push(Channel::Time);
+    for b in 0..bodies {
+        channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
+        channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
+        channels.extend([Channel::Drive(b), Channel::Brake(b)]);
+    }
+    for w in 0..wheels {
+        channels.extend([
+            Channel::Place(w),
+            Channel::Vertical(w),
+            Channel::Lateral(w),
+            Channel::Traction(w),
+            Channel::Penetration(w),
+            Channel::Give(w),
+            Channel::SpinAngle(w),
+            Channel::SpinSpeed(w),
+            Channel::SpinMoment(w),
+        ]);
+    }
+    channels.extend(system.elements.iter().flat_map(|element| element.own_channels()));
+    channels.extend((0..system.scene.gauges.len()).map(Channel::Gauge));
+    for (s, range) in recorded(system) {
+        channels.extend((0..range.len()).map(|k| Channel::Coordinate(s, k)));
+        channels.extend((0..range.len()).map(|k| Channel::Acceleration(s, k)));
+    }
+    channels
+}
+
+/// The nine values of wheel `w`; its forces are zero here, elements add them.
+fn wheel_values(system: &System, geometry: &Geometry, at: &State, w: usize) -> [f64; 9] {
+    let (mechanics, places) = (&system.mechanics, geometry.places());
+    let wheel = &mechanics.wheels[w];
+    let pressed = mechanics.groups_of(w).filter(|&i| geometry.fraction(i) > 0.0);
+    let deepest = pressed.map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
+    let (displacement, _) = mechanics.body(wheel.body, at.t, &at.q, &at.v);
+    let shape = mechanics.irregularity(w);
+    let own = shape.map_or(0.0, |shape| shape.vertical(places.piece[w], places.x[w])[0]);
+    let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
+    let (angle, speed) = match (wheel.spin, mechanics.turn(w, at.t)) {
+        (Some(number), _) => (at.q[number], at.v[number]),
+        (None, Some(turn)) => (turn.x, turn.v),
+        (None, None) => (0.0, 0.0),
+    };
+    let moment = spin_moment(system, geometry, at, w);
+    [places.x[w], 0.0, 0.0, 0.0, deepest, down - deepest, angle, speed, moment]
+}

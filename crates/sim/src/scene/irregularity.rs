@@ -1,0 +1,237 @@
+//! The shape of a rail that nothing loads: height and lateral place along it, with steps.
+
+use std::f64::consts::TAU;
+use std::ops::Range;
+
+use splines::Axis;
+
+use super::error::Error;
+
+/// Distance to a corner, relative to 1 + |x|, within which a wheel is at it.
+const SLACK: f64 = 2e-9;
+
+/// A sinusoid amplitude sin(2 pi (x - from) / length + phase) from `from` to `to`, zero beyond.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wave {
+    /// Amplitude, a length.
+    pub amplitude: f64,
+    /// Wavelength, > 0.
+    pub length: f64,
+    /// Phase at `from`, radian.
+    pub phase: f64,
+    /// First and last x; not finite: without end, and the phase is that at x = 0.
+    pub range: [f64; 2],
+}
+
+/// Track irregularity: height y0(x) above and place z0(x) beside the straight rail.
+///
+/// A sum of tables, linear between their rows and constant before the first and after the last (two rows at one x
+/// are a step), and of sinusoids. Steps of a run end at its corners.
+/// ```
+/// use sim::{Irregularity, Wave};
+/// use splines::Axis;
+///
+/// // A joint that is 1 mm low at 12 m, and waves of 2 mm from 20 m to 26 m.
+/// let joint = Irregularity::new(&[[11.9, 0.0], [12.0, -1e-3], [12.1, 0.0]], &[])?;
+/// let wave = Wave { amplitude: 2e-3, length: 1.5, phase: 0.0, range: [20.0, 26.0] };
+/// let shape = joint.plus(&Irregularity::wave(Axis::Vertical, wave)?);
+/// assert_eq!(shape.breaks(), [11.9, 12.0, 12.1, 20.0, 26.0]);
+/// # Ok::<(), sim::Error>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Irregularity {
+    /// Where the pieces after the first one start.
+    starts: Vec<f64>,
+    /// One more than `starts`.
+    pieces: Vec<Piece>,
+    waves: Vec<Swell>,
+}
+
+/// One piece: value and slope, vertical and lateral, about x.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Piece {
+    x: f64,
+    sides: [[f64; 2]; 2],
+}
+
+/// A sinusoid, on the pieces that it covers.
+#[derive(Clone, Debug, PartialEq)]
+struct Swell {
+    side: usize,
+    wave: Wave,
+    pieces: Range<usize>,
+}
+
+const VERTICAL: usize = 0;
+const LATERAL: usize = 1;
+
+impl Irregularity {
+    /// From rows (x, y0) and (x, z0); an empty table is zero.
+    ///
+    /// # Errors
+    /// Numbers that are not finite, x that falls, or three rows at one x.
+    pub fn new(vertical: &[[f64; 2]], lateral: &[[f64; 2]]) -> Result<Self, Error> {
+        let what = "x of an irregularity";
+        for table in [vertical, lateral] {
+            if let Some(&found) = table.iter().flatten().find(|number| !number.is_finite()) {
+                return Err(Error::Number { what: "irregularity", wanted: "finite", found });
+            }
+            if let Some(pair) = table.windows(2).find(|pair| pair[1][0] < pair[0][0]) {
+                return Err(Error::Number { what, wanted: "not falling", found: pair[1][0] });
+            }
+            if let Some(row) = table.windows(3).find(|row| row[2][0] == row[0][0]) {
+                return Err(Error::Number { what, wanted: "in two rows at most", found: row[0][0] });
+            }
+        }
+        let mut starts: Vec<f64> = vertical.iter().chain(lateral).map(|row| row[0]).collect();
+        starts.sort_by(f64::total_cmp);
+        starts.dedup();
+        let first = |table: &[[f64; 2]]| [table.first().map_or(0.0, |row| row[1]), 0.0];
+        let x = starts.first().copied().unwrap_or(0.0);
+        let before = Piece { x, sides: [vertical, lateral].map(first) };
+        let after = starts.iter().map(|&x| Piece { x, sides: [vertical, lateral].map(|t| linear(t, x)) });
+        Ok(Irregularity { pieces: std::iter::once(before).chain(after).collect(), starts, waves: Vec::new() })
+    }
+
+    /// A sinusoid alone, vertical or lateral.
+    ///
+    /// # Errors
+    /// Another axis; numbers that are not finite, a wavelength that is not positive, a range that falls.
+    pub fn wave(axis: Axis, wave: Wave) -> Result<Self, Error> {
+        let what = "sinusoid of an irregularity";
+        let side = match axis {
+            Axis::Vertical => VERTICAL,
+            Axis::Lateral => LATERAL,
+            Axis::Longitudinal => {
+                return Err(Error::NoSuch { what: "irregularity along the rail", index: 0 });
+            }
+        };
+        let [from, to] = wave.range;
+        for (wanted, found, holds) in [
+            ("finite", wave.amplitude, wave.amplitude.is_finite()),
+            ("of positive length", wave.length, wave.length > 0.0 && wave.length.is_finite()),
+            ("finite", wave.phase, wave.phase.is_finite()),
+            ("from low to high", to, from < to),
+        ] {
+            if !holds {
+                return Err(Error::Number { what, wanted, found });
+            }
+        }
+        let starts: Vec<f64> = wave.range.into_iter().filter(|x| x.is_finite()).collect();
+        let first = usize::from(from.is_finite());
+        Ok(Irregularity {
+            pieces: vec![Piece::default(); starts.len() + 1],
+            starts,
+            waves: vec![Swell { side, wave, pieces: first..first + 1 }],
+        })
+    }
+
+    /// The sum of both.
+    #[must_use]
+    pub fn plus(&self, other: &Irregularity) -> Self {
+        if self.is_straight() || other.is_straight() {
+            return if self.is_straight() { other.clone() } else { self.clone() };
+        }
+        let mut starts: Vec<f64> = self.starts.iter().chain(&other.starts).copied().collect();
+        starts.sort_by(f64::total_cmp);
+        starts.dedup();
+        let first = starts.first().copied().unwrap_or(0.0);
+        let at = |shape: &Irregularity, piece: usize, x: f64| {
+            [VERTICAL, LATERAL].map(|s| shape.pieces[piece].at(s, x))
+        };
+        let mut pieces = Vec::with_capacity(starts.len() + 1);
+        for x in std::iter::once(None).chain(starts.iter().copied().map(Some)) {
+            let number =
+                |shape: &Irregularity| x.map_or(0, |x| shape.starts.partition_point(|start| *start <= x));
+            let x = x.unwrap_or(first);
+            let [a, b] = [self, other].map(|shape| at(shape, number(shape), x));
+            let sides = std::array::from_fn(|s| std::array::from_fn(|k| a[s][k] + b[s][k]));
+            pieces.push(Piece { x, sides });
+        }
+        let moved = |swell: &Swell| {
+            let mut swell = swell.clone();
+            let [from, to] = swell.wave.range.map(|x| starts.partition_point(|start| *start <= x));
+            // Where the range has no end there is none to count.
+            swell.pieces = from..if swell.wave.range[1].is_finite() { to } else { starts.len() + 1 };
+            swell
+        };
+        let waves = self.waves.iter().chain(&other.waves).map(moved).collect();
+        Irregularity { starts, pieces, waves }
+    }
+
+    /// Whether there is nothing uneven.
+    #[must_use]
+    pub fn is_straight(&self) -> bool {
+        self.starts.is_empty() && self.waves.is_empty()
+    }
+
+    /// Corners and steps.
+    #[must_use]
+    pub fn breaks(&self) -> &[f64] {
+        &self.starts
+    }
+
+    /// Number of the piece at `x` for a wheel that moves in `direction` (its sign); at a corner, the piece it moves
+    /// into, and `current` where it rests.
+    pub(crate) fn piece(&self, x: f64, direction: f64, current: usize) -> usize {
+        let slack = SLACK * (1.0 + x.abs());
+        let [low, high] = [x - slack, x + slack].map(|x| self.starts.partition_point(|start| *start <= x));
+        if direction > 0.0 {
+            high
+        } else if direction < 0.0 {
+            low
+        } else {
+            current.clamp(low, high)
+        }
+    }
+
+    /// y0 and its slope at `x` by `piece`, which goes on beyond its ends.
+    pub(crate) fn vertical(&self, piece: usize, x: f64) -> [f64; 2] {
+        self.side(VERTICAL, piece, x)
+    }
+
+    /// z0 and its slope at `x` by `piece`, which goes on beyond its ends.
+    pub(crate) fn lateral(&self, piece: usize, x: f64) -> [f64; 2] {
+        self.side(LATERAL, piece, x)
+    }
+
+    fn side(&self, side: usize, piece: usize, x: f64) -> [f64; 2] {
+        let mut sum = self.pieces.get(piece).map_or([0.0; 2], |found| found.at(side, x));
+        for swell in self.waves.iter().filter(|swell| swell.side == side && swell.pieces.contains(&piece)) {
+            let [value, slope] = swell.wave.at(x);
+            sum = [sum[0] + value, sum[1] + slope];
+        }
+        sum
+    }
+}
+
+impl Piece {
+    fn at(&self, side: usize, x: f64) -> [f64; 2] {
+        let [value, slope] = self.sides[side];
+        [value + slope * (x - self.x), slope]
+    }
+}
+
+impl Wave {
+    fn at(&self, x: f64) -> [f64; 2] {
+        let origin = if self.range[0].is_finite() { self.range[0] } else { 0.0 };
+        let (sin, cos) = (TAU * (x - origin) / self.length + self.phase).sin_cos();
+        [self.amplitude * sin, self.amplitude * TAU / self.length * cos]
+    }
+}
+
+/// Value and slope of a table just after `x`.
+fn linear(table: &[[f64; 2]], x: f64) -> [f64; 2] {
+    let next = table.partition_point(|row| row[0] <= x);
+    match (next.checked_sub(1).and_then(|before| table.get(before)), table.get(next)) {
+        (Some(&[x0, y0]), Some(&[x1, y1])) => {
+            let slope = (y1 - y0) / (x1 - x0);
+            [y0 + slope * (x - x0), slope]
+        }
+        (Some(&[_, value]), None) | (None, Some(&[_, value])) => [value, 0.0],
+        (None, None) => [0.0, 0.0],
+    }
+}
+
+#[cfg(test)]
+mod tests;

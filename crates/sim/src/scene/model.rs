@@ -1,0 +1,109 @@
+//! A scene: bodies on wheels along the rails of structures, and what acts on them.
+
+use splines::Probe;
+
+use super::actuators::Actuators;
+use super::body::{Body, Contact};
+use super::wheel::Wheel;
+
+/// A place on a rail whose displacement is recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gauge {
+    /// Which structure.
+    pub structure: usize,
+    /// Where on its rails, and in which direction.
+    pub probe: Probe,
+}
+
+/// How the scene is solved.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Analysis {
+    /// The equations of motion.
+    #[default]
+    Dynamic,
+    /// A sequence of static equilibria over the prescribed motion.
+    QuasiStatic,
+}
+
+/// Everything that moves, and for how long.
+///
+/// [`Scene::default`] is an empty dynamic scene in SI units: gravity of 9.81 m/s^2, one second with an output every
+/// 0.01 s, a relative accuracy of 1e-6.
+/// ```
+/// use sim::{Body, Contact, Damper, NormalLaw, Scene, Wheel};
+///
+/// // A mass on one wheel.
+/// let scene = Scene {
+///     bodies: vec![Body::new(1000.0, [0.0; 3])],
+///     wheels: vec![Wheel::new(0.5, NormalLaw::linear(1e8, 0.0, Damper::Rail))],
+///     contacts: vec![Contact::new(0, [0.0; 3])],
+///     ..Scene::default()
+/// };
+/// assert!(scene.check(1).is_ok());
+/// // There must be the structure that its contact names.
+/// assert!(scene.check(0).is_err());
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scene {
+    /// Acceleration of gravity, downwards.
+    pub gravity: f64,
+    /// Bodies.
+    pub bodies: Vec<Body>,
+    /// Kinds of wheels.
+    pub wheels: Vec<Wheel>,
+    /// Contacts.
+    pub contacts: Vec<Contact>,
+    /// Places whose displacement is recorded.
+    pub gauges: Vec<Gauge>,
+    /// Loads, drives, brakes, ropes, stops and rules.
+    pub actuators: Actuators,
+    /// How it is solved.
+    pub analysis: Analysis,
+    /// Time at the end, from 0.
+    pub end: f64,
+    /// Interval of the history.
+    pub output_dt: f64,
+    /// Relative accuracy asked of displacements and forces.
+    pub accuracy: f64,
+}
+
+impl Default for Scene {
+    fn default() -> Self {
+        Scene {
+            gravity: 9.81,
+            bodies: Vec::new(),
+            wheels: Vec::new(),
+            contacts: Vec::new(),
+            gauges: Vec::new(),
+            actuators: Actuators::default(),
+            analysis: Analysis::default(),
+            end: 1.0,
+            output_dt: 0.01,
+            accuracy: 1e-6,
+        }
+    }
+}
+
+impl Scene {
+    /// Time of output `k`; the end itself where the product differs from it by rounding.
+    pub(crate) fn output_time(&self, k: u64) -> f64 {
+        let t = k as f64 * self.output_dt;
+        if (t - self.end).abs() <= 1e-12 * self.end { self.end } else { t }
+    }
+
+    /// Times at which a step must end, in their order; the end of the scene is the last.
+    pub(crate) fn breaks(&self) -> Vec<f64> {
+        let mut breaks: Vec<f64> = self
+            .bodies
+            .iter()
+            .filter_map(|body| body.motion.as_ref())
+            .flat_map(|profile| profile.breaks().iter().copied())
+            .chain(self.actuators.breaks())
+            .filter(|&t| t > 0.0 && t < self.end)
+            .collect();
+        breaks.push(self.end);
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
+    }
+}

@@ -1,0 +1,215 @@
+//! A structure as a chain of rigid parts joined by beams, and how the parts hand a wheel over.
+
+use std::sync::Arc;
+
+use nalgebra::DMatrix;
+use splines::{Compliance, Error, Influence, Line, Probe, Surface};
+
+use super::structure::Shapes;
+use crate::numerics::step::step;
+
+/// The rigid parts under one rail.
+///
+/// Part j carries the rail from its left to its right end. Around the joint of two parts the rail's datum
+/// passes from one to the next by STEP over a window: from centre to centre, or of a given length about the joint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PartChain {
+    ends: Vec<f64>,
+    windows: Vec<[f64; 2]>,
+    first: usize,
+}
+
+impl PartChain {
+    /// Parts between the increasing coordinates `ends`; part j's rail is rail `first` + j of the parts' line.
+    /// `window`: length of the hand-over about each joint; `None`: from centre to centre.
+    ///
+    /// Returns `None` for fewer than one part, ends that do not increase, or windows that overlap.
+    #[must_use]
+    pub fn new(ends: Vec<f64>, first: usize, window: Option<f64>) -> Option<Self> {
+        if ends.len() < 2 || !ends.windows(2).all(|pair| pair[0] < pair[1]) {
+            return None;
+        }
+        let centre = |j: usize| 0.5 * (ends[j] + ends[j + 1]);
+        let windows: Vec<[f64; 2]> = (0..ends.len() - 2)
+            .map(|j| match window {
+                Some(length) => [ends[j + 1] - 0.5 * length, ends[j + 1] + 0.5 * length],
+                None => [centre(j), centre(j + 1)],
+            })
+            .collect();
+        let slack = 1e-9 * (ends[ends.len() - 1] - ends[0]);
+        if windows.iter().any(|w| w[0] >= w[1])
+            || windows.windows(2).any(|pair| pair[0][1] > pair[1][0] + slack)
+        {
+            return None;
+        }
+        Some(PartChain { ends, windows, first })
+    }
+
+    /// Number of parts.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.ends.len() - 1
+    }
+
+    /// Rail of part `j` in the parts' line.
+    #[must_use]
+    pub fn rail(&self, j: usize) -> usize {
+        self.first + j
+    }
+
+    /// First and last coordinate.
+    #[must_use]
+    pub fn range(&self) -> [f64; 2] {
+        [self.ends[0], self.ends[self.ends.len() - 1]]
+    }
+
+    /// Ends of the hand-over windows.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        self.windows.iter().flatten().copied().collect()
+    }
+
+    /// Share of part `j` in carrying a wheel at `x`, and its slope. The shares of all parts add to one.
+    #[must_use]
+    pub fn share(&self, j: usize, x: f64) -> [f64; 2] {
+        let mut share = [1.0, 0.0];
+        if j > 0 {
+            let [a, b] = self.windows[j - 1];
+            let (value, slope) = step(x, a, 0.0, b, 1.0);
+            share = [value, slope];
+        }
+        if j + 1 < self.count() {
+            let [a, b] = self.windows[j];
+            let (value, slope) = step(x, a, 0.0, b, 1.0);
+            share[0] -= value;
+            share[1] -= slope;
+        }
+        share
+    }
+
+    /// Parts that carry a wheel at `x`.
+    fn carriers(&self, x: f64) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
+        let at = self.windows.partition_point(|window| window[1] <= x);
+        (at..self.count().min(at + 2))
+            .map(move |j| (j, self.share(j, x)))
+            .filter(|(_, share)| share[0] != 0.0)
+    }
+}
+
+/// Blended compliance of massless parts: G(p, q) = sum of s_a(p) s_b(q) G_ab(p, q) over the parts a and b that
+/// carry p and q. Symmetric and positive by construction.
+pub struct BlendedParts {
+    /// Compliance of the parts, each on a rail of its own.
+    pub surface: Surface,
+    /// One chain a rail.
+    pub chains: Vec<PartChain>,
+}
+
+/// Which probe a part carries, with the part's share and its slope.
+type Owner = (usize, [f64; 2]);
+
+/// Probes of the parts that carry `at`, with their shares.
+fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<Owner>), Error> {
+    let (mut probes, mut owners) = (Vec::with_capacity(2 * at.len()), Vec::with_capacity(2 * at.len()));
+    for (i, probe) in at.iter().enumerate() {
+        let chain = chains.get(probe.rail).ok_or(Error::NoRail { rail: probe.rail })?;
+        let [from, to] = chain.range();
+        if !(probe.x >= from && probe.x <= to) {
+            return Err(Error::OffRail { rail: probe.rail, x: probe.x });
+        }
+        for (part, share) in chain.carriers(probe.x) {
+            probes.push(Probe { rail: chain.rail(part), ..*probe });
+            owners.push((i, share));
+        }
+    }
+    Ok((probes, owners))
+}
+
+impl Compliance for BlendedParts {
+    fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
+        let (probes, owners) = spread(&self.chains, at)?;
+        let mut inner = Influence::zeros(probes.len());
+        self.surface.fill(&probes, &mut inner)?;
+        out.value.fill(0.0);
+        out.slope.fill(0.0);
+        for (r, &(i, row)) in owners.iter().enumerate() {
+            for (c, &(j, column)) in owners.iter().enumerate() {
+                let value = inner.value[(r, c)];
+                out.value[(i, j)] += row[0] * column[0] * value;
+                out.slope[(i, j)] += column[0] * (row[0] * inner.slope[(r, c)] + row[1] * value);
+            }
+        }
+        Ok(())
+    }
+
+    fn breaks(&self, rail: usize) -> Vec<f64> {
+        self.chains.get(rail).map_or_else(Vec::new, PartChain::breaks)
+    }
+
+    fn range(&self, rail: usize) -> Option<[f64; 2]> {
+        self.chains.get(rail).map(PartChain::range)
+    }
+
+    fn is_symmetric(&self) -> bool {
+        true
+    }
+}
+
+/// Shapes of the parts' degrees of freedom: the state of every part is `basis` times the degrees of freedom.
+pub struct PartShapes {
+    /// The parts, each a rigid arm on a rail of its own.
+    pub line: Arc<Line>,
+    /// States (six a part) x degrees of freedom.
+    pub basis: DMatrix<f64>,
+    /// One chain a rail; the rail's datum is blended.
+    pub chains: Vec<PartChain>,
+    /// Whether probes name the parts' own rails, each part with a force of its own, instead of the blended rail.
+    pub separate: bool,
+}
+
+impl Shapes for PartShapes {
+    fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
+        value.fill(0.0);
+        slope.fill(0.0);
+        let carriers = if self.separate {
+            vec![(at, [1.0, 0.0])]
+        } else {
+            let (probes, owners) = spread(&self.chains, &[at])?;
+            probes.into_iter().zip(owners.into_iter().map(|(_, share)| share)).collect()
+        };
+        for (probe, share) in carriers {
+            let row = self.line.row(probe)?;
+            for ((&state, shape), shape_slope) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
+                for k in 0..value.len() {
+                    value[k] += share[0] * shape * self.basis[(state, k)];
+                    slope[k] += (share[0] * shape_slope + share[1] * shape) * self.basis[(state, k)];
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::PartChain;
+
+    #[test]
+    fn shares_add_to_one_and_their_slopes_to_zero() {
+        let chain = PartChain::new(vec![-15.0, 10.0, 30.0, 75.0], 0, None).expect("increasing ends");
+        for i in 0..=90 {
+            let x = f64::from(i) - 15.0;
+            let sums = (0..3).map(|j| chain.share(j, x)).fold([0.0, 0.0], |s, w| [s[0] + w[0], s[1] + w[1]]);
+            assert!((sums[0] - 1.0).abs() < 1e-14 && sums[1].abs() < 1e-14);
+            let carried: f64 = chain.carriers(x).map(|(_, share)| share[0]).sum();
+            assert!((carried - 1.0).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_window_of_a_given_length_is_centred_on_the_joint() {
+        let chain = PartChain::new(vec![-15.0, 30.0, 75.0], 0, Some(60.0)).expect("increasing ends");
+        assert_eq!(chain.breaks(), vec![0.0, 60.0]);
+        assert_eq!(chain.share(1, 30.0)[0], 0.5);
+    }
+}

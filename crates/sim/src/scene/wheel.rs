@@ -1,0 +1,299 @@
+//! Wheel and rail: the vertical contact law, the flange and friction.
+
+use crate::numerics::step::step;
+
+/// Whose velocity a contact's damper feels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Damper {
+    /// The rate of penetration: the damper acts between wheel and rail.
+    #[default]
+    Rail,
+    /// The wheel's own downward velocity: the damper acts between wheel and ground, as in McConville's decks.
+    Ground,
+}
+
+/// Vertical force of one wheel: F = k p^e + S(p) c r, never negative unless `bilateral`.
+///
+/// p is the penetration, r the damper's rate ([`Damper`]), S(p) = STEP(p, 0, 0, depth, 1), or 1 where
+/// `depth` is zero. Exponent 1 and depth 0 are the linear law, others the IMPACT function of ADAMS.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NormalLaw {
+    /// k, force per length^e, > 0.
+    pub stiffness: f64,
+    /// e, >= 1.
+    pub exponent: f64,
+    /// c, force time per length, >= 0.
+    pub damping: f64,
+    /// Penetration at which the damping is full, >= 0.
+    pub depth: f64,
+    /// Whose velocity the damper feels.
+    pub damper: Damper,
+    /// Whether the wheel may pull.
+    pub bilateral: bool,
+}
+
+/// A force and its derivatives with respect to penetration and rate.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LawPoint {
+    /// Force.
+    pub force: f64,
+    /// Derivative with respect to penetration.
+    pub by_penetration: f64,
+    /// Derivative with respect to the damper's rate.
+    pub by_rate: f64,
+}
+
+impl NormalLaw {
+    /// The linear law k p + c r.
+    #[must_use]
+    pub fn linear(stiffness: f64, damping: f64, damper: Damper) -> Self {
+        NormalLaw { stiffness, exponent: 1.0, damping, depth: 0.0, damper, bilateral: false }
+    }
+
+    /// Whether force is linear in penetration and rate.
+    #[must_use]
+    pub fn is_linear(&self) -> bool {
+        self.exponent == 1.0 && (self.depth == 0.0 || self.damping == 0.0)
+    }
+
+    /// Whether the penetration is a state of its own: a damper between wheel and rail.
+    #[must_use]
+    pub fn has_memory(&self) -> bool {
+        self.damping > 0.0 && self.damper == Damper::Rail
+    }
+
+    /// Whether a damper acts between wheel and ground.
+    pub(crate) fn is_grounded(&self) -> bool {
+        self.damping > 0.0 && self.damper == Damper::Ground
+    }
+
+    /// Force of the law at penetration `p` and rate `r`, not clipped: negative penetration continues the
+    /// spring oddly, so that a step that ends a contact stays smooth until its end is located.
+    #[must_use]
+    pub fn at(&self, p: f64, r: f64) -> LawPoint {
+        let (spring, by_spring) = if self.exponent == 1.0 {
+            (self.stiffness * p, self.stiffness)
+        } else {
+            let power = p.abs().powf(self.exponent - 1.0);
+            (self.stiffness * p * power, self.stiffness * self.exponent * power)
+        };
+        let (ramp, by_ramp) = if self.depth > 0.0 { step(p, 0.0, 0.0, self.depth, 1.0) } else { (1.0, 0.0) };
+        LawPoint {
+            force: spring + self.damping * ramp * r,
+            by_penetration: by_spring + self.damping * by_ramp * r,
+            by_rate: self.damping * ramp,
+        }
+    }
+
+    /// The elastic part of the force at penetration `p`.
+    #[must_use]
+    pub fn spring(&self, p: f64) -> f64 {
+        if self.exponent == 1.0 {
+            self.stiffness * p
+        } else {
+            self.stiffness * p * p.abs().powf(self.exponent - 1.0)
+        }
+    }
+
+    /// Elastic energy at penetration `p`: k |p|^(e+1)/(e+1).
+    #[must_use]
+    pub fn energy(&self, p: f64) -> f64 {
+        if self.exponent == 1.0 {
+            return 0.5 * self.stiffness * p * p;
+        }
+        self.stiffness * p.abs().powf(self.exponent + 1.0) / (self.exponent + 1.0)
+    }
+
+    /// Penetration at rest under `force` >= 0.
+    #[must_use]
+    pub fn penetration(&self, force: f64) -> f64 {
+        (force / self.stiffness).powf(1.0 / self.exponent)
+    }
+}
+
+/// Flange: beyond a clearance the rail head pushes back, until the wheel has climbed off it.
+///
+/// L = k S(h) (|e| - clearance) sign(e), e the wheel's lateral displacement from the rail, h the height of
+/// the wheel's centre above the rail, S(h) = `STEP(h, release[0], 1, release[1], 0)`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Flange {
+    /// k, force per length, > 0.
+    pub stiffness: f64,
+    /// Free play to either side, >= 0.
+    pub clearance: f64,
+    /// Heights of the wheel's centre above the rail between which the flange lets go; `None`: never.
+    pub release: Option<[f64; 2]>,
+}
+
+impl Flange {
+    /// Share S(h) of the flange force that is left at height `h`, and its slope.
+    #[must_use]
+    pub fn share(&self, h: f64) -> (f64, f64) {
+        self.release.map_or((1.0, 0.0), |[from, to]| step(h, from, 1.0, to, 0.0))
+    }
+
+    /// Overlap beyond the clearance, signed.
+    #[must_use]
+    pub fn overlap(&self, e: f64) -> f64 {
+        e.signum() * (e.abs() - self.clearance).max(0.0)
+    }
+}
+
+/// How friction grows with the sliding velocity s, as a share of mu N.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FrictionLaw {
+    /// STEP(s, -slip, -1, slip, 1), full from |s| = slip on: the cubic of the paper's decks.
+    #[default]
+    Step,
+    /// tanh(s / slip), 76 % at |s| = slip: Coulomb's law made smooth in every derivative, within 4e-9 of it from
+    /// |s| = 10 slip on, and the law of [`Brake`](crate::Brake).
+    Coulomb,
+}
+
+/// Friction along the rail: T = mu N S(s) against the sliding velocity s, S by its [`FrictionLaw`].
+///
+/// Regularised: it is zero at rest, so a wheel creeps at a small slip instead of sticking.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Friction {
+    /// How the share S grows with s.
+    pub law: FrictionLaw,
+    /// mu, >= 0.
+    pub coefficient: f64,
+    /// Sliding velocity that scales the law, > 0.
+    pub slip: f64,
+}
+
+impl Friction {
+    /// Share of mu N at sliding velocity `s`, -1 to 1, and its slope.
+    #[must_use]
+    pub fn share(&self, s: f64) -> (f64, f64) {
+        match self.law {
+            FrictionLaw::Step => step(s, -self.slip, -1.0, self.slip, 1.0),
+            FrictionLaw::Coulomb => {
+                let share = (s / self.slip).tanh();
+                (share, (1.0 - share * share) / self.slip)
+            }
+        }
+    }
+}
+
+/// One kind of wheel.
+/// ```
+/// use sim::{Damper, Flange, NormalLaw, Wheel};
+///
+/// let mut wheel = Wheel::new(0.4, NormalLaw::linear(1e9, 1e6, Damper::Rail));
+/// wheel.flange = Some(Flange { stiffness: 1e8, clearance: 0.01, release: None });
+/// // 200 kN press it in by 0.2 mm.
+/// assert!((wheel.normal.penetration(200e3) - 0.2e-3).abs() < 1e-12);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Wheel {
+    /// Radius, > 0.
+    pub radius: f64,
+    /// Vertical contact.
+    pub normal: NormalLaw,
+    /// Flange, where the wheel has one.
+    pub flange: Option<Flange>,
+    /// Friction along the rail.
+    pub friction: Option<Friction>,
+    /// Rotational inertia; `None`: the wheel rolls without inertia and takes no traction.
+    pub spin_inertia: Option<f64>,
+}
+
+impl Wheel {
+    /// A wheel of `radius` with the vertical law `normal`, without flange and friction: it rolls without inertia.
+    #[must_use]
+    pub fn new(radius: f64, normal: NormalLaw) -> Self {
+        Wheel { radius, normal, flange: None, friction: None, spin_inertia: None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Damper, Flange, Friction, FrictionLaw, NormalLaw};
+
+    /// IMPACT(x, v, x1, k, e, c, d) of the SolidWorks Motion and ADAMS help, written out independently.
+    fn impact(x: f64, v: f64, x1: f64, k: f64, e: f64, c: f64, d: f64) -> f64 {
+        if x >= x1 {
+            return 0.0;
+        }
+        let t = ((x - (x1 - d)) / d).clamp(0.0, 1.0);
+        (k * (x1 - x).powf(e) - (c - c * t * t * (3.0 - 2.0 * t)) * v).max(0.0)
+    }
+
+    #[test]
+    fn power_law_with_a_ramped_damper_is_the_impact_function() {
+        let law = NormalLaw {
+            stiffness: 1e8,
+            exponent: 1.1,
+            damping: 1e5,
+            depth: 1e-2,
+            damper: Damper::Rail,
+            bilateral: false,
+        };
+        for (p, rate) in [(0.003, 0.5), (0.02, -1.0), (0.05, 2.0)] {
+            let theirs = impact(1.25 - p, -rate, 1.25, 1e8, 1.1, 1e5, 1e-2);
+            assert!((law.at(p, rate).force - theirs).abs() < 1e-7 * theirs);
+        }
+    }
+
+    #[test]
+    fn derivatives_of_the_law_are_derivatives() {
+        let law = NormalLaw {
+            stiffness: 1e8,
+            exponent: 1.5,
+            damping: 1e5,
+            depth: 2e-2,
+            damper: Damper::Rail,
+            bilateral: false,
+        };
+        let (p, r, h) = (0.007, 0.3, 1e-7);
+        let at = law.at(p, r);
+        let by_p = (law.at(p + h, r).force - law.at(p - h, r).force) / (2.0 * h);
+        let by_r = (law.at(p, r + h).force - law.at(p, r - h).force) / (2.0 * h);
+        assert!((at.by_penetration / by_p - 1.0).abs() < 1e-6);
+        assert!((at.by_rate / by_r - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn penetration_at_rest_inverts_the_spring() {
+        let mut law = NormalLaw::linear(1e8, 0.0, Damper::Rail);
+        law.exponent = 1.1;
+        // Analytic: (5e6/1e8)^(1/1.1) = 0.065652 ft, the rigid rail of the paper.
+        assert!((law.penetration(5e6) - 0.065_652).abs() < 1e-6);
+        assert!((law.spring(law.penetration(5e6)) - 5e6).abs() < 1e-6);
+    }
+
+    #[test]
+    fn flange_has_free_play_and_lets_go_between_the_release_heights() {
+        let flange = Flange { stiffness: 1e8, clearance: 0.04, release: Some([1.25, 1.385]) };
+        assert_eq!(flange.overlap(0.03), 0.0);
+        assert!((flange.overlap(-0.05) + 0.01).abs() < 1e-15);
+        assert_eq!(flange.share(1.2).0, 1.0);
+        assert_eq!(flange.share(1.4).0, 0.0);
+        assert!((flange.share(1.3175).0 - 0.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn friction_is_odd_and_full_beyond_the_slip_velocity() {
+        let friction = Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 };
+        assert_eq!(friction.share(0.2).0, 1.0);
+        assert_eq!(friction.share(-0.2).0, -1.0);
+        assert!(friction.share(0.0).0.abs() < 1e-15);
+    }
+
+    #[test]
+    fn coulomb_friction_is_odd_and_nearly_full_at_ten_slip_velocities() {
+        let friction = Friction { law: FrictionLaw::Coulomb, coefficient: 0.2, slip: 0.1 };
+        assert_eq!(friction.share(0.0), (0.0, 10.0));
+        assert_eq!(friction.share(0.03).0, -friction.share(-0.03).0);
+        // Analytic: tanh 1 = 0.761594, 1 - tanh 10 = 4.1e-9.
+        assert!((friction.share(0.1).0 - 0.761_594_156).abs() < 1e-9);
+        let short = 1.0 - friction.share(1.0).0;
+        assert!(short > 0.0 && short < 4.2e-9);
+        let (s, h) = (0.07, 1e-6);
+        let difference = (friction.share(s + h).0 - friction.share(s - h).0) / (2.0 * h);
+        assert!((friction.share(s).1 / difference - 1.0).abs() < 1e-7);
+        assert_eq!(friction.share(1e300), (1.0, 0.0));
+    }
+}

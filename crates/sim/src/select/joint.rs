@@ -1,0 +1,93 @@
+//! Structures chosen one after another, checked together.
+
+use std::ops::ControlFlow;
+
+use super::distance::distance;
+use super::fidelity::{Choice, Ladder, Reason, SAFE, STEPPING, Selection, Tried};
+use super::rung::{MODES, Rung};
+use crate::{Foundation, Scene};
+
+/// Raises all structures that were refined until the next fidelities of all change the run by at most 0.8 of the sum
+/// of their tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they
+/// were held.
+pub(super) fn settle<L: Ladder>(
+    scene: &Scene,
+    tolerances: &[Option<f64>],
+    mut foundations: Vec<Foundation>,
+    provider: &mut L,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    mut selection: Selection,
+) -> Selection {
+    let is_open = |choice: &Choice| !matches!(choice.reason, Reason::NoMass | Reason::QuasiStatic);
+    let searched: Vec<usize> =
+        (0..selection.choices.len()).filter(|&c| is_open(&selection.choices[c])).collect();
+    let all: Vec<f64> = searched.iter().filter_map(|&c| tolerances[selection.choices[c].structure]).collect();
+    let kept = searched.iter().skip(1).all(|&c| selection.choices[c].rung == Rung::Influence);
+    if kept || !selection.run.status.is_complete() {
+        return selection;
+    }
+    let mut finer = scene.clone();
+    finer.accuracy = all.iter().fold(finer.accuracy, |least, own| least.min(STEPPING * own));
+    let tolerance: f64 = all.iter().sum();
+    let mut is_raised = false;
+    loop {
+        let raised: Vec<Rung> = searched.iter().map(|&c| above(&selection.choices[c])).collect();
+        if searched.iter().zip(&raised).all(|(&c, rung)| selection.choices[c].rung == *rung) {
+            return doubted(selection, &searched, is_raised, Reason::Top);
+        }
+        for (&c, &rung) in searched.iter().zip(&raised) {
+            let structure = selection.choices[c].structure;
+            match provider.foundation(structure, rung) {
+                Ok(foundation) => foundations[structure] = foundation,
+                Err(_) => return doubted(selection, &searched, true, Reason::Unchecked),
+            }
+        }
+        let higher = match provider.run(&finer, &foundations, watch) {
+            Ok(higher) if higher.status.is_complete() => higher,
+            _ => return doubted(selection, &searched, true, Reason::Unchecked),
+        };
+        selection.runs += 1;
+        let estimate = distance(&selection.run, &higher, scene);
+        let stages = selection.run.counts.stages as u64;
+        let is_enough = estimate <= SAFE * tolerance;
+        for (&c, &against) in searched.iter().zip(&raised) {
+            let choice = &mut selection.choices[c];
+            choice.tried.push(Tried { rung: choice.rung, estimate, against, stages });
+            if !is_enough {
+                choice.rung = against;
+            } else if is_raised {
+                (choice.reason, choice.estimate) = (Reason::Sufficient, Some(estimate));
+            } else {
+                choice.estimate = choice.estimate.map(|own| own.max(estimate));
+            }
+        }
+        if is_enough {
+            return selection;
+        }
+        is_raised = true;
+        selection.run = higher;
+    }
+}
+
+/// What checks a choice: what it was checked against, or else the next fidelity.
+fn above(choice: &Choice) -> Rung {
+    let checked = choice.tried.iter().rev().find(|tried| tried.rung == choice.rung);
+    match (checked, choice.rung) {
+        (Some(tried), _) => tried.against,
+        (None, Rung::Rigid) => Rung::Influence,
+        (None, Rung::Influence) => Rung::Modal(MODES[0]),
+        (None, Rung::Modal(m)) => MODES.into_iter().find(|&more| more > m).map_or(Rung::Full, Rung::Modal),
+        (None, Rung::Half | Rung::Full) => Rung::Full,
+    }
+}
+
+/// The error of what was chosen is not known.
+fn doubted(mut selection: Selection, searched: &[usize], is_lost: bool, reason: Reason) -> Selection {
+    if is_lost {
+        for &c in searched {
+            let choice = &mut selection.choices[c];
+            (choice.reason, choice.estimate) = (reason, None);
+        }
+    }
+    selection
+}

@@ -1,0 +1,451 @@
+//! A step of force-form collocation: the contact forces at all nodes at once, from one linear system.
+//!
+//! Bodies respond to the forces by the collocation's double integrals, modes by their exact propagators, so that a
+//! step resolves the forces and not the modes: q(c_i h) = free motion - sum_j W_ij R_j^T F_j.
+
+use nalgebra::DVector;
+
+use crate::contact::geometry::Geometry;
+use crate::contact::solver::Solver;
+use crate::contact::system::System;
+use crate::mechanics::state::State;
+use crate::numerics::dense::{dot, solve_general};
+use crate::record::energy::power;
+use crate::time::nodes::Nodes;
+use crate::time::propagator::Propagator;
+use crate::{Dynamics, Error, Exchanged};
+
+/// Everything a step needs; n degrees of freedom, m elements, s nodes.
+pub(crate) struct Collocation {
+    nodes: Nodes,
+    /// omega and zeta of each degree of freedom; omega 0: a body's.
+    modes: Vec<[f64; 2]>,
+    /// Responses for the lengths of step met last; the first is that of the step.
+    responses: Vec<Responses>,
+    /// The contacts at the nodes.
+    geometries: Vec<Geometry>,
+    projection: NodeProjection,
+    loads: NodeLoads,
+    problem: NodeProblem,
+    states: Vec<State>,
+    powers: Vec<Exchanged>,
+}
+
+/// What a force at a node does.
+struct NodeProjection {
+    /// M^-1 R^T, s x m x n.
+    spread: Vec<f64>,
+    /// R M^-1 R^T where rows are the same everywhere, m x m.
+    mobile: Vec<f64>,
+    is_filled: bool,
+}
+
+/// Loads by M^-1, n each.
+struct NodeLoads {
+    /// At the nodes without forces of contacts, and with them.
+    free: Vec<DVector<f64>>,
+    whole: Vec<DVector<f64>>,
+    /// At the start of the step, with the forces of contacts.
+    start: DVector<f64>,
+    /// Whether loads without contacts never change.
+    is_steady: bool,
+}
+
+/// The linear system of the forces at all nodes.
+struct NodeProblem {
+    /// Free approach and its rate as the damper feels it at (node, element), and the effect of a force at another.
+    approach: Vec<f64>,
+    rate: Vec<f64>,
+    effect: Vec<f64>,
+    rate_effect: Vec<f64>,
+    matrix: Vec<f64>,
+    force: Vec<f64>,
+    /// Places of the unknown forces among all.
+    index: Vec<usize>,
+}
+
+/// Responses of every degree of freedom over a step of length `h`.
+struct Responses {
+    h: f64,
+    /// Responses to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
+    free: Vec<[f64; 4]>,
+    /// Responses q and v to the load at every node; (s + 1) x s x n.
+    forced: Vec<[f64; 2]>,
+}
+
+/// Lengths of step whose responses are kept where there are modes.
+const STORED: usize = 12;
+
+impl Responses {
+    fn new(nodes: &Nodes, n: usize) -> Self {
+        let s = nodes.count();
+        Responses { h: 0.0, free: vec![[0.0; 4]; (s + 1) * n], forced: vec![[0.0; 2]; (s + 1) * s * n] }
+    }
+
+    fn fill(&mut self, nodes: &Nodes, modes: &[[f64; 2]], h: f64) {
+        self.h = h;
+        let (s, n) = (nodes.count(), modes.len());
+        for (r, &[omega, zeta]) in modes.iter().enumerate() {
+            let mode = (omega > 0.0).then(|| Propagator::new(omega, zeta, h));
+            for i in 0..=s {
+                let c = nodes.c[i];
+                self.free[i * n + r] = mode.as_ref().map_or([1.0, c * h, 0.0, 1.0], |mode| mode.free(c));
+                let powers = mode.as_ref().map(|mode| mode.forced(c));
+                for b in 0..s {
+                    self.forced[(i * s + b) * n + r] = match powers {
+                        None => [h * h * nodes.a2[i * s + b], h * nodes.a[i * s + b]],
+                        Some(powers) => [0, 1].map(|part| nodes.load(b, &powers, part)),
+                    };
+                }
+            }
+        }
+    }
+}
+
+impl Collocation {
+    pub fn new(system: &System, nodes: Nodes, start: &State) -> Self {
+        let (n, m, s) = (system.mechanics.dofs, system.elements.len(), nodes.count());
+        let mut modes = vec![[0.0; 2]; n];
+        for (range, foundation) in system.mechanics.structures.iter().zip(system.foundations) {
+            if let Some(Dynamics::Modes { omega, ratio }) = foundation.structure.as_ref().map(|s| &s.dynamics)
+            {
+                for (k, number) in range.clone().enumerate() {
+                    modes[number] = [omega[k], ratio[k]];
+                }
+            }
+        }
+        let size = s * m;
+        let moves = system.scene.bodies.iter().enumerate().filter(|(_, body)| body.motion.is_some());
+        let drags = moves.into_iter().any(|(b, _)| !system.mechanics.kinematics.travel_inertia(b).is_empty());
+        Collocation {
+            modes,
+            responses: vec![Responses::new(&nodes, n)],
+            geometries: vec![Geometry::new(system); s],
+            projection: NodeProjection {
+                spread: vec![0.0; size * n],
+                mobile: vec![0.0; m * m],
+                is_filled: false,
+            },
+            loads: NodeLoads {
+                free: vec![DVector::zeros(n); s],
+                whole: vec![DVector::zeros(n); s],
+                start: DVector::zeros(n),
+                is_steady: system.scene.actuators.loads.is_empty() && !drags,
+            },
+            problem: NodeProblem {
+                approach: vec![0.0; size],
+                rate: vec![0.0; size],
+                effect: vec![0.0; size * size],
+                rate_effect: vec![0.0; size * size],
+                matrix: vec![0.0; size * size],
+                force: vec![0.0; size],
+                index: Vec::with_capacity(size),
+            },
+            states: vec![start.clone(); s],
+            powers: vec![Exchanged::default(); s],
+            nodes,
+        }
+    }
+
+    /// Whether some degree of freedom is a mode.
+    pub fn is_modal(&self) -> bool {
+        self.modes.iter().any(|mode| mode[0] > 0.0)
+    }
+
+    /// Number of nodes.
+    pub fn count(&self) -> usize {
+        self.nodes.count()
+    }
+
+    /// Energy exchanged in the step, by the quadrature of the nodes.
+    pub fn exchanged(&self) -> Exchanged {
+        let s = self.count();
+        let mut sum = Exchanged::default();
+        for (power, weight) in self.powers.iter().zip(&self.nodes.a[s * s..]) {
+            sum.add(power, self.responses[0].h * weight);
+        }
+        sum
+    }
+
+    /// Takes a step of length `h` from `from` with the contacts that are active; false where it has no solution.
+    pub fn attempt(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        h: f64,
+        limit: f64,
+        to: &mut State,
+    ) -> Result<bool, Error> {
+        self.set_step(h);
+        let (s, n, m) = (self.count(), to.q.len(), solver.system().elements.len());
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
+            self.loads.start[r] = from.a[r] + omega * (2.0 * zeta * from.v[r] + omega * from.q[r]);
+        }
+        for a in 0..s {
+            let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
+            self.states[a].t = t;
+            self.geometries[a].update(solver.system(), t, &from.q, &from.force)?;
+            if !(self.projection.is_filled && self.loads.is_steady) {
+                self.loads.free[a].copy_from(solver.free_accelerations(t));
+            }
+            if !(self.projection.is_filled && solver.system().traits.has_constant_rows) {
+                let rows = self.geometries[a].rows().approach.chunks_exact(n.max(1));
+                for (row, spread) in rows.zip(self.projection.spread[a * m * n..].chunks_exact_mut(n.max(1)))
+                {
+                    solver.apply_inverse(row, spread);
+                }
+            }
+        }
+        if solver.system().traits.has_constant_rows {
+            self.fill_body_responses(solver, from);
+        } else {
+            self.fill_responses(solver, from);
+        }
+        self.projection.is_filled = true;
+        if !self.solve(solver, from) {
+            return Ok(false);
+        }
+        self.finish(solver, from, to, limit)
+    }
+
+    /// Brings the responses over a step of length `h` to the front.
+    fn set_step(&mut self, h: f64) {
+        if let Some(known) = self.responses.iter().position(|responses| responses.h == h) {
+            self.responses[..=known].rotate_right(1);
+            return;
+        }
+        if self.is_modal() && self.responses.len() < STORED {
+            self.responses.push(Responses::new(&self.nodes, self.modes.len()));
+        }
+        self.responses.rotate_right(1);
+        self.responses[0].fill(&self.nodes, &self.modes, h);
+    }
+
+    /// State of degree of freedom `r` at target `i` under the loads at the nodes.
+    fn response(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
+        let (s, n) = (self.count(), self.modes.len());
+        let responses = &self.responses[0];
+        let [qq, qv, vq, vv] = responses.free[i * n + r];
+        let mut out = [qq * from.q[r] + qv * from.v[r], vq * from.q[r] + vv * from.v[r]];
+        for (b, load) in load.iter().enumerate() {
+            let [q, v] = responses.forced[(i * s + b) * n + r];
+            out[0] += q * load[r];
+            out[1] += v * load[r];
+        }
+        out
+    }
+
+    /// Free approach and the effect of forces, by the responses of every degree of freedom.
+    fn fill_responses(&mut self, solver: &Solver, from: &State) {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
+        let size = s * m;
+        for a in 0..s {
+            for r in 0..n {
+                let [q, v] = self.response(&self.loads.free, from, a, r);
+                (self.states[a].q[r], self.states[a].v[r]) = (q, v);
+            }
+            let geometry = &self.geometries[a];
+            for i in 0..m {
+                let (row, rate_row) = (geometry.rows().approach_row(i), geometry.rows().rate_row(i));
+                self.problem.approach[a * m + i] =
+                    geometry.rows().approach_offset[i] + dot(row, self.states[a].q.as_slice());
+                self.problem.rate[a * m + i] =
+                    geometry.rows().rate_offset[i] + dot(rate_row, self.states[a].v.as_slice());
+                for b in 0..s {
+                    let responses = &self.responses[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
+                    for j in 0..m {
+                        let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
+                        let (mut q, mut v) = (0.0, 0.0);
+                        for (r, ([by_q, by_v], spread)) in responses.iter().zip(spread).enumerate() {
+                            q += row[r] * by_q * spread;
+                            v += rate_row[r] * by_v * spread;
+                        }
+                        let compliance_here = if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
+                        self.problem.effect[(a * m + i) * size + b * m + j] = compliance_here + q;
+                        self.problem.rate_effect[(a * m + i) * size + b * m + j] = v;
+                    }
+                }
+            }
+        }
+    }
+
+    /// [`Self::fill_responses`] where rows are the same everywhere and all degrees of freedom are bodies'.
+    fn fill_body_responses(&mut self, solver: &Solver, from: &State) {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
+        let (size, h) = (s * m, self.responses[0].h);
+        let rows = &self.geometries[0].rows().approach;
+        if !self.projection.is_filled {
+            for i in 0..m {
+                for j in 0..m {
+                    self.projection.mobile[i * m + j] =
+                        dot(&rows[i * n..(i + 1) * n], &self.projection.spread[j * n..(j + 1) * n]);
+                }
+            }
+        }
+        for i in 0..m {
+            let row = &rows[i * n..(i + 1) * n];
+            let start = self.geometries[0].rows().approach_offset[i] + dot(row, from.q.as_slice());
+            let rate = dot(row, from.v.as_slice());
+            for a in 0..s {
+                self.problem.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
+                self.problem.rate[a * m + i] = rate;
+            }
+            for b in 0..s {
+                let weight = dot(row, self.loads.free[b].as_slice());
+                for a in 0..s {
+                    self.problem.approach[a * m + i] += h * h * self.nodes.a2[a * s + b] * weight;
+                    self.problem.rate[a * m + i] += h * self.nodes.a[a * s + b] * weight;
+                }
+            }
+        }
+        for a in 0..s {
+            let compliance = &self.geometries[a].rails().value;
+            for b in 0..s {
+                let by_q = h * h * self.nodes.a2[a * s + b];
+                let by_v = h * self.nodes.a[a * s + b];
+                for i in 0..m {
+                    let line = (a * m + i) * size + b * m;
+                    for j in 0..m {
+                        let compliance_here = if a == b { compliance[i * m + j] } else { 0.0 };
+                        self.problem.effect[line + j] =
+                            compliance_here + by_q * self.projection.mobile[i * m + j];
+                        self.problem.rate_effect[line + j] = by_v * self.projection.mobile[i * m + j];
+                    }
+                }
+            }
+        }
+    }
+
+    /// F/k + p + (c/k) r = 0 at every node, p = approach - effect F and r the rate of p or of the wheel.
+    fn solve(&mut self, solver: &Solver, from: &State) -> bool {
+        let system = solver.system();
+        let (s, m, size) = (self.count(), system.elements.len(), self.problem.force.len());
+        self.problem.index.clear();
+        self.problem.index.extend((0..size).filter(|at| solver.active().has(at % m)));
+        let count = self.problem.index.len();
+        self.problem.force.fill(0.0);
+        for (line, &at) in self.problem.index.iter().enumerate() {
+            let (a, i) = (at / m, at % m);
+            let law = system.law(i);
+            let ratio = law.damping / law.stiffness;
+            let memory = solver.remembers(i);
+            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.responses[0].h;
+            let mut right = self.problem.approach[at];
+            if memory {
+                right += (0..s).map(|l| by(l) * (self.problem.approach[l * m + i] - from.p[i])).sum::<f64>();
+            } else {
+                right += ratio * self.problem.rate[at];
+            }
+            for (column, &other) in self.problem.index.iter().enumerate() {
+                let mut entry = self.problem.effect[at * size + other];
+                if memory {
+                    entry +=
+                        (0..s).map(|l| by(l) * self.problem.effect[(l * m + i) * size + other]).sum::<f64>();
+                } else {
+                    entry += ratio * self.problem.rate_effect[at * size + other];
+                }
+                self.problem.matrix[line * count + column] = entry;
+            }
+            self.problem.matrix[line * count + line] +=
+                1.0 / (law.stiffness * system.mechanics.groups[i].count());
+            self.problem.force[line] = right;
+        }
+        if !solve_general(&mut self.problem.matrix[..count * count], &mut self.problem.force[..count]) {
+            return false;
+        }
+        // Spread over all elements, from the last on: an index never lies before its line.
+        for line in (0..count).rev() {
+            let value = std::mem::take(&mut self.problem.force[line]);
+            self.problem.force[self.problem.index[line]] = value;
+        }
+        true
+    }
+
+    /// States at the nodes and at the end, and the powers exchanged.
+    fn finish(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        to: &mut State,
+        limit: f64,
+    ) -> Result<bool, Error> {
+        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
+        let size = s * m;
+        for (b, (load, weight)) in self.loads.whole.iter_mut().zip(&self.loads.free).enumerate() {
+            load.copy_from(weight);
+            for j in 0..m {
+                let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
+                let force = self.problem.force[b * m + j];
+                load.iter_mut().zip(spread).for_each(|(load, spread)| *load -= spread * force);
+            }
+        }
+        for at in 0..size {
+            self.problem.approach[at] -=
+                dot(&self.problem.effect[at * size..(at + 1) * size], &self.problem.force);
+            self.states[at / m].p[at % m] = self.problem.approach[at];
+            self.states[at / m].force[at % m] = self.problem.force[at];
+        }
+        let h = self.responses[0].h;
+        for a in 0..s {
+            for r in 0..n {
+                let [q, v] = self.response(&self.loads.whole, from, a, r);
+                let [omega, zeta] = self.modes[r];
+                let state = &mut self.states[a];
+                (state.q[r], state.v[r]) = (q, v);
+                state.a[r] = self.loads.whole[a][r] - omega * (2.0 * zeta * v + omega * q);
+            }
+            let state = &mut self.states[a];
+            for i in 0..m {
+                let rates = (0..s)
+                    .map(|l| self.nodes.rate[a * s + l] * (self.problem.approach[l * m + i] - from.p[i]));
+                state.p_rate[i] = rates.sum::<f64>() / h;
+            }
+            self.geometries[a].update_rail_slope(solver.system(), &state.q, &state.force);
+            self.powers[a] = power(solver.system(), &self.geometries[a], state);
+        }
+        to.copy_from(&self.states[s - 1]);
+        if self.nodes.c[s - 1] < 1.0 {
+            to.t = (from.t + h).min(limit.next_down());
+            for r in 0..n {
+                let [q, v] = self.response(&self.loads.whole, from, s, r);
+                (to.q[r], to.v[r]) = (q, v);
+            }
+            if !solver.instant(to)? {
+                return Ok(false);
+            }
+        } else {
+            solver.exchange_geometry(&mut self.geometries[s - 1]);
+        }
+        Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    /// Modes of `at`, the share `share` of the step just taken from `from`: exact for the polynomials of time that the
+    /// loads are taken to be, since no polynomial follows a mode of many periods a step.
+    pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
+        let h = self.responses[0].h;
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
+            let mode = Propagator::new(omega, zeta, h);
+            let [qq, qv, vq, vv] = mode.free(share);
+            let powers = mode.forced(share);
+            let (q0, v0) = (from.q[r], from.v[r]);
+            let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
+            for (b, load) in self.loads.whole.iter().enumerate() {
+                q += load[r] * self.nodes.load(b, &powers, 0);
+                v += load[r] * self.nodes.load(b, &powers, 1);
+                now += load[r] * self.nodes.value(b, share);
+            }
+            (at.q[r], at.v[r]) = (q, v);
+            at.a[r] = now - omega * (2.0 * zeta * v + omega * q);
+        }
+    }
+
+    /// Error of q and v of degree of freedom `r`: what the loads of the last node add to those of a degree less.
+    pub fn error(&self, r: usize) -> [f64; 2] {
+        let (s, n) = (self.count(), self.modes.len());
+        let mut jump = self.loads.whole[s - 1][r] - self.nodes.ahead[0] * self.loads.start[r];
+        for b in 1..s {
+            jump -= self.nodes.ahead[b] * self.loads.whole[b - 1][r];
+        }
+        self.responses[0].forced[(s * s + s - 1) * n + r].map(|response| response * jump)
+    }
+}

@@ -1,0 +1,19 @@
+//! From instant to instant: steppers, collocation, power series, and the events at which steps end.
+//!
+//! It stands on `instant` and on `record`, whose channels the rules read and whose audit the steps book.
+
+pub(crate) mod books;
+pub(crate) mod collocation;
+pub(crate) mod counts;
+pub(crate) mod events;
+pub(crate) mod nodes;
+pub(crate) mod passage;
+pub(crate) mod propagator;
+pub(crate) mod samples;
+pub(crate) mod sdirk;
+pub(crate) mod step;
+pub(crate) mod step_size;
+pub(crate) mod stepper;
+pub(crate) mod suitability;
+pub(crate) mod tableau;
+pub(crate) mod triggers;

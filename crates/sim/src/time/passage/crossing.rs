@@ -1,0 +1,516 @@
+//! Crossings at uniform speed by power series of time: bodies on linear wheels over a rail without mass.
+//!
+//! Where wheels travel together at uniform speed, G is a polynomial of time between two breaks of the rails
+//! ([`path`](super::path)), and so the forces and motions are power series ([`series`](super::series)) whose
+//! coefficients cost a few products each: no evaluation of G, no iteration, samples and powers from the same series.
+//! The step follows from the last terms, so that none is rejected; forces and energy are read off two terms more,
+//! which leave nearly no jump between steps.
+
+use std::ops::ControlFlow;
+
+use super::path::Path;
+use super::series::{Contacts, Matrix, Series, TERMS, Values, subtract};
+use crate::contact::geometry::Geometry;
+use crate::contact::system::System;
+use crate::mechanics::mobility::Mobility;
+use crate::mechanics::state::State;
+use crate::numerics::dense::solve_general;
+use crate::record::energy::{Audit, stored};
+use crate::record::recorder::Recorder;
+use crate::time::counts::Counts;
+use crate::{Error, History};
+
+/// Contacts at most.
+pub(crate) const WIDEST: usize = 8;
+
+/// Size of the last terms of a step for each unit of accuracy asked of the run.
+const LAST: f64 = 0.1;
+
+/// Size of the last terms of the forces by the mean force, for that of the approaches by the largest.
+const FORCES: f64 = 50.0;
+
+/// Accuracy beyond which a step is no longer.
+const COARSEST: f64 = 1e-3;
+
+/// Square of the quickest frequency by that of the bodies at rest on their wheels, beyond which the scene is too
+/// stiff for a series.
+const STIFF: f64 = 20.0;
+
+/// Steps, judged by the last, beyond which a series is not worth its while.
+const MANY: f64 = 1e4;
+
+/// Places and weights of Lobatto on [0, 1], exact to degree 13; at 0 and at 1 the weight is [`ENDS`].
+const LOBATTO: [[f64; 2]; 6] = [
+    [0.064_129_925_745_196_71, 0.105_352_113_571_753_04],
+    [0.204_149_909_283_428_85, 0.170_561_346_241_752_15],
+    [0.395_350_391_048_760_6, 0.206_229_397_329_351_9],
+    [0.604_649_608_951_239_4, 0.206_229_397_329_351_9],
+    [0.795_850_090_716_571_1, 0.170_561_346_241_752_15],
+    [0.935_870_074_254_803_3, 0.105_352_113_571_753_04],
+];
+const ENDS: f64 = 1.0 / 56.0;
+
+/// What is missing in the scene to be a crossing of this kind, beside what collocation asks.
+pub(crate) fn missing(system: &System) -> Option<&'static str> {
+    let scene = system.scene;
+    let mut moving = scene.bodies.iter().enumerate().filter_map(|(b, body)| Some((b, body.motion.as_ref()?)));
+    let first = moving.next();
+    let together = moving.next().is_none()
+        && system
+            .mechanics
+            .wheels
+            .iter()
+            .all(|w| first.is_none_or(|(b, _)| system.mechanics.kinematics.root(w.body) == b));
+    let uniform = first.is_none_or(|(_, motion)| motion.uniform(scene.end).is_some());
+    let symmetric = system.foundations.iter().all(|f| f.compliance.as_ref().is_none_or(|c| c.is_symmetric()));
+    let mounted = !system.mechanics.carried.is_empty() || system.foundations.iter().any(|f| f.on.is_some());
+    let troubles = [
+        (!together, "wheels that travel together"),
+        (!uniform, "a uniform speed"),
+        (!system.traits.has_constant_rows || mounted, "structures without mass, on the ground"),
+        (!symmetric, "a symmetric compliance"),
+        (!scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(), "no loads or events"),
+        (system.elements.len() > WIDEST, "eight contacts at most"),
+        (system.mechanics.dofs > system.elements.len(), "no more freedoms than contacts"),
+    ];
+    troubles.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted)
+}
+
+/// A crossing from start to end, or until the caller stopped it.
+pub(crate) struct Crossed {
+    pub is_stopped: bool,
+    pub history: History,
+    pub audit: Audit,
+    pub counts: Counts,
+}
+
+/// The run of a scene in which nothing is [`missing`]; `None` where a contact opens, wheels are too stiff or G is no
+/// polynomial of low degree between breaks: then another method has to take the run.
+///
+/// # Errors
+/// As [`crate::run()`].
+pub(crate) fn run(
+    system: &System,
+    start: &State,
+    placed: bool,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Option<Crossed>, Error> {
+    match system.elements.len() {
+        1..=2 => Crossing::<2>::new(system, start)?.run(placed, watch),
+        3..=4 => Crossing::<4>::new(system, start)?.run(placed, watch),
+        5..=WIDEST => Crossing::<WIDEST>::new(system, start)?.run(placed, watch),
+        _ => Ok(None),
+    }
+}
+
+/// A crossing in progress; contacts and degrees of freedom padded to P.
+struct Crossing<'a, const P: usize> {
+    system: &'a System<'a>,
+    geometry: Geometry,
+    state: State,
+    travel: UniformTravel,
+    contacts: Contacts<P>,
+    matrices: Matrices<P>,
+    q: [f64; P],
+    v: [f64; P],
+    series: Series<P>,
+    /// Length of the last step.
+    length: f64,
+    audit: Audit,
+    energy_at_start: f64,
+    /// Largest approach and largest force so far.
+    largest_approach: f64,
+    largest_force: f64,
+}
+
+/// The uniform travel of a crossing.
+struct UniformTravel {
+    /// The body whose travel is prescribed, and its speed.
+    root: Option<usize>,
+    speed: f64,
+    /// Places of the wheels at time 0.
+    places: Vec<f64>,
+}
+
+/// What stays the same over a crossing, by the degrees of freedom.
+struct Matrices<const P: usize> {
+    /// R by columns of degrees of freedom, and the offset of the approaches.
+    rows: Matrix<P>,
+    constant: [f64; P],
+    /// M^-1 R^T by columns of contacts; M^-1 f.
+    spread: Matrix<P>,
+    free_fall: [f64; P],
+    /// M, the weights f, and the momentum of the degrees of freedom by the travel.
+    mass: Matrix<P>,
+    weight: [f64; P],
+    travel_inertia: [f64; P],
+}
+
+impl<'a, const P: usize> Crossing<'a, P> {
+    fn new(system: &'a System<'a>, start: &State) -> Result<Self, Error> {
+        let (n, m) = (system.mechanics.dofs, system.elements.len());
+        let mut geometry = Geometry::new(system);
+        geometry.update(system, 0.0, &start.q, &start.force)?;
+        let zero = [[0.0; P]; P];
+        let (mut rows, mut spread, mut mobile, mut mass) = (zero, zero, zero, zero);
+        let mobility = Mobility::new(&system.mechanics)?;
+        let mut free_fall = [0.0; P];
+        let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
+        mobility.apply(system.mechanics.gravity.as_slice(), &mut free_fall[..n]);
+        for (j, row) in geometry.rows().approach.chunks_exact(n).enumerate() {
+            mobility.apply(row, &mut spread[j][..n]);
+            for (column, entry) in rows.iter_mut().zip(row) {
+                column[j] = *entry;
+            }
+        }
+        let mut free = [0.0; P];
+        for i in 0..P {
+            for k in 0..n {
+                free[i] += rows[k][i] * free_fall[k];
+                for (j, column) in mobile.iter_mut().enumerate() {
+                    column[i] += rows[k][i] * spread[j][k];
+                }
+            }
+        }
+        if let Some(matrix) = system.mechanics.blocks[0].body_mass() {
+            for (j, column) in mass.iter_mut().enumerate().take(n) {
+                column[..n].copy_from_slice(matrix.column(j).as_slice());
+            }
+        }
+        let (mut ratio, mut damping, mut softness) = ([0.0; P], [0.0; P], [1.0; P]);
+        for i in 0..m {
+            let law = system.law(i);
+            ratio[i] = law.damping / law.stiffness;
+            damping[i] = law.damping * system.mechanics.groups[i].count();
+            softness[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
+        }
+        let root = system.scene.bodies.iter().position(|body| body.motion.is_some());
+        let speed = root.map_or(0.0, |root| geometry.places().travel[root].v);
+        let mut travel_inertia = [0.0; P];
+        for &(number, inertia) in
+            root.iter().flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
+        {
+            travel_inertia[number] += inertia;
+        }
+        let constant = pad(&geometry.rows().approach_offset);
+        Ok(Crossing {
+            travel: UniformTravel { root, speed, places: geometry.places().x.clone() },
+            matrices: Matrices {
+                rows,
+                constant,
+                spread,
+                free_fall,
+                mass,
+                weight: pad(system.mechanics.gravity.as_slice()),
+                travel_inertia,
+            },
+            q: pad(start.q.as_slice()),
+            v: pad(start.v.as_slice()),
+            series: Series::new(order(system.scene.accuracy)),
+            contacts: Contacts { mobile, free, ratio, damping, softness },
+            state: start.clone(),
+            audit: Audit::default(),
+            energy_at_start: 0.0,
+            length: 0.0,
+            largest_approach: 0.0,
+            largest_force: 0.0,
+            system,
+            geometry,
+        })
+    }
+
+    fn run(
+        mut self,
+        placed: bool,
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Option<Crossed>, Error> {
+        let system = self.system;
+        let scene = system.scene;
+        let softness =
+            self.contacts.softness.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
+        let allowed = LAST * scene.accuracy.min(COARSEST);
+        let mut recorder = Recorder::new(system);
+        recorder.reserve((scene.end / scene.output_dt).min(1e6) as usize);
+        let mut counts = Counts::default();
+        let quick = |i: usize| self.contacts.softness[i] / self.contacts.mobile[i][i];
+        let quickest = (0..system.elements.len()).map(quick).fold(f64::INFINITY, f64::min);
+        let carried = scene.bodies.iter().map(|body| body.mass).sum::<f64>() / system.elements.len() as f64;
+        if carried * softness > STIFF * quickest {
+            return Ok(None);
+        }
+        let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
+        for end in self.breaks() {
+            let path =
+                Path::new(system, &mut self.geometry, &self.state, [t, end], self.travel.speed, softness)?;
+            let Some(path) = path else { return Ok(None) };
+            if t == 0.0 && !(placed || self.rest(&path.about(0.0, 1.0)[0])) {
+                return Ok(None);
+            }
+            while t < end {
+                let compliance = path.about(t, scale);
+                let approach = self.approach(&self.q, true);
+                let rate = self.approach(&self.v, false);
+                self.largest_approach =
+                    approach.iter().fold(self.largest_approach, |max, w| max.max(w.abs()));
+                if self.series.expand(&self.contacts, &compliance, scale, [&approach, &rate]).is_none() {
+                    return Ok(None);
+                }
+                let force = self.series.first().force;
+                self.largest_force = force.iter().fold(self.largest_force, |max, force| max.max(force.abs()));
+                let wanted = scale
+                    * self
+                        .series
+                        .reach(allowed * self.largest_approach, FORCES * allowed * self.largest_force);
+                let count = ((end - t) / wanted).ceil().max(1.0);
+                let worthwhile = scene.end < MANY * wanted;
+                if !worthwhile {
+                    return Ok(None);
+                }
+                let h = (end - t) / count;
+                if t == 0.0 && !self.begin(&compliance[0]) {
+                    return Ok(None);
+                }
+                let to = if count == 1.0 { end } else { t + h };
+                while scene.output_time(next) <= to {
+                    let at = scene.output_time(next);
+                    self.sample(at, (at - t) / scale, &compliance);
+                    recorder.record(system, &self.geometry, &self.state)?;
+                    next += 1;
+                }
+                if !self.step(h) {
+                    return Ok(None);
+                }
+                counts.steps += 1;
+                counts.stages += self.series.order;
+                (t, scale) = (to, h);
+                if watch(t).is_break() {
+                    return self.finish(true, t, recorder, counts).map(Some);
+                }
+            }
+        }
+        self.finish(false, t, recorder, counts).map(Some)
+    }
+
+    /// Closes the run after a step that ended at `t`.
+    fn finish(
+        mut self,
+        is_stopped: bool,
+        t: f64,
+        recorder: Recorder,
+        counts: Counts,
+    ) -> Result<Crossed, Error> {
+        let [at] = self.series.at([self.length / self.series.scale]);
+        let (q, v) = (self.q, self.v);
+        self.fill(t, &q, &v, &at);
+        self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
+        self.audit.end = stored(self.system, &self.geometry, &self.state);
+        let (history, audit) = (recorder.into_history(), self.audit);
+        Ok(Crossed { is_stopped, history, audit, counts })
+    }
+
+    /// Times at which wheels meet breaks of their rails, then the end.
+    fn breaks(&self) -> Vec<f64> {
+        let system = self.system;
+        let end = system.scene.end;
+        let mut times = vec![end];
+        for (wheel, x) in
+            system.mechanics.wheels.iter().zip(&self.travel.places).filter(|_| self.travel.speed != 0.0)
+        {
+            let contact = &system.scene.contacts[wheel.contact];
+            let foundation = &system.foundations[contact.structure];
+            let places = foundation.breaks_between(contact.rail, *x, x + self.travel.speed * end);
+            times.extend(places.map(|place| (place - x) / self.travel.speed));
+        }
+        let sliver = 1e-12 * end;
+        times.retain(|t| *t > sliver && (*t < end - sliver || *t == end));
+        times.sort_by(f64::total_cmp);
+        times.dedup_by(|b, a| *b - *a < sliver);
+        if let Some(last) = times.last_mut() {
+            *last = end;
+        }
+        times
+    }
+
+    /// constant + R q, or R v.
+    fn approach(&self, freedoms: &[f64; P], with_constant: bool) -> [f64; P] {
+        let mut sum = if with_constant { self.matrices.constant } else { [0.0; P] };
+        for (column, q) in self.matrices.rows.iter().zip(freedoms) {
+            for (sum, entry) in sum.iter_mut().zip(column) {
+                *sum += entry * q;
+            }
+        }
+        sum
+    }
+
+    /// Moves the degrees of freedom to rest: A F - R q = constant, R^T F = f. False where nothing holds them.
+    fn rest(&mut self, compliance: &Matrix<P>) -> bool {
+        let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
+        let size = n + m;
+        let mut matrix = vec![0.0; size * size];
+        let mut right = vec![0.0; size];
+        for i in 0..m {
+            for j in 0..m {
+                matrix[i * size + j] = compliance[i][j];
+            }
+            matrix[i * size + i] += self.contacts.softness[i];
+            for k in 0..n {
+                matrix[i * size + m + k] = -self.matrices.rows[k][i];
+                matrix[(m + k) * size + i] = self.matrices.rows[k][i];
+            }
+            right[i] = self.matrices.constant[i];
+        }
+        right[m..].copy_from_slice(&self.matrices.weight[..n]);
+        if !solve_general(&mut matrix, &mut right) || right.iter().any(|x| !x.is_finite()) {
+            return false;
+        }
+        self.q[..n].copy_from_slice(&right[m..]);
+        true
+    }
+
+    /// Opens the audit at the start of the first step; false where a contact does not press there.
+    fn begin(&mut self, compliance: &Matrix<P>) -> bool {
+        let look = self.series.first();
+        let (p, _) = self.penetration(&look);
+        let presses = |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
+        if !(0..self.system.elements.len()).all(presses) {
+            return false;
+        }
+        let (q, v) = (self.q, self.v);
+        self.fill(0.0, &q, &v, &look);
+        self.fill_compliance(compliance);
+        self.audit.start = stored(self.system, &self.geometry, &self.state);
+        self.energy_at_start = self.energy(&q, &v, &look)[0];
+        true
+    }
+
+    /// p = F/k - r w' and its rate.
+    fn penetration(&self, at: &Values<P>) -> ([f64; P], [f64; P]) {
+        let Contacts { mobile, free, ratio, softness, .. } = &self.contacts;
+        let mut lift = *free;
+        subtract(mobile, &at.force, &mut lift);
+        (
+            std::array::from_fn(|i| at.force[i] * softness[i] - ratio[i] * at.rate[i]),
+            std::array::from_fn(|i| at.force_rate[i] * softness[i] - ratio[i] * lift[i]),
+        )
+    }
+
+    /// Freedoms and speeds at `s` of the step.
+    fn moved(&self, s: f64) -> [[f64; P]; 2] {
+        let time = s * self.series.scale;
+        let [once, twice] = self.series.impulse(s);
+        let mut q =
+            std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.matrices.free_fall[k]));
+        let mut v = std::array::from_fn(|k| self.v[k] + time * self.matrices.free_fall[k]);
+        subtract(&self.matrices.spread, &twice, &mut q);
+        subtract(&self.matrices.spread, &once, &mut v);
+        [q, v]
+    }
+
+    /// Energy stored, without what never changes; and the elastic part of it.
+    fn energy(&self, q: &[f64; P], v: &[f64; P], at: &Values<P>) -> [f64; 2] {
+        let (p, _) = self.penetration(at);
+        let (mut elastic, mut rest) = (0.0, 0.0);
+        for (i, p) in p.iter().enumerate() {
+            elastic += 0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
+        }
+        for (k, column) in self.matrices.mass.iter().enumerate() {
+            let momentum: f64 = column.iter().zip(v).map(|(entry, v)| entry * v).sum();
+            rest += (0.5 * momentum + self.travel.speed * self.matrices.travel_inertia[k]) * v[k]
+                - self.matrices.weight[k] * q[k];
+        }
+        [elastic + rest, elastic]
+    }
+
+    /// Takes the step of length `h` and books it; false where a contact pulls.
+    fn step(&mut self, h: f64) -> bool {
+        let end = h / self.series.scale;
+        self.length = h;
+        let (mut dampers, mut drives) = (0.0, 0.0);
+        let mut book = |at: &Values<P>, weight: f64| {
+            let power = self.power(at);
+            dampers += h * weight * power[0];
+            drives += h * weight * power[1];
+        };
+        let [a, b, c, d, e, f] = LOBATTO.map(|[place, _]| place * end);
+        let looks = self.series.at([a, b, c, d, e, f, end]);
+        book(&self.series.first(), ENDS);
+        for (at, weight) in looks.iter().zip(LOBATTO.map(|[_, weight]| weight).into_iter().chain([ENDS])) {
+            book(at, weight);
+        }
+        self.audit.exchanged.dampers += dampers;
+        self.audit.exchanged.drives += drives;
+        let [.., at] = &looks;
+        [self.q, self.v] = self.moved(end);
+        let [total, elastic] = self.energy(&self.q, &self.v, at);
+        self.audit.peak_stored = self.audit.peak_stored.max(elastic);
+        let imbalance = (total + self.audit.exchanged.net_loss() - self.energy_at_start).abs();
+        self.audit.imbalance = self.audit.imbalance.max(imbalance);
+        let pulls = |i: usize| looks.iter().any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
+        total.is_finite() && !(0..self.system.elements.len()).any(pulls)
+    }
+
+    /// What the dampers take and the travel puts in: c w' p' and -1/2 F dG/dt F, with u = w - p the deflection and
+    /// F dG/dt F = F u' - u F'.
+    fn power(&self, at: &Values<P>) -> [f64; 2] {
+        let (p, p_rate) = self.penetration(at);
+        let (mut dampers, mut drives) = (0.0, 0.0);
+        for (i, (p, p_rate)) in p.iter().zip(&p_rate).enumerate() {
+            let (give, give_rate) = (at.approach[i] - p, at.rate[i] - p_rate);
+            dampers += self.contacts.damping[i] * at.rate[i] * p_rate;
+            drives -= 0.5 * (at.force[i] * give_rate - give * at.force_rate[i]);
+        }
+        [dampers, drives]
+    }
+
+    /// Brings state and geometry to `t`, at `s` of the step.
+    fn sample(&mut self, t: f64, s: f64, compliance: &[Matrix<P>; TERMS]) {
+        let [look] = self.series.at([s]);
+        let [q, v] = self.moved(s);
+        self.fill(t, &q, &v, &look);
+        if self.travel.root.is_none() {
+            return;
+        }
+        // Half of dG/dx by the forces: its product with them is the force along the rail of all wheels.
+        let mut slope = [0.0; P];
+        let mut power = -0.5 / (self.series.scale * self.travel.speed);
+        for (k, matrix) in compliance.iter().enumerate().skip(1) {
+            let scaled = look.force.map(|force| force * power * k as f64);
+            subtract(matrix, &scaled, &mut slope);
+            power *= s;
+        }
+        let count = self.system.elements.len();
+        self.geometry.set_rail_slope(&slope[..count]);
+    }
+
+    fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], look: &Values<P>) {
+        let (p, p_rate) = self.penetration(look);
+        let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
+        let mut a = self.matrices.free_fall;
+        subtract(&self.matrices.spread, &look.force, &mut a);
+        self.state.t = t;
+        self.state.q.as_mut_slice().copy_from_slice(&q[..n]);
+        self.state.v.as_mut_slice().copy_from_slice(&v[..n]);
+        self.state.a.as_mut_slice().copy_from_slice(&a[..n]);
+        self.state.p.copy_from_slice(&p[..m]);
+        self.state.p_rate.copy_from_slice(&p_rate[..m]);
+        self.state.force.copy_from_slice(&look.force[..m]);
+        self.geometry.move_uniformly(
+            self.system,
+            &self.travel.places,
+            self.travel.speed,
+            t,
+            self.travel.root,
+        );
+    }
+
+    fn fill_compliance(&mut self, compliance: &Matrix<P>) {
+        self.geometry.set_compliance(compliance.iter());
+    }
+}
+
+/// Number of coefficients of the forces that suits an accuracy: 2 more than a multiple of 4. Other orders of Taylor
+/// need shorter steps along the imaginary axis, where the oscillations are.
+fn order(accuracy: f64) -> usize {
+    let more = ((-accuracy.log10() - 2.5) / 2.5).clamp(0.0, 3.0) as usize;
+    10 + 4 * more
+}

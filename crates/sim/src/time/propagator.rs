@@ -1,0 +1,102 @@
+//! Exact responses of a natural mode to its start and to a load that is a polynomial of time.
+
+use nalgebra::Complex;
+
+/// phi_k(z), k = 1, 2, 3: phi_1 = (e^z - 1)/z, phi_(k+1) = (phi_k - 1/k!)/z; power series where |z| < 1.
+///
+/// # Source
+/// Hochbruck, Ostermann, Exponential integrators, Acta Numerica 19 (2010), section 2.
+fn phi(z: Complex<f64>) -> [Complex<f64>; 3] {
+    let mut out = [Complex::new(0.0, 0.0); 3];
+    if z.norm() < 1.0 {
+        for (k, out) in out.iter_mut().enumerate() {
+            let mut term = Complex::new([1.0, 0.5, 1.0 / 6.0][k], 0.0);
+            for n in 1..24 {
+                *out += term;
+                term *= z / (n + k + 1) as f64;
+            }
+        }
+        return out;
+    }
+    out[0] = (z.exp() - 1.0) / z;
+    out[1] = (out[0] - 1.0) / z;
+    out[2] = (out[1] - 0.5) / z;
+    out
+}
+
+/// A mode q'' + 2 zeta omega q' + omega^2 q = f over a step h, for a load of powers (t/h)^k, k = 0, 1, 2.
+pub(crate) struct Propagator {
+    rate: Complex<f64>,
+    h: f64,
+}
+
+impl Propagator {
+    /// `omega` > 0 and 0 <= `zeta` < 1.
+    pub fn new(omega: f64, zeta: f64, h: f64) -> Self {
+        let damped = omega * ((1.0 - zeta) * (1.0 + zeta)).sqrt();
+        Propagator { rate: Complex::new(-zeta * omega, damped), h }
+    }
+
+    /// [q by q0, q by v0, v by q0, v by v0] at `c` h.
+    pub fn free(&self, c: f64) -> [f64; 4] {
+        let (decay, damped) = (self.rate.re, self.rate.im);
+        let wave = (self.rate * (c * self.h)).exp();
+        let impulse = wave.im / damped;
+        [wave.re - decay * impulse, impulse, -self.rate.norm_sqr() * impulse, wave.re + decay * impulse]
+    }
+
+    /// q and v at `c` h under the load (t/h)^k, one pair a power: k! c^(k+1) h Im(phi_(k+1)) / omega_d.
+    pub fn forced(&self, c: f64) -> [[f64; 2]; 3] {
+        let responses = phi(self.rate * (c * self.h));
+        let mut scale = self.h / self.rate.im;
+        let mut out = [[0.0; 2]; 3];
+        for (k, (out, response)) in out.iter_mut().zip(responses).enumerate() {
+            scale *= c * if k == 0 { 1.0 } else { k as f64 };
+            *out = [scale * response.im, scale * (self.rate * response).im];
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Propagator;
+
+    /// Analytic: an undamped mode under a constant and a linear load, by the angle omega h.
+    #[test]
+    fn answers_meet_closed_forms_for_slow_and_fast_modes() {
+        for angle in [1e-6, 1e-3, 0.3, 0.999, 1.001, 7.0, 1e2, 1e4, 1e6] {
+            let mode = Propagator::new(angle, 0.0, 1.0);
+            let [one, linear, _] = mode.forced(1.0);
+            let half = (0.5 * angle).sin();
+            let wanted = 2.0 * half * half / (angle * angle);
+            assert!((one[0] - wanted).abs() < 1e-13 * (wanted + 1.0 / (angle * angle).max(1.0)), "{angle}");
+            assert!((one[1] - angle.sin() / angle).abs() < 1e-13 / angle.max(1.0), "{angle}");
+            // v under the linear load is q under the constant one.
+            assert!((linear[1] - one[0]).abs() < 1e-12 / (angle * angle).max(1.0), "{angle}");
+            let [qq, qv, vq, vv] = mode.free(1.0);
+            assert!((qq * vv - qv * vq - 1.0).abs() < 1e-12, "{angle}");
+        }
+    }
+
+    /// Two halves of a step, the load's powers expanded about the middle, make the whole: damped modes.
+    #[test]
+    fn two_halves_make_a_whole() {
+        for angle in [1e-3, 0.5, 3.0, 50.0, 1e3] {
+            let (whole, half) = (Propagator::new(angle, 0.05, 1.0), Propagator::new(angle, 0.05, 0.5));
+            let (first, free) = (half.forced(1.0), half.free(1.0));
+            // (t/h)^2 over the whole is s^2/4 over the first half, (1 + 2 s + s^2)/4 over the second.
+            for row in 0..2 {
+                let start = [0.25 * first[2][0], 0.25 * first[2][1]];
+                let carried = free[2 * row] * start[0] + free[2 * row + 1] * start[1];
+                let added = 0.25 * (first[0][row] + 2.0 * first[1][row] + first[2][row]);
+                let wanted = whole.forced(1.0)[2][row];
+                let size = if row == 0 { 1.0 } else { angle };
+                assert!(
+                    (carried + added - wanted).abs() < 1e-12 * size / (1.0 + angle * angle),
+                    "{angle} {row}"
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! Steps of a diagonally implicit Runge-Kutta method: every stage is one solution of the forces.
+
+use nalgebra::DVector;
+
+use super::tableau::{SDIRK4, Tableau};
+use crate::contact::solver::Solver;
+use crate::contact::system::System;
+use crate::mechanics::state::{Known, State};
+use crate::record::energy::power;
+use crate::{Error, Exchanged};
+
+/// The stages of one step.
+pub(crate) struct Sdirk {
+    tableau: &'static Tableau,
+    stage: State,
+    known: Known,
+    done: Vec<Done>,
+}
+
+/// What a stage leaves for those after it, for the error and for the audit.
+struct Done {
+    accelerations: DVector<f64>,
+    rates: DVector<f64>,
+    p_rates: Vec<f64>,
+    forces: Vec<f64>,
+    power: Exchanged,
+}
+
+impl Sdirk {
+    pub fn new(system: &System, start: &State) -> Self {
+        let (n, count) = (system.mechanics.dofs, start.p.len());
+        let tableau = &SDIRK4;
+        let done = || Done {
+            accelerations: DVector::zeros(n),
+            rates: DVector::zeros(n),
+            p_rates: vec![0.0; count],
+            forces: vec![0.0; system.elements.len()],
+            power: Exchanged::default(),
+        };
+        Sdirk {
+            tableau,
+            stage: start.clone(),
+            known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
+            done: std::iter::repeat_with(done).take(tableau.stages()).collect(),
+        }
+    }
+
+    /// Takes a step of length `h` from `from` with the elements that are active; false where a stage does not converge.
+    /// `stages` counts the stages. The solver's geometry is then at the time of `to`.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn attempt(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        h: f64,
+        limit: f64,
+        (to, stages): (&mut State, &mut usize),
+    ) -> Result<bool, Error> {
+        let tableau = self.tableau;
+        let gamma_h = tableau.gamma * h;
+        self.stage.copy_from(from);
+        solver.begin_step(from);
+        for i in 0..tableau.stages() {
+            self.fill_known(solver, from, h, i);
+            // just before the end: a prescribed motion may jump there
+            self.stage.t = (from.t + tableau.c[i] * h).min(limit.next_down());
+            self.guess(solver, from, i);
+            *stages += 1;
+            if !solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
+                return Ok(false);
+            }
+            let done = &mut self.done[i];
+            done.forces.copy_from_slice(&self.stage.force);
+            done.accelerations.copy_from(&self.stage.a);
+            done.rates.copy_from(&self.stage.v);
+            solver.end_stage(&self.stage, [&mut done.rates, &mut done.accelerations]);
+            done.p_rates.copy_from_slice(&self.stage.p_rate);
+            solver.update_rail_slope(&self.stage);
+            done.power = power(solver.system(), solver.geometry(), &self.stage);
+        }
+        to.copy_from(&self.stage);
+        Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    /// Known parts of stage `i`: the start of the step and the stages before.
+    fn fill_known(&mut self, solver: &Solver, from: &State, h: f64, i: usize) {
+        let known = &mut self.known;
+        known.q.copy_from(&from.q);
+        known.v.copy_from(&from.v);
+        solver.begin_stage(known);
+        known.p.copy_from_slice(&from.p);
+        for (weight, done) in self.tableau.a[i].iter().zip(&self.done) {
+            known.q.axpy(h * weight, &done.rates, 1.0);
+            known.v.axpy(h * weight, &done.accelerations, 1.0);
+            for (p, rate) in known.p.iter_mut().zip(&done.p_rates) {
+                *p += h * weight * rate;
+            }
+        }
+    }
+
+    /// Guesses accelerations and forces of stage `i` by the polynomial through those of the step's start and of the
+    /// stages before.
+    fn guess(&mut self, solver: &Solver, from: &State, i: usize) {
+        if i == 0 || !solver.system().mechanics.moves_freely {
+            return;
+        }
+        let c = self.tableau.c;
+        // Lagrange's weights of 0 and the abscissae before.
+        let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[j]);
+        let weight = |j: usize| {
+            let others = (0..=i).filter(|&k| k != j);
+            others.map(|k| (c[i] - node(k)) / (node(j) - node(k))).product::<f64>()
+        };
+        let is_guessed = |k: &usize| !solver.is_charted(*k);
+        let (first, stage) = (weight(0), &mut self.stage);
+        for k in (0..stage.a.len()).filter(is_guessed) {
+            stage.a[k] = first * from.a[k];
+        }
+        stage.force.iter_mut().zip(&from.force).for_each(|(to, from)| *to = first * from);
+        for (j, done) in self.done[..i].iter().enumerate() {
+            let share = weight(j + 1);
+            for k in (0..stage.a.len()).filter(is_guessed) {
+                stage.a[k] += share * done.accelerations[k];
+            }
+            stage.force.iter_mut().zip(&done.forces).for_each(|(to, from)| *to += share * from);
+        }
+    }
+
+    /// Embedded error of q and v of degree of freedom `k`, per unit of the step.
+    pub fn error(&self, k: usize) -> [f64; 2] {
+        let mut error = [0.0; 2];
+        for (weight, done) in self.tableau.error.iter().zip(&self.done) {
+            error[0] += weight * done.rates[k];
+            error[1] += weight * done.accelerations[k];
+        }
+        error
+    }
+
+    /// Energy exchanged in the step of length `h`, by the quadrature of the stages.
+    pub fn exchanged(&self, h: f64) -> Exchanged {
+        let mut sum = Exchanged::default();
+        for (i, done) in self.done.iter().enumerate() {
+            sum.add(&done.power, h * self.tableau.weight(i));
+        }
+        sum
+    }
+
+    /// Time at which the last stage stood.
+    pub fn time(&self) -> f64 {
+        self.stage.t
+    }
+}

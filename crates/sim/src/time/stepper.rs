@@ -1,0 +1,473 @@
+//! The adaptive stepper: steps that end where something happens.
+//!
+//! Within a step the set of active elements is fixed, so that the solution is smooth and the method keeps its order.
+//! A step is tried at the length that the error of those before allows. Then the reasons to cut it are asked in their
+//! order ([`Reason`]); the first that cuts gives a shorter length, at which the step is tried again. Where none cuts,
+//! the step is accepted: at its end active elements are found anew.
+
+use super::books::Books;
+use super::counts::Counts;
+use super::events::{
+    OVERSHOOT, at_break, break_slack, can_predict, first_corner, first_switch, first_touch, guards,
+    prescribed_break, rolling_break,
+};
+use super::step::Step;
+use super::step_size::StepSize;
+use super::triggers::Triggers;
+use crate::contact::element::{Guard, GuardKind};
+use crate::contact::solver::Solver;
+use crate::instant::settle::settle;
+use crate::instant::uneven::pass_corners;
+use crate::mechanics::state::State;
+use crate::record::energy::stored;
+use crate::{Audit, Error, Fired, Stepping, Stored};
+
+/// How often a step is tried again to end at a break or at a switch of elements.
+const REFINEMENTS: usize = 40;
+
+/// How many of these end where the switch is guessed to be.
+const GUESSES: usize = 20;
+
+/// How often a step is tried again to end at a touch or at a corner of a law.
+const CORNERS: usize = 12;
+
+/// How often a step is tried again to end where a rule acts.
+const TRIALS: usize = 20;
+
+/// Fraction of the step planned below which what happens is taken to happen where it starts: shorter steps have
+/// rounding for rates.
+const NOW: f64 = 1e-6;
+
+/// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
+const CHATTER: usize = 1000;
+
+/// Steps in a row that may end at events before the next is at most [`WIDER`] times the last: from far beyond an
+/// event a secant always falls short of it.
+const SHORT: usize = 2;
+const WIDER: f64 = 16.0;
+
+/// Why a step could not be taken.
+pub(crate) enum Failure {
+    TooSmall,
+    Refused(Error),
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Failure::Refused(error)
+    }
+}
+
+/// Reasons to cut a step.
+#[derive(Clone, Copy)]
+enum Reason {
+    /// A wheel with prescribed motion would pass a break of its rail: known before the step is tried.
+    PrescribedBreak,
+    /// A wheel that rolls freely passes a break: beyond it the error says nothing of the step that ends before it.
+    RollingBreak,
+    /// A flange touches or lets go, which matters where the step errs by more than it may.
+    Touch,
+    /// The step errs by more than it may.
+    Error,
+    /// An element begins or ceases to act.
+    Switch,
+    /// A rule acts.
+    Trigger,
+    /// A law reaches or leaves a corner.
+    Corner,
+}
+
+/// Reasons that are asked before a step is tried, and those after, in their order.
+const BEFORE: [Reason; 1] = [Reason::PrescribedBreak];
+const AFTER: [Reason; 6] =
+    [Reason::RollingBreak, Reason::Touch, Reason::Error, Reason::Switch, Reason::Trigger, Reason::Corner];
+
+/// A step that is tried at shorter and shorter lengths.
+struct Trial {
+    h: f64,
+    /// Length below which there is none, and below which an event is taken to be at the start.
+    smallest: f64,
+    shortest: f64,
+    /// Error by the tolerance; infinite where the step did not converge.
+    error: f64,
+    ends_at_event: bool,
+    /// How often each kind of reason has cut.
+    breaks: usize,
+    corners: usize,
+    switches: usize,
+    triggers: usize,
+}
+
+/// A run in progress.
+pub(crate) struct Stepper<'a, 'b> {
+    step: Step<'a, 'b>,
+    size: StepSize,
+    triggers: Triggers,
+    books: Books,
+    counts: Counts,
+    limit: f64,
+    /// Largest contact force so far, at least the weight.
+    force_scale: f64,
+    /// Smallest steps in a row; steps in a row that ended at an event.
+    stalled: usize,
+    chatter: usize,
+    /// Touch guards where the next step starts.
+    touches: Vec<Guard>,
+    /// The wheel that meets a break of its rail where the step ends.
+    meets: Option<usize>,
+}
+
+impl<'a, 'b> Stepper<'a, 'b> {
+    /// A run from `start`, in which the solver's active elements are settled, by steps of the relative error
+    /// `tolerance` or of the length that `stepping` fixes; the first is `first` long.
+    ///
+    /// # Errors
+    /// A rule of something that is not recorded.
+    pub fn new(
+        solver: &'b mut Solver<'a>,
+        start: State,
+        stepping: Stepping,
+        tolerance: f64,
+        first: f64,
+    ) -> Result<Self, Error> {
+        let scene = solver.system().scene;
+        solver.store_open(&start);
+        Ok(Stepper {
+            triggers: Triggers::new(solver.system())?,
+            books: Books::new(solver, &start),
+            touches: guards(solver, GuardKind::Touch, &start),
+            size: StepSize::new(solver, &start, tolerance, stepping.step, first),
+            step: Step::new(solver, start, stepping.method),
+            counts: Counts::default(),
+            limit: f64::INFINITY,
+            force_scale: scene.bodies.iter().map(|body| body.mass * scene.gravity).sum(),
+            stalled: 0,
+            chatter: 0,
+            meets: None,
+        })
+    }
+
+    /// The step taken last.
+    pub fn step(&mut self) -> &mut Step<'a, 'b> {
+        &mut self.step
+    }
+
+    /// Time at the start of the step taken last, and time reached.
+    pub fn times(&self) -> [f64; 2] {
+        [self.step.from.t, self.step.to.t]
+    }
+
+    /// The audit so far.
+    pub fn audit(&self) -> Audit {
+        self.books.audit()
+    }
+
+    /// Work done so far.
+    pub fn counts(&self) -> Counts {
+        self.counts
+    }
+
+    /// Takes one accepted step, at most to `limit`.
+    ///
+    /// # Errors
+    /// No step is small enough, or what the rails refuse.
+    pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
+        let mut trial = self.begin(limit);
+        loop {
+            if trial.h < trial.smallest {
+                return Err(Failure::TooSmall);
+            }
+            for reason in BEFORE {
+                trial.h = self.cut(reason, &mut trial)?.unwrap_or(trial.h);
+            }
+            trial.error = self.attempt(trial.h)?;
+            let mut shorter = None;
+            for reason in AFTER {
+                shorter = self.cut(reason, &mut trial)?;
+                if shorter.is_some() {
+                    break;
+                }
+            }
+            match shorter {
+                Some(h) => trial.h = h,
+                None => break,
+            }
+        }
+        // A step cut short says nothing of the error of longer ones.
+        if !trial.ends_at_event {
+            let step = &self.step;
+            self.size.plan(trial.h, trial.error, |h| step.rounded(h));
+        }
+        self.stalled = if trial.h <= 4.0 * trial.smallest { self.stalled + 1 } else { 0 };
+        self.chatter = if trial.ends_at_event && trial.breaks == 0 { self.chatter + 1 } else { 0 };
+        if self.stalled > REFINEMENTS || self.chatter > CHATTER {
+            return Err(Failure::TooSmall);
+        }
+        self.accept(trial.h)?;
+        Ok(())
+    }
+
+    /// Plans a step from where the last one ended.
+    fn begin(&mut self, limit: f64) -> Trial {
+        self.limit = limit;
+        if !self.step.is_collocation() {
+            self.size.set_accuracy(self.step.solver);
+        }
+        let widest = if self.chatter > SHORT { WIDER * self.step.length() } else { f64::INFINITY };
+        self.step.begin();
+        self.meets = None;
+        let smallest = 1e-13 * limit.abs().max(1e-3);
+        let planned = self.size.planned(widest);
+        let mut trial = Trial {
+            h: self.size.within(planned, limit - self.step.from.t),
+            smallest,
+            shortest: (NOW * planned).max(2.0 * smallest),
+            error: f64::INFINITY,
+            ends_at_event: false,
+            breaks: 0,
+            corners: 0,
+            switches: 0,
+            triggers: 0,
+        };
+        // A guess of where a wheel meets a break is near enough where the accuracy asked lets steps end beside a break.
+        let slack = self.break_slack();
+        if self.step.system().mechanics.moves_freely && can_predict(slack) {
+            self.step.guess_end(trial.h);
+            let fraction = self.rolling_break(slack).filter(|fraction| trial.h * fraction > 2.0 * smallest);
+            if let Some(fraction) = fraction {
+                trial.breaks += 1;
+                trial.ends_at_event = true;
+                trial.h *= fraction;
+            }
+        }
+        self.step.set_paths(trial.h);
+        trial
+    }
+
+    /// Tries a step of length `h`; returns its error by the tolerance.
+    fn attempt(&mut self, h: f64) -> Result<f64, Error> {
+        if !self.step.attempt(h, self.limit, &mut self.counts.stages)? {
+            return Ok(f64::INFINITY);
+        }
+        if self.size.fixed.is_some() {
+            return Ok(0.0);
+        }
+        let (step, length) = (&self.step, self.step.length());
+        let error = step.error(|k, errors| self.size.weigh(&step.to, length, k, errors));
+        Ok(error / self.size.tolerance)
+    }
+
+    /// Whether `reason` cuts the step of the trial, and to which length.
+    fn cut(&mut self, reason: Reason, trial: &mut Trial) -> Result<Option<f64>, Error> {
+        let has_converged = trial.error.is_finite();
+        let is_long = trial.h > trial.shortest;
+        let cut = match reason {
+            Reason::PrescribedBreak => {
+                return Ok(prescribed_break(self.step.system(), self.step.from.t, trial.h));
+            }
+            Reason::RollingBreak => {
+                if !(has_converged && trial.breaks < REFINEMENTS) {
+                    return Ok(None);
+                }
+                let fraction = self.rolling_break(self.break_slack());
+                trial.breaks += usize::from(fraction.is_some());
+                fraction.map(|fraction| (trial.h * fraction).max(2.0 * trial.smallest))
+            }
+            Reason::Touch => {
+                let errs = has_converged && (trial.error > 1.0 || self.size.fixed.is_some());
+                if !(errs && trial.corners < CORNERS && is_long) {
+                    return Ok(None);
+                }
+                let largest = self.largest_force();
+                let fraction = first_touch(&mut self.step, &self.touches, largest)?;
+                trial.corners += usize::from(fraction.is_some());
+                fraction.map(|fraction| (trial.h * fraction).max(trial.shortest))
+            }
+            Reason::Error => {
+                if trial.error <= 1.0 {
+                    return Ok(None);
+                }
+                self.counts.rejected += 1;
+                trial.ends_at_event = false;
+                return Ok(Some(self.step.rounded(StepSize::shorter(trial.h, trial.error))));
+            }
+            Reason::Switch => {
+                let largest = self.largest_force();
+                let Some((fraction, excess)) = first_switch(&mut self.step, largest)? else {
+                    return Ok(None);
+                };
+                // A step that ends near enough to the switch ends there all the same.
+                trial.ends_at_event = true;
+                let is_beyond = excess > OVERSHOOT * largest;
+                if !(is_beyond && is_long && trial.switches < REFINEMENTS) {
+                    return Ok(None);
+                }
+                trial.switches += 1;
+                // Where guesses do not come nearer, half of the step does.
+                let fraction = if trial.switches < GUESSES { fraction } else { 0.5 };
+                Some((trial.h * fraction).max(trial.shortest))
+            }
+            Reason::Trigger => {
+                if trial.triggers >= TRIALS {
+                    return Ok(None);
+                }
+                let shorter = self.triggers.first(&mut self.step, trial.h)?;
+                trial.triggers += usize::from(shorter.is_some());
+                shorter.map(|shorter| shorter.max(2.0 * trial.smallest))
+            }
+            Reason::Corner => {
+                let fraction = first_corner(&self.step, self.largest_force());
+                let fraction = fraction.filter(|_| trial.corners < CORNERS && is_long);
+                trial.corners += usize::from(fraction.is_some());
+                fraction.map(|fraction| (trial.h * fraction).max(trial.shortest))
+            }
+        };
+        trial.ends_at_event |= cut.is_some();
+        Ok(cut)
+    }
+
+    /// Fraction of the step at which a freely rolling wheel meets a break; notes the wheel.
+    fn rolling_break(&mut self, slack: f64) -> Option<f64> {
+        let (fraction, wheel) = rolling_break(&mut self.step, slack)?;
+        self.meets = Some(wheel);
+        Some(fraction)
+    }
+
+    fn break_slack(&self) -> f64 {
+        break_slack(self.size.tolerance, self.size.fixed.is_some())
+    }
+
+    /// Accepts the step of length `h`. In this order: the energy exchanged is booked at the state that the step
+    /// reached; then its end is brought to where the next step starts: prescribed motions pass their break, wheels
+    /// pass joints and corners of their rails, and the active elements are found anew where one is due; last the
+    /// books of the step are closed.
+    fn accept(&mut self, h: f64) -> Result<(), Error> {
+        self.counts.steps += 1;
+        self.step.arrived.copy_from(&self.step.to);
+        self.force_scale = self.largest_force();
+        let exchanged = self.step.exchanged(h);
+        self.books.book_step(self.step.solver, &exchanged, &self.step.to);
+        self.step.reach_end()?;
+        self.size.grow(&self.step.to);
+        if self.step.to.t >= self.limit {
+            self.pass_break()?;
+        }
+        let by_joint = self.pass_joint()?;
+        self.books.book_rail(by_joint);
+        let before = self.stored();
+        let system = self.step.system();
+        let has_crossed = system.traits.is_uneven && pass_corners(self.step.solver, &mut self.step.to)?;
+        let mut after = before;
+        if has_crossed || self.is_switch_due() {
+            let active = self.step.solver.active().flags().to_vec();
+            if settle(self.step.solver, &mut self.step.to)? {
+                self.counts.events += usize::from(active != self.step.solver.active().flags());
+                after = self.stored();
+                let gained = after.total() - before.total();
+                if has_crossed { self.books.book_rail(gained) } else { self.books.book_switch(-gained) }
+            }
+        }
+        self.books.close_step(self.step.solver, &self.step.to, after);
+        self.touches = guards(self.step.solver, GuardKind::Touch, &self.step.to);
+        Ok(())
+    }
+
+    /// Whether an element must begin or cease to act at the end of the step.
+    fn is_switch_due(&self) -> bool {
+        let (solver, to) = (&*self.step.solver, &self.step.to);
+        let system = solver.system();
+        let has_let_go = (0..system.verticals()).any(|i| solver.active().has(i) && solver.opens(i, to));
+        has_let_go
+            || (0..system.elements.len())
+                .any(|i| solver.switch_guard(i, to).is_some_and(|excess| excess > 0.0))
+    }
+
+    /// Energy stored at the end of the step.
+    fn stored(&self) -> Stored {
+        stored(self.step.system(), self.step.solver.geometry(), &self.step.to)
+    }
+
+    /// Passes a break of the prescribed motions: what a jump of speed does to the energy is their work, and
+    /// accelerations are those after the break.
+    fn pass_break(&mut self) -> Result<(), Error> {
+        let after = self.stored().kinetic;
+        let t = self.step.to.t;
+        self.step.to.t = t.next_down();
+        let before = self.stored().kinetic;
+        self.step.to.t = t;
+        self.books.book_jump(after - before);
+        self.step.solver.instant(&mut self.step.to)?;
+        Ok(())
+    }
+
+    /// Where the step has ended at a joint of a rail that complies along x, the wheel there goes over to another
+    /// part, which the same forces have displaced along x by another amount: the displacement jumps, and slides
+    /// nowhere. What pushes along x then pushes that part, so that the rail below all wheels jumps as well, by
+    /// Maxwell's theorem with as much work: penetrations follow. Returns the energy put in.
+    fn pass_joint(&mut self) -> Result<f64, Error> {
+        let slack = self.break_slack();
+        let Step { solver, to, probe, .. } = &mut self.step;
+        let system = solver.system();
+        let Some(w) = self.meets.take().filter(|_| system.mechanics.has_sliding_rails()) else {
+            return Ok(0.0);
+        };
+        let speed = system.mechanics.speed_along(w, to);
+        let Some(near) = at_break(solver, w, to, slack).filter(|_| speed != 0.0) else { return Ok(0.0) };
+        let before = stored(system, solver.geometry(), to);
+        let felt: Vec<usize> = (0..system.verticals()).filter(|&i| solver.remembers(i)).collect();
+        for &i in &felt {
+            to.p[i] += solver.geometry().deflection(i, &to.force);
+        }
+        probe.q.copy_from(&to.q);
+        probe.q.axpy(near / speed.abs(), &to.v, 1.0);
+        solver.clear_paths();
+        solver.update_to(to, &probe.q)?;
+        for i in felt {
+            to.p[i] -= solver.geometry().deflection(i, &to.force);
+        }
+        solver.move_rails(to);
+        Ok(stored(system, solver.geometry(), to).total() - before.total())
+    }
+
+    /// Largest contact force so far.
+    fn largest_force(&self) -> f64 {
+        self.step.to.force.iter().fold(self.force_scale, |max, force| max.max(force.abs()))
+    }
+
+    /// Rules whose conditions are met where the last step ended.
+    ///
+    /// # Errors
+    /// What the rails refuse.
+    pub fn due(&mut self) -> Result<Vec<usize>, Error> {
+        self.triggers.due(&self.step)
+    }
+
+    /// Lets the rules that are `due` act, and those whose conditions are met then; books what switching does to the
+    /// energy. Returns the rules, and whether the run ends.
+    ///
+    /// # Errors
+    /// What the rails refuse, and [`Error::NoEquilibrium`] where no forces follow.
+    pub fn act(&mut self, mut due: Vec<usize>) -> Result<(Vec<Fired>, bool), Error> {
+        let scene = self.step.system().scene;
+        let (mut fired, mut ends) = (Vec::new(), false);
+        while !due.is_empty() {
+            self.step.solver.instant(&mut self.step.to)?;
+            let (before, time) = (self.stored(), self.step.to.t);
+            for &rule in &due {
+                self.triggers.take(rule);
+                fired.push(Fired { time, rule });
+                for action in &scene.actuators.rules[rule].actions {
+                    ends |= self.step.solver.switch(*action, time)?;
+                }
+            }
+            if !settle(self.step.solver, &mut self.step.to)? {
+                return Err(Error::NoEquilibrium { time });
+            }
+            let after = self.stored();
+            self.books.book_switch(before.total() - after.total());
+            self.books.turn_page(self.step.solver, &self.step.to, after);
+            due = self.due()?;
+        }
+        Ok((fired, ends))
+    }
+}

@@ -1,0 +1,58 @@
+//! Which methods of integration suit a scene.
+
+use crate::contact::system::System;
+use crate::time::passage::crossing::missing;
+use crate::{Dynamics, Error, Foundation, Method, Scene};
+
+impl Method {
+    /// Whether the method can integrate `scene` on `foundations`.
+    ///
+    /// # Errors
+    /// [`Error::Method`] where it cannot, with what is missing in the scene; another for a scene that cannot be set up.
+    pub fn suits(self, scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
+        self.check(&System::new(scene, foundations)?)
+    }
+
+    /// The method itself, or the one chosen for the scene.
+    pub(crate) fn chosen(self, system: &System) -> Method {
+        match self {
+            Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
+            Method::Auto if Method::Radau.check(system).is_ok() => Method::Radau,
+            Method::Auto => Method::Sdirk4,
+            method => method,
+        }
+    }
+
+    /// Whether the method can integrate the scene: collocation needs prescribed places, linear vertical contacts
+    /// with one force a wheel and structures in natural modes of damping ratio below 1; Gauss, no damper between
+    /// wheel and rail.
+    pub(crate) fn check(self, system: &System) -> Result<(), Error> {
+        if matches!(self, Method::Auto | Method::Sdirk4) {
+            return Ok(());
+        }
+        let modal =
+            system.foundations.iter().filter_map(|f| f.structure.as_ref()).all(|structure| match &structure
+                .dynamics
+            {
+                Dynamics::Matrices { .. } => false,
+                Dynamics::Modes { ratio, .. } => ratio.iter().all(|ratio| *ratio < 1.0),
+            });
+        let remembers = (0..system.verticals()).any(|i| system.law(i).has_memory());
+        let trouble = [
+            (system.mechanics.moves_freely, "places along the rail that are prescribed"),
+            (!system.traits.is_vertical, "vertical contacts alone"),
+            (!system.traits.has_linear_laws, "linear contacts"),
+            (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
+            (system.traits.is_uneven, "even rails"),
+            (!system.mechanics.carried.is_empty(), "bodies that ride on the ground's rails"),
+            (!system.mechanics.couplings.is_empty(), "structures on the ground"),
+            (!modal, "structures in natural modes, damped below critical"),
+            (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
+        ];
+        let found = trouble.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted);
+        match found.or_else(|| missing(system).filter(|_| self == Method::Series)) {
+            Some(wanted) => Err(Error::Method { method: self, wanted }),
+            None => Ok(()),
+        }
+    }
+}
