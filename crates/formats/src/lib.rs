@@ -23,27 +23,20 @@
 //! assert!(first.starts_with("girder.json:3:27: girder.spans[1]: must be positive, got -60"), "{first}");
 //! ```
 //!
-//! Wings, lowest first: [`text`] (tree, faults, diagnostics), [`units`] and [`check`], [`spec`], [`grid`], [`tables`],
-//! [`scene`], [`schema`].
+//! Wings, lowest first: [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`], [`scene`],
+//! [`schema`].
 
-pub mod block;
 pub mod check;
-pub mod coupling;
-pub mod effect;
-mod effect_file;
 pub mod grid;
-pub mod grid_file;
-pub mod modes_file;
 pub mod scene;
 pub mod schema;
-pub mod shape;
 pub mod spec;
-pub mod surface_file;
 pub mod tables;
 pub mod text;
-pub mod track;
 pub mod units;
 pub mod vector;
 
+pub use grid::{block, coupling, effects as effect, file as grid_file, modes_file, surface_file};
 pub use scene::{motion, quantity};
+pub use spec::{cross_section as shape, ties as track};
 pub use text::{diagnostic, entries, fault, inputs, number, object, place, source};

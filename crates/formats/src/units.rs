@@ -1,6 +1,6 @@
 //! Units of length and force, exact factors between them, and dimensions.
 //!
-//! Time is in seconds everywhere; mass is force time^2 / length.
+//! The unit of time is the second everywhere; mass is in force time^2 / length, such as lbf s^2/ft (the slug).
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -40,7 +40,7 @@ impl Length {
     const WORDS: [(&'static str, Length); 4] =
         [("ft", Length::Foot), ("in", Length::Inch), ("m", Length::Metre), ("mm", Length::Millimetre)];
 
-    /// The unit as a whole number of 0.1 mm.
+    /// The unit in 0.1 mm, a whole number.
     const fn count(self) -> u128 {
         match self {
             Length::Foot => 3048,
@@ -53,7 +53,7 @@ impl Length {
     /// All units.
     pub const ALL: [Length; 4] = [Length::Foot, Length::Inch, Length::Metre, Length::Millimetre];
 
-    /// How many of `other` it is.
+    /// The unit as a multiple of `other`: one foot is 12 inches.
     #[must_use]
     pub fn in_units_of(self, other: Length) -> f64 {
         let (over, under) = reduced(self.count(), other.count());
@@ -66,7 +66,7 @@ impl Length {
         Length::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
     }
 
-    /// Its word in files.
+    /// The word of the unit in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -82,7 +82,7 @@ impl Force {
     const WORDS: [(&'static str, Force); 4] =
         [("lbf", Force::Pound), ("kip", Force::Kip), ("N", Force::Newton), ("kN", Force::Kilonewton)];
 
-    /// The unit as a whole number of 1e-13 N.
+    /// The unit in 1e-13 N, a whole number.
     const fn count(self) -> u128 {
         match self {
             Force::Pound => 44_482_216_152_605,
@@ -98,7 +98,7 @@ impl Force {
         Force::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
     }
 
-    /// Its word in files.
+    /// The word of the unit in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -110,7 +110,18 @@ impl Force {
     }
 }
 
-/// The units of a file.
+/// The units of length and force of a file or of numbers.
+///
+/// ```
+/// use formats::units::{Dimension, Force, Length, Scale, Units};
+///
+/// let imperial = Units { length: Length::Foot, force: Force::Pound };
+/// let to_si = Scale { from: imperial, to: Units::SI };
+/// assert_eq!(to_si.factor(Dimension::LENGTH), 0.3048);
+/// assert_eq!(to_si.factor(Dimension::FORCE), 4.4482216152605);
+/// assert_eq!(imperial.label(Dimension::MASS), "lbf s^2/ft");
+/// assert_eq!(Units::of_words("ft, lbf, s"), Some(imperial));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Units {
     /// Unit of length.
@@ -132,7 +143,7 @@ impl Units {
     /// Metre and newton.
     pub const SI: Units = Units { length: Length::Metre, force: Force::Newton };
 
-    /// Reads the member `units` of the document at `place`.
+    /// Reads the member `units` of the object at `place`; a fault where it is missing or a word is unknown.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
             let hint = "none is guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, or in, m, mm; kip, N, kN";
@@ -158,7 +169,7 @@ impl Units {
         serde_json::json!({ "length": self.length.word(), "force": self.force.word(), "time": "s" })
     }
 
-    /// The unit of a quantity in words, such as `lbf s/ft`.
+    /// The unit of a quantity as text, such as `lbf s/ft`; empty for a pure number.
     #[must_use]
     pub fn label(self, dimension: Dimension) -> String {
         let powers = [
@@ -185,6 +196,53 @@ impl Units {
             }
         }
     }
+
+    /// The units of length and force of an ADAMS data set.
+    #[must_use]
+    pub fn of_adams(units: adams::AdamsUnits) -> Units {
+        Units {
+            length: match units.length {
+                adams::AdamsLengthUnit::Foot => Length::Foot,
+                adams::AdamsLengthUnit::Inch => Length::Inch,
+                adams::AdamsLengthUnit::Meter => Length::Metre,
+                adams::AdamsLengthUnit::Millimeter => Length::Millimetre,
+            },
+            force: match units.force {
+                adams::AdamsForceUnit::Pound => Force::Pound,
+                adams::AdamsForceUnit::Kilopound => Force::Kip,
+                adams::AdamsForceUnit::Newton => Force::Newton,
+                adams::AdamsForceUnit::Kilonewton => Force::Kilonewton,
+            },
+        }
+    }
+
+    /// UNITS of an ADAMS data set. The unit of mass is the one consistent with length and force where ADAMS has it,
+    /// else a common one.
+    #[must_use]
+    pub fn to_adams(self) -> adams::AdamsUnits {
+        let (length, mass) = match self.length {
+            Length::Foot => (adams::AdamsLengthUnit::Foot, adams::AdamsMassUnit::Slug),
+            Length::Inch => (adams::AdamsLengthUnit::Inch, adams::AdamsMassUnit::Pound),
+            Length::Metre => (adams::AdamsLengthUnit::Meter, adams::AdamsMassUnit::Kilogram),
+            Length::Millimetre => (adams::AdamsLengthUnit::Millimeter, adams::AdamsMassUnit::Kilogram),
+        };
+        let force = match self.force {
+            Force::Pound => adams::AdamsForceUnit::Pound,
+            Force::Kip => adams::AdamsForceUnit::Kilopound,
+            Force::Newton => adams::AdamsForceUnit::Newton,
+            Force::Kilonewton => adams::AdamsForceUnit::Kilonewton,
+        };
+        adams::AdamsUnits { force, mass, length }
+    }
+
+    /// The units in a text whose first two words are those of length and force, such as `ft, lbf, s` or `ft/lbf`.
+    #[must_use]
+    pub fn of_words(text: &str) -> Option<Units> {
+        let mut words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
+        let length = Length::of_word(words.next()?)?;
+        let force = Force::of_word(words.next()?)?;
+        Some(Units { length, force })
+    }
 }
 
 /// Powers of length, force and time of a quantity.
@@ -199,7 +257,7 @@ pub struct Dimension {
 }
 
 impl Dimension {
-    /// Powers of length, force and time.
+    /// The dimension with these powers of length, force and time.
     #[must_use]
     pub const fn of(length: i32, force: i32, time: i32) -> Self {
         Dimension { length, force, time }
@@ -211,17 +269,17 @@ impl Dimension {
     pub const LENGTH: Dimension = Dimension::of(1, 0, 0);
     /// Area.
     pub const AREA: Dimension = Dimension::of(2, 0, 0);
-    /// Second moment of area, torsion constant.
+    /// Second moment of area; torsion constant.
     pub const SECOND_MOMENT: Dimension = Dimension::of(4, 0, 0);
     /// Force.
     pub const FORCE: Dimension = Dimension::of(0, 1, 0);
-    /// Moment, torque; also a rotational stiffness per radian; energy.
+    /// Moment and torque; energy; rotational stiffness per radian.
     pub const MOMENT: Dimension = Dimension::of(1, 1, 0);
-    /// Modulus, stress.
+    /// Stress; modulus of elasticity.
     pub const STRESS: Dimension = Dimension::of(-2, 1, 0);
-    /// Stiffness.
+    /// Stiffness: force per displacement.
     pub const STIFFNESS: Dimension = Dimension::of(-1, 1, 0);
-    /// Influence coefficient: displacement per force.
+    /// Flexibility, such as an influence coefficient: displacement per force.
     pub const FLEXIBILITY: Dimension = Dimension::of(1, -1, 0);
     /// Damping: force per speed.
     pub const DAMPING: Dimension = Dimension::of(-1, 1, 1);
@@ -231,7 +289,7 @@ impl Dimension {
     pub const LINE_MASS: Dimension = Dimension::of(-2, 1, 2);
     /// Mass per volume.
     pub const DENSITY: Dimension = Dimension::of(-4, 1, 2);
-    /// Moment of inertia.
+    /// Mass moment of inertia.
     pub const INERTIA: Dimension = Dimension::of(1, 1, 2);
     /// Speed.
     pub const SPEED: Dimension = Dimension::of(1, 0, -1);
@@ -251,8 +309,10 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The factor of a quantity: exactly 1 between equal units, otherwise the ratio of two whole
-    /// numbers (the defining values of the units), each rounded at most once.
+    /// The factor by which numbers of a dimension are multiplied.
+    ///
+    /// It is exactly 1 between equal units, otherwise the ratio of two whole numbers (the defining values of the
+    /// units), each of which is rounded at most once.
     #[must_use]
     pub fn factor(&self, dimension: Dimension) -> f64 {
         let length = power(self.from.length.count(), self.to.length.count(), dimension.length);
@@ -261,7 +321,7 @@ impl Scale {
         over as f64 / under as f64
     }
 
-    /// The factor of a stiffness in force per length^`exponent`, for a power law.
+    /// The factor of the coefficient of a power law, in force per length^`exponent`.
     #[must_use]
     pub fn power_law(&self, exponent: f64) -> f64 {
         if exponent == 1.0 {
@@ -271,12 +331,14 @@ impl Scale {
     }
 }
 
+/// (from / to)^exponent as a fraction in lowest terms.
 fn power(from: u128, to: u128, exponent: i32) -> (u128, u128) {
     let (from, to) = reduced(from, to);
     let raised = (from.pow(exponent.unsigned_abs()), to.pow(exponent.unsigned_abs()));
     if exponent < 0 { (raised.1, raised.0) } else { raised }
 }
 
+/// a / b in lowest terms, by Euclid's algorithm.
 fn reduced(a: u128, b: u128) -> (u128, u128) {
     let (mut x, mut y) = (a, b);
     while y != 0 {

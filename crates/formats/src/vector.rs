@@ -1,30 +1,30 @@
-//! Vectors as plain triples.
+//! Vectors of three components as arrays.
 
-/// a - b.
+/// The difference a - b.
 #[must_use]
 pub fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// a . b.
+/// The scalar product a . b.
 #[must_use]
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-/// a x b.
+/// The vector product a x b.
 #[must_use]
 pub fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
-/// |a|, without overflow.
+/// The length |a|, computed without overflow.
 #[must_use]
 pub fn length(a: [f64; 3]) -> f64 {
     a[0].hypot(a[1]).hypot(a[2])
 }
 
-/// a / |a|; `None` where that is no number.
+/// The unit vector a / |a|; `None` where that is not finite, as of a zero vector.
 #[must_use]
 pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let size = length(a);
@@ -32,7 +32,7 @@ pub fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     unit.iter().all(|part| part.is_finite()).then_some(unit)
 }
 
-/// Whether two vectors point along one line, or one is zero, up to rounding.
+/// Whether two vectors are parallel to 1e-9 rad, or one of them is zero.
 #[must_use]
 pub fn parallel(a: [f64; 3], b: [f64; 3]) -> bool {
     match (unit(a), unit(b)) {

@@ -1,4 +1,7 @@
 //! Items of `cell_data` as written: one for each cell of a block, or one for the whole block.
+//!
+//! A list may be the items of the cells or, where an item is itself a list, the one item of the block. Which of the two
+//! it is shows in its entries: numbers (of a vector) or words (of a list of degrees of freedom) make it one item.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -7,19 +10,19 @@ use serde::Deserialize;
 use serde::de::value::SeqAccessDeserializer;
 use serde::de::{Deserializer, Error, SeqAccess, Visitor};
 
-/// What a block of cells has of one key.
+/// The items of one key for one block of cells.
 #[derive(Debug, PartialEq)]
 pub(crate) enum Block<T> {
     /// An item for each cell.
     Each(Vec<T>),
-    /// One for all of them.
+    /// One item for all cells.
     All(T),
-    /// Nothing: the default.
+    /// No item: the default applies.
     Absent,
 }
 
 impl<T> Block<T> {
-    /// The item of a cell.
+    /// The item of the cell of this index.
     pub fn get(&self, index: usize) -> Option<&T> {
         match self {
             Block::Each(items) => items.get(index),
@@ -29,7 +32,7 @@ impl<T> Block<T> {
     }
 }
 
-/// An index, or the name of what it stands for.
+/// A reference to an item of a list: its index or its name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reference {
     /// An index, counted from 0.
@@ -62,22 +65,22 @@ impl<'de> Deserialize<'de> for Reference {
     }
 }
 
-/// What stands where a list of items, or an item alone, may stand.
+/// A type of items that may be given as a list of one for each cell, or as one for the whole block.
 pub trait Item: Sized + for<'de> Deserialize<'de> {
-    /// In messages.
+    /// What is expected, in messages.
     const WHAT: &'static str;
 
-    /// An item that is a number.
+    /// The item that a number is, if any.
     fn of_index(_: usize) -> Option<Self> {
         None
     }
 
-    /// An item that is a text.
+    /// The item that a text is, if any.
     fn of_word(_: &str) -> Option<Self> {
         None
     }
 
-    /// A list: of items, or itself an item.
+    /// What a list is: items of the cells, or one item of the block.
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         Vec::deserialize(SeqAccessDeserializer::new(list)).map(Block::Each)
     }
@@ -123,14 +126,14 @@ impl Item for Option<usize> {
     }
 }
 
-/// One entry of a list that is an item, or that has items.
+/// One entry of a list: a leaf, of which one item of the whole block is made, or an item of a cell.
 enum Entry<L, T> {
     Leaf(L),
     Item(T),
 }
 
-/// What a list of such entries is; the second: how many leaves an item has, where that is fixed.
-fn sorted<L, T, E: Error>(
+/// What a list of such entries is. `of_leaves` makes an item of leaves, and refuses a wrong number of them.
+fn classified<L, T, E: Error>(
     entries: Vec<Entry<L, T>>,
     what: &'static str,
     of_leaves: impl FnOnce(Vec<L>) -> Result<T, E>,
@@ -186,7 +189,7 @@ impl Item for [f64; 3] {
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries = Vec::deserialize(SeqAccessDeserializer::new(list))?;
-        sorted(entries, Self::WHAT, |numbers: Vec<f64>| {
+        classified(entries, Self::WHAT, |numbers: Vec<f64>| {
             let count = numbers.len();
             numbers.try_into().map_err(|_| A::Error::invalid_length(count, &"a list of 3 numbers"))
         })
@@ -223,8 +226,8 @@ impl Item for Vec<String> {
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries: Vec<Entry<String, Self>> = Vec::deserialize(SeqAccessDeserializer::new(list))?;
-        // no freedoms for the whole block, whatever its cells
-        if entries.is_empty() { Ok(Block::Absent) } else { sorted(entries, Self::WHAT, Ok) }
+        // an empty list is no degrees of freedom for the whole block, whatever the number of its cells
+        if entries.is_empty() { Ok(Block::Absent) } else { classified(entries, Self::WHAT, Ok) }
     }
 }
 
@@ -234,6 +237,7 @@ impl<'de, T: Item> Deserialize<'de> for Block<T> {
     }
 }
 
+/// Visitor of a [`Block`].
 struct Blocks<T>(PhantomData<T>);
 
 impl<'de, T: Item> Visitor<'de> for Blocks<T> {

@@ -1,4 +1,4 @@
-//! Sections where internal forces are asked for: the member `effects` of both forms.
+//! Sections of members whose internal forces are asked for: the key `effects` of both forms.
 
 use fea::Girder;
 
@@ -10,36 +10,38 @@ use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
-/// A section where internal forces are asked for.
+/// A section of a member whose internal forces are asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cut {
     /// Its name.
     pub name: String,
-    /// Where it is, as the spec says it.
+    /// Where it is, in the terms of the spec.
     pub spot: Spot,
     /// Index of the member.
     pub member: usize,
-    /// Place along the member's flexible part, 0..=1.
+    /// Place along the member's flexible part, as a fraction of its length from end a, 0..=1.
     pub place: f64,
-    /// Points of the section whose stresses are wanted.
+    /// Points of the section whose stresses are asked for.
     pub points: Vec<StressPoint>,
 }
 
-/// A place of a structure as users know it.
+/// A place of a structure in the terms of the spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Spot {
-    /// Coordinate along a girder.
+    /// Coordinate along a girder, in length.
     Along(f64),
-    /// Block and index of a cell, and the share of its flexible part from end a, 0..=1.
+    /// Block and index of a cell, and the place along its flexible part as a fraction from end a, 0..=1.
     Cell([usize; 2], f64),
 }
 
-/// Cuts of a girder: at a support the section just beyond it, at the girder's last end just before.
+/// Cuts of a girder. A cut at a support is taken just beyond it, one at the girder's last end just before it.
+///
+/// `faultless`: whether the girder has no fault, so that cuts can be placed on its members.
 pub(super) fn read_girder(
     raw: &RawSpec,
     girder: &Girder,
     points: &[StressPoint],
-    sound: bool,
+    faultless: bool,
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<Cut> {
@@ -66,7 +68,7 @@ pub(super) fn read_girder(
         let x = check.number(given, &at.key("x"), Dimension::LENGTH);
         let (first, last) = (bounds[0], bounds[bounds.len() - 1]);
         let slack = 1e-12 * (last - first);
-        if !sound {
+        if !faultless {
             return;
         }
         if x < first - slack || x > last + slack {
@@ -83,7 +85,7 @@ pub(super) fn read_girder(
     cuts
 }
 
-/// Cuts of the general form, on the cells as the file has them.
+/// Cuts of the general form, on the cells as the file has them. `points`: the stress points of a member.
 pub(super) fn read_frame(
     raw: &RawSpec,
     cells: &Cells,
@@ -98,20 +100,20 @@ pub(super) fn read_frame(
             check.faults.add(fault.hint("in the general form a section is `at` a share of its `cell`"));
         }
         let cell = check.faults.need(&raw.cell, at, "cell").copied();
-        let share = check.faults.need(&raw.at, at, "at").copied();
-        if let Some(share) = share.filter(|share| !(0.0..=1.0).contains(share)) {
-            let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(share));
+        let place = check.faults.need(&raw.at, at, "at").copied();
+        if let Some(place) = place.filter(|place| !(0.0..=1.0).contains(place)) {
+            let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(place));
             check.faults.add(fault.hint("0 is the cell's flexible end a, 1 its end b"));
         }
         let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));
-        if let (Some(cell), Some(member), Some(place)) = (cell, member, share) {
+        if let (Some(cell), Some(member), Some(place)) = (cell, member, place) {
             cuts.push(Cut { name, spot: Spot::Cell(cell, place), member, place, points: points(member) });
         }
     });
     cuts
 }
 
-/// Hands every entry on with its place and a name that no other has.
+/// Calls `read` for every entry, with its place and its name; a name that is empty or not unique is a fault.
 fn each(
     raw: &RawSpec,
     root: &Place<'_>,

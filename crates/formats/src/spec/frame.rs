@@ -1,55 +1,27 @@
-//! The general form: points, members, what holds them, and rails on them.
+//! The general form of a spec: points, members, supports and springs, links, masses, and rails.
 
 use fea::{Freedom, Link, Mass, Model, Segment, Spring, Support, Taper, Theory};
 
-use super::block::Reference;
 use super::cuts::{self, Cut};
 use super::raw::RawSpec;
+use super::references::{Points, dofs, index_below};
 use super::stress::{self, StressPoint};
+use super::structure::Frame;
+use super::words::FREEDOMS;
 use super::{members, rails, sections};
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
-use crate::track::Pad;
 use crate::units::Dimension;
 use crate::vector::length;
 
-/// A checked general form, in the units asked for: the model with the names that users know.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
-    /// Points, members and what holds them.
-    pub model: Model,
-    /// Rails with their names, in the order of the file.
-    pub rails: Vec<(String, fea::Rail)>,
-    /// First and last coordinate of each rail.
-    pub ranges: Vec<[f64; 2]>,
-    /// Names of the sections.
-    pub sections: Vec<String>,
-    /// Number of points in the file; those of tapered members' parts follow them.
-    pub points: usize,
-    /// For each member, the block of `cells` and the index in it: parts of a tapered cell share it.
-    pub cells: Vec<[usize; 2]>,
-    /// Named sets of points.
-    pub point_sets: Vec<(String, Vec<usize>)>,
-    /// For each support of the model the one of the file that gave it; those of ties are not among them.
-    pub supports: Vec<usize>,
-    /// Between rail and structure, where ties carry the rail.
-    pub pads: Vec<Pad>,
-}
-
-/// Words of the freedoms of points and members' ends.
-pub(super) const FREEDOMS: [(&str, Freedom); 6] = [
-    ("ux", Freedom::Ux),
-    ("uy", Freedom::Uy),
-    ("uz", Freedom::Uz),
-    ("rx", Freedom::Rx),
-    ("ry", Freedom::Ry),
-    ("rz", Freedom::Rz),
-];
-
-/// Direction up where the spec gives none.
+/// Upward direction where the spec has none.
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
+/// Reads the general form: the structure, and the sections whose internal forces are asked for.
+///
+/// All parts are read even where an earlier one has faults, so that every fault is reported at once; what would need
+/// valid members (rails' extents, completeness of sections, tapers) is left out where some member has a fault.
 pub(super) fn read(
     raw: &RawSpec,
     theory: Theory,
@@ -70,8 +42,8 @@ pub(super) fn read(
     }
     let sections = sections::read(raw, root, &mut model, check);
     let cells = members::read(raw, root, &sections, &mut model, check);
-    if cells.whole {
-        sections::complete(raw, root, &model, &cells.tapers, check);
+    if cells.complete {
+        sections::check_complete(raw, root, &model, &cells.tapers, check);
     }
     let point_sets = read_sets(raw, root, &model, check);
     let known = Points { count: model.points.len(), sets: &point_sets };
@@ -81,13 +53,13 @@ pub(super) fn read(
     read_masses(raw, root, &known, &mut model, check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
     let points = stress::of_sections(raw, root, check);
-    // a tapered cell has no section of its own between its ends
-    let of = |member: usize| -> Vec<StressPoint> {
+    // a tapered cell has no section of the file between its ends, and so no stress points
+    let points_of = |member: usize| -> Vec<StressPoint> {
         let uniform = cells.tapers.get(member).is_some_and(Option::is_none);
         let section = model.members.get(member).map(|member| member.section).filter(|_| uniform);
         section.and_then(|section| points.get(section)).cloned().unwrap_or_default()
     };
-    let cuts = cuts::read_frame(raw, &cells, &of, root, check);
+    let cuts = cuts::read_frame(raw, &cells, &points_of, root, check);
     let points = model.points.len();
     let frame = Frame {
         model,
@@ -100,10 +72,10 @@ pub(super) fn read(
         supports,
         pads: Vec::new(),
     };
-    if cells.whole { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
+    if cells.complete { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
 }
 
-/// Puts uniform parts in the place of tapered cells; rails run over all parts, cuts are in theirs.
+/// Replaces each tapered member by uniform parts; rails run over all parts, and each cut moves to the part it is in.
 fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Frame, Vec<Cut>) {
     if tapers.iter().all(Option::is_none) {
         return (frame, cuts);
@@ -120,7 +92,7 @@ fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Fram
     for cut in &mut cuts {
         let own = &parts[cut.member];
         let along = cut.place * own.len() as f64;
-        // the index of a place within the cell is small and not negative
+        // `along` is between 0 and the number of parts
         let part = (along as usize).min(own.len().saturating_sub(1));
         cut.member = own.start + part;
         cut.place = (along - part as f64).min(1.0);
@@ -129,98 +101,7 @@ fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Fram
     (Frame { model, rails, cells, ..frame }, cuts)
 }
 
-/// What an index or a name can mean.
-struct Points<'s> {
-    /// How many there are.
-    count: usize,
-    /// Points by the name of their set.
-    sets: &'s [(String, Vec<usize>)],
-}
-
-impl Points<'_> {
-    /// The points that an index or the name of a point set means; all exist.
-    fn all(&self, given: &Option<Reference>, key: &str, at: &Place<'_>, check: &mut Check<'_>) -> Vec<usize> {
-        match check.faults.need(given, at, key) {
-            None => Vec::new(),
-            Some(Reference::Index(index)) => {
-                let exists = index_below(*index, self.count, "points", &at.key(key), check);
-                if exists { vec![*index] } else { Vec::new() }
-            }
-            Some(name) => {
-                let names: Vec<(&str, usize)> =
-                    self.sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
-                let set = refer(name, &names, "point set", &at.key(key), check);
-                // points that do not exist are told where the set stands
-                let all = set.map(|set| self.sets[set].1.as_slice()).unwrap_or_default();
-                all.iter().copied().filter(|point| *point < self.count).collect()
-            }
-        }
-    }
-
-    /// The one point that an index or the name of a point set means.
-    fn one(
-        &self,
-        given: &Option<Reference>,
-        key: &str,
-        at: &Place<'_>,
-        check: &mut Check<'_>,
-    ) -> Option<usize> {
-        let before = check.faults.0.len();
-        let found = self.all(given, key, at, check);
-        if found.len() != 1 && check.faults.0.len() == before {
-            let fault =
-                Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
-            check.faults.add(fault.hint("supports alone take sets of several points"));
-        }
-        found.first().copied().filter(|_| found.len() == 1)
-    }
-}
-
-/// What an index or a name means, of a list that has these names.
-pub(super) fn refer(
-    given: &Reference,
-    names: &[(&str, usize)],
-    what: &str,
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) -> Option<usize> {
-    match given {
-        Reference::Index(index) => {
-            index_below(*index, names.len(), &format!("{what}s"), at, check).then_some(*index)
-        }
-        Reference::Name(name) => crate::scene::resolve(name, names, what, at, check.faults),
-    }
-}
-
-/// Whether an index is within a list; a fault where it is not.
-pub(super) fn index_below(
-    index: usize,
-    count: usize,
-    what: &str,
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) -> bool {
-    if index >= count {
-        let fault = Fault::new(at, format!("must be below {count}, the number of {what}")).got(index);
-        check.faults.add(fault.hint("indices count from 0"));
-    }
-    index < count
-}
-
-/// A list of freedoms, each once, as a set.
-pub(super) fn freedoms(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
-    let mut set = [false; 6];
-    for (index, word) in words.iter().enumerate() {
-        let item = at.index(index);
-        let Some(freedom) = check.faults.word(word, &item, &FREEDOMS) else { continue };
-        if set[freedom as usize] {
-            check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
-        }
-        set[freedom as usize] = true;
-    }
-    set
-}
-
+/// Supports; the result is, for each support of the model, the index of the file's support that gave it.
 fn read_supports(
     raw: &RawSpec,
     root: &Place<'_>,
@@ -232,12 +113,12 @@ fn read_supports(
     let mut given = Vec::new();
     for (index, raw) in raw.supports.iter().flatten().enumerate() {
         let at = list.index(index);
-        let held = known.all(&raw.point, "point", &at, check);
+        let supported = known.all(&raw.point, "point", &at, check);
         let place = at.key("fix");
         let fix = check.faults.need(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
-        let fix = freedoms(fix, &place, check);
-        given.extend(held.iter().map(|_| index));
-        model.supports.extend(held.into_iter().map(|point| Support { point, fix }));
+        let fix = dofs(fix, &place, check);
+        given.extend(supported.iter().map(|_| index));
+        model.supports.extend(supported.into_iter().map(|point| Support { point, fix }));
     }
     given
 }
@@ -257,8 +138,8 @@ fn read_springs(
             .faults
             .need(&raw.dof, &at, "dof")
             .and_then(|word| check.faults.word(word, &at.key("dof"), &FREEDOMS));
-        let turns = matches!(freedom, Some(Freedom::Rx | Freedom::Ry | Freedom::Rz));
-        let dimension = if turns { Dimension::MOMENT } else { Dimension::STIFFNESS };
+        let rotational = matches!(freedom, Some(Freedom::Rx | Freedom::Ry | Freedom::Rz));
+        let dimension = if rotational { Dimension::MOMENT } else { Dimension::STIFFNESS };
         let stiffness = check.needed(raw.k, &at, "k", dimension, "stiffness to ground");
         let both = point.zip(freedom);
         model.springs.extend(both.map(|(point, freedom)| Spring { point, freedom, stiffness }));
@@ -307,6 +188,7 @@ fn read_masses(
     }
 }
 
+/// Point sets; indices beyond the points are faults.
 fn read_sets(
     raw: &RawSpec,
     root: &Place<'_>,

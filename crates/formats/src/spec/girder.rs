@@ -1,19 +1,15 @@
-//! The short form: a straight girder, continuous over its supports.
+//! The short form of a spec: a straight girder, continuous over its supports.
 
 use fea::{Girder, Theory};
 
 use super::raw::RawGirder;
+use super::structure::range;
 use crate::check::Check;
 use crate::fault::{Fault, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
-/// First and last rail coordinate of a girder.
-#[must_use]
-pub fn range(girder: &Girder) -> [f64; 2] {
-    [-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]]
-}
-
+/// Reads the member `girder`, and the `stations` on it.
 pub(super) fn read(
     raw: &RawGirder,
     stations: &Option<Vec<f64>>,
@@ -40,7 +36,7 @@ pub(super) fn read(
         let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
         overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
     }
-    // without good lengths there is nothing that stations could be on
+    // stations can be checked only against valid lengths
     let raw_range = (check.faults.0.len() == before).then(|| range_of(raw));
     let mut optional =
         |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
@@ -86,12 +82,13 @@ pub(super) fn read(
     girder
 }
 
-/// The rail's range in the file's own units.
+/// First and last coordinate of the rail, in the units of the file.
 fn range_of(raw: &RawGirder) -> [f64; 2] {
     let [before, after] = raw.overhangs.unwrap_or_default();
     [-before, raw.spans.iter().flatten().sum::<f64>() + after]
 }
 
+/// Reads stations; `range` is that of the rail in the units of the file, where its lengths are valid.
 fn read_stations(
     stations: &Option<Vec<f64>>,
     range: Option<[f64; 2]>,

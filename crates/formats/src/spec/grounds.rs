@@ -1,26 +1,26 @@
-//! Names of the places where the ground holds a structure.
+//! Names of the points where the ground supports a structure.
 
 use fea::{Freedom, Model};
 
-use super::frame::FREEDOMS;
-use super::{Form, Spec};
+use super::structure::{Form, Spec};
+use super::words::FREEDOMS;
 
-/// A point that supports or springs hold.
+/// A point held by supports or springs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ground {
     /// Index of the point.
     pub point: usize,
-    /// Its name: of a girder `support1`, counted along it; of a frame that of its point set (with a number where the set
-    /// has more points), else `point<index>`.
+    /// Its name. Of a girder: `support1`, `support2`, ... along it. Of the general form: that of its point set,
+    /// followed by a number where the set has several points, else `point<index>`.
     pub name: String,
-    /// What is held, each once.
+    /// The degrees of freedom that are held, each once, in the order ux, uy, uz, rx, ry, rz.
     pub freedoms: Vec<Freedom>,
 }
 
 impl Spec {
-    /// All points that the ground holds; along a girder, else in the order of the file, supports first.
+    /// All points that the ground holds: of a girder along it, else in the order of the file, supports first.
     ///
-    /// `model`: that of [`Spec::model`].
+    /// `model` is that of [`Spec::model`].
     #[must_use]
     pub fn grounds(&self, model: &Model) -> Vec<Ground> {
         let mut all: Vec<Ground> = Vec::new();
@@ -48,13 +48,15 @@ impl Spec {
         all
     }
 
+    /// Name of a point; `index` is its place among the supported points.
     fn ground_name(&self, point: usize, index: usize) -> String {
         let Form::Frame(frame) = &self.form else { return format!("support{}", index + 1) };
-        let fits = |name: &str| {
+        let is_plain = |name: &str| {
             !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '))
         };
-        let sets = || frame.point_sets.iter().filter(|(name, points)| fits(name) && points.contains(&point));
-        // a set of this point alone says most
+        let sets =
+            || frame.point_sets.iter().filter(|(name, points)| is_plain(name) && points.contains(&point));
+        // a set of this point alone is the most specific name
         let set = sets().find(|(_, points)| points.len() == 1).or_else(|| sets().next());
         match set {
             Some((name, points)) if points.len() == 1 => name.clone(),
@@ -66,7 +68,8 @@ impl Spec {
         }
     }
 
-    /// The word of a held freedom in names of columns: of a girder `longitudinal`, `vertical`, `lateral` and `twist`.
+    /// The word of a degree of freedom in names of columns: of a girder `longitudinal`, `vertical`, `lateral` and
+    /// `twist` instead of `ux`, `uy`, `uz` and `rx`.
     #[must_use]
     pub fn freedom_word(&self, freedom: Freedom) -> &'static str {
         match (&self.form, freedom) {

@@ -1,25 +1,25 @@
-//! What the solver refuses, back at its place in the file.
+//! Errors of the solver in the terms of the spec: with the place in the file that caused them.
 
 use fea::{Error, Freedom, Item};
 
-use super::{Form, Spec};
+use super::structure::{Form, Spec};
 use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, Faults};
 use crate::place::{Path, Step};
 use crate::source::Source;
 
-/// Why the frame of a spec has no solution, in the words of the spec.
+/// Why the structure of a spec has no solution, in the terms of the spec.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SolveError {
-    /// An entry of the file cannot be used.
+    /// An entry of the file is unusable.
     Input(Vec<Diagnostic>),
-    /// The numbers cannot be trusted: a mechanism, a hopeless condition, too large a system.
+    /// There is no trustworthy solution: the structure is a mechanism, ill-conditioned, or too large for the memory.
     Untrusted(String),
 }
 
 impl Spec {
-    /// A solver's error in the words of the spec: an unusable entry is an input error with its place, a
-    /// mechanism or a hopeless condition means that the numbers cannot be trusted.
+    /// An error of the solver in the terms of the spec: an unusable entry is an input error with its place in `source`;
+    /// of a mechanism or an ill-conditioned system no number can be trusted.
     #[must_use]
     pub fn refuse(&self, source: &Source, error: &Error) -> SolveError {
         match error {
@@ -69,6 +69,7 @@ impl Spec {
         }
     }
 
+    /// Place of an item of the model in the file.
     fn path(&self, item: Item) -> Path {
         let key = |word: &str| Step::Key(word.to_owned());
         let list = |word: &str, index: usize| Path(vec![key(word), Step::Index(index)]);
@@ -108,6 +109,7 @@ impl Spec {
         }
     }
 
+    /// Place of a rail, or of an item of one of its lists.
     fn rail_path(&self, rail: usize, below: Option<(&str, usize)>) -> Path {
         let mut steps = vec![Step::Key("rails".to_owned())];
         if let Form::Frame(frame) = &self.form {
@@ -119,7 +121,7 @@ impl Spec {
         Path(steps)
     }
 
-    /// A point as users know it: by index, coordinates and the set it is in; of a girder, by its place.
+    /// A point in messages: by index, set and coordinates; of a girder by its coordinate.
     fn point(&self, index: usize) -> String {
         let unit = self.units.length.word();
         match &self.form {
@@ -141,6 +143,7 @@ impl Spec {
     }
 }
 
+/// A degree of freedom in plain words.
 const fn meaning(freedom: Freedom) -> &'static str {
     match freedom {
         Freedom::Ux => "displacement along x",

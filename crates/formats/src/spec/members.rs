@@ -1,10 +1,11 @@
-//! Cells and their data: the members of the general form.
+//! Members of the general form, from `cells` and `cell_data`.
 
 use fea::{Kind, Member, Model, Taper};
 
-use super::block::{Block, Reference};
-use super::frame::{freedoms, index_below, refer};
+use super::block::Reference;
+use super::column::Column;
 use super::raw::{RawCellData, RawSpec};
+use super::references::{dofs, index_below, refer};
 use super::tapers::Tapers;
 use crate::check::Check;
 use crate::fault::Fault;
@@ -12,21 +13,21 @@ use crate::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
 
-/// Where the members stand in the file.
+/// The cells of the file, and the members they became.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
-    /// Block and index of each member.
+    /// Block and index of the cell of each member.
     pub places: Vec<[usize; 2]>,
-    /// Cells a block.
+    /// Number of cells of each block.
     pub counts: Vec<usize>,
-    /// How each member differs from a uniform one.
+    /// The taper of each member; `None` of a uniform one.
     pub tapers: Vec<Option<Taper>>,
-    /// Whether every cell became a member, of the kind meant.
-    pub whole: bool,
+    /// Whether every cell became a member without a fault.
+    pub complete: bool,
 }
 
 impl Cells {
-    /// The member of a cell given as [block, index]; a fault where there is none.
+    /// Index of the member of a cell given as [block, index]; a fault where there is no such cell.
     pub fn of(&self, [block, index]: [usize; 2], at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
         if self.counts.get(block).is_some_and(|count| index < *count) {
             return Some(self.counts[..block].iter().sum::<usize>() + index);
@@ -37,69 +38,7 @@ impl Cells {
     }
 }
 
-/// One array of `cell_data`, with its place in the file.
-pub(super) struct Column<'r, T> {
-    pub key: &'static str,
-    given: bool,
-    blocks: Option<&'r Vec<Block<T>>>,
-}
-
-impl<'r, T: PartialEq> Column<'r, T> {
-    /// One array a block, one item a cell, or one item a block; wrong lengths are faults and leave the column out.
-    pub fn new(
-        key: &'static str,
-        blocks: &'r Option<Vec<Block<T>>>,
-        counts: &[usize],
-        at: &Place<'_>,
-        check: &mut Check<'_>,
-    ) -> Self {
-        let Some(given) = blocks else { return Column { key, given: false, blocks: None } };
-        let before = check.faults.0.len();
-        let place = at.key(key);
-        let hint = "cell_data has one array for each block of `cells`, with one item for each cell, or one item for the block";
-        if given.len() != counts.len() {
-            let fault = Fault::new(&place, format!("must have {} arrays", counts.len())).got(given.len());
-            check.faults.add(fault.hint(hint));
-        }
-        for (block, (items, count)) in given.iter().zip(counts).enumerate() {
-            let Block::Each(items) = items else { continue };
-            if items.len() != *count {
-                let fault =
-                    Fault::new(&place.index(block), format!("must have {count} items")).got(items.len());
-                check.faults.add(fault.hint(hint));
-            }
-        }
-        Column { key, given: true, blocks: (check.faults.0.len() == before).then_some(given) }
-    }
-
-    pub fn get(&self, block: usize, index: usize) -> Option<&'r T> {
-        self.blocks.and_then(|blocks| blocks.get(block)).and_then(|items| items.get(index))
-    }
-
-    /// Whether the column has nothing for this block.
-    fn absent(&self, block: usize) -> bool {
-        self.blocks.and_then(|blocks| blocks.get(block)).is_some_and(|items| *items == Block::Absent)
-    }
-
-    /// The path of a cell's item, below `cell_data` at `data`: that of its block where it has no other.
-    pub fn at<R>(
-        &self,
-        [block, index]: [usize; 2],
-        data: &Place<'_>,
-        then: impl FnOnce(&Place<'_>) -> R,
-    ) -> R {
-        let key = data.key(self.key);
-        let place = key.index(block);
-        match self.blocks.and_then(|blocks| blocks.get(block)) {
-            Some(Block::Each(_)) => then(&place.index(index)),
-            _ => then(&place),
-        }
-    }
-}
-
-/// Reads `cells` and `cell_data` into the model.
-///
-/// `sections`: the names of the model's sections.
+/// Reads `cells` and `cell_data` into the model. `sections` are the names of the model's sections.
 pub(super) fn read(
     raw: &RawSpec,
     root: &Place<'_>,
@@ -149,10 +88,11 @@ pub(super) fn read(
     if model.members.is_empty() && check.faults.0.len() == before {
         check.faults.add(Fault::new(&list, "must have at least one cell"));
     }
-    cells.whole = check.faults.0.len() == before;
+    cells.complete = check.faults.0.len() == before;
     cells
 }
 
+/// The arrays of `cell_data`, those of tapers excepted.
 struct Columns<'r> {
     kind: Column<'r, String>,
     section: Column<'r, Reference>,
@@ -179,6 +119,7 @@ impl<'r> Columns<'r> {
         }
     }
 
+    /// The member of a cell between two points; `None`, and a fault, where a point or its section is missing.
     #[allow(clippy::too_many_arguments)]
     fn member(
         &self,
@@ -193,9 +134,9 @@ impl<'r> Columns<'r> {
     ) -> Option<Member> {
         let data = root.key("cell_data");
         let here = [block, index];
-        let mut known = true;
+        let mut ends_exist = true;
         for (end, point) in points.into_iter().enumerate() {
-            known &= index_below(point, model.points.len(), "points", &cell.index(end), check);
+            ends_exist &= index_below(point, model.points.len(), "points", &cell.index(end), check);
         }
         let kinds = [("beam", Kind::Beam), ("truss", Kind::Truss)];
         let kind = self
@@ -209,11 +150,11 @@ impl<'r> Columns<'r> {
             }
             None if model.sections.len() == 1 => Some(0),
             None => {
-                let blank = self.section.absent(block);
-                if index == 0 && (blank || block == 0) && !model.sections.is_empty() {
+                let absent = self.section.absent(block);
+                if index == 0 && (absent || block == 0) && !model.sections.is_empty() {
                     let hint = "with several sections each cell needs its own, by name or index";
                     let fault = Fault::new(root, "missing key `cell_data.section`").hint(hint);
-                    match blank {
+                    match absent {
                         true => {
                             let fault = Fault { path: data.key("section").index(block).path(), ..fault };
                             let expected = "must be the sections of this block".to_owned();
@@ -235,10 +176,10 @@ impl<'r> Columns<'r> {
             }
             let column = &self.releases[end];
             if let Some(words) = column.get(block, index) {
-                releases[end] = column.at(here, &data, |at| freedoms(words, at, check));
+                releases[end] = column.at(here, &data, |at| dofs(words, at, check));
             }
         }
-        if !known {
+        if !ends_exist {
             return None;
         }
         let tip = |end: usize, axis: usize| model.points[points[end]][axis] + offsets[end][axis];
@@ -269,7 +210,7 @@ impl<'r> Columns<'r> {
     }
 }
 
-/// A vector as files have it.
+/// A vector as files write it.
 fn listed(vector: [f64; 3]) -> String {
     format!("[{}]", vector.map(crate::fault::number).join(", "))
 }

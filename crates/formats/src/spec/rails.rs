@@ -10,7 +10,7 @@ use crate::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
 
-/// Reads the rails with their ranges.
+/// Reads the rails; the second list has the first and last coordinate of each.
 pub(super) fn read(
     raw: &RawSpec,
     root: &Place<'_>,
@@ -40,6 +40,7 @@ pub(super) fn read(
     (rails, ranges)
 }
 
+/// Reads a rail and its range; the range is zero where the rail or a member has a fault.
 fn read_rail(
     raw: &RawRail,
     at: &Place<'_>,
@@ -86,7 +87,7 @@ fn read_rail(
     for (index, station) in stations.iter().enumerate() {
         rail.stations.push(check.number(*station, &line.index(index), Dimension::LENGTH));
     }
-    if check.faults.0.len() > before || !cells.whole {
+    if check.faults.0.len() > before || !cells.complete {
         return (rail, [0.0; 2]);
     }
     let range = cover(&rail, &places, model, &place, check);
@@ -107,7 +108,8 @@ fn read_rail(
     (rail, range)
 }
 
-/// First and last coordinate that the segments cover.
+/// First and last coordinate along the rail that the segments cover. `places` are their indices in the file; a segment
+/// whose member has no extent along the rail is a fault.
 fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &mut Check<'_>) -> [f64; 2] {
     let size = length(rail.axis);
     let along = |point: usize, offset: [f64; 3]| {

@@ -10,13 +10,14 @@ use crate::fault::{Fault, nearest};
 use crate::place::Place;
 use crate::units::Dimension;
 
+/// Young's modulus, shear modulus and mass per volume.
 struct Material {
     e: f64,
     g: Option<f64>,
     density: f64,
 }
 
-/// Reads materials and sections into the model; gives the sections' names.
+/// Reads materials and sections into the model; the result are the names of the sections.
 pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Vec<String> {
     let mut materials = BTreeMap::new();
     let list = root.key("materials");
@@ -105,8 +106,9 @@ fn read_section(
     }
 }
 
-/// Checks that sections have what their members need: an area, and for beams second moments and torsion too.
-pub(super) fn complete(
+/// Checks that sections have what their members need: an area, and for beams second moments of area and a torsion
+/// constant too. Sections that no member uses need nothing.
+pub(super) fn check_complete(
     raw: &RawSpec,
     root: &Place<'_>,
     model: &Model,

@@ -1,16 +1,17 @@
-//! Sections given by their plates: the member `shape` of a section.
+//! Sections given by the dimensions of their plates: the key `shape` of a section.
 
+use super::cross_section::properties;
 use super::raw::{RawSection, RawShape};
 use crate::check::Check;
 use crate::fault::{Fault, number};
 use crate::place::Place;
-use crate::shape::properties;
 use crate::units::{Dimension, Length};
 
-/// Keys of dimensions, in the order of [`Kind::dimensions`].
+/// Keys of dimensions, in the order in which [`read`] lists them.
 const KEYS: [&str; 8] =
     ["height", "width", "flange", "web", "lower_width", "lower_flange", "diameter", "wall"];
 
+/// Kinds of shapes that specs know.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     I,
@@ -23,7 +24,7 @@ impl Kind {
     const WORDS: [(&'static str, Kind); 4] =
         [("I", Kind::I), ("box", Kind::Box), ("tube", Kind::Tube), ("bar", Kind::Bar)];
 
-    /// Keys that it needs, and those that it may have.
+    /// Keys of dimensions that are required, and keys that are optional.
     const fn keys(self) -> (&'static [&'static str], &'static [&'static str]) {
         match self {
             Kind::I => (&["height", "width", "flange", "web"], &["lower_width", "lower_flange"]),
@@ -34,7 +35,7 @@ impl Kind {
     }
 }
 
-/// Fills in what the section leaves out and its shape says, in the units of the file.
+/// The numbers of a section, where it leaves some out those of its shape, in the units of the file.
 ///
 /// y is along the height: Iz = int y^2 dA, Iy = int z^2 dA.
 pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) -> RawSection {
@@ -42,7 +43,7 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
     let Some(shape) = &raw.shape else { return section };
     let place = at.key("shape");
     let Some(found) = read(shape, &place, check) else {
-        // the fault is told; no key is missing besides
+        // the shape has its fault; placeholders keep the section from being reported as incomplete too
         for number in [&mut section.area, &mut section.iy, &mut section.iz, &mut section.j] {
             number.get_or_insert(1.0);
         }
@@ -58,7 +59,7 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
     section
 }
 
-/// A, Iy, Iz, J, Asy, Asz.
+/// A, Iy, Iz, J, Asy, Asz of a shape, in the units of the file; `None`, and faults, where its dimensions are unusable.
 fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6]> {
     let kind = check.faults.need(&raw.kind, at, "kind")?;
     let kind = check.faults.word(kind, &at.key("kind"), &Kind::WORDS)?;
@@ -73,22 +74,22 @@ fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6
         raw.wall,
     ];
     let before = check.faults.0.len();
-    let (needed, optional) = kind.keys();
+    let (required, optional) = kind.keys();
     let mut dimensions = [0.0; 8];
     for (index, key) in KEYS.iter().enumerate() {
         let place = at.key(key);
         match given[index] {
-            Some(value) if needed.contains(key) || optional.contains(key) => {
+            Some(value) if required.contains(key) || optional.contains(key) => {
                 dimensions[index] = check.positive(value, &place, Dimension::NUMBER, "a dimension");
             }
             Some(_) => {
-                let known: Vec<&str> = needed.iter().chain(optional).copied().collect();
+                let known: Vec<&str> = required.iter().chain(optional).copied().collect();
                 let fault = Fault::new(&place, format!("`{key}` is none of the dimensions of this kind"));
                 check.faults.add(fault.at_key().hint(format!("it has {}", known.join(", "))));
             }
-            None if needed.contains(key) => {
+            None if required.contains(key) => {
                 let fault = Fault::new(at, format!("missing key `{key}`"));
-                check.faults.add(fault.hint(format!("this kind has {}", needed.join(", "))));
+                check.faults.add(fault.hint(format!("this kind has {}", required.join(", "))));
             }
             None => {}
         }
@@ -104,6 +105,7 @@ fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6
         return None;
     }
     let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = dimensions;
+    // an optional dimension that is not given is still 0
     let or = |own: f64, other: f64| if own > 0.0 { own } else { other };
     let found = match kind {
         Kind::I => {

@@ -1,29 +1,29 @@
-//! Points of sections whose stresses are wanted.
+//! Points of sections whose stresses are asked for, with their detail categories.
 
 use practice::aisc::AiscCategory;
 use practice::fatigue::CATEGORIES;
 
 use super::raw::{RawDetail, RawPoint, RawSpec};
+use super::words::COMPONENTS;
 use crate::check::Check;
-use crate::effect::COMPONENTS;
 use crate::fault::{Fault, alternatives, number};
 use crate::place::Place;
 use crate::units::Dimension;
 
-/// A point of a section.
+/// A point of a section whose normal stress is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressPoint {
     /// Its name.
     pub name: String,
-    /// Along the section's local y axis, from its centroid.
+    /// Coordinate along the section's local y axis from its centroid, in length.
     pub y: f64,
-    /// Along its local z axis.
+    /// Coordinate along its local z axis from the centroid, in length.
     pub z: f64,
-    /// Detail category, where fatigue is judged.
+    /// Detail category, where fatigue is to be assessed.
     pub detail: Option<Detail>,
 }
 
-/// Fatigue strength of a detail.
+/// Fatigue category of a detail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Detail {
     /// Detail category of EN 1993-1-9 for direct stress, N/mm2.
@@ -33,7 +33,7 @@ pub enum Detail {
 }
 
 impl Detail {
-    /// As specs have it.
+    /// The category as specs write it.
     #[must_use]
     pub fn word(&self) -> String {
         match self {
@@ -46,14 +46,14 @@ impl Detail {
     }
 }
 
-/// Points of every section of the general form.
+/// Stress points of every section of the general form.
 pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Vec<StressPoint>> {
     let list = root.key("sections");
     let all = raw.sections.iter().flatten().enumerate();
     all.map(|(index, section)| read(&section.points, &list.index(index), check)).collect()
 }
 
-/// Points of the section at `at`.
+/// Stress points of the section at `at`.
 pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> Vec<StressPoint> {
     let list = at.key("points");
     let mut points: Vec<StressPoint> = Vec::new();

@@ -1,24 +1,24 @@
-//! Tapered cells of the general form: `section_b` and `parts`.
+//! Tapered members of the general form: `section_b` and `parts`.
 
 use fea::{Kind, Member, Model, Taper};
 
 use super::block::Reference;
-use super::frame::refer;
-use super::members::Column;
+use super::column::Column;
 use super::raw::{RawCellData, RawSpec};
+use super::references::refer;
 use crate::check::Check;
 use crate::fault::Fault;
 use crate::place::Place;
 
-/// Most parts of a tapered cell: more cost digits and gain none.
-const MOST: usize = 1000;
+/// Most uniform parts of a tapered member: more of them lose digits to rounding and gain none.
+const MAX_PARTS: usize = 1000;
 
-/// What the file says of tapers.
+/// The tapers of the file.
 pub(super) struct Tapers<'r> {
     section_b: Column<'r, Option<Reference>>,
     parts: Column<'r, Option<usize>>,
-    /// Parts of cells that have no number of their own.
-    general: Option<usize>,
+    /// Number of parts of cells that do not have their own.
+    default: Option<usize>,
 }
 
 impl<'r> Tapers<'r> {
@@ -31,17 +31,18 @@ impl<'r> Tapers<'r> {
         check: &mut Check<'_>,
     ) -> Self {
         if let Some(parts) = raw.parts {
-            number(parts, &root.key("parts"), check);
+            check_parts(parts, &root.key("parts"), check);
         }
         let at = root.key("cell_data");
         Tapers {
             section_b: Column::new("section_b", &data.section_b, counts, &at, check),
             parts: Column::new("parts", &data.parts, counts, &at, check),
-            general: raw.parts,
+            default: raw.parts,
         }
     }
 
-    /// The taper of the cell at `place`, [block, index], that became `member`; `names`: those of the sections.
+    /// The taper of the cell [block, index] at `place`, which became `member`; `None` of a uniform one. `names` are
+    /// those of the sections.
     #[allow(clippy::too_many_arguments)]
     pub fn of(
         &self,
@@ -57,7 +58,7 @@ impl<'r> Tapers<'r> {
         let here = [block, index];
         let own = self.parts.get(block, index).copied().flatten();
         if let Some(parts) = own {
-            self.parts.at(here, &data, |place| number(parts, place, check));
+            self.parts.at(here, &data, |place| check_parts(parts, place, check));
         }
         let Some(other) = self.section_b.get(block, index).and_then(Option::as_ref) else {
             return own.map(|parts| Taper { section: member.section, parts });
@@ -68,7 +69,7 @@ impl<'r> Tapers<'r> {
         })
     }
 
-    /// The taper of `member` to the section `other`, which the file gives at `item`.
+    /// The taper of `member` to the section `other`, which the file names at `item`.
     #[allow(clippy::too_many_arguments)]
     fn between(
         &self,
@@ -92,9 +93,9 @@ impl<'r> Tapers<'r> {
                 check.faults.add(fault.hint(hint));
             }
         }
-        // A tapered truss is one bar.
-        let least = (member.kind == Kind::Truss).then_some(1);
-        let Some(parts) = own.or(self.general).or(least) else {
+        // a tapered truss member stays one bar where the file does not say otherwise
+        let of_kind = (member.kind == Kind::Truss).then_some(1);
+        let Some(parts) = own.or(self.default).or(of_kind) else {
             let hint = "a cell with `section_b` is solved in uniform parts: give their number in `parts` or \
                         `cell_data.parts`";
             check.faults.add(Fault::new(place, "missing key `parts`").hint(hint));
@@ -104,9 +105,10 @@ impl<'r> Tapers<'r> {
     }
 }
 
-fn number(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
-    if !(1..=MOST).contains(&parts) {
-        let fault = Fault::new(at, format!("must be from 1 to {MOST}")).got(parts);
+/// Adds a fault where the number of parts is out of range.
+fn check_parts(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
+    if !(1..=MAX_PARTS).contains(&parts) {
+        let fault = Fault::new(at, format!("must be from 1 to {MAX_PARTS}")).got(parts);
         check.faults.add(fault.hint("errors fall with the square of the number of parts"));
     }
 }

@@ -1,17 +1,74 @@
-//! Tables as ADAMS data sets.
+//! Tables as ADAMS data sets: SPLINE statements.
 
-use adams::DataSet;
+use adams::{DataSet, Spline, Tables};
 
-use super::format::Parsed;
-use super::set::{TableSet, name_of_title};
+use super::parsed::{Draft, Parsed};
+use super::set::{Product, Table, TableSet, adams_name};
 use crate::diagnostic::Diagnostic;
+use crate::grid::Grid;
 use crate::source::Source;
-use crate::units::Units;
+use crate::spec::stem;
+use crate::units::{Dimension, Units};
 
-/// The text of a data set: UNITS, SPLINE statements; the products in comments at its head.
+impl TableSet {
+    /// The tables as SPLINE statements; all of them extrapolate linearly.
+    pub(super) fn adams(&self) -> Tables {
+        let unit = self.units.label(Dimension::FLEXIBILITY);
+        let spline = |table: &Table| Spline {
+            id: table.id,
+            name: Some(adams_name(&table.name)),
+            units: Some("no_units".to_owned()),
+            linear_extrapolate: true,
+            curves: table.curves.clone(),
+        };
+        Tables {
+            title: Some(format!("{}{TITLE}{unit}", self.name)),
+            units: Some(self.units.to_adams()),
+            splines: self.tables.iter().map(spline).collect(),
+        }
+    }
+}
+
+/// The tables of SPLINE statements.
+pub(super) fn drafts(splines: Vec<Spline>) -> Vec<Draft> {
+    let draft = |spline: Spline| Draft {
+        id: Some(spline.id),
+        name: Some(spline.name.unwrap_or_else(|| format!("SPLINE_{}", spline.id))),
+        linear_extrapolate: Some(spline.linear_extrapolate),
+        ..Draft::of(spline.curves)
+    };
+    splines.into_iter().map(draft).collect()
+}
+
+/// What stands between the structure's name and the unit of the values in the title of a data set.
+const TITLE: &str = ": influence coefficients, ";
+
+/// The structure's name in the title of a data set: of ours, of Adams View, or any other.
+fn name_of_title(title: &str) -> &str {
+    let own = title.split_once(TITLE).map(|(name, _)| name);
+    own.or_else(|| title.strip_prefix("Adams View model name: ")).unwrap_or(title).trim()
+}
+
+/// The tables of a grid, [`TableSet::of_grid`], as SPLINE statements.
+#[must_use]
+pub fn data_set(grid: &Grid) -> Tables {
+    TableSet::of_grid(grid).adams()
+}
+
+/// The tables of a grid as the text of an ADAMS data set, for a structure called `name`; `None` where no rail has the
+/// four stations that a SPLINE needs.
 ///
 /// # Errors
-/// An identifier that stands twice.
+/// More tables than there are identifiers.
+pub fn adm(name: &str, grid: &Grid) -> Result<Option<String>, adams::Error> {
+    let set = data_set(&Grid { name: name.to_owned(), ..grid.clone() });
+    if set.splines.is_empty() { Ok(None) } else { adams::tables::write(&set).map(Some) }
+}
+
+/// The text of a data set: UNITS and SPLINE statements, with the products in comments at its head.
+///
+/// # Errors
+/// Two tables of one number.
 pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     let tables = set.adams();
     let mut statements: Vec<_> = tables.units.iter().map(adams::AdamsUnits::statement).collect();
@@ -22,17 +79,17 @@ pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     DataSet { title: tables.title.unwrap_or_default(), statements }.write()
 }
 
-/// Comment lines: the products of the factored form.
+/// Comment lines that state the products of the factored form.
 pub(super) fn remarks(set: &TableSet) -> Vec<String> {
     if set.products.is_empty() {
         return Vec::new();
     }
     let head =
         "x: where the load stands, z: where the deflection is taken. Deflection per unit load:".to_owned();
-    std::iter::once(head).chain(set.products.iter().map(super::Product::expression)).collect()
+    std::iter::once(head).chain(set.products.iter().map(Product::expression)).collect()
 }
 
-/// What stands in comments that begin with `mark`.
+/// The text of the comment lines, which begin with `mark`.
 pub(super) fn comments(text: &str, mark: char) -> String {
     let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix(mark));
     lines.collect::<Vec<_>>().join("\n")
@@ -43,19 +100,19 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let set = adams::tables::read(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
     let title = set.title.as_deref().map(name_of_title).filter(|name| !name.is_empty());
     Ok(Parsed {
-        name: title.map_or_else(|| crate::spec::stem(&source.name), str::to_owned),
+        name: title.map_or_else(|| stem(&source.name), str::to_owned),
         units: set.units.map(Units::of_adams),
-        lacks: [
+        missing_units: [
             "has no UNITS statement",
             "such as UNITS/ FORCE = POUND_FORCE, MASS = SLUG, LENGTH = FOOT, TIME = SECOND",
         ],
-        drafts: TableSet::drafts(set.splines),
-        remarks: comments(&source.text, '!'),
+        drafts: drafts(set.splines),
+        comments: comments(&source.text, '!'),
         products: Vec::new(),
     })
 }
 
-/// A data set's error with its place in the file.
+/// An error of `adams` with its place in the file.
 pub(super) fn unreadable(source: &Source, error: &adams::Error) -> Diagnostic {
     match error {
         adams::Error::At { line, column, fault } => Diagnostic {

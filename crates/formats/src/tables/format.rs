@@ -1,4 +1,4 @@
-//! Which format a file is in.
+//! The formats of tables: which one a file has, and reading and writing it.
 
 use std::path::Path;
 
@@ -7,9 +7,10 @@ use serde::de::IgnoredAny;
 use thiserror::Error;
 use zip::result::ZipError;
 
-use super::product::Product;
-use super::set::{Draft, Table, TableSet};
-use super::{adm, csv, expand, json, npz, view};
+use super::factored::expand;
+use super::parsed::Parsed;
+use super::set::{Table, TableSet};
+use super::{adm, csv, json, npz, view};
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
 use crate::units::Units;
@@ -21,19 +22,19 @@ pub enum Format {
     Adams,
     /// Commands of Adams View, `.cmd`.
     View,
-    /// Values in rows, `.csv`.
+    /// Rows of cells, `.csv`.
     Csv,
     /// `girderway-tables/1`, `.json`.
     Json,
-    /// Arrays of numpy, `.npz`.
+    /// NumPy arrays, `.npz`.
     Npz,
 }
 
 impl Format {
-    /// The format that the ending of a file's name says.
+    /// The format of a file by the ending of its name.
     ///
     /// # Errors
-    /// An ending that says none.
+    /// An ending that is none of `.adm`, `.cmd`, `.csv`, `.json` and `.npz`.
     pub fn of(name: &str) -> Result<Format, Box<Diagnostic>> {
         let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref().unwrap_or_default() {
@@ -53,18 +54,18 @@ impl Format {
 /// Why tables cannot be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The tables are no SPLINE statements, such as two of one number.
+    /// The tables give no valid SPLINE statements, such as two of one number.
     #[error(transparent)]
     Adams(#[from] adams::Error),
-    /// The archive cannot be made.
+    /// The archive cannot be written.
     #[error(transparent)]
     Archive(#[from] ZipError),
 }
 
-/// The bytes of a file. The same tables give the same bytes.
+/// The bytes of a file of tables. Equal tables give equal bytes.
 ///
 /// # Errors
-/// Numbers of tables that stand twice; an archive that cannot be made.
+/// Two tables of one number; an archive that cannot be written.
 pub fn write(set: &TableSet, format: Format) -> Result<Vec<u8>, WriteError> {
     match format {
         Format::Adams => Ok(adm::write(set)?.into_bytes()),
@@ -75,56 +76,59 @@ pub fn write(set: &TableSet, format: Format) -> Result<Vec<u8>, WriteError> {
     }
 }
 
-/// Reads the tables of a file by the ending of its name.
+/// Reads the tables of a file, in the format that the ending of its name says.
 ///
-/// `told` are the units where the file says none.
+/// `units` are those of the numbers where the file says none.
 ///
 /// # Errors
-/// What is wrong, by line and column, path, or array and index; units that neither the file nor `told` says,
-/// or that differ.
-pub fn read(name: &str, bytes: &[u8], told: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
+/// What is wrong, by line and column, path, or array and index; units that are missing in both the file and `units`, or
+/// that differ.
+pub fn read(name: &str, bytes: &[u8], units: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
     let parsed = parse(name, bytes)?;
-    let units = match (parsed.units, told) {
-        (Some(given), Some(told)) if given != told => {
+    let units = match (parsed.units, units) {
+        (Some(own), Some(given)) if own != given => {
             let words = |units: Units| format!("{} and {}", units.length.word(), units.force.word());
-            let expected = format!("says its units itself: {}", words(given));
-            let fault = Diagnostic { found: Some(words(told)), ..Diagnostic::of_file(name, expected) };
+            let expected = format!("says its units itself: {}", words(own));
+            let fault = Diagnostic { found: Some(words(given)), ..Diagnostic::of_file(name, expected) };
             return Err(vec![fault.hint("leave the units out")]);
         }
         (Some(units), _) | (None, Some(units)) => units,
         (None, None) => {
-            let [lacks, hint] = parsed.lacks;
+            let [missing, hint] = parsed.missing_units;
             let more = "none is guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
-            return Err(vec![Diagnostic::of_file(name, lacks).hint(format!("{hint}; {more}"))]);
+            return Err(vec![Diagnostic::of_file(name, missing).hint(format!("{hint}; {more}"))]);
         }
     };
     Ok(parsed.set(units))
 }
 
-/// The tables of a file in the plain form, for a look at them: without units where the file says none.
+/// The tables of a file in the plain form, for inspection: the file need not say its units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
     /// Units, where the file says them.
     pub units: Option<Units>,
-    /// The tables, and whether the file would have ADAMS go on with a line beyond their ends, where it says.
+    /// The tables, each with whether ADAMS is to extrapolate it linearly beyond its ends, where the file says so.
     pub tables: Vec<(Table, Option<bool>)>,
 }
 
-/// Reads the tables of a file by the ending of its name.
+/// Reads the tables of a file for inspection, in the format that the ending of its name says.
 ///
 /// # Errors
-/// What is wrong, but for units that are not said.
+/// What is wrong with the file; missing units are no fault.
 pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
     let parsed = parse(name, bytes)?;
     let units = parsed.units;
-    let linear: Vec<Option<bool>> = parsed.drafts.iter().map(|draft| draft.linear).collect();
-    let any = Units::SI;
-    let set = parsed.set(units.unwrap_or(any));
-    let said = |k: usize| if set.products.is_empty() { linear.get(k).copied().flatten() } else { None };
-    let tables = expand(&set).tables.into_iter().enumerate().map(|(k, table)| (table, said(k))).collect();
+    let linear: Vec<Option<bool>> = parsed.drafts.iter().map(|draft| draft.linear_extrapolate).collect();
+    // the numbers are those of the file whatever the units
+    let set = parsed.set(units.unwrap_or(Units::SI));
+    let extrapolate =
+        |k: usize| if set.products.is_empty() { linear.get(k).copied().flatten() } else { None };
+    let tables =
+        expand(&set).tables.into_iter().enumerate().map(|(k, table)| (table, extrapolate(k))).collect();
     Ok(Contents { units, tables })
 }
 
+/// Reads a file as it is.
 fn parse(name: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     let format = Format::of(name).map_err(|error| vec![*error])?;
     if format == Format::Npz {
@@ -139,41 +143,22 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     }
 }
 
-/// What a file says.
-pub(super) struct Parsed {
-    pub name: String,
-    pub units: Option<Units>,
-    /// What to say where it has no units, with a hint.
-    pub lacks: [&'static str; 2],
-    pub drafts: Vec<Draft>,
-    /// Its comments.
-    pub remarks: String,
-    /// The products of a format that does not have them in comments.
-    pub products: Vec<Product>,
-}
-
-impl Parsed {
-    fn set(self, units: Units) -> TableSet {
-        let mut set = TableSet::assemble(self.name, units, self.drafts, &self.remarks);
-        set.products.extend(self.products);
-        set
-    }
-}
-
-/// Whether a file is one of tables, not a grid: by its ending, and of JSON by its members.
+/// Whether a file is one of tables and not a grid file: by the ending of its name, and of JSON also by its members.
 #[must_use]
 pub fn is_tables(name: &str, bytes: &[u8]) -> bool {
     #[derive(Deserialize)]
-    struct Peek {
+    struct Members {
         format: Option<String>,
         tables: Option<IgnoredAny>,
         values: Option<IgnoredAny>,
     }
     match Format::of(name) {
-        Ok(Format::Json) => serde_json::from_slice(bytes).is_ok_and(|peek: Peek| match &peek.format {
-            Some(format) => format == json::FORMAT,
-            None => peek.tables.is_some() || peek.values.is_some(),
-        }),
+        Ok(Format::Json) => {
+            serde_json::from_slice(bytes).is_ok_and(|members: Members| match &members.format {
+                Some(format) => format == json::FORMAT,
+                None => members.tables.is_some() || members.values.is_some(),
+            })
+        }
         Ok(_) => true,
         Err(_) => false,
     }

@@ -1,4 +1,4 @@
-//! Tables as JSON: `girderway-tables/1`, and one table as x, z, values.
+//! Tables as JSON: `girderway-tables/1`, or one table as `x`, `z` and `values`.
 
 use std::fmt::Write;
 
@@ -6,23 +6,23 @@ use adams::SplineValues;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 
-use super::format::Parsed;
-use super::product::Product;
-use super::set::{Draft, TableSet};
-use super::wrong::{self, Part, Wrong};
-use crate::block::GridBlock;
+use super::defect::{self, Defect, Part};
+use super::parsed::{Draft, Parsed};
+use super::set::{Product, TableSet};
 use crate::diagnostic::Diagnostic;
 use crate::fault::{Fault, Faults};
+use crate::grid::GridBlock;
 use crate::place::Place;
 use crate::source::Source;
+use crate::spec::{format, stem};
 use crate::units::{RawUnits, Units};
 
 crate::object::objects!(RawSet, RawTable, RawProduct);
 
-/// The word of the format, with its version.
+/// Value of the member `format`: name and version of the format.
 pub(super) const FORMAT: &str = "girderway-tables/1";
 
-/// The text: one row of values a line, every number in the fewest digits that give it back.
+/// The text: one row of values per line, every number in the fewest digits that give it back.
 pub(super) fn write(set: &TableSet) -> String {
     let mut text = format!("{{\n  \"format\": \"{FORMAT}\",\n  \"name\": {},\n", json!(set.name));
     // writing to a string cannot fail
@@ -60,6 +60,7 @@ pub(super) fn write(set: &TableSet) -> String {
     text
 }
 
+/// Adds quantity and rails, where they are known.
 fn relation(object: &mut Map<String, Value>, quantity: Option<GridBlock>, rails: &Option<[String; 2]>) {
     if let Some(quantity) = quantity {
         object.insert("quantity".into(), json!(quantity.name()));
@@ -78,7 +79,7 @@ struct RawSet {
     units: Option<RawUnits>,
     tables: Option<Vec<RawTable>>,
     factored: Option<Vec<RawProduct>>,
-    /// The one table of a file without `format`.
+    /// These four are the one table of a file without `format` and `tables`.
     x: Option<Vec<f64>>,
     z: Option<Vec<f64>>,
     stations: Option<Vec<f64>>,
@@ -106,7 +107,7 @@ struct RawProduct {
     rail: Option<String>,
     load_rail: Option<String>,
     terms: Option<Vec<[u32; 2]>>,
-    /// Follows from the terms.
+    /// Follows from the terms and is not read.
     #[serde(rename = "expression")]
     _expression: Option<String>,
 }
@@ -120,10 +121,10 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         None => None,
         units => Units::read(units, &root, &mut faults),
     };
-    let name = raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name));
+    let name = raw.name.clone().unwrap_or_else(|| stem(&source.name));
     let mut products = Vec::new();
     let drafts = if raw.format.is_some() || raw.tables.is_some() {
-        crate::spec::format(&raw.format, FORMAT, &root, &mut faults);
+        format(&raw.format, FORMAT, &root, &mut faults);
         for (key, there) in [
             ("x", raw.x.is_some()),
             ("z", raw.z.is_some()),
@@ -139,24 +140,25 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         let tables = faults.need(&raw.tables, &root, "tables").map(Vec::as_slice).unwrap_or_default();
         let drafts: Vec<Option<Draft>> =
             tables.iter().enumerate().map(|(k, table)| draft(table, &list.index(k), &mut faults)).collect();
-        ids(tables, &list, &mut faults);
+        check_ids(tables, &list, &mut faults);
         products = read_products(&raw, tables, &root.key("factored"), &mut faults);
         if drafts.is_empty() && faults.0.is_empty() {
             faults.add(Fault::new(&list, "must have at least one table"));
         }
         drafts.into_iter().flatten().collect()
     } else {
-        lone(&raw, &root, &mut faults).into_iter().collect()
+        single(&raw, &root, &mut faults).into_iter().collect()
     };
     if !faults.0.is_empty() {
         return Err(source.diagnose(&faults));
     }
-    let lacks =
+    let missing_units =
         ["has no `units`", "such as \"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}"];
-    Ok(Parsed { name, units, lacks, drafts, remarks: String::new(), products })
+    Ok(Parsed { name, units, missing_units, drafts, comments: String::new(), products })
 }
 
-fn lone(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
+/// The one table of a file without `format` and `tables`.
+fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     let values = faults.need(&raw.values, root, "values")?;
     let (key, x) = match (&raw.stations, &raw.x) {
         (Some(_), Some(_)) => {
@@ -174,18 +176,19 @@ fn lone(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
         (Some(stations), None) => stations.clone(),
         (None, z) => z.clone().unwrap_or_default(),
     };
-    let curves = wrong::curves(x.clone(), z, values.clone());
-    let curves = curves.map_err(|wrong| faults.add(placed(wrong, root, key))).ok()?;
+    let curves = defect::checked(x.clone(), z, values.clone());
+    let curves = curves.map_err(|defect| faults.add(placed(defect, root, key))).ok()?;
     Some(Draft { name: raw.name.clone(), ..Draft::of(curves) })
 }
 
+/// One of `tables`.
 fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     let quantity = quantity(&raw.quantity, at, faults);
     let (x, values) = (faults.need(&raw.x, at, "x"), faults.need(&raw.values, at, "values"));
     let (x, values) = x.zip(values)?;
     let z = raw.z.clone().unwrap_or_default();
-    let curves: Result<SplineValues, Wrong> = wrong::curves(x.clone(), z, values.clone());
-    let curves = curves.map_err(|wrong| faults.add(placed(wrong, at, "x"))).ok()?;
+    let curves: Result<SplineValues, Defect> = defect::checked(x.clone(), z, values.clone());
+    let curves = curves.map_err(|defect| faults.add(placed(defect, at, "x"))).ok()?;
     let rails = raw.rail.clone().zip(raw.load_rail.clone()).map(|(rail, load)| [rail, load]);
     Some(Draft { id: raw.id, name: raw.name.clone(), quantity, rails, ..Draft::of(curves) })
 }
@@ -195,15 +198,15 @@ fn quantity(word: &Option<String>, at: &Place<'_>, faults: &mut Faults) -> Optio
     word.as_ref().and_then(|word| faults.word(word, &at.key("quantity"), &words))
 }
 
-/// `x` is the key that x stands under.
-fn placed(wrong: Wrong, at: &Place<'_>, x: &str) -> Fault {
+/// A defect as a fault below `at`; `x` is the key of x.
+fn placed(defect: Defect, at: &Place<'_>, x: &str) -> Fault {
     let (values, xs, zs) = (at.key("values"), at.key(x), at.key(if x == "x" { "z" } else { x }));
     let fault = |place: &Place<'_>| Fault {
-        found: wrong.found.clone(),
-        hint: wrong.hint.map(str::to_owned),
-        ..Fault::new(place, wrong.expected.clone())
+        found: defect.found.clone(),
+        hint: defect.hint.map(str::to_owned),
+        ..Fault::new(place, defect.expected.clone())
     };
-    match wrong.part {
+    match defect.part {
         Part::Xs => fault(&xs),
         Part::X(k) => fault(&xs.index(k)),
         Part::Z(k) => fault(&zs.index(k)),
@@ -213,7 +216,8 @@ fn placed(wrong: Wrong, at: &Place<'_>, x: &str) -> Fault {
     }
 }
 
-fn ids(tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) {
+/// Checks that numbers of tables are positive and differ.
+fn check_ids(tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) {
     for (k, table) in tables.iter().enumerate() {
         let Some(id) = table.id else { continue };
         let place = list.index(k);
@@ -225,6 +229,7 @@ fn ids(tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) {
     }
 }
 
+/// The products in `factored`, whose terms must be curves over the same x.
 fn read_products(raw: &RawSet, tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) -> Vec<Product> {
     let mut out = Vec::new();
     for (k, raw) in raw.factored.iter().flatten().enumerate() {

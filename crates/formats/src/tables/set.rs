@@ -1,32 +1,50 @@
-//! Tables in no particular format.
+//! Tables of one structure, in no particular format.
 
-use adams::{Spline, SplineValues, Tables};
+use adams::SplineValues;
 
-use super::product::Product;
-use crate::block::GridBlock;
-use crate::grid::Grid;
-use crate::units::{Dimension, Units};
+use crate::grid::{Grid, GridBlock};
+use crate::units::Units;
 
 /// Number of the first SPLINE: the paper's vertical table is SPLINE/6, its lateral one SPLINE/7.
 pub(super) const FIRST: u32 = 6;
 
-/// Tables of one structure.
+/// Influence tables of one structure.
 ///
-/// In the plain form each table is G itself over load and deflection. In the factored form each is one curve
-/// along a rail, and `products` say how G is made of them.
+/// In the plain form each table is G(x, z) itself, the deflection at z per unit load at x. In the factored form each
+/// table is one curve along a rail, and `products` say of which products of curves G is the sum.
+///
+/// ```
+/// use formats::tables::{Format, expand, factor, read, write};
+/// use formats::units::{Force, Length, Units};
+///
+/// // deflections in ft/lbf: a row for each z, a column for each x
+/// let csv = ",0,20,40,60\n0,4,3,2,1\n20,3,4,3,2\n40,2,3,4,3\n60,1,2,3,4\n";
+/// let units = Units { length: Length::Foot, force: Force::Pound };
+/// let set = read("north_vertical.csv", csv.as_bytes(), Some(units)).expect("one table");
+/// assert_eq!((set.tables[0].id, set.tables[0].name.as_str()), (6, "north_vertical"));
+/// assert_eq!(set.tables[0].curves.y()[0], [4.0, 3.0, 2.0, 1.0]);
+///
+/// // the SPLINE statements read back as the same tables, and so does the factored form but for rounding
+/// let adm = write(&set, Format::Adams).expect("tables of different numbers");
+/// assert_eq!(read("north.adm", &adm, None).expect("our own file").tables[0].curves, set.tables[0].curves);
+/// let factored = factor(&set, splines::Rank::Full).expect("a positive definite table").set;
+/// assert_eq!(factored.tables.len(), 4);
+/// assert!((expand(&factored).tables[0].curves.y()[0][1] - 3.0).abs() < 1e-12);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableSet {
     /// Name of the structure.
     pub name: String,
-    /// Units of all numbers: stations in length, values in length per force, curves in its square root.
+    /// Units of all numbers: stations in length, values in length per force, curves of the factored form in its square
+    /// root.
     pub units: Units,
-    /// In the order of the file.
+    /// The tables, in the order of the file.
     pub tables: Vec<Table>,
-    /// How G is made of one-curve tables; empty in the plain form.
+    /// The products whose sums are G; empty in the plain form.
     pub products: Vec<Product>,
 }
 
-/// One table: what a SPLINE holds.
+/// One table: the content of a SPLINE statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     /// Number of the SPLINE.
@@ -37,7 +55,7 @@ pub struct Table {
     pub quantity: Option<GridBlock>,
     /// Rail of the deflection and rail of the load, where they are known.
     pub rails: Option<[String; 2]>,
-    /// x: where the load stands; z: where the deflection is taken; y: values, a row for each z.
+    /// x: place of the load; z: place of the deflection; y: values, a row for each z.
     pub curves: SplineValues,
 }
 
@@ -45,9 +63,10 @@ impl TableSet {
     /// The tables of a grid.
     ///
     /// SPLINE/6 holds the vertical grid, 7 the lateral, 8 the longitudinal one, 9 to 11 the couplings
-    /// vertical-lateral, vertical-longitudinal, lateral-longitudinal. Of several rails, the six of the first with
-    /// itself come first, then those of each other pair; a direct grid of two rails stands once. Rails of fewer
-    /// than four stations, the least that a SPLINE may have, take no loads.
+    /// vertical-lateral, vertical-longitudinal and lateral-longitudinal. Of several rails, the six tables of the first
+    /// rail with itself come first, then those of each other pair of rails; a direct block of two rails is written
+    /// once, as the other is its transpose. Rails with fewer than four stations, the fewest of a SPLINE, have no
+    /// tables.
     #[must_use]
     pub fn of_grid(grid: &Grid) -> TableSet {
         let mut tables = Vec::new();
@@ -59,6 +78,7 @@ impl TableSet {
             for (c, column) in rails.iter().enumerate() {
                 for (index, quantity) in GridBlock::ALL.into_iter().enumerate() {
                     let direct = quantity.direct() == [quantity; 2];
+                    // G_rc of a direct block is the transpose of G_cr
                     let Some(block) = grid.block(quantity).filter(|_| !direct || r <= c) else { continue };
                     let (n, m) = (row.stations.len(), column.stations.len());
                     let values = block.view((top, left), (n, m));
@@ -74,7 +94,7 @@ impl TableSet {
                     };
                     tables.push(Table {
                         id: FIRST.saturating_add(u32::try_from(6 * pair + index).unwrap_or(u32::MAX)),
-                        name: plain(&name),
+                        name: adams_name(&name),
                         quantity: Some(quantity),
                         rails: Some([row.name.clone(), column.name.clone()]),
                         curves,
@@ -93,105 +113,56 @@ impl TableSet {
     pub fn find(&self, id: u32) -> Option<&Table> {
         self.tables.iter().find(|table| table.id == id)
     }
-
-    /// As SPLINE statements: every one extrapolates linearly.
-    pub(super) fn adams(&self) -> Tables {
-        let unit = self.units.label(Dimension::FLEXIBILITY);
-        let spline = |table: &Table| Spline {
-            id: table.id,
-            name: Some(plain(&table.name)),
-            units: Some("no_units".to_owned()),
-            linear_extrapolate: true,
-            curves: table.curves.clone(),
-        };
-        Tables {
-            title: Some(format!("{}{TITLE}{unit}", self.name)),
-            units: Some(self.units.to_adams()),
-            splines: self.tables.iter().map(spline).collect(),
-        }
-    }
-
-    /// Of SPLINE statements.
-    pub(super) fn drafts(splines: Vec<Spline>) -> Vec<Draft> {
-        let draft = |spline: Spline| Draft {
-            id: Some(spline.id),
-            name: Some(spline.name.unwrap_or_else(|| format!("SPLINE_{}", spline.id))),
-            linear: Some(spline.linear_extrapolate),
-            ..Draft::of(spline.curves)
-        };
-        splines.into_iter().map(draft).collect()
-    }
-
-    /// Tables as a file has them, with numbers, names and quantities where it has none, and the products that
-    /// its remarks tell of.
-    pub(super) fn assemble(name: String, units: Units, drafts: Vec<Draft>, remarks: &str) -> TableSet {
-        let mut used: Vec<u32> = drafts.iter().filter_map(|draft| draft.id).collect();
-        let mut tables = Vec::new();
-        for (k, draft) in drafts.into_iter().enumerate() {
-            let title =
-                draft.name.unwrap_or_else(|| if k == 0 { name.clone() } else { format!("table {}", k + 1) });
-            let quantity =
-                draft.quantity.or_else(|| if draft.curves.z().is_empty() { None } else { quantity(&title) });
-            let id = draft.id.unwrap_or_else(|| free(&mut used, quantity));
-            tables.push(Table { id, name: title, quantity, rails: draft.rails, curves: draft.curves });
-        }
-        let known =
-            |id: u32| tables.iter().any(|table: &Table| table.id == id && table.curves.z().is_empty());
-        let mut products = Product::read(remarks);
-        products.retain(|product| product.terms.iter().flatten().all(|&id| known(id)));
-        TableSet { name, units, tables, products }
-    }
 }
 
-/// A table of a file that need not say all about it.
-pub(super) struct Draft {
-    pub id: Option<u32>,
-    pub name: Option<String>,
+/// G(x, z) as a sum of products of curves, G(x, z) = sum over k of a_k(x) b_k(z), with the load at x and the deflection
+/// at z.
+///
+/// Each curve is read as ADAMS' CUBSPL does, by the natural cubic spline.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Product {
+    /// Name of the table in the plain form.
+    pub name: String,
+    /// Which deflection it relates to which load, where that is known.
     pub quantity: Option<GridBlock>,
+    /// Rail of the deflection and rail of the load, where they are known.
     pub rails: Option<[String; 2]>,
-    /// Whether it goes on with a line beyond its ends.
-    pub linear: Option<bool>,
-    pub curves: SplineValues,
+    /// For each term the numbers of its two curves: the one over x, the one over z.
+    pub terms: Vec<[u32; 2]>,
 }
 
-impl Draft {
-    /// Of which nothing else is known.
-    pub fn of(curves: SplineValues) -> Draft {
-        Draft { id: None, name: None, quantity: None, rails: None, linear: None, curves }
+impl Product {
+    /// The ADAMS expression, for a comment: `name(x,z) = CUBSPL(x,0,101)*CUBSPL(z,0,101) + ...`.
+    #[must_use]
+    pub fn expression(&self) -> String {
+        let term = |[x, z]: &[u32; 2]| format!("CUBSPL(x,0,{x})*CUBSPL(z,0,{z})");
+        let sum: Vec<String> = self.terms.iter().map(term).collect();
+        let sum = if sum.is_empty() { "0".to_owned() } else { sum.join(" + ") };
+        format!("{}(x,z) = {sum}", adams_name(&self.name))
     }
 }
 
-/// A number for a table that has none: its quantity's own, or the next after all of these.
-pub(super) fn free(used: &mut Vec<u32>, quantity: Option<GridBlock>) -> u32 {
-    let own = quantity.and_then(|quantity| GridBlock::ALL.into_iter().position(|one| one == quantity));
-    let own = own.and_then(|index| u32::try_from(index).ok()).map(|index| FIRST + index);
-    let beyond = FIRST + 6;
-    let next = used.iter().max().map_or(beyond, |last| last.saturating_add(1).max(beyond));
-    let id = own.filter(|id| !used.contains(id)).unwrap_or(next);
-    used.push(id);
-    id
-}
-
-/// What the end of a name says, such as `north_vertical`.
-pub(super) fn quantity(name: &str) -> Option<GridBlock> {
-    let ends = |quantity: &&GridBlock| {
-        let before = name.strip_suffix(quantity.name());
-        before.is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()))
+/// The tables whose deflections and loads are both of these directions (direct blocks): the direct tables and the
+/// couplings between them. In the factored form these are the products, and the curves of their terms.
+#[must_use]
+pub fn only(set: &TableSet, directions: &[GridBlock]) -> TableSet {
+    let wanted = |quantity: Option<GridBlock>| {
+        quantity.is_some_and(|quantity| quantity.direct().iter().all(|direct| directions.contains(direct)))
     };
-    GridBlock::ALL.iter().filter(ends).max_by_key(|quantity| quantity.name().len()).copied()
+    let mut out = set.clone();
+    out.products.retain(|product| wanted(product.quantity));
+    let terms: Vec<u32> =
+        out.products.iter().flat_map(|product| product.terms.iter().flatten().copied()).collect();
+    out.tables.retain(|table| {
+        let is_curve = table.curves.z().is_empty() && !set.products.is_empty();
+        if is_curve { terms.contains(&table.id) } else { wanted(table.quantity) }
+    });
+    out
 }
 
-const TITLE: &str = ": influence coefficients, ";
-
-/// The structure's name in the title of a data set.
-pub(super) fn name_of_title(title: &str) -> &str {
-    let own = title.split_once(TITLE).map(|(name, _)| name);
-    own.or_else(|| title.strip_prefix("Adams View model name: ")).unwrap_or(title).trim()
-}
-
-/// A name that a data set and Adams View can hold.
-pub(super) fn plain(name: &str) -> String {
-    let plain: String =
+/// A name as data sets and Adams View can hold it: ASCII letters, digits and underscores, 56 at most.
+pub(super) fn adams_name(name: &str) -> String {
+    let name: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).take(56).collect();
-    if plain.is_empty() { "_".to_owned() } else { plain }
+    if name.is_empty() { "_".to_owned() } else { name }
 }

@@ -1,4 +1,4 @@
-//! Text to rows of cells, each with its place.
+//! The text of a file as rows of cells, each with its place.
 
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
@@ -7,13 +7,13 @@ use crate::source::Source;
 pub(super) struct Sheet<'s> {
     pub name: &'s str,
     pub rows: Vec<Vec<Cell>>,
-    /// What stands in comments.
+    /// Text of the comment lines.
     pub comments: String,
-    /// A comma stands for the decimal point.
+    /// Whether a comma may be the decimal mark.
     decimal_comma: bool,
 }
 
-/// A cell with its line and column, from 1.
+/// A cell with its line and column, counted from 1.
 #[derive(Clone, Debug)]
 pub(super) struct Cell {
     pub line: usize,
@@ -22,8 +22,8 @@ pub(super) struct Cell {
 }
 
 impl<'s> Sheet<'s> {
-    /// Splits at semicolons, tabs, commas or blanks: the first of these that the first row has. A row that
-    /// begins with `#`, `%` or `!` is a comment. Cells may stand in double quotes.
+    /// Splits a file into rows and cells. The separator is the first of semicolon, tab and comma that the first row
+    /// contains, else blanks. A row that begins with `#`, `%` or `!` is a comment. Cells may be in double quotes.
     pub fn of(source: &'s Source) -> Result<Sheet<'s>, Box<Diagnostic>> {
         let text = source.text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let mut separator = None;
@@ -53,7 +53,7 @@ impl<'s> Sheet<'s> {
         Ok(sheet)
     }
 
-    /// What is wrong with a cell.
+    /// A diagnostic at a cell.
     pub fn fault(&self, cell: &Cell, expected: impl Into<String>) -> Diagnostic {
         Diagnostic {
             line: Some(cell.line),
@@ -72,6 +72,7 @@ impl<'s> Sheet<'s> {
         })
     }
 
+    /// The finite number of a cell; `None` where it has none.
     pub fn maybe_number(&self, cell: &Cell) -> Option<f64> {
         let comma = self.decimal_comma && cell.text.matches(',').count() == 1 && !cell.text.contains('.');
         if comma {
@@ -82,7 +83,7 @@ impl<'s> Sheet<'s> {
     }
 }
 
-/// The cells of a line; the first one that is not closed where a quotation mark is open.
+/// The cells of a line; the error is the first cell whose quotation mark is not closed.
 fn cells(line: &str, separator: Option<char>, number: usize) -> Result<Vec<Cell>, Cell> {
     let mut out = Vec::new();
     let mut chars = line.chars().zip(1..).peekable();

@@ -3,8 +3,9 @@
 use super::cells::{Cell, Sheet};
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
+use crate::tables::defect::disorder;
 
-/// Rows of a file under the names of its columns, if the first row has names.
+/// Rows of a file, with the names of its columns where the first row has names.
 pub struct Columns<'s> {
     sheet: Sheet<'s>,
     names: Vec<String>,
@@ -12,7 +13,8 @@ pub struct Columns<'s> {
 }
 
 impl<'s> Columns<'s> {
-    /// Reads a file: cells at semicolons, tabs, commas or blanks; rows that begin with `#`, `%` or `!` are comments.
+    /// Reads a file whose cells are separated by semicolons, tabs, commas or blanks. Rows that begin with `#`, `%` or
+    /// `!` are comments.
     ///
     /// # Errors
     /// A file without rows, or with a quotation mark that is not closed.
@@ -32,27 +34,29 @@ impl<'s> Columns<'s> {
     /// The numbers of two columns, by their indices.
     ///
     /// # Errors
-    /// Every cell that is missing or no finite number; no row below the header; an x that falls, or the third at one x.
+    /// Every cell that is missing or not a finite number; no row below the header; an x below the one before it, or a
+    /// third row at one x.
     pub fn rows(&self, columns: [usize; 2]) -> Result<Vec<[f64; 2]>, Vec<Diagnostic>> {
-        let (mut rows, mut wrong) = (Vec::new(), Vec::new());
+        let (mut rows, mut faults) = (Vec::new(), Vec::new());
         for row in &self.sheet.rows[self.first..] {
             match columns.map(|column| self.number(row, column)) {
                 [Ok(x), Ok(value)] => {
                     rows.push([x, value]);
-                    if let Some(why) = super::super::disorder(&rows) {
-                        wrong.push(self.sheet.fault(&row[columns[0]], why));
+                    if let Some(why) = disorder(&rows) {
+                        faults.push(self.sheet.fault(&row[columns[0]], why));
                         rows.pop();
                     }
                 }
-                both => wrong.extend(both.into_iter().filter_map(Result::err).map(|error| *error)),
+                both => faults.extend(both.into_iter().filter_map(Result::err).map(|error| *error)),
             }
         }
         if self.sheet.rows.len() == self.first {
-            wrong.push(Diagnostic::of_file(self.sheet.name, "the file has no rows below its header"));
+            faults.push(Diagnostic::of_file(self.sheet.name, "the file has no rows below its header"));
         }
-        if wrong.is_empty() { Ok(rows) } else { Err(wrong) }
+        if faults.is_empty() { Ok(rows) } else { Err(faults) }
     }
 
+    /// The number of a row in a column.
     fn number(&self, row: &[Cell], column: usize) -> Result<f64, Box<Diagnostic>> {
         match row.get(column) {
             Some(cell) => self.sheet.number(cell),
@@ -90,9 +94,9 @@ mod tests {
 
     #[test]
     fn faults_stand_at_their_cells() {
-        let told = rows("x,y\n0,1\n0,two\n-1,2\n4\n", [0, 1]).expect_err("three faults");
+        let faults = rows("x,y\n0,1\n0,two\n-1,2\n4\n", [0, 1]).expect_err("three faults");
         assert_eq!(
-            told,
+            faults,
             "t.csv:3:3: must be a finite number, got \"two\"\nt.csv:4:1: x must not fall: the row before is at 0\nt.csv:5:1: the row must have 2 cells at least, got 1"
         );
         assert_eq!(rows("x,y\n", [0, 1]), Err("t.csv: the file has no rows below its header".to_owned()));

@@ -1,30 +1,32 @@
-//! One value a line, under a header of columns.
+//! Tables with one value per line, under a header that names the columns.
 
 use super::Sheet;
 use super::cells::Cell;
 use crate::diagnostic::Diagnostic;
-use crate::tables::set::Draft;
-use crate::tables::wrong;
+use crate::tables::defect;
+use crate::tables::parsed::Draft;
 use crate::units::{Force, Length, Units};
 
-/// Which column is which.
+/// Indices of the columns.
 pub(super) struct Header {
     id: Option<usize>,
     name: Option<usize>,
     z: Option<usize>,
     x: usize,
     value: usize,
-    /// Units in the brackets of the columns.
+    /// Units in brackets after the names of the columns.
     pub units: Option<Units>,
 }
 
+/// Names of the columns.
 const KNOWN: [&str; 5] = ["id", "name", "z", "x", "value"];
 
 impl Header {
-    /// The first row, where it has a column `value`.
+    /// The header in the first row; `None` where it has no column `value`.
     pub fn of(sheet: &Sheet<'_>) -> Result<Option<Header>, Vec<Diagnostic>> {
-        let head: Vec<(String, Option<&str>)> = sheet.rows[0].iter().map(|cell| word(&cell.text)).collect();
-        let find = |name: &str| head.iter().position(|(word, _)| word == name);
+        let head: Vec<(String, Option<&str>)> =
+            sheet.rows[0].iter().map(|cell| name_and_unit(&cell.text)).collect();
+        let find = |name: &str| head.iter().position(|(known, _)| known == name);
         let Some(value) = find("value") else { return Ok(None) };
         for (k, (name, _)) in head.iter().enumerate() {
             let expected = if !KNOWN.contains(&name.as_str()) {
@@ -60,8 +62,8 @@ impl Header {
     }
 }
 
-/// The column's name in lower case, and what stands in brackets after it.
-fn word(text: &str) -> (String, Option<&str>) {
+/// The name of a column in lower case, and the unit in brackets after it.
+fn name_and_unit(text: &str) -> (String, Option<&str>) {
     match text.split_once('[') {
         Some((name, unit)) => {
             (name.trim().to_lowercase(), Some(unit.trim_end().trim_end_matches(']').trim()))
@@ -70,7 +72,7 @@ fn word(text: &str) -> (String, Option<&str>) {
     }
 }
 
-/// A row's numbers and its cells.
+/// The numbers and the cells of a row.
 struct Entry<'s> {
     z: Option<f64>,
     x: f64,
@@ -78,13 +80,14 @@ struct Entry<'s> {
     row: &'s [Cell],
 }
 
+/// The rows of one table.
 struct Group<'s> {
     id: Option<u32>,
     name: Option<String>,
     entries: Vec<Entry<'s>>,
 }
 
-/// The tables: rows of the same id and name, in any order.
+/// Reads the tables: a table is the rows of one id and name, in any order.
 pub(super) fn read(sheet: &Sheet<'_>, header: &Header) -> Result<Vec<Draft>, Vec<Diagnostic>> {
     let mut groups: Vec<Group<'_>> = Vec::new();
     for row in &sheet.rows[1..] {
@@ -106,6 +109,7 @@ pub(super) fn read(sheet: &Sheet<'_>, header: &Header) -> Result<Vec<Draft>, Vec
     groups.into_iter().map(|group| draft(sheet, header, group).map_err(|fault| vec![*fault])).collect()
 }
 
+/// Number and name of the table of a row, and the row.
 type Named<'s> = (Option<u32>, Option<String>, Entry<'s>);
 
 fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Named<'s>, Box<Diagnostic>> {
@@ -132,15 +136,16 @@ fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Name
     Ok((id, name, Entry { z, x: number(header.x)?, value: number(header.value)?, row }))
 }
 
+/// The table of a group: its rows sorted by z, then x. Every z must have values at the same x.
 fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Draft, Box<Diagnostic>> {
     let cell = |entry: &Entry<'_>, column: usize| entry.row.get(column).unwrap_or(&entry.row[0]).clone();
-    let lone = group.entries.iter().all(|entry| entry.z.is_none());
-    if let Some(entry) = group.entries.iter().find(|entry| !lone && entry.z.is_none()) {
+    let one_curve = group.entries.iter().all(|entry| entry.z.is_none());
+    if let Some(entry) = group.entries.iter().find(|entry| !one_curve && entry.z.is_none()) {
         let z = header.z.unwrap_or(header.x);
         return Err(sheet.fault(&cell(entry, z), "must have a z, as the other rows of the table").into());
     }
     let z_of = |entry: &Entry<'_>| entry.z.unwrap_or(0.0);
-    // -0 and 0 are one place
+    // -0 and 0 are the same place: partial_cmp calls them equal
     let order = |a: &Entry<'_>, b: &Entry<'_>| {
         let z = z_of(a).partial_cmp(&z_of(b)).unwrap_or(std::cmp::Ordering::Equal);
         z.then(a.x.partial_cmp(&b.x).unwrap_or(std::cmp::Ordering::Equal))
@@ -163,13 +168,13 @@ fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Dra
             return Err(fault.into());
         }
     }
-    let z = if lone { Vec::new() } else { rows.iter().map(|row| z_of(&row[0])).collect() };
+    let z = if one_curve { Vec::new() } else { rows.iter().map(|row| z_of(&row[0])).collect() };
     let values = rows.iter().map(|row| row.iter().map(|entry| entry.value).collect()).collect();
     let first = cell(&rows[0][0], header.x);
-    let curves = wrong::curves(x, z, values).map_err(|wrong| Diagnostic {
-        found: wrong.found,
-        hint: wrong.hint.map(str::to_owned),
-        ..sheet.fault(&first, wrong.expected)
+    let curves = defect::checked(x, z, values).map_err(|defect| Diagnostic {
+        found: defect.found,
+        hint: defect.hint.map(str::to_owned),
+        ..sheet.fault(&first, defect.expected)
     })?;
     let name = group.name.filter(|name| !name.is_empty());
     Ok(Draft { id: group.id, name, ..Draft::of(curves) })

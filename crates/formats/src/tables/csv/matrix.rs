@@ -1,12 +1,13 @@
-//! A matrix: x in the first row, z in the first column.
+//! A table as a matrix: x in the first row, z in the first column.
 
 use super::Sheet;
 use super::cells::Cell;
 use crate::diagnostic::Diagnostic;
-use crate::tables::set::Draft;
-use crate::tables::wrong::{self, Part};
+use crate::tables::defect::{self, Part};
+use crate::tables::parsed::Draft;
 
-/// The one table. The corner is empty or text, or left out; or 0, where x and z are the same stations.
+/// Reads the one table of the file. The corner is empty, text or left out; it may be 0 where x and z are the same
+/// stations.
 pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
     let (head, body) = (&sheet.rows[0], &sheet.rows[1..]);
     let one = |fault: Box<Diagnostic>| vec![*fault];
@@ -25,22 +26,22 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
         z.push(sheet.number(&row[0]).map_err(one)?);
         values.push(numbers(&row[1..]).map_err(one)?);
     }
-    // a number in the corner may be the first of a matrix without x and z
+    // any other number in the corner may be the first value of a matrix without x and z
     let corner = if cornerless { None } else { sheet.maybe_number(&head[0]) };
     if corner.is_some_and(|corner| corner != 0.0 || x != z) {
         let mut fault = sheet.fault(&head[0], "the corner must be empty or text");
         fault.found = Some(head[0].text.clone());
         return Err(vec![fault.hint(HINT)]);
     }
-    let curves = wrong::curves(x, z, values).map_err(|wrong| {
-        let cell = match wrong.part {
+    let curves = defect::checked(x, z, values).map_err(|defect| {
+        let cell = match defect.part {
             Part::X(k) => heads.get(k),
             Part::Z(i) | Part::Row(i) => body.get(i).map(|row| &row[0]),
             Part::Value(i, j) => body.get(i).and_then(|row| row.get(j + 1)),
             Part::Xs | Part::Values => None,
         };
-        let fault = sheet.fault(cell.unwrap_or(&head[0]), wrong.expected);
-        vec![Diagnostic { found: wrong.found, hint: wrong.hint.map(str::to_owned), ..fault }]
+        let fault = sheet.fault(cell.unwrap_or(&head[0]), defect.expected);
+        vec![Diagnostic { found: defect.found, hint: defect.hint.map(str::to_owned), ..fault }]
     })?;
     Ok(Draft::of(curves))
 }

@@ -1,4 +1,4 @@
-//! Tables as rows of values: one value a line, or a matrix with x above and z to the left.
+//! Tables as rows of cells: one value per line, or a matrix with x above and z to the left.
 
 mod cells;
 mod columns;
@@ -9,16 +9,17 @@ use ::csv::WriterBuilder;
 use serde_json::json;
 
 use super::adm::remarks;
-use super::format::Parsed;
+use super::parsed::Parsed;
 use super::set::TableSet;
 use crate::diagnostic::Diagnostic;
 use crate::source::Source;
+use crate::spec::stem;
 use crate::units::{Dimension, Units};
 use cells::Sheet;
 
 pub use columns::Columns;
 
-/// The text: one value a line, under a header that says the units; the products in comments above it.
+/// The text: one value per line under a header with the units, and the products in comments above it.
 pub(super) fn write(set: &TableSet) -> String {
     let mut writer = WriterBuilder::new().from_writer(Vec::new());
     let length = set.units.label(Dimension::LENGTH);
@@ -48,7 +49,7 @@ pub(super) fn write(set: &TableSet) -> String {
     comments + &String::from_utf8_lossy(&body)
 }
 
-/// Reads either layout: a header that has a column `value` is of the first, any other of a matrix.
+/// Reads either layout: where the header has a column `value` it is one value per line, else a matrix.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let sheet = Sheet::of(source).map_err(|error| vec![*error])?;
     let (drafts, given) = match long::Header::of(&sheet)? {
@@ -56,11 +57,11 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         None => (vec![matrix::read(&sheet)?], None),
     };
     Ok(Parsed {
-        name: crate::spec::stem(&source.name),
+        name: stem(&source.name),
         units: given.or_else(|| units_in(&sheet.comments)),
-        lacks: ["says no units", "such as a comment line: # units: ft, lbf, s"],
+        missing_units: ["says no units", "such as a comment line: # units: ft, lbf, s"],
         drafts,
-        remarks: sheet.comments,
+        comments: sheet.comments,
         products: Vec::new(),
     })
 }

@@ -1,4 +1,4 @@
-//! Arrays in a zip archive.
+//! Arrays in a zip archive, as NumPy writes them.
 
 use std::io::{Cursor, Read, Write};
 
@@ -9,10 +9,10 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 use super::array::{Array, Refusal};
 use crate::diagnostic::Diagnostic;
 
-/// Most bytes of all arrays together that are read.
-const LARGEST: u64 = 1 << 30;
+/// Most bytes that are read of all arrays together.
+const MAX_BYTES: u64 = 1 << 30;
 
-/// The arrays of an archive, by name without `.npy`, in its order.
+/// The arrays of an archive in its order, by name without `.npy`.
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box<Diagnostic>> {
     let refuse = |error: ZipError| {
         let mut fault = Diagnostic::of_file(file, "must be a zip archive of arrays");
@@ -20,7 +20,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
         fault.hint("numpy.savez and numpy.savez_compressed write one")
     };
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(refuse)?;
-    let mut left = LARGEST;
+    let mut left = MAX_BYTES;
     let mut out: Vec<(String, Array)> = Vec::new();
     for index in 0..archive.len() {
         let mut member = archive.by_index(index).map_err(refuse)?;
@@ -39,7 +39,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
         })?;
         match left.checked_sub(size as u64) {
             Some(rest) => left = rest,
-            None => return Err(at(format!("the arrays have more than {LARGEST} bytes")).into()),
+            None => return Err(at(format!("the arrays have more than {MAX_BYTES} bytes")).into()),
         }
         let array = Array::read(&data).map_err(|refusal| match refusal {
             Refusal::NoArray => at("must be an .npy array".to_owned()).hint("numpy.savez writes them"),
@@ -62,7 +62,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
     Ok(out)
 }
 
-/// The bytes of an archive, not compressed, all of one date: equal arrays give equal bytes.
+/// The bytes of an archive. It is not compressed and all its dates are the same, so that equal arrays give equal bytes.
 pub(super) fn write(arrays: &[(String, Vec<u8>)]) -> Result<Vec<u8>, ZipError> {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()

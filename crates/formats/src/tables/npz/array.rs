@@ -9,37 +9,36 @@ pub(super) struct Array {
     pub data: Data,
 }
 
-/// What it holds.
+/// The items of an array.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Data {
     Numbers(Vec<f64>),
     Words(Vec<String>),
 }
 
-/// Why bytes are no array that can be read.
+/// Why bytes cannot be read as an array.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Refusal {
+    /// They are not an array.
     NoArray,
     /// A type that is neither real numbers nor words.
     Kind(String),
     /// Data of another size than the shape says.
-    Size {
-        expected: usize,
-        found: usize,
-    },
+    Size { expected: usize, found: usize },
 }
 
 impl Array {
-    /// Words of one dimension.
+    /// An array of words of one dimension.
     pub fn words(list: &[String]) -> Array {
         Array { shape: vec![list.len()], data: Data::Words(list.to_vec()) }
     }
 
-    /// Numbers of one dimension.
+    /// An array of numbers of one dimension.
     pub fn line(list: &[f64]) -> Array {
         Array { shape: vec![list.len()], data: Data::Numbers(list.to_vec()) }
     }
 
+    /// The array of the bytes of an `.npy` file.
     pub fn read(bytes: &[u8]) -> Result<Array, Refusal> {
         let (header, data) = header::split(bytes).ok_or(Refusal::NoArray)?;
         let kind = Kind::of(&header.descr).ok_or_else(|| Refusal::Kind(header.descr.clone()))?;
@@ -58,6 +57,7 @@ impl Array {
         Ok(Array { data, shape: header.shape.clone() }.c_order(&header))
     }
 
+    /// The same array in C order, of one whose items are in the order of its header.
     fn c_order(self, header: &Header) -> Array {
         if !header.fortran || self.shape.len() < 2 {
             return self;
@@ -70,7 +70,8 @@ impl Array {
         Array { shape, data }
     }
 
-    /// The bytes of an `.npy` file: numbers as `whole` 64-bit integers or doubles, words in four bytes a letter.
+    /// The bytes of an `.npy` file: numbers as 64-bit integers where `whole`, else as doubles; words in four bytes per
+    /// character.
     pub fn bytes(&self, whole: bool) -> Vec<u8> {
         match &self.data {
             Data::Numbers(list) if whole => {
@@ -96,7 +97,7 @@ impl Array {
     }
 }
 
-/// Fortran order to C order.
+/// Items in Fortran order (first index fastest) in C order (last index fastest).
 fn reordered<T: Clone>(shape: &[usize], list: &[T]) -> Vec<T> {
     let mut strides = Vec::with_capacity(shape.len());
     let mut step = 1;
@@ -104,6 +105,7 @@ fn reordered<T: Clone>(shape: &[usize], list: &[T]) -> Vec<T> {
         strides.push(step);
         step *= size;
     }
+    // index in Fortran order of the k-th item in C order
     let place = |mut k: usize| {
         let mut at = 0;
         for (size, stride) in shape.iter().zip(&strides).rev() {
@@ -115,7 +117,7 @@ fn reordered<T: Clone>(shape: &[usize], list: &[T]) -> Vec<T> {
     (0..list.len()).map(|k| list[place(k)].clone()).collect()
 }
 
-/// Type of the items.
+/// Type of the items, as `descr` of the header says it.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Float {
@@ -130,7 +132,7 @@ enum Kind {
         size: usize,
         big: bool,
     },
-    /// `wide`: four bytes a letter.
+    /// `wide`: four bytes per character, else one.
     Words {
         count: usize,
         big: bool,
@@ -140,15 +142,15 @@ enum Kind {
 
 impl Kind {
     fn of(descr: &str) -> Option<Kind> {
-        let mut letters = descr.chars();
-        let order = letters.next()?;
+        let mut characters = descr.chars();
+        let order = characters.next()?;
         let big = match order {
             '<' | '|' | '=' => false,
             '>' => true,
             _ => return None,
         };
-        let kind = letters.next()?;
-        let size: usize = letters.as_str().parse().ok()?;
+        let kind = characters.next()?;
+        let size: usize = characters.as_str().parse().ok()?;
         match (kind, size) {
             ('f', 4 | 8) => Some(Kind::Float { size, big }),
             ('i', 1 | 2 | 4 | 8) => Some(Kind::Signed { size, big }),
@@ -159,6 +161,7 @@ impl Kind {
         }
     }
 
+    /// Bytes of an item.
     fn size(self) -> usize {
         match self {
             Kind::Float { size, .. } | Kind::Signed { size, .. } | Kind::Unsigned { size, .. } => size,

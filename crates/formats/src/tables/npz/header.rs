@@ -1,15 +1,16 @@
 //! The header of an `.npy` array: a Python dictionary.
 
-/// Shape and type of an array.
+/// Type, order and shape of an array.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Header {
-    /// Such as `<f8`.
+    /// Type of the items, such as `<f8`.
     pub descr: String,
+    /// Whether the items are in Fortran order.
     pub fortran: bool,
     pub shape: Vec<usize>,
 }
 
-/// Header and data of the bytes of an array; `None` where they are none.
+/// Header and data of the bytes of an array; `None` where they are not an array.
 ///
 /// # Source
 /// NumPy, `numpy.lib.format`, versions 1 to 3.
@@ -28,7 +29,7 @@ pub(super) fn split(bytes: &[u8]) -> Option<(Header, &[u8])> {
     Some((parse(std::str::from_utf8(text).ok()?)?, data))
 }
 
-/// `{'descr': '<f8', 'fortran_order': False, 'shape': (7, 7), }`
+/// Reads a dictionary such as `{'descr': '<f8', 'fortran_order': False, 'shape': (7, 7), }`.
 fn parse(text: &str) -> Option<Header> {
     let mut rest = text.trim().strip_prefix('{')?.strip_suffix('}')?.trim();
     let (mut descr, mut fortran, mut shape) = (None, None, None);
@@ -61,12 +62,14 @@ fn parse(text: &str) -> Option<Header> {
     Some(Header { descr: descr?, fortran: fortran?, shape: shape? })
 }
 
+/// A text in quotation marks at the beginning, and the rest after it.
 fn quoted(text: &str) -> Option<(&str, &str)> {
     let mark = text.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
     text[1..].split_once(mark)
 }
 
-/// Magic, version 1.0 and dictionary of a C-order array, padded so that data begin at a multiple of 64.
+/// Magic string, version 1.0 and dictionary of an array in C order, padded so that the data begin at a multiple of 64
+/// bytes.
 pub(super) fn bytes(descr: &str, shape: &[usize]) -> Vec<u8> {
     let sizes: Vec<String> = shape.iter().map(usize::to_string).collect();
     let comma = if sizes.len() == 1 { "," } else { "" };

@@ -1,9 +1,9 @@
-//! What tables and curves are called in an archive.
+//! Names of the arrays of tables and curves in an archive.
 
-use crate::block::GridBlock;
-use crate::tables::set::plain;
+use crate::grid::GridBlock;
+use crate::tables::set::adams_name;
 
-/// Names that say something else than a table.
+/// Names of arrays that are not tables.
 pub(super) const META: [&str; 14] = [
     "name",
     "units",
@@ -21,25 +21,25 @@ pub(super) const META: [&str; 14] = [
     "expressions",
 ];
 
-/// Keys under way: each stands once.
+/// Keys that are taken.
 #[derive(Default)]
 pub(super) struct Keys(Vec<String>);
 
 impl Keys {
-    /// A key like `wish` that is free, and reserves it.
-    pub fn take(&mut self, wish: &str) -> String {
-        let mut key = plain(wish);
+    /// Takes a free key: `preferred`, or else that with a number after it.
+    pub fn take(&mut self, preferred: &str) -> String {
+        let mut key = adams_name(preferred);
         let mut count = 1;
         while META.contains(&key.as_str()) || self.0.iter().any(|known| clash(known, &key)) {
             count += 1;
-            key = format!("{}_{count}", plain(wish));
+            key = format!("{}_{count}", adams_name(preferred));
         }
         self.0.push(key.clone());
         key
     }
 }
 
-/// Whether the arrays that belong to one key would be called like the other, or like its arrays.
+/// Whether an array that belongs to one key would have the name of the other key or of one of its arrays.
 fn clash(a: &str, b: &str) -> bool {
     let belongs = |a: &str, b: &str| {
         b.strip_prefix(a).is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
@@ -47,8 +47,9 @@ fn clash(a: &str, b: &str) -> bool {
     belongs(a, b) || belongs(b, a)
 }
 
-/// The quantity alone where there is one rail, with its rails where there are several; else the name.
-pub(super) fn wish(
+/// The preferred key of a table: its quantity where there is one rail, quantity and rails where there are several, its
+/// name where these are not known.
+pub(super) fn preferred(
     name: &str,
     quantity: Option<GridBlock>,
     rails: &Option<[String; 2]>,

@@ -1,16 +1,17 @@
 //! Tables as archives of numpy arrays.
 //!
-//! | array | what |
+//! | array | content |
 //! |---|---|
-//! | `name`, `units` | of the structure; three words |
+//! | `name`, `units` | name of the structure; words of the units of length, force and time |
 //! | `stations` | x and z of every plain table; where they differ, `K_x` and `K_z` of table K |
 //! | `tables`, `ids`, `names` | keys K of the plain tables, their numbers and names |
-//! | `quantity`, `rail`, `load_rail` | of the plain tables, where known |
-//! | K | a table: row z, column x |
-//! | `curves` | keys C of the one-curve tables; C is stations x curves |
+//! | `quantity`, `rail`, `load_rail` | those of the plain tables, where known |
+//! | K | a table: a row for each z, a column for each x |
+//! | `curves` | keys C of the tables of one curve |
+//! | C | curves: a row for each station, a column for each curve |
 //! | `C_x`, `C_ids`, `C_names` | stations, numbers and names of the curves in C |
-//! | `products`, `expressions` | keys P of the factored form, and as ADAMS would be told |
-//! | `P_terms` | numbers of the curves of each term: at x, at z |
+//! | `products`, `expressions` | keys P of the products of the factored form, and their ADAMS expressions |
+//! | `P_terms` | a row for each term: the numbers of its curve over x and its curve over z |
 
 mod archive;
 mod array;

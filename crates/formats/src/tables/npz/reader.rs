@@ -1,18 +1,18 @@
-//! Arrays to tables.
+//! Reading the tables of an archive of arrays.
 
 use super::archive;
 use super::array::Data;
 use super::keys::META;
 use super::pack::Pack;
 use crate::diagnostic::Diagnostic;
-use crate::tables::format::Parsed;
-use crate::tables::product::Product;
-use crate::tables::set::Draft;
-use crate::tables::wrong::{self, Part, Wrong};
+use crate::spec::stem;
+use crate::tables::defect::{self, Defect, Part};
+use crate::tables::parsed::{Draft, Parsed};
+use crate::tables::set::Product;
 use crate::units::Units;
 
-/// Reads an archive of ours, or of arrays as numpy users write them: every matrix is a table, called by its
-/// name; its stations are `K_x` and `K_z`, or `x` and `z`, or `stations` for both.
+/// Reads an archive of ours, or of arrays as users of NumPy write them: there every matrix is a table with the name of
+/// its array K, and its stations are `K_x` and `K_z`, or `x` and `z`, or `stations` for both.
 pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     let one = |fault: Box<Diagnostic>| vec![*fault];
     let arrays = archive::read(file, bytes).map_err(one)?;
@@ -44,17 +44,17 @@ pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Di
         }
     }
     Ok(Parsed {
-        name: name.unwrap_or_else(|| crate::spec::stem(file)),
+        name: name.unwrap_or_else(|| stem(file)),
         units: given,
-        lacks: ["says no units", "such as an array units=[\"ft\", \"lbf\", \"s\"]"],
+        missing_units: ["says no units", "such as an array units=[\"ft\", \"lbf\", \"s\"]"],
         products: pack.products(&drafts).map_err(one)?,
         drafts,
-        remarks: String::new(),
+        comments: String::new(),
     })
 }
 
 impl Pack<'_> {
-    /// The plain tables: those listed, or every matrix.
+    /// The tables over load and deflection: those that `tables` lists, or every matrix.
     fn tables(&self) -> Result<Vec<Draft>, Box<Diagnostic>> {
         let listed = self.words("tables")?;
         let ours = listed.is_some() || self.find("curves").is_some();
@@ -82,8 +82,8 @@ impl Pack<'_> {
             let (x_name, x) = self.stations(key, "x")?;
             let (z_name, z) =
                 if array.shape.len() == 1 { (String::new(), Vec::new()) } else { self.stations(key, "z")? };
-            let curves = wrong::curves(x, z, rows_of)
-                .map_err(|wrong| self.wrong(wrong, key, [&x_name, &z_name], array.shape.len() == 1))?;
+            let curves = defect::checked(x, z, rows_of)
+                .map_err(|defect| self.located(defect, key, [&x_name, &z_name], array.shape.len() == 1))?;
             out.push(Draft {
                 id: ids.as_ref().map(|list| list[k]),
                 name: Some(names.as_ref().map_or_else(|| key.clone(), |list| list[k].clone())),
@@ -95,7 +95,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    /// Names of the arrays that are tables in a file that does not list them.
+    /// Names of the arrays that are tables, in a file that does not list them.
     fn matrices(&self) -> Result<Vec<String>, Box<Diagnostic>> {
         let mut out = Vec::new();
         for (name, array) in &self.arrays {
@@ -115,8 +115,10 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    fn wrong(&self, wrong: Wrong, key: &str, [x, z]: [&str; 2], line: bool) -> Diagnostic {
-        let path = match wrong.part {
+    /// A defect of the table `key` as a diagnostic; `x` and `z` are the arrays of its stations, and `line` says whether
+    /// the table has one dimension.
+    fn located(&self, defect: Defect, key: &str, [x, z]: [&str; 2], line: bool) -> Diagnostic {
+        let path = match defect.part {
             Part::Xs => x.to_owned(),
             Part::X(k) => format!("{x}[{k}]"),
             Part::Z(k) => format!("{z}[{k}]"),
@@ -126,11 +128,11 @@ impl Pack<'_> {
             Part::Value(_, j) if line => format!("{key}[{j}]"),
             Part::Value(i, j) => format!("{key}[{i}][{j}]"),
         };
-        let fault = self.fault(&path, wrong.expected);
-        Diagnostic { found: wrong.found, hint: wrong.hint.map(str::to_owned), ..fault }
+        let fault = self.fault(&path, defect.expected);
+        Diagnostic { found: defect.found, hint: defect.hint.map(str::to_owned), ..fault }
     }
 
-    /// One-curve tables: columns of the arrays that `curves` lists.
+    /// The tables of one curve: columns of the arrays that `curves` lists.
     fn curves(&self) -> Result<Vec<Draft>, Box<Diagnostic>> {
         let Some(keys) = self.words("curves")? else { return Ok(Vec::new()) };
         let relations = self.relations("curves_", keys.len())?;
@@ -151,13 +153,13 @@ impl Pack<'_> {
             let (x_name, x) = self.stations(key, "x")?;
             for c in 0..*count {
                 let values: Vec<f64> = list.iter().skip(c).step_by(*count).copied().collect();
-                let curves = wrong::curves(x.clone(), Vec::new(), vec![values]).map_err(|wrong| {
+                let curves = defect::checked(x.clone(), Vec::new(), vec![values]).map_err(|defect| {
                     let column = |part: Part| match part {
                         Part::Value(_, j) => Part::Value(j, c),
                         Part::Row(_) => Part::Values,
                         other => other,
                     };
-                    self.wrong(Wrong { part: column(wrong.part), ..wrong }, key, [&x_name, ""], false)
+                    self.located(Defect { part: column(defect.part), ..defect }, key, [&x_name, ""], false)
                 })?;
                 out.push(Draft {
                     id: ids.as_ref().map(|list| list[c]),
@@ -173,6 +175,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
+    /// The products of the factored form, whose terms must be curves over the same x.
     fn products(&self, drafts: &[Draft]) -> Result<Vec<Product>, Box<Diagnostic>> {
         let Some(keys) = self.words("products")? else { return Ok(Vec::new()) };
         let names = self.matched("products_names", keys.len())?;

@@ -1,15 +1,14 @@
-//! Tables to arrays.
+//! Writing tables as an archive of arrays.
 
 use zip::result::ZipError;
 
 use super::archive;
 use super::array::{Array, Data};
-use super::keys::{Keys, wish};
-use crate::block::GridBlock;
-use crate::tables::product::Product;
-use crate::tables::set::{Table, TableSet};
+use super::keys::{Keys, preferred};
+use crate::grid::GridBlock;
+use crate::tables::set::{Product, Table, TableSet};
 
-/// The bytes of the archive.
+/// The bytes of the archive; equal tables give equal bytes.
 pub(in crate::tables) fn write(set: &TableSet) -> Result<Vec<u8>, ZipError> {
     let mut out = Out(Vec::new());
     let mut keys = Keys::default();
@@ -40,6 +39,7 @@ impl Out {
         self.0.push((name.to_owned(), array.bytes(false)));
     }
 
+    /// Adds numbers as 64-bit integers.
     fn whole(&mut self, name: &str, shape: Vec<usize>, list: Vec<f64>) {
         self.0.push((name.to_owned(), Array { shape, data: Data::Numbers(list) }.bytes(true)));
     }
@@ -49,7 +49,7 @@ impl Out {
         self.whole(name, vec![list.len()], list);
     }
 
-    /// `quantity`, `rail` and `load_rail`, where one is known.
+    /// Adds the arrays `quantity`, `rail` and `load_rail`, their names after `before`, where some table has them.
     fn relations<'t>(
         &mut self,
         before: &str,
@@ -71,11 +71,12 @@ impl Out {
     }
 }
 
+/// Adds the tables over load and deflection, with common stations where they are equal to the last bit.
 fn plain_tables(out: &mut Out, keys: &mut Keys, tables: &[&Table], one_rail: bool) {
     let Some(first) = tables.first() else { return };
     let names: Vec<String> = tables
         .iter()
-        .map(|table| keys.take(&wish(&table.name, table.quantity, &table.rails, one_rail)))
+        .map(|table| keys.take(&preferred(&table.name, table.quantity, &table.rails, one_rail)))
         .collect();
     out.add("tables", &Array::words(&names));
     out.ids("ids", tables.iter().map(|table| table.id));
@@ -105,7 +106,7 @@ fn same_bits(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// Curves of the same stations, quantity and rails, one after the other, as columns of one array.
+/// Adds the curves: consecutive ones of the same stations, quantity and rails are columns of one array.
 fn stacks(out: &mut Out, keys: &mut Keys, curves: &[&Table], one_rail: bool) {
     let alike = |a: &&Table, b: &&Table| {
         same_bits(a.curves.x(), b.curves.x()) && a.quantity == b.quantity && a.rails == b.rails
@@ -116,7 +117,7 @@ fn stacks(out: &mut Out, keys: &mut Keys, curves: &[&Table], one_rail: bool) {
     }
     let name = |group: &[&Table]| {
         let first = group[0];
-        let plain = wish("curves", first.quantity, &first.rails, one_rail);
+        let plain = preferred("curves", first.quantity, &first.rails, one_rail);
         keys.take(&format!("{plain}_phi"))
     };
     let names: Vec<String> = groups.iter().copied().map(name).collect();
@@ -134,13 +135,14 @@ fn stacks(out: &mut Out, keys: &mut Keys, curves: &[&Table], one_rail: bool) {
     }
 }
 
+/// Adds the products of the factored form.
 fn products(out: &mut Out, keys: &mut Keys, products: &[Product], one_rail: bool) {
     if products.is_empty() {
         return;
     }
     let names: Vec<String> = products
         .iter()
-        .map(|product| keys.take(&wish(&product.name, product.quantity, &product.rails, one_rail)))
+        .map(|product| keys.take(&preferred(&product.name, product.quantity, &product.rails, one_rail)))
         .collect();
     out.add("products", &Array::words(&names));
     let titles: Vec<String> = products.iter().map(|product| product.name.clone()).collect();

@@ -1,23 +1,25 @@
-//! Cross sections by their dimensions: the shapes of PBARL and PBEAML.
+//! Properties of cross sections by their dimensions: the shapes of the NASTRAN entries PBARL and PBEAML.
 //!
 //! y is upwards and z sideways in the shapes' usual drawings. Areas and second moments are those of the exact
 //! rectangles and circles, about the centroid:
 //! A = sum b h, I1 = sum (b h^3/12 + b h y^2), I2 = sum (h b^3/12 + b h z^2).
 //!
-//! Torsion: circles pi r^4/2; rectangles a b^3 (1/3 - 0.21 b/a (1 - b^4/(12 a^4))) with a >= b; open
-//! shapes sum s t^3/3 over the lengths s of their centre lines; closed ones 4 Am^2 / sum (s/t).
+//! Torsion constants: circles pi r^4/2; rectangles a b^3 (1/3 - 0.21 b/a (1 - b^4/(12 a^4))) with a >= b; thin open
+//! shapes sum s t^3/3 over walls of centre line s and thickness t; thin closed ones 4 Am^2 / sum (s/t), with the area
+//! Am enclosed by the centre line.
 //!
-//! Shear factors: rectangles 5/6, circles 9/10, thin tubes 1/2; walls along the force, between the walls across
-//! it, by A; flanges of I, H and T and the bars of a cross 5/6 of that.
+//! Shear factors (shear area / A): rectangles 5/6, circles 9/10, thin tubes 1/2; of other shapes, the area of the walls
+//! parallel to the force, counted between the walls across it, divided by A; for flanges of I, H and T and the bars of
+//! a cross 5/6 of that.
 //!
 //! # Source
 //! W. C. Young, R. G. Budynas: Roark's Formulas for Stress and Strain, 7th ed., table 10.1 (torsion). The meaning
 //! of DIM1, DIM2, ... is that of the NASTRAN quick reference guides, entry PBARL. Shear factors differ between
-//! programs; these are the customary ones.
+//! programs; these are the usual ones.
 
 use std::f64::consts::PI;
 
-/// What a section resists with.
+/// Properties of a cross section, in powers of the unit of its dimensions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Properties {
     /// Area.
@@ -37,15 +39,15 @@ pub struct Properties {
 /// Why a shape gives no section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Refusal {
-    /// It is not known.
+    /// The shape is not known.
     Unknown,
-    /// Its dimensions overlap or leave nothing.
+    /// The walls overlap, or one of them has no thickness.
     Dimensions,
-    /// Its principal axes are not y and z.
+    /// The principal axes are not y and z.
     Oblique,
 }
 
-/// Shapes that are known, with the number of their dimensions.
+/// The known shapes with the number of their dimensions.
 pub const SHAPES: [(&str, usize); 16] = [
     ("ROD", 1),
     ("TUBE", 2),
@@ -65,13 +67,13 @@ pub const SHAPES: [(&str, usize); 16] = [
     ("CROSS", 4),
 ];
 
-/// Number of dimensions of a shape.
+/// Number of dimensions of a shape; `None` where it is not known.
 #[must_use]
 pub fn dimensions(shape: &str) -> Option<usize> {
     SHAPES.iter().find(|(name, _)| *name == shape).map(|(_, count)| *count)
 }
 
-/// A wall: y and z from, to; in an open shape the length of its centre line and its thickness.
+/// A rectangular wall: its extent from, to along y and z.
 #[derive(Clone, Copy, Debug)]
 struct Wall {
     y: [f64; 2],
@@ -79,7 +81,7 @@ struct Wall {
 }
 
 impl Wall {
-    /// Of a height and width, with its lower edge at y and its left edge at z.
+    /// The wall of this height and width with its lower edge at y and its left edge at z.
     fn new(y: f64, height: f64, z: f64, width: f64) -> Wall {
         Wall { y: [y, y + height], z: [z, z + width] }
     }
@@ -94,21 +96,21 @@ impl Wall {
     }
 }
 
-/// Walls with factors of shear along y and z, and the torsion constant.
+/// A shape as walls, with its shear areas and torsion constant.
 struct Drawing {
     walls: Vec<Wall>,
-    /// Areas that take shear along y and z.
+    /// Shear areas for forces along y and z.
     shear: [f64; 2],
     j: f64,
 }
 
-/// The section of a shape.
+/// Properties of a shape of dimensions `d`, in the order of DIM1, DIM2, ...
 ///
 /// # Errors
-/// A shape that is not known; dimensions that do not fit; principal axes that are turned.
+/// An unknown shape, or a wrong number of dimensions; walls that overlap; principal axes that are not y and z.
 pub fn properties(shape: &str, d: &[f64]) -> Result<Properties, Refusal> {
     let circle = |r: f64, inner: f64, k: f64| {
-        // a negative radius inside would be taken for a positive one
+        // squared, a negative inner radius would pass for a positive one
         let inner = if inner < 0.0 { r } else { inner };
         let [two, four] = [r.powi(2) - inner.powi(2), r.powi(4) - inner.powi(4)].map(|value| PI * value);
         Properties { area: two, i1: four / 4.0, i2: four / 4.0, j: four / 2.0, k1: k, k2: k }
@@ -149,8 +151,9 @@ pub fn properties(shape: &str, d: &[f64]) -> Result<Properties, Refusal> {
     }
 }
 
+/// Area and second moments of the walls about their common centroid.
 fn of_drawing(drawing: &Drawing) -> Result<Properties, Refusal> {
-    // a negative side is a wall that does not fit between the others
+    // a wall whose side is negative does not fit between the others
     if drawing.walls.iter().flat_map(Wall::sides).any(|side| side.is_nan() || side <= 0.0) {
         return Err(Refusal::Dimensions);
     }
@@ -179,6 +182,7 @@ fn turned(drawing: Drawing) -> Drawing {
     Drawing { walls, shear: [z, y], j: drawing.j }
 }
 
+/// A solid rectangle.
 fn bar(b: f64, h: f64) -> Drawing {
     let [long, short] = [b.max(h), b.min(h)];
     let ratio = short / long;
@@ -186,7 +190,7 @@ fn bar(b: f64, h: f64) -> Drawing {
     Drawing { walls: vec![Wall::new(0.0, h, 0.0, b)], shear: [5.0 / 6.0 * b * h; 2], j }
 }
 
-/// A box of two level walls (lower, upper) over the full width and two upright ones (left, right) between them.
+/// A box of two horizontal walls (lower, upper) over the full width and two vertical ones (left, right) between them.
 fn boxed(b: f64, h: f64, level: [f64; 2], upright: [f64; 2]) -> Drawing {
     let clear = [h - level[0] - level[1], b - upright[0] - upright[1]];
     let walls = vec![
@@ -194,7 +198,7 @@ fn boxed(b: f64, h: f64, level: [f64; 2], upright: [f64; 2]) -> Drawing {
         Wall::new(h - level[1], level[1], 0.0, b),
         Wall::new(level[0], clear[0], 0.0, upright[0]),
         Wall::new(level[0], clear[0], b - upright[1], upright[1]),
-        // the room inside must be one
+        // the hollow, which must have positive sides
         Wall::new(level[0], clear[0], upright[0], clear[1]),
     ];
     let [height, width] = [h - 0.5 * (level[0] + level[1]), b - 0.5 * (upright[0] + upright[1])];
@@ -205,7 +209,7 @@ fn boxed(b: f64, h: f64, level: [f64; 2], upright: [f64; 2]) -> Drawing {
     Drawing { walls, shear, j: 4.0 * (height * width).powi(2) / around }
 }
 
-/// A web between a lower and an upper flange, all on one middle line.
+/// A web between a lower and an upper flange, all centred on one vertical line.
 fn flanged(h: f64, width: [f64; 2], web: f64, flange: [f64; 2]) -> Drawing {
     let clear = h - flange[0] - flange[1];
     let walls = vec![
@@ -227,7 +231,7 @@ fn tee(b: f64, h: f64, flange: f64, web: f64) -> Drawing {
     Drawing { walls, shear: [clear * web, 5.0 / 6.0 * b * flange], j }
 }
 
-/// An upright web with two flanges to one side.
+/// A vertical web with two flanges to one side.
 fn channel(b: f64, h: f64, web: f64, flange: f64) -> Drawing {
     let [clear, reach] = [h - 2.0 * flange, b - web];
     let walls = vec![
@@ -242,7 +246,7 @@ fn channel(b: f64, h: f64, web: f64, flange: f64) -> Drawing {
     Drawing { walls, shear: [clear * web, 2.0 * reach * flange], j }
 }
 
-/// An upright bar with two level arms.
+/// A vertical bar with two horizontal arms.
 fn crossed(reach: f64, upright: f64, h: f64, level: f64) -> Drawing {
     let [low, arm] = [0.5 * (h - level), 0.5 * reach];
     let walls = vec![

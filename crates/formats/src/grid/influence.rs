@@ -1,35 +1,60 @@
-//! Influence grids of a structure at its stations.
+//! Influence coefficients of a structure between its stations.
 
 use fea::{Certificate, Frame, Model};
 use nalgebra::DMatrix;
 use splines::{Axis, Probe};
 
-use crate::block::GridBlock;
-use crate::effect::Effects;
-use crate::spec::{RailOutline, Spec, theory_word};
+use super::block::{GridBlock, axes};
+use super::effects::Effects;
+use crate::spec::{Spec, theory_word};
 use crate::units::Units;
 
-/// Influence coefficients between all stations of all rails of a structure.
+/// Influence coefficients between all stations of all rails of a structure: G(i, j) is the displacement of station i
+/// under a unit load at station j.
 ///
-/// With n stations in all, rails one after the other, each block is n x n: row = station of the displacement,
-/// column = station of the unit load. Positive along +x, up and to the right.
+/// With n stations in all, rails one after the other, each block is an n x n matrix: row = station of the
+/// displacement, column = station of the unit load, in length per force. Displacements and loads are positive along
+/// +x, up and to the right.
+///
+/// ```
+/// use formats::grid::{Grid, GridBlock};
+/// use formats::grid_file;
+/// use formats::source::Source;
+/// use formats::spec::Spec;
+///
+/// let text = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
+///  "theory": "euler-bernoulli", "stations": [3, 5],
+///  "girder": {"spans": [10], "E": 2e11, "I_vertical": 1e-4}}"#;
+/// let spec = Spec::read(&Source { name: "beam.json".to_owned(), text: text.to_owned() }, None)
+///     .expect("a beam on two supports");
+/// let (model, rails) = spec.model().expect("a model of it");
+/// let frame = fea::Frame::new(&model, &rails).expect("a stable structure");
+/// let grid = Grid::of(&spec, &frame).expect("stations on the rail");
+///
+/// // at midspan L^3 / (48 EI)
+/// let vertical = grid.block(GridBlock::Vertical).expect("the supports resist vertical loads");
+/// assert!((vertical[(1, 1)] * 48.0 * 2e11 * 1e-4 / 1e3 - 1.0).abs() < 1e-12);
+///
+/// let file = Source { name: "grid.json".to_owned(), text: grid_file::write(&grid, None) };
+/// assert_eq!(grid_file::read(&file).expect("our own file").0, grid);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
     /// Name of the structure.
     pub name: String,
     /// Units of all numbers.
     pub units: Units,
-    /// Beam theory, where one is known.
+    /// Word of the beam theory, where it is known.
     pub theory: Option<String>,
-    /// Rails: name and stations.
+    /// The rails, in the order of rows and columns.
     pub rails: Vec<GridRail>,
-    /// The blocks that the structure resists.
+    /// The blocks of those directions in which every rail is supported.
     pub blocks: Vec<(GridBlock, DMatrix<f64>)>,
-    /// How far to trust the numbers, where that is known.
+    /// Condition of the stiffness matrix and bound of the relative error, where they are known.
     pub certificate: Option<Certificate>,
     /// Reactions and internal forces per unit load, where they are known.
     pub effects: Option<Effects>,
-    /// What a reader should know, such as why a block is absent.
+    /// Remarks for the reader, such as why a block is absent.
     pub notes: Vec<String>,
 }
 
@@ -38,33 +63,21 @@ pub struct Grid {
 pub struct GridRail {
     /// Its name.
     pub name: String,
-    /// Its stations, increasing.
+    /// Coordinates of its stations along the rail, increasing.
     pub stations: Vec<f64>,
 }
 
-/// Directions of displacement and load of a block.
-#[must_use]
-pub const fn axes(quantity: GridBlock) -> (Axis, Axis) {
-    match quantity {
-        GridBlock::Vertical => (Axis::Vertical, Axis::Vertical),
-        GridBlock::Lateral => (Axis::Lateral, Axis::Lateral),
-        GridBlock::Longitudinal => (Axis::Longitudinal, Axis::Longitudinal),
-        GridBlock::VerticalLateral => (Axis::Vertical, Axis::Lateral),
-        GridBlock::VerticalLongitudinal => (Axis::Vertical, Axis::Longitudinal),
-        GridBlock::LateralLongitudinal => (Axis::Lateral, Axis::Longitudinal),
-    }
-}
-
 impl Grid {
-    /// The grids of a spec from its factored frame.
+    /// Influence coefficients between the stations of `spec`, from its factored `frame`.
     ///
-    /// Blocks of directions that some rail does not resist are left out, with a note.
+    /// Blocks of a direction in which some rail is free to move are left out, with a note.
     ///
     /// # Errors
-    /// A station where the frame gives no answer.
+    /// A station where the frame has no solution, such as one beyond the end of its rail.
     pub fn of(spec: &Spec, frame: &Frame) -> Result<Grid, fea::Error> {
         let rails = spec.rails();
-        let stations = stations(&rails);
+        let lists = rails.iter().map(|rail| rail.stations.as_slice());
+        let stations = listed(lists);
         let resisted: Vec<Axis> = [Axis::Vertical, Axis::Lateral, Axis::Longitudinal]
             .into_iter()
             .filter(|axis| (0..rails.len()).all(|rail| frame.available(rail, *axis)))
@@ -107,45 +120,43 @@ impl Grid {
         })
     }
 
-    /// The same with reactions and internal forces per unit load, from the frame and its model.
+    /// The same grid with the influence lines of reactions and internal forces, from the frame and its model.
     ///
     /// # Errors
-    /// A station where the frame gives no answer.
+    /// A station where the frame has no solution.
     pub fn with_effects(self, spec: &Spec, model: &Model, frame: &Frame) -> Result<Grid, fea::Error> {
         let direct = [GridBlock::Vertical, GridBlock::Lateral, GridBlock::Longitudinal];
         let resisted: Vec<Axis> =
             direct.into_iter().filter(|q| self.block(*q).is_some()).map(|q| axes(q).0).collect();
-        let effects = Effects::of(spec, model, frame, &stations(&spec.rails()), &resisted)?;
+        let effects = Effects::of(spec, model, frame, &self.stations(), &resisted)?;
         Ok(Grid { effects: Some(effects), ..self })
     }
 
-    /// Index of the rail and coordinate of every station.
+    /// Index of the rail and coordinate of every station, in the order of rows and columns.
     #[must_use]
     pub fn stations(&self) -> Vec<(usize, f64)> {
-        let list = self.rails.iter().enumerate();
-        list.flat_map(|(index, rail)| rail.stations.iter().map(move |x| (index, *x))).collect()
+        listed(self.rails.iter().map(|rail| rail.stations.as_slice()))
     }
 
-    /// One block, where the structure resists both directions.
+    /// One block; `None` where the grid does not have it.
     #[must_use]
     pub fn block(&self, quantity: GridBlock) -> Option<&DMatrix<f64>> {
         self.blocks.iter().find(|(known, _)| *known == quantity).map(|(_, block)| block)
     }
 
-    /// Number of stations in all.
+    /// Number n of stations of all rails.
     #[must_use]
     pub fn size(&self) -> usize {
         self.rails.iter().map(|rail| rail.stations.len()).sum()
     }
 }
 
-/// Index of the rail and coordinate of every station.
-fn stations(rails: &[RailOutline]) -> Vec<(usize, f64)> {
-    let list =
-        rails.iter().enumerate().flat_map(|(index, rail)| rail.stations.iter().map(move |x| (index, *x)));
-    list.collect()
+/// Index of the rail and coordinate of every station, from the stations of each rail.
+fn listed<'r>(rails: impl Iterator<Item = &'r [f64]>) -> Vec<(usize, f64)> {
+    rails.enumerate().flat_map(|(index, stations)| stations.iter().map(move |x| (index, *x))).collect()
 }
 
+/// The word of a direction in notes.
 const fn direction(axis: Axis) -> &'static str {
     match axis {
         Axis::Longitudinal => "longitudinal",

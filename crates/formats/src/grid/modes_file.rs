@@ -1,4 +1,4 @@
-//! Member `modes` of a grid file: natural frequencies, and shapes at the stations.
+//! Member `modes` of a grid file: natural frequencies, and mode shapes at the stations.
 
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -14,14 +14,16 @@ use crate::place::Place;
 
 crate::object::objects!(RawModes, RawMode, RawShape);
 
-/// Relative error of frequencies by the length of members that is allowed.
+/// Largest relative error of natural frequencies due to the length of the finite elements that is accepted.
 pub const ACCURACY: f64 = 1e-3;
 
 const AXES: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
 
-/// The member as text, one mode a line. `stations`: rail and coordinate, as in the grids. Directions that some
-/// station does not resist are left out.
+/// The member as text, one mode per line.
+///
+/// `stations` are index of the rail and coordinate, in the order of the blocks. A direction in which the shapes have no
+/// value at some station, as the rail there is free to move, is left out. Frequencies are in Hz and rad/s.
 #[must_use]
 pub fn write(refined: &Refined, stations: &[(usize, f64)]) -> String {
     let modes = &refined.modes;
@@ -65,14 +67,15 @@ pub fn write(refined: &Refined, stations: &[(usize, f64)]) -> String {
     text
 }
 
-/// A grid file's text, as [`crate::grid_file::write`] gives it, with the member added at its end.
+/// The text of a grid file, as [`write`](super::file::write) of the file gives it, with `member` added at its end.
 #[must_use]
 pub fn insert(grid: &str, member: &str) -> String {
     let body = grid.strip_suffix("\n}\n").unwrap_or(grid);
     format!("{body},\n  \"modes\": {member}\n}}\n")
 }
 
-/// One line for people: the frequencies, and what is known of their completeness.
+/// One line for the terminal: the first frequencies, and how many there are below the shift by the count of negative
+/// pivots.
 #[must_use]
 pub fn line(modes: &Modes) -> String {
     let mut list: Vec<String> = modes.modes.iter().take(6).map(|mode| hertz(mode.omega)).collect();
@@ -87,6 +90,7 @@ pub fn line(modes: &Modes) -> String {
     )
 }
 
+/// An angular frequency in rad/s as Hz.
 fn hertz(omega: f64) -> String {
     format!("{:.4}", omega / TAU)
 }
@@ -130,8 +134,7 @@ struct RawShape {
 }
 
 impl RawModes {
-    /// Checks what a reader could trip over: frequencies out of order, shapes of another length than `size`,
-    /// the number of stations.
+    /// Checks that frequencies do not fall and that every shape has `size` values, one for each station.
     pub fn check(&self, size: usize, place: &Place<'_>, faults: &mut Faults) {
         let list = place.key("modes");
         let mut last = 0.0;
@@ -149,7 +152,7 @@ impl RawModes {
                 ("lateral", &mode.lateral),
                 ("longitudinal", &mode.longitudinal),
             ];
-            let mut length = |numbers: &[f64], place: &Place<'_>| {
+            let mut check_length = |numbers: &[f64], place: &Place<'_>| {
                 if numbers.len() != size {
                     let fault = Fault::new(place, format!("must have {size} numbers, one for each station"));
                     faults.add(fault.got(numbers.len()));
@@ -158,11 +161,11 @@ impl RawModes {
             for (word, shape) in shapes {
                 let Some(shape) = shape else { continue };
                 let shape_at = at.key(word);
-                length(&shape.value, &shape_at.key("value"));
-                length(&shape.slope, &shape_at.key("slope"));
+                check_length(&shape.value, &shape_at.key("value"));
+                check_length(&shape.slope, &shape_at.key("slope"));
             }
             if let Some(twist) = &mode.twist {
-                length(twist, &at.key("twist"));
+                check_length(twist, &at.key("twist"));
             }
         }
     }

@@ -1,7 +1,8 @@
-//! The exact surface in a grid file: cells of the rails and the compliance of their end states.
+//! Member `surface` of a grid file: the exact compliance, as rail elements and the compliance of their end states.
 //!
-//! Member `surface` of a grid: `cells`, and `compliance` over the states, six freedoms each (ux uy uz rx ry rz,
-//! in the frame of the state's rail). `null` stands for a flexibility that nothing resists.
+//! `cells` are the rail elements. `compliance` is a matrix over the node states, six degrees of freedom each (ux uy uz
+//! rx ry rz, in the frame of the state's rail). `null` stands for an infinite flexibility: a motion that nothing
+//! resists.
 
 use std::sync::Arc;
 
@@ -41,9 +42,9 @@ struct RawCell {
     reversed: bool,
 }
 
-/// A surface as its file member.
+/// The member of a compliance.
 pub(crate) fn to_json(surface: &Surface) -> Value {
-    // infinite numbers become null
+    // JSON has no infinity: serde_json writes null
     let cells: Vec<Value> = surface
         .line()
         .cells()
@@ -74,14 +75,15 @@ pub(crate) fn to_json(surface: &Surface) -> Value {
 }
 
 impl RawSurface {
-    /// The surface of a file member.
+    /// The compliance of the member; `None`, and a fault, where elements or matrix are unusable.
     pub fn surface(&self, place: &Place<'_>, faults: &mut Faults) -> Option<Surface> {
-        let some = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
+        let finite_or_infinite = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
         let cells: Vec<Cell> = self
             .cells
             .iter()
             .map(|raw| {
-                let [axial, torsion, bending_y, bending_z, shear_y, shear_z] = raw.flexibility.map(some);
+                let [axial, torsion, bending_y, bending_z, shear_y, shear_z] =
+                    raw.flexibility.map(finite_or_infinite);
                 Cell {
                     rail: raw.rail,
                     x: raw.x,
@@ -107,7 +109,7 @@ impl RawSurface {
             faults.add(Fault::new(&at, format!("must be {size} x {size}: six freedoms a state")));
             return None;
         }
-        let nodal = DMatrix::from_fn(size, size, |i, j| some(self.compliance[i][j]));
+        let nodal = DMatrix::from_fn(size, size, |i, j| finite_or_infinite(self.compliance[i][j]));
         match Surface::new(line, nodal) {
             Ok(surface) => Some(surface),
             Err(error) => {

@@ -1,40 +1,65 @@
-//! Rails on sprung ties, over the rails of a structure or over the ground, as frames.
+//! Rails on elastic ties, over the rails of a structure or over the ground, as specs of the general form.
+//!
+//! [`on_ground`] makes a spec of a rail alone: points at the ties and between them, beams of the rail's section, a
+//! spring to the ground at every tie. [`on_structure`] lays a rail over each rail of a structure in four steps: the
+//! place of every tie on the members of the structure is found (`Seat`); members are split there (`split`); the new
+//! rail is laid along the line of the structure's rail (`lay`); between the two, a truss member of the tie's stiffness
+//! leads from the rail's point through a rigid arm to the point of the structure. Every rail must run along a global
+//! axis, since supports, which keep the new rail from moving along itself, exist for global axes alone.
 
 use fea::{Freedom, Mass, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
 use nalgebra::Vector3;
 use thiserror::Error;
 
-use crate::spec::{Cut, Form, Frame, GIRDER_RAIL, Spec};
+use super::cuts::Cut;
+pub use super::structure::Pad;
+use super::structure::{Form, Frame, GIRDER_RAIL, Spec};
 use crate::units::Units;
 
-/// Most bays of rail, all ties and elements of a structure counted.
+/// Most elements of one rail: bays between ties times elements per bay.
 pub const MOST: f64 = 2000.0;
-/// Stations of a rail over the ground, about.
+/// Number of stations of a rail over the ground, approximately.
 const STATIONS: usize = 50;
-/// Shares of a member's length that are one place.
+/// Places closer than this fraction of a length (of the member, or of the spacing of ties) are one place.
 const SAME: f64 = 1e-9;
 
 /// A rail and the ties under it, in one system of units.
 ///
-/// Every tie is a vertical spring `k` under the rail's axis, beside it a damper `c` and, where the rail bends sideways,
-/// a spring `lateral_k`; its mass moves with the rail. Along and against roll the ground holds the rail at every tie.
+/// Every tie is a vertical spring `k` under the axis of the rail with a damper `c` beside it and, where the rail may
+/// bend laterally, a lateral spring `lateral_k`; its mass moves with the rail. At every tie the rail is restrained
+/// longitudinally and against roll by the ground.
+///
+/// ```
+/// use formats::track::{Ties, on_ground};
+/// use formats::units::Units;
+///
+/// let rail = fea::Section { e: 2.1e11, area: 7.7e-3, iy: 5e-6, iz: 3e-5, ..fea::Section::default() };
+/// let ties = Ties { spacing: 0.6, k: 5e7, rail, elements: 2, ..Ties::default() };
+/// let spec = on_ground("track", Units::SI, &ties, [0.0, 6.0]).expect("eleven ties");
+/// assert_eq!(spec.pads().len(), 11);
+/// let (model, rails) = spec.model().expect("a model of it");
+/// assert_eq!((model.springs.len(), rails[0].segments.len()), (11, 20));
+///
+/// let few = on_ground("track", Units::SI, &ties, [0.0, 0.5]).expect_err("one tie");
+/// assert_eq!(few.to_string(), "must put at least two ties on the rail from 0 to 0.5");
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Ties {
     /// Distance between ties, length.
     pub spacing: f64,
-    /// Coordinate of the first tie; `None`: where the rail begins.
+    /// Coordinate of the first tie, length; `None`: at the beginning of the rail.
     pub first: Option<f64>,
     /// Vertical stiffness of one tie, force/length.
     pub k: f64,
-    /// Lateral stiffness of one tie, force/length; `None`: the rail does not move sideways.
+    /// Lateral stiffness of one tie, force/length; `None`: the rail is laterally fixed.
     pub lateral_k: Option<f64>,
-    /// Damping of one tie, vertical, force time/length.
+    /// Vertical damping coefficient of one tie, force time/length.
     pub c: f64,
     /// Mass of one tie, force time^2/length.
     pub mass: f64,
-    /// Section of the rail: `iz` bends vertically, `iy` sideways.
+    /// Section of the rail: `iz` is for vertical bending, `iy` for lateral bending.
     pub rail: Section,
-    /// Elements between two ties.
+    /// Number of beam elements between two ties.
     pub elements: usize,
 }
 
@@ -45,10 +70,11 @@ impl Ties {
         self.mass > 0.0 || self.rail.mass > 0.0
     }
 
-    /// Coordinates of the ties on a rail.
+    /// Coordinates of the ties on a rail from `first` to `last`.
     fn places(&self, [first, last]: [f64; 2]) -> Result<Vec<f64>, Refusal> {
         let start = self.first.unwrap_or(first);
         let slack = SAME * self.spacing;
+        // two ties at least
         if start < first - slack || start + self.spacing > last + slack {
             return Err(Refusal::Few { range: [first, last] });
         }
@@ -61,33 +87,22 @@ impl Ties {
     }
 }
 
-/// What stands between rail and structure at one tie, as far as dampers feel it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pad {
-    /// Point of the rail.
-    pub rail: usize,
-    /// Point of the structure, and the rigid arm from it to the pad; `None`: the ground.
-    pub base: Option<(usize, [f64; 3])>,
-    /// Direction, a unit vector.
-    pub up: [f64; 3],
-}
-
-/// Ties that cannot be laid.
+/// Why ties cannot be laid.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum Refusal {
     /// Fewer than two ties on a rail.
     #[error("must put at least two ties on the rail from {} to {}", range[0], range[1])]
     Few {
-        /// Of the rail.
+        /// First and last coordinate of the rail.
         range: [f64; 2],
     },
-    /// More than [`MOST`] elements.
+    /// More than [`MOST`] elements of rail.
     #[error("must leave at most {MOST} elements of rail, got {bays}")]
     Many {
-        /// How many there would be.
+        /// Number of elements there would be.
         bays: f64,
     },
-    /// A tie where a member is released.
+    /// A tie at the end of a member that has releases.
     #[error("the tie at {x} stands on a hinge of cell {cell}")]
     Hinge {
         /// Coordinate along the rail.
@@ -106,10 +121,10 @@ pub enum Refusal {
     Model,
 }
 
-/// A rail on ties over the ground, from `range[0]` to `range[1]`.
+/// A rail on ties over the ground, from coordinate `range[0]` to `range[1]`, as a spec of this name.
 ///
 /// # Errors
-/// Too few or too many ties.
+/// Fewer than two ties; more than [`MOST`] elements.
 pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Result<Spec, Refusal> {
     let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
     let places = ties.places(range)?;
@@ -118,7 +133,7 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
     let mut rail = Rail { axis: [1.0, 0.0, 0.0], ..Rail::default() };
     let points = lay(&mut model, &mut rail, ties, &line, range, &places);
     for point in points {
-        hold(&mut model, ties, point);
+        restrain(&mut model, ties, point, &line);
         model.springs.push(Spring { point, freedom: Freedom::Uy, stiffness: ties.k });
         let lateral = ties.lateral_k.map(|stiffness| Spring { point, freedom: Freedom::Uz, stiffness });
         model.springs.extend(lateral);
@@ -140,13 +155,15 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
     Ok(Spec { name, units, theory: Theory::EulerBernoulli, form, effects: Vec::new() })
 }
 
-/// The structure with a rail on ties over each of its rails: the same rails by name, coordinates and stations.
+/// The structure with a rail on ties over each of its rails. The new rails have the names, coordinates and stations of
+/// the structure's own.
 ///
-/// Members are cut where ties stand; pads are trusses of the stiffness k, rigid arms lead to them, so that rail and
-/// structure meet by the motion of the structure's own rail and nothing else.
+/// Members are split where ties stand. Pads are truss members of the stiffness `k` with rigid arms to the structure, so
+/// that the base of a pad moves as the structure's own rail does at that place.
 ///
 /// # Errors
-/// Too few or too many ties; one on a hinge; rails that no global axis follows.
+/// Fewer than two ties on a rail, or more than [`MOST`] elements; a tie at a hinge; a rail that does not run along a
+/// global axis; a structure without a model.
 pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
     let (model, rails) = spec.model().map_err(|_| Refusal::Model)?;
     let mut seats = Vec::new();
@@ -159,8 +176,9 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
         }
         lines.push((line, places, outline));
     }
-    let (mut model, points, parts) = cut(&model, &seats)?;
+    let (mut model, points, parts) = split(&model, &seats)?;
     let base = model.points.len();
+    // EA / L = k for a truss member of length L = spacing
     let stiff = |k: f64| Section { e: k * ties.spacing, area: 1.0, ..Section::default() };
     let section = model.sections.len() + 1;
     let mut new_rails = Vec::new();
@@ -170,7 +188,7 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
     for (rail, (mut line, places, outline)) in rails.iter().zip(lines) {
         let own: Vec<_> = seated.by_ref().take(places.len()).collect();
         if let Some((seat, _)) = own.first() {
-            // the rail's axis is where the structure's rail is at the first tie
+            // the new rail's axis goes through the structure's rail at the first tie
             let off = seat.place - line.origin;
             line.origin += off - line.x * off.dot(&line.x);
         }
@@ -190,7 +208,7 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
                 spring(line.x.cross(&line.y), section + 1);
             }
             pads.push(Pad { rail: point, base: Some((seat, (at - foot).into())), up: line.y.into() });
-            hold_along(&mut model, ties, point, &line);
+            restrain(&mut model, ties, point, &line);
         }
         new.stations.clone_from(&outline.stations);
         new_rails.push((outline.name, new));
@@ -218,13 +236,13 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
         Form::Frame(frame) => (frame.point_sets.clone(), frame.supports.clone()),
     };
     let ranges = spec.rails().iter().map(|rail| rail.range).collect();
-    let effects = spec.effects.iter().map(|cut| moved(cut, &parts)).collect();
+    let effects = spec.effects.iter().map(|cut| on_part(cut, &parts)).collect();
     let frame =
         Frame { model, rails: new_rails, ranges, sections, points: base, cells, point_sets, supports, pads };
     Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
 }
 
-/// A straight line along a rail.
+/// The straight line of a rail: a place on it, its direction x and its upward direction y, unit vectors.
 struct Line {
     origin: Vector3<f64>,
     x: Vector3<f64>,
@@ -232,19 +250,21 @@ struct Line {
 }
 
 impl Line {
-    /// Of a rail along a global axis.
+    /// The line of a rail; `None` unless x and y lie along global axes and are perpendicular.
     fn of(model: &Model, rail: &Rail) -> Option<Line> {
         let unit = |vector: [f64; 3]| {
             let unit = Vector3::from(vector).normalize();
-            let whole = unit.map(f64::round);
-            ((unit - whole).amax() < 1e-12).then_some(whole)
+            let axis = unit.map(f64::round);
+            ((unit - axis).amax() < 1e-12).then_some(axis)
         };
         let (x, y) = unit(rail.axis).zip(unit(model.up))?;
         (x.dot(&y) == 0.0).then(|| Line { origin: Vector3::from(rail.origin), x, y })
     }
 }
 
-/// Puts the rail's points and members into a model, and its segments; points of the ties, in order.
+/// Adds a rail along `line` to a model: points at the ends of `range`, at the ties and, with several elements per bay,
+/// between them; beams of the rail's section between these; and the segments of `rail`. The result are the points at
+/// the ties, in the order of `places`.
 fn lay(
     model: &mut Model,
     rail: &mut Rail,
@@ -263,19 +283,19 @@ fn lay(
     if places.last().is_some_and(|x| range[1] - x > slack) {
         ends.push(range[1]);
     }
-    let mut of_ties = Vec::new();
+    let mut at_ties = Vec::new();
     let add = |model: &mut Model, x: f64| {
         model.points.push((line.origin + line.x * x).into());
         model.points.len() - 1
     };
     for (k, &x) in ends.iter().enumerate() {
         for part in 1..=ties.elements {
-            let share = part as f64 / ties.elements as f64;
+            let fraction = part as f64 / ties.elements as f64;
             let point = match k {
                 0 if part < ties.elements => continue,
                 0 => add(model, x),
                 _ if part == ties.elements => add(model, x),
-                _ => add(model, ends[k - 1] + (x - ends[k - 1]) * share),
+                _ => add(model, ends[k - 1] + (x - ends[k - 1]) * fraction),
             };
             if k > 0 {
                 model.members.push(Member::beam([point - 1, point], section, line.y.into()));
@@ -283,24 +303,21 @@ fn lay(
             }
         }
         if places.contains(&x) {
-            of_ties.push(model.points.len() - 1);
+            at_ties.push(model.points.len() - 1);
         }
     }
-    of_ties
+    at_ties
 }
 
-/// Holds a point of the rail along x, against roll and, where it does not bend sideways, there; adds the tie's mass.
-fn hold(model: &mut Model, ties: &Ties, point: usize) {
-    hold_along(model, ties, point, &Line { origin: Vector3::zeros(), x: Vector3::x(), y: Vector3::y() });
-}
-
-fn hold_along(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
+/// Restrains a point of the rail longitudinally and against roll and, where the rail is laterally fixed, against
+/// lateral motion and bending too; adds the mass of the tie.
+fn restrain(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
     let z = line.x.cross(&line.y);
     let plane = ties.lateral_k.is_none();
-    let along = |axis: &Vector3<f64>, k: usize| axis[k] != 0.0;
+    let is_along = |axis: &Vector3<f64>, k: usize| axis[k] != 0.0;
     let fix = std::array::from_fn(|k| match k {
-        0..3 => along(&line.x, k) || (plane && along(&z, k)),
-        _ => along(&line.x, k - 3) || (plane && along(&line.y, k - 3)),
+        0..3 => is_along(&line.x, k) || (plane && is_along(&z, k)),
+        _ => is_along(&line.x, k - 3) || (plane && is_along(&line.y, k - 3)),
     });
     model.supports.push(Support { point, fix });
     if ties.mass > 0.0 {
@@ -308,56 +325,68 @@ fn hold_along(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
     }
 }
 
-/// Where a tie stands on a structure.
+/// The place of a tie on a structure.
 struct Seat {
+    /// Coordinate along the rail.
     x: f64,
+    /// Index of the member that carries it.
     member: usize,
-    /// Share of the member's flexible part.
-    share: f64,
-    /// The structure's rail there.
+    /// Place along the member's flexible part, as a fraction of its length.
+    fraction: f64,
+    /// Position of the structure's rail there.
     place: Vector3<f64>,
 }
 
 impl Seat {
+    /// The place of coordinate `x` on the segment nearest to it along the rail; `None` of a rail without segments.
     fn of(model: &Model, rail: &Rail, line: &Line, x: f64) -> Option<Seat> {
         let seats = rail.segments.iter().filter_map(|segment| {
             let member = model.members.get(segment.member)?;
             let [a, b] = ends(model, member);
             let [from, to] = [a, b].map(|end| (end - Vector3::from(rail.origin)).dot(&line.x));
-            let share = ((x - from) / (to - from)).clamp(0.0, 1.0);
-            let share = if share < SAME {
+            let fraction = ((x - from) / (to - from)).clamp(0.0, 1.0);
+            let fraction = if fraction < SAME {
                 0.0
-            } else if share > 1.0 - SAME {
+            } else if fraction > 1.0 - SAME {
                 1.0
             } else {
-                share
+                fraction
             };
-            let place = a + (b - a) * share + Vector3::from(segment.offset);
-            let away = (x - from - (to - from) * share).abs();
-            Some((away, Seat { x, member: segment.member, share, place }))
+            let place = a + (b - a) * fraction + Vector3::from(segment.offset);
+            let away = (x - from - (to - from) * fraction).abs();
+            Some((away, Seat { x, member: segment.member, fraction, place }))
         });
-        // of equals the first
+        // of two segments equally near, the first
         let nearest =
             seats.reduce(|best, other| if other.0 < best.0 - SAME * x.abs().max(1.0) { other } else { best });
         nearest.map(|(_, seat)| seat)
     }
 }
 
+/// Ends of the flexible part of a member.
 fn ends(model: &Model, member: &Member) -> [Vector3<f64>; 2] {
     [0, 1].map(|k| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]))
 }
 
-/// The model with its members cut at the seats, the points of the seats, and for each part its member and shares.
+/// For each part of a split member the index of the member, and where the part begins and ends along its flexible part,
+/// as fractions.
 type Parts = Vec<(usize, [f64; 2])>;
 
-fn cut(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusal> {
+/// The model with its members split at the seats, the point of each seat, and the parts.
+///
+/// A seat at the end of a member takes the point there, others a new point on the member's axis. Inner ends of parts
+/// have neither offsets nor releases.
+///
+/// # Errors
+/// A seat at an end that has releases: a hinge there would be on both sides of the tie or on neither.
+fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusal> {
     let mut model = Model { members: Vec::new(), ..m.clone() };
     let mut points = vec![0; seats.len()];
     let mut parts = Vec::new();
     for (index, member) in m.members.iter().enumerate() {
         let mut own: Vec<(usize, &Seat)> =
             seats.iter().enumerate().filter(|(_, seat)| seat.member == index).collect();
-        own.sort_by(|a, b| a.1.share.total_cmp(&b.1.share));
+        own.sort_by(|a, b| a.1.fraction.total_cmp(&b.1.fraction));
         let [a, b] = ends(m, member);
         let mut last = (member.points[0], 0.0);
         let add = |model: &mut Model, last: (usize, f64), next: (usize, f64)| {
@@ -370,17 +399,17 @@ fn cut(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusal>
             }
             model.members.push(part);
         };
-        for (seat, Seat { x, share, .. }) in own {
-            let end = if *share == 0.0 { Some(0) } else { (*share == 1.0).then_some(1) };
+        for (seat, Seat { x, fraction, .. }) in own {
+            let end = if *fraction == 0.0 { Some(0) } else { (*fraction == 1.0).then_some(1) };
             if let Some(end) = end {
                 if member.releases[end] != [false; 6] {
                     return Err(Refusal::Hinge { x: *x, cell: index });
                 }
                 points[seat] = member.points[end];
             } else {
-                if share - last.1 > SAME {
-                    model.points.push((a + (b - a) * *share).into());
-                    let next = (model.points.len() - 1, *share);
+                if fraction - last.1 > SAME {
+                    model.points.push((a + (b - a) * *fraction).into());
+                    let next = (model.points.len() - 1, *fraction);
                     add(&mut model, last, next);
                     parts.push((index, [last.1, next.1]));
                     last = next;
@@ -394,10 +423,10 @@ fn cut(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusal>
     Ok((model, points, parts))
 }
 
-/// A section where forces are asked for, on the parts of its member.
-fn moved(cut: &Cut, parts: &[(usize, [f64; 2])]) -> Cut {
+/// A cut, moved to the part of its member that it is on.
+fn on_part(cut: &Cut, parts: &[(usize, [f64; 2])]) -> Cut {
     let own = parts.iter().enumerate().filter(|(_, (member, _))| *member == cut.member);
-    let part = own.into_iter().rfind(|(_, (_, shares))| shares[0] <= cut.place);
+    let part = own.into_iter().rfind(|(_, (_, range))| range[0] <= cut.place);
     let Some((member, (_, [from, to]))) = part else { return cut.clone() };
     let place = ((cut.place - from) / (to - from)).clamp(0.0, 1.0);
     Cut { member, place, ..cut.clone() }

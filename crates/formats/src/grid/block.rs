@@ -1,8 +1,13 @@
-//! The blocks of an influence grid.
+//! The blocks of an influence grid: which displacement each relates to which load.
 
 use std::fmt;
 
-/// One block of an influence grid: the direction of the deflection and that of the load.
+use splines::Axis;
+
+/// One block of an influence grid: the direction of the displacement and that of the load.
+///
+/// By Maxwell's reciprocity the transpose of a coupling block is the block with the two directions exchanged, so that
+/// six of the nine pairs of directions suffice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum GridBlock {
     /// Vertical deflection from vertical loads.
@@ -20,7 +25,7 @@ pub enum GridBlock {
 }
 
 impl GridBlock {
-    /// All six, direct grids first.
+    /// All six blocks, the direct ones first.
     pub const ALL: [GridBlock; 6] = [
         GridBlock::Vertical,
         GridBlock::Lateral,
@@ -30,7 +35,7 @@ impl GridBlock {
         GridBlock::LateralLongitudinal,
     ];
 
-    /// Name of the grid in grid files.
+    /// The key of the block in grid files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -43,7 +48,8 @@ impl GridBlock {
         }
     }
 
-    /// The direct grids of the directions of deflection and of load.
+    /// The direct blocks of the direction of displacement and of the direction of load; a direct block gives itself
+    /// twice.
     #[must_use]
     pub fn direct(self) -> [GridBlock; 2] {
         match self {
@@ -58,5 +64,18 @@ impl GridBlock {
 impl fmt::Display for GridBlock {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
+    }
+}
+
+/// Directions of displacement and load of a block.
+#[must_use]
+pub const fn axes(block: GridBlock) -> (Axis, Axis) {
+    match block {
+        GridBlock::Vertical => (Axis::Vertical, Axis::Vertical),
+        GridBlock::Lateral => (Axis::Lateral, Axis::Lateral),
+        GridBlock::Longitudinal => (Axis::Longitudinal, Axis::Longitudinal),
+        GridBlock::VerticalLateral => (Axis::Vertical, Axis::Lateral),
+        GridBlock::VerticalLongitudinal => (Axis::Vertical, Axis::Longitudinal),
+        GridBlock::LateralLongitudinal => (Axis::Lateral, Axis::Longitudinal),
     }
 }

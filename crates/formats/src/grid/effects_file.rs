@@ -1,4 +1,4 @@
-//! Member `effects` of a grid file: influence lines at the stations, both ways.
+//! Member `effects` of a grid file: influence lines at the stations, written and read.
 
 use std::fmt::Write;
 
@@ -7,10 +7,10 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use splines::Axis;
 
-use crate::effect::{COMPONENTS, Effects, Ground, Lines, Reaction, Section};
+use super::effects::{Effects, Ground, Lines, Reaction, Section};
 use crate::fault::{Fault, Faults};
 use crate::place::Place;
-use crate::spec::Spot;
+use crate::spec::{COMPONENTS, Spot};
 use crate::units::Units;
 
 crate::object::objects!(RawEffects, RawUnits, RawReaction, RawSection, RawLines);
@@ -79,7 +79,7 @@ struct RawLines {
     longitudinal: Option<Vec<f64>>,
 }
 
-/// The member as text, one reaction or section a line.
+/// The member as text, one reaction or section per line. `units`: those of the file.
 pub fn write(effects: &Effects, units: Units) -> String {
     let (force, length) = (units.force.word(), units.length.word());
     let own = json!({ "force": format!("{force}/{force}"), "moment": format!("{force} {length}/{force}") });
@@ -139,7 +139,7 @@ fn lines(lines: &Lines) -> Map<String, Value> {
 }
 
 impl RawEffects {
-    /// The effects of a file with `size` stations.
+    /// The influence lines of a file with `size` stations; lines of another length are faults.
     pub fn effects(&self, size: usize, place: &Place<'_>, faults: &mut Faults) -> Effects {
         let mut effects = Effects::default();
         let list = place.key("reactions");
@@ -164,7 +164,7 @@ impl RawEffects {
             let at = list.index(index);
             let spot = match (raw.x, raw.cell.zip(raw.at)) {
                 (Some(x), None) => Some(Spot::Along(x)),
-                (None, Some((cell, share))) => Some(Spot::Cell(cell, share)),
+                (None, Some((cell, fraction))) => Some(Spot::Cell(cell, fraction)),
                 _ => {
                     faults.add(Fault::new(&at, "must have either `x`, or `cell` and `at`"));
                     None
@@ -187,6 +187,7 @@ impl RawEffects {
     }
 }
 
+/// The lines by direction of the unit load, each of `size` numbers.
 fn read(all: [&Option<Vec<f64>>; 3], size: usize, place: &Place<'_>, faults: &mut Faults) -> Lines {
     let mut lines = Lines::new();
     for ((word, axis), line) in AXES.iter().zip(all) {

@@ -1,33 +1,35 @@
-//! Numbers of few digits.
+//! Tables rounded to a number of significant digits.
 
 use adams::SplineValues;
 use serde_json::{Value, json};
 
 use super::set::{Table, TableSet};
+use crate::number::rounded;
 
-/// What rounding did.
+/// What rounding changed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounding {
     /// Significant digits kept.
     pub digits: usize,
-    /// Largest |rounded - given| / |given| over all values and stations.
+    /// Largest relative change |rounded - given| / |given| over all values and stations.
     pub largest: f64,
-    /// Where: table, x and z (none for one curve), as given; `None` where nothing changed.
+    /// Where it is: number of the table, x, and z (`None` in a table of one curve), before rounding; `None` where no
+    /// number changed.
     pub at: Option<(u32, f64, Option<f64>)>,
     /// Whether stations changed too.
     pub stations: bool,
 }
 
-/// A number that cannot be rounded to so few digits.
+/// Why tables cannot be rounded to so few digits.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unrounded {
-    /// A value beyond what a double holds.
+    /// A value that overflows when rounded.
     #[error("SPLINE/{id} has a value that overflows when rounded")]
     Overflow {
         /// The table.
         id: u32,
     },
-    /// Two stations that become one.
+    /// Two stations that become equal.
     #[error("SPLINE/{id} has stations that fall together when rounded")]
     Stations {
         /// The table.
@@ -36,7 +38,7 @@ pub enum Unrounded {
 }
 
 impl Rounding {
-    /// For people.
+    /// One line for the terminal.
     #[must_use]
     pub fn message(&self) -> String {
         let Some((id, x, z)) = self.at else {
@@ -50,7 +52,7 @@ impl Rounding {
         )
     }
 
-    /// For programs.
+    /// The same as JSON.
     #[must_use]
     pub fn json(&self) -> Value {
         let at = self.at.map(|(id, x, z)| json!({ "id": id, "x": x, "z": z }));
@@ -58,10 +60,10 @@ impl Rounding {
     }
 }
 
-/// Every number rounded to so many significant decimal digits, half to even; what that changed.
+/// The tables with every number rounded to `digits` significant decimal digits, ties to even, and what that changed.
 ///
 /// # Errors
-/// A number that overflows, stations that fall together.
+/// A value that overflows; stations that become equal.
 pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), Unrounded> {
     let mut rounding = Rounding { digits, largest: 0.0, at: None, stations: false };
     let tables =
@@ -69,23 +71,24 @@ pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), Unro
     Ok((TableSet { tables, ..set.clone() }, rounding))
 }
 
+/// Rounds a table, and takes each change into account in `rounding`.
 fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, Unrounded> {
     let id = table.id;
     let (x, z) = (table.curves.x(), table.curves.z());
     let mut one = |value: f64, x: f64, z: Option<f64>, station: bool| {
-        let rounded = nearest(value, rounding.digits);
-        if !rounded.is_finite() {
+        let nearest = rounded(value, rounding.digits);
+        if !nearest.is_finite() {
             return Err(Unrounded::Overflow { id });
         }
-        if rounded != value {
-            // |value| is not 0: zero keeps its digits
-            let error = ((rounded - value) / value).abs();
+        if nearest != value {
+            // value is not 0, which rounding does not change
+            let error = ((nearest - value) / value).abs();
             rounding.stations |= station;
             if rounding.at.is_none() || error > rounding.largest {
                 (rounding.largest, rounding.at) = (error, Some((id, x, z)));
             }
         }
-        Ok(rounded)
+        Ok(nearest)
     };
     let first = z.first().copied();
     let new_x = x.iter().map(|&x| one(x, x, first, true)).collect::<Result<_, _>>()?;
@@ -98,10 +101,4 @@ fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, Unroun
     }
     let curves = SplineValues::new(new_x, new_z, rows).map_err(|_| Unrounded::Stations { id })?;
     Ok(Table { curves, ..table.clone() })
-}
-
-/// The double nearest to `value` written with `digits` significant decimal digits.
-fn nearest(value: f64, digits: usize) -> f64 {
-    let text = format!("{value:.*e}", digits.saturating_sub(1));
-    text.parse().unwrap_or(f64::INFINITY)
 }

@@ -1,39 +1,39 @@
-//! How strongly the directions of a structure are coupled, and what leaving that out costs.
+//! How strongly the directions of a structure are coupled, and the error of leaving the coupling out.
 
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
 
-use crate::block::GridBlock;
+use super::block::GridBlock;
+use super::influence::Grid;
 use crate::fault::number;
-use crate::grid::Grid;
 
 crate::object::objects!(RawCoupling, RawDropped, RawChange);
 
-/// Side load of the comparison, as a share of the wheel load.
+/// Lateral load of the comparison, as a fraction of the wheel load.
 pub const SIDE_LOAD: f64 = 0.1;
 
-/// Below this share of the largest entry a station is held: its give is rounding.
-const HELD: f64 = 1e-9;
+/// A station whose compliance is below this fraction of the largest is fixed: its compliance is rounding error.
+const FIXED: f64 = 1e-9;
 
-/// A coupling below this says nothing worth a line.
-const SLIGHT: f64 = 1e-3;
+/// Relative coupling below which no line is printed.
+const NEGLIGIBLE: f64 = 1e-3;
 
-/// Size of the couplings of a grid.
+/// Strength of the couplings of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
     /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) over all pairs of stations, in 0..=1 but for
     /// rounding, of each coupling that the grid has.
     pub largest: Vec<(GridBlock, f64)>,
-    /// What dropping the coupling of vertical and lateral costs.
+    /// Error of the deflections when the coupling of vertical and lateral is dropped.
     pub cost: Option<Cost>,
 }
 
-/// Change of a deflection under its own load when the coupling is dropped.
+/// Relative change of the deflections of a station when the coupling of vertical and lateral is dropped.
 ///
-/// A wheel load F and a side load of [`SIDE_LOAD`] F at a station move it vertically by
-/// G_vv F + G_vl 0.1 F and sideways by G_ll 0.1 F + G_lv F; the second terms are dropped. Relative to the first.
+/// A wheel load F and a lateral load of [`SIDE_LOAD`] F at a station deflect it vertically by G_vv F + G_vl 0.1 F and
+/// laterally by G_ll 0.1 F + G_lv F. The second terms are dropped; the change is their ratio to the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
     /// Vertical deflection.
@@ -42,7 +42,7 @@ pub struct Cost {
     pub lateral: Change,
 }
 
-/// A relative change over the stations that move.
+/// Statistics of a relative change over the stations that are not fixed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Change {
     /// Median.
@@ -52,7 +52,7 @@ pub struct Change {
 }
 
 impl Coupling {
-    /// The couplings of a grid; `None` where it has none.
+    /// The couplings of a grid; `None` where it has no coupling block.
     #[must_use]
     pub fn of(grid: &Grid) -> Option<Coupling> {
         let mut largest = Vec::new();
@@ -62,7 +62,7 @@ impl Coupling {
                 continue;
             }
             if let (Some(a), Some(b)) = (grid.block(row), grid.block(column)) {
-                largest.push((*quantity, share(block, a, b)));
+                largest.push((*quantity, relative(block, a, b)));
             }
         }
         let blocks =
@@ -82,8 +82,8 @@ impl Coupling {
     #[must_use]
     pub fn json(&self) -> Value {
         let mut object = serde_json::Map::new();
-        for (quantity, share) in &self.largest {
-            object.insert(quantity.name().to_owned(), json!(share));
+        for (quantity, relative) in &self.largest {
+            object.insert(quantity.name().to_owned(), json!(relative));
         }
         if let Some(cost) = &self.cost {
             let change = |change: Change| json!({ "median": change.median, "largest": change.largest });
@@ -95,16 +95,17 @@ impl Coupling {
         Value::Object(object)
     }
 
-    /// One line for people, where there is a coupling to speak of.
+    /// One line for the terminal, where the relative coupling of vertical and lateral is at least 1e-3.
     #[must_use]
     pub fn line(&self) -> Option<String> {
-        let (_, share) = self.largest.iter().find(|(quantity, _)| *quantity == GridBlock::VerticalLateral)?;
-        let cost = self.cost.filter(|_| *share >= SLIGHT)?;
+        let (_, relative) =
+            self.largest.iter().find(|(quantity, _)| *quantity == GridBlock::VerticalLateral)?;
+        let cost = self.cost.filter(|_| *relative >= NEGLIGIBLE)?;
         let percent = |change: Change| {
             format!("{:.1} % (median; at most {:.1} %)", 100.0 * change.median, 100.0 * change.largest)
         };
         Some(format!(
-            "coupling: vertical-lateral reaches {share:.3} of sqrt(Gvv Gll); under a side load of {} of the wheel \
+            "coupling: vertical-lateral reaches {relative:.3} of sqrt(Gvv Gll); under a side load of {} of the wheel \
              load, dropping it moves the lateral deflection by {}, the vertical by {}",
             number(SIDE_LOAD),
             percent(cost.lateral),
@@ -113,24 +114,25 @@ impl Coupling {
     }
 }
 
-/// Stations that move.
+/// Whether a station is not fixed, by its entry of a direct block.
 fn moving(block: &DMatrix<f64>) -> impl Fn(usize) -> bool + '_ {
-    let least = HELD * block.diagonal().amax();
+    let least = FIXED * block.diagonal().amax();
     move |i| block[(i, i)] > least
 }
 
-fn share(coupling: &DMatrix<f64>, row: &DMatrix<f64>, column: &DMatrix<f64>) -> f64 {
-    let (up, side) = (moving(row), moving(column));
+/// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)), with `row` G_aa and `column` G_bb.
+fn relative(coupling: &DMatrix<f64>, row: &DMatrix<f64>, column: &DMatrix<f64>) -> f64 {
+    let (row_moves, column_moves) = (moving(row), moving(column));
     let mut largest = 0.0_f64;
-    for i in (0..row.nrows()).filter(|&i| up(i)) {
-        for j in (0..row.nrows()).filter(|&j| side(j)) {
+    for i in (0..row.nrows()).filter(|&i| row_moves(i)) {
+        for j in (0..row.nrows()).filter(|&j| column_moves(j)) {
             largest = largest.max(coupling[(i, j)].abs() / (row[(i, i)].sqrt() * column[(j, j)].sqrt()));
         }
     }
     largest
 }
 
-/// |coupling| `factor` / direct at the stations that move.
+/// Median and largest of |coupling(i, i)| `factor` / direct(i, i) over the stations that are not fixed.
 fn change(coupling: &DMatrix<f64>, direct: &DMatrix<f64>, factor: f64) -> Option<Change> {
     let moves = moving(direct);
     let stations = (0..direct.nrows()).filter(|&i| moves(i));

@@ -1,4 +1,4 @@
-//! Grid files: `girderway-grid/1`, written with all digits and read back bit for bit.
+//! Grid files, `girderway-grid/1`: written in the fewest digits that identify every number, read back bit for bit.
 
 use std::fmt::Write;
 
@@ -9,28 +9,29 @@ use serde::Deserialize;
 use serde_json::json;
 use splines::Surface;
 
-use crate::block::GridBlock;
-use crate::coupling::{Coupling, RawCoupling};
+use super::block::GridBlock;
+use super::coupling::{Coupling, RawCoupling};
+use super::effects_file::{self, RawEffects};
+use super::influence::{Grid, GridRail};
+use super::modes_file::RawModes;
+use super::surface_file::{self, RawSurface};
 use crate::diagnostic::Diagnostic;
-use crate::effect_file::{self, RawEffects};
 use crate::fault::{Fault, Faults, number};
-use crate::grid::{Grid, GridRail};
-use crate::modes_file::RawModes;
 use crate::place::Place;
 use crate::source::Source;
 use crate::spec::THEORIES;
-use crate::surface_file::{self, RawSurface};
 use crate::units::{RawUnits, Units};
 
 crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
-/// The word of the format, with its version.
+/// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-grid/1";
-/// Freedoms of the largest surface that `fea` writes: some 170 MB of text.
+/// Most degrees of freedom of the node states of an exact compliance that the command `fea` writes: some 170 MB of
+/// text.
 pub const LARGEST: usize = 3000;
 
-/// The text of a grid file: one row of a matrix a line, every number in the fewest digits that give it back.
-/// With `surface`, the influence between the stations too, exactly.
+/// The text of a grid file: one row of a matrix per line, every number in the fewest digits that give it back.
+/// `surface`, where given, is written too: the compliance between any two places, exact also between the stations.
 #[must_use]
 pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
     let mut head = serde_json::Map::new();
@@ -76,7 +77,7 @@ pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
     }
     text.push_str("\n  }");
     if let Some(effects) = &grid.effects {
-        let _ = write!(text, ",\n  \"effects\": {}", effect_file::write(effects, grid.units));
+        let _ = write!(text, ",\n  \"effects\": {}", effects_file::write(effects, grid.units));
     }
     if let Some(surface) = surface {
         let _ = write!(text, ",\n  \"surface\": {}", surface_file::to_json(surface));
@@ -154,11 +155,11 @@ impl RawInfluence {
     }
 }
 
-/// Reads a grid file, and its exact surface where it has one.
+/// Reads a grid file: the grid, and the exact compliance where the file has one.
 ///
 /// # Errors
-/// The first syntax or type error, or everything else that is wrong: a block of another size than the stations,
-/// a direct grid that is not symmetric to the last bit.
+/// The first syntax or type error, or else all other faults, such as a block whose size differs from the number of
+/// stations or a direct block that is not symmetric to the last bit.
 pub fn read(source: &Source) -> Result<(Grid, Option<Surface>), Vec<Diagnostic>> {
     let raw: RawGrid = source.parse(FORMAT).map_err(|error| vec![*error])?;
     let mut faults = Faults::default();
@@ -240,6 +241,7 @@ fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridR
     rails
 }
 
+/// The matrix of `rows`; a fault where it is not `size` x `size`.
 fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults) -> Option<DMatrix<f64>> {
     if rows.len() != size {
         let fault = Fault::new(place, format!("must have {size} rows, one for each station")).got(rows.len());
@@ -255,6 +257,7 @@ fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults
     Some(DMatrix::from_fn(size, size, |row, column| rows[row][column]))
 }
 
+/// Adds a fault at the first pair of entries that differ: Maxwell's reciprocity makes a direct block symmetric.
 fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
     for row in 0..block.nrows() {
         for column in 0..row {
@@ -273,7 +276,7 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::effect::{Effects, Ground, Reaction, Section};
+    use crate::grid::effects::{Effects, Ground, Reaction, Section};
     use crate::spec::Spot;
     use crate::units::{Force, Length};
     use splines::Axis;

@@ -1,46 +1,38 @@
-//! Reactions and internal forces per unit load at the stations.
+//! Influence lines of reactions and internal forces: their values under unit loads at the stations.
 
-use fea::{Component, Effect, Frame, Model};
+use fea::{Effect, Frame, Model};
 use splines::{Axis, Probe};
 
+pub use crate::spec::COMPONENTS;
 use crate::spec::{Cut, Form, Spec, Spot};
 
-/// Words of the components of an internal force.
-pub const COMPONENTS: [(&str, Component); 6] = [
-    ("N", Component::Axial),
-    ("Vy", Component::ShearY),
-    ("Vz", Component::ShearZ),
-    ("Mx", Component::Torsion),
-    ("My", Component::BendingY),
-    ("Mz", Component::BendingZ),
-];
-
-/// Influence lines at the stations: what unit loads cause elsewhere.
+/// Influence lines of reactions and of internal forces, sampled at the stations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
-    /// Forces and moments of the ground.
+    /// Forces and moments that the ground exerts.
     pub reactions: Vec<Reaction>,
     /// Internal forces at named sections.
     pub sections: Vec<Section>,
 }
 
-/// One value for each station, by the direction of the unit load.
+/// Influence lines by the direction of the unit load: one value for each station. Forces are per unit force, moments
+/// are lengths.
 pub type Lines = Vec<(Axis, Vec<f64>)>;
 
-/// A reaction, positive along its global freedom.
+/// A reaction, positive along its global degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
     /// Where it acts.
     pub at: Ground,
-    /// Word of its freedom.
+    /// Word of its degree of freedom, such as `uy`.
     pub dof: String,
-    /// Index of the spring that gives it; `None` is a support.
+    /// Index of the spring that exerts it; `None` where a support does.
     pub spring: Option<usize>,
     /// Its influence lines.
     pub lines: Lines,
 }
 
-/// A supported place as users know it.
+/// A supported place in the terms of the spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ground {
     /// Coordinate along a girder.
@@ -61,10 +53,13 @@ pub struct Section {
 }
 
 impl Effects {
-    /// Effects of unit loads at `stations` (rail, coordinate) along `axes`.
+    /// Influence lines at `stations` (index of the rail, coordinate) for unit loads along `axes`.
+    ///
+    /// `model` and `frame` are those of [`Spec::model`]. All effects are solved at once: rows are the reactions, then
+    /// the six components of each section; columns are the stations for each of `axes` in turn.
     ///
     /// # Errors
-    /// A station where the frame gives no answer.
+    /// A station where the frame has no solution.
     pub fn of(
         spec: &Spec,
         model: &Model,

@@ -1,0 +1,17 @@
+//! The head of every file of ours: its format, and its name where it gives none.
+
+use crate::fault::Faults;
+use crate::place::Place;
+
+/// Checks that the member `format` is there and equal to `expected`.
+pub fn format(found: &Option<String>, expected: &str, root: &Place<'_>, faults: &mut Faults) {
+    if let Some(word) = faults.need(found, root, "format") {
+        faults.word(word, &root.key("format"), &[(expected, ())]);
+    }
+}
+
+/// The name of a file without folder and ending.
+pub fn stem(file: &str) -> String {
+    let path = std::path::Path::new(file);
+    path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
+}

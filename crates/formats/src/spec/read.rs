@@ -1,0 +1,101 @@
+//! Reading a beam spec: which of the two forms it has, and everything that is wrong with it.
+
+use fea::Theory;
+
+use super::header::format;
+use super::raw::RawSpec;
+use super::structure::{Form, Spec};
+use super::words::THEORIES;
+use super::{cuts, frame, girder, header, stress};
+use crate::check::Check;
+use crate::diagnostic::Diagnostic;
+use crate::fault::{Fault, Faults};
+use crate::place::Place;
+use crate::source::Source;
+use crate::units::{Scale, Units};
+
+/// Value of the member `format`: name and version of the format.
+pub const FORMAT: &str = "girderway-beam/1";
+
+impl Spec {
+    /// Reads a spec and converts it to the units `target`; it keeps its own units where that is `None`.
+    ///
+    /// # Errors
+    /// The first syntax or type error, or else all other faults of the file, each with its place.
+    pub fn read(source: &Source, target: Option<Units>) -> Result<Spec, Vec<Diagnostic>> {
+        let raw: RawSpec = source.parse(FORMAT).map_err(|error| vec![*error])?;
+        let mut faults = Faults::default();
+        let spec = Spec::check(&raw, &source.name, target, &mut faults);
+        match spec {
+            Some(spec) if faults.0.is_empty() => Ok(spec),
+            _ => Err(source.diagnose(&faults)),
+        }
+    }
+
+    fn check(raw: &RawSpec, file: &str, target: Option<Units>, faults: &mut Faults) -> Option<Spec> {
+        let root = Place::root();
+        format(&raw.format, FORMAT, &root, faults);
+        let own = Units::read(&raw.units, &root, faults);
+        let theory = match &raw.theory {
+            Some(word) => faults.word(word, &root.key("theory"), &THEORIES).unwrap_or(Theory::Timoshenko),
+            None => Theory::Timoshenko,
+        };
+        // without units the numbers are still checked, in any one system
+        let from = own.unwrap_or(Units::SI);
+        let to = target.filter(|_| own.is_some()).unwrap_or(from);
+        let mut check = Check { faults, scale: Scale { from, to } };
+        let (form, effects) = match &raw.girder {
+            Some(girder) => {
+                refuse_general(raw, &root, check.faults);
+                let before = check.faults.0.len();
+                let points = &girder.points;
+                let girder = girder::read(girder, &raw.stations, theory, &root, &mut check);
+                let faultless = check.faults.0.len() == before;
+                let points = stress::read(points, &root.key("girder"), &mut check);
+                let effects = cuts::read_girder(raw, &girder, &points, faultless, &root, &mut check);
+                (Form::Girder(girder), effects)
+            }
+            None if raw.points.is_some() || raw.cells.is_some() => {
+                let (frame, effects) = frame::read(raw, theory, &root, &mut check);
+                (Form::Frame(frame), effects)
+            }
+            None => {
+                let fault = Fault::new(&root, "must have a `girder`, or `points` and `cells`").got("neither");
+                check
+                    .faults
+                    .add(fault.hint("`girder` is the short form, `points` and `cells` the general one"));
+                return None;
+            }
+        };
+        let name = raw.name.clone().unwrap_or_else(|| header::stem(file));
+        Some(Spec { name, units: to, theory, form, effects })
+    }
+}
+
+/// Refuses keys of the general form beside `girder`.
+fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
+    let general = [
+        ("up", raw.up.is_some()),
+        ("points", raw.points.is_some()),
+        ("cells", raw.cells.is_some()),
+        ("cell_data", raw.cell_data.is_some()),
+        ("point_sets", raw.point_sets.is_some()),
+        ("cell_sets", raw.cell_sets.is_some()),
+        ("materials", raw.materials.is_some()),
+        ("sections", raw.sections.is_some()),
+        ("supports", raw.supports.is_some()),
+        ("springs", raw.springs.is_some()),
+        ("links", raw.links.is_some()),
+        ("masses", raw.masses.is_some()),
+        ("rails", raw.rails.is_some()),
+        ("parts", raw.parts.is_some()),
+    ];
+    for (key, given) in general {
+        if given {
+            let fault = Fault::new(&root.key(key), format!("`{key}` cannot stand beside `girder`")).at_key();
+            faults.add(
+                fault.hint("a spec is either a short `girder` or the general form with `points` and `cells`"),
+            );
+        }
+    }
+}

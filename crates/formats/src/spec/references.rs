@@ -1,0 +1,107 @@
+//! References within a spec: indices, names of sections and of point sets, words of degrees of freedom.
+
+use super::block::Reference;
+use super::words::FREEDOMS;
+use crate::check::Check;
+use crate::fault::Fault;
+use crate::place::Place;
+use crate::text::names::resolve;
+
+/// The points of a spec, as references to them are resolved.
+pub(super) struct Points<'s> {
+    /// Number of points.
+    pub count: usize,
+    /// Indices of points by the name of their set.
+    pub sets: &'s [(String, Vec<usize>)],
+}
+
+impl Points<'_> {
+    /// The points that an index or the name of a point set refers to; all of them exist.
+    pub fn all(
+        &self,
+        given: &Option<Reference>,
+        key: &str,
+        at: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> Vec<usize> {
+        match check.faults.need(given, at, key) {
+            None => Vec::new(),
+            Some(Reference::Index(index)) => {
+                let exists = index_below(*index, self.count, "points", &at.key(key), check);
+                if exists { vec![*index] } else { Vec::new() }
+            }
+            Some(name) => {
+                let names: Vec<(&str, usize)> =
+                    self.sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
+                let set = refer(name, &names, "point set", &at.key(key), check);
+                // points that do not exist are reported at the set itself
+                let all = set.map(|set| self.sets[set].1.as_slice()).unwrap_or_default();
+                all.iter().copied().filter(|point| *point < self.count).collect()
+            }
+        }
+    }
+
+    /// The one point that an index or the name of a point set refers to; a set of several points is a fault.
+    pub fn one(
+        &self,
+        given: &Option<Reference>,
+        key: &str,
+        at: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> Option<usize> {
+        let before = check.faults.0.len();
+        let found = self.all(given, key, at, check);
+        if found.len() != 1 && check.faults.0.len() == before {
+            let fault =
+                Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
+            check.faults.add(fault.hint("supports alone take sets of several points"));
+        }
+        found.first().copied().filter(|_| found.len() == 1)
+    }
+}
+
+/// Index of the item of a list that an index or a name refers to; a fault where there is none. `what` is the kind of
+/// item, such as "section".
+pub(super) fn refer(
+    given: &Reference,
+    names: &[(&str, usize)],
+    what: &str,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<usize> {
+    match given {
+        Reference::Index(index) => {
+            index_below(*index, names.len(), &format!("{what}s"), at, check).then_some(*index)
+        }
+        Reference::Name(name) => resolve(name, names, what, at, check.faults),
+    }
+}
+
+/// Whether an index is below `count`; a fault where it is not. `what` are the items, such as "points".
+pub(super) fn index_below(
+    index: usize,
+    count: usize,
+    what: &str,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> bool {
+    if index >= count {
+        let fault = Fault::new(at, format!("must be below {count}, the number of {what}")).got(index);
+        check.faults.add(fault.hint("indices count from 0"));
+    }
+    index < count
+}
+
+/// A list of degrees of freedom, each at most once, as a set in the order ux, uy, uz, rx, ry, rz.
+pub(super) fn dofs(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
+    let mut set = [false; 6];
+    for (index, word) in words.iter().enumerate() {
+        let item = at.index(index);
+        let Some(dof) = check.faults.word(word, &item, &FREEDOMS) else { continue };
+        if set[dof as usize] {
+            check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+        }
+        set[dof as usize] = true;
+    }
+    set
+}

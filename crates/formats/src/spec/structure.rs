@@ -1,0 +1,166 @@
+//! A checked beam spec: a structure with its rails and the names that users know, as plain values.
+
+use fea::{Girder, Model, Rail, Theory};
+
+use super::cuts::Cut;
+use crate::units::Units;
+
+/// Name of the one rail of the short form.
+pub const GIRDER_RAIL: &str = "rail";
+
+/// A beam spec, checked and in the units asked for.
+///
+/// ```
+/// use formats::source::Source;
+/// use formats::spec::Spec;
+/// use formats::units::Units;
+///
+/// let text = r#"{"format": "girderway-beam/1", "units": {"length": "ft", "force": "lbf", "time": "s"},
+///  "girder": {"spans": [60, 60], "E": 4.176e9, "I_vertical": 2.5}, "stations": [0, 30, 60]}"#;
+/// let source = Source { name: "girder.json".to_owned(), text: text.to_owned() };
+/// let spec = Spec::read(&source, Some(Units::SI)).expect("a girder over two spans");
+/// assert_eq!(spec.name, "girder");
+/// assert_eq!(spec.rails()[0].range, [0.0, 36.576]);
+///
+/// let wrong = Source { text: text.replace("[60, 60]", "[60, -60]"), ..source };
+/// let faults = Spec::read(&wrong, None).expect_err("a span of negative length");
+/// assert_eq!(faults[0].path, "girder.spans[1]");
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Spec {
+    /// Its name; that of the file, without its ending, where the spec has none.
+    pub name: String,
+    /// Units of all its numbers.
+    pub units: Units,
+    /// Beam theory: whether shear deforms the members.
+    pub theory: Theory,
+    /// The structure.
+    pub form: Form,
+    /// Sections of members whose internal forces are asked for.
+    pub effects: Vec<Cut>,
+}
+
+/// The two forms of a spec.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Form {
+    /// A straight girder, continuous over its supports.
+    Girder(Girder),
+    /// The general form: points, members, supports and springs, and rails.
+    Frame(Frame),
+}
+
+/// A rail in the terms of the user: its name, extent and stations.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RailOutline {
+    /// Its name within the structure.
+    pub name: String,
+    /// First and last coordinate, in length.
+    pub range: [f64; 2],
+    /// Coordinates of the stations of its influence grid, increasing.
+    pub stations: Vec<f64>,
+}
+
+/// The checked general form, in the units asked for: the model with the names of the file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Points, members, supports, springs, links and masses.
+    pub model: Model,
+    /// Rails with their names, in the order of the file.
+    pub rails: Vec<(String, Rail)>,
+    /// First and last coordinate of each rail, in length.
+    pub ranges: Vec<[f64; 2]>,
+    /// Names of the sections.
+    pub sections: Vec<String>,
+    /// Number of points in the file; the points between the parts of tapered members follow them in the model.
+    pub points: usize,
+    /// For each member, the block of `cells` and the index in it: parts of a tapered cell share it.
+    pub cells: Vec<[usize; 2]>,
+    /// Named sets of points.
+    pub point_sets: Vec<(String, Vec<usize>)>,
+    /// For each support of the model the index of the file's support that gave it; supports of ties are not among
+    /// them.
+    pub supports: Vec<usize>,
+    /// Pads between rail and structure, where ties carry the rail.
+    pub pads: Vec<Pad>,
+}
+
+/// The pad between a rail and its base at one tie: the two places between which its damper acts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pad {
+    /// Index of the point of the rail.
+    pub rail: usize,
+    /// Index of the point of the structure, and the rigid arm from it to the pad; `None`: the ground.
+    pub base: Option<(usize, [f64; 3])>,
+    /// Direction of the damper, a unit vector.
+    pub up: [f64; 3],
+}
+
+impl Spec {
+    /// The straight girder; `None` where the spec has the general form.
+    #[must_use]
+    pub const fn girder(&self) -> Option<&Girder> {
+        match &self.form {
+            Form::Girder(girder) => Some(girder),
+            Form::Frame(_) => None,
+        }
+    }
+
+    /// The pads between rails and structure; empty where there are no ties.
+    #[must_use]
+    pub fn pads(&self) -> &[Pad] {
+        match &self.form {
+            Form::Girder(_) => &[],
+            Form::Frame(frame) => &frame.pads,
+        }
+    }
+
+    /// The rails, in the order of the file.
+    #[must_use]
+    pub fn rails(&self) -> Vec<RailOutline> {
+        match &self.form {
+            Form::Girder(girder) => vec![RailOutline {
+                name: GIRDER_RAIL.to_owned(),
+                range: range(girder),
+                stations: girder.stations.clone(),
+            }],
+            Form::Frame(frame) => {
+                let rails = frame.rails.iter().zip(&frame.ranges);
+                let outline = |((name, rail), range): (&(String, Rail), &[f64; 2])| RailOutline {
+                    name: name.clone(),
+                    range: *range,
+                    stations: rail.stations.clone(),
+                };
+                rails.map(outline).collect()
+            }
+        }
+    }
+
+    /// The model and the rails on it, as `fea::Frame::new` takes them.
+    ///
+    /// # Errors
+    /// A girder whose numbers give no model.
+    pub fn model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
+        match &self.form {
+            Form::Girder(girder) => girder.frame().map(|(model, rail)| (model, vec![rail])),
+            Form::Frame(frame) => {
+                Ok((frame.model.clone(), frame.rails.iter().map(|(_, rail)| rail.clone()).collect()))
+            }
+        }
+    }
+
+    /// The same structure under another beam theory.
+    #[must_use]
+    pub fn with_theory(mut self, theory: Theory) -> Spec {
+        self.theory = theory;
+        match &mut self.form {
+            Form::Girder(girder) => girder.theory = theory,
+            Form::Frame(frame) => frame.model.theory = theory,
+        }
+        self
+    }
+}
+
+/// First and last rail coordinate of a girder.
+pub(super) fn range(girder: &Girder) -> [f64; 2] {
+    [-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]]
+}

@@ -1,0 +1,92 @@
+//! Checks of a table's numbers, by row and column, whatever the format.
+
+use adams::SplineValues;
+
+use crate::fault::number;
+
+/// The part of a table that has a defect.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All x.
+    Xs,
+    /// One x.
+    X(usize),
+    /// One z.
+    Z(usize),
+    /// All values.
+    Values,
+    /// The row of one z.
+    Row(usize),
+    /// A value by row and column.
+    Value(usize, usize),
+}
+
+/// What is wrong with a table: where, what is expected, what was found.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Defect {
+    pub part: Part,
+    pub expected: String,
+    pub found: Option<String>,
+    pub hint: Option<&'static str>,
+}
+
+impl Defect {
+    fn of(part: Part, expected: impl Into<String>, found: impl ToString) -> Defect {
+        Defect { part, expected: expected.into(), found: Some(found.to_string()), hint: None }
+    }
+}
+
+/// The table of these numbers: `x` and `z` increasing, `values` a row for each z (one row where `z` is empty).
+///
+/// # Errors
+/// The first defect: fewer than four x, places that do not increase, rows of another length, numbers that are not
+/// finite.
+pub(super) fn checked(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<SplineValues, Defect> {
+    if x.len() < SplineValues::MIN_POINTS {
+        let expected = format!("must have at least {} x", SplineValues::MIN_POINTS);
+        let hint = Some("a SPLINE has four x values or more");
+        return Err(Defect { hint, ..Defect::of(Part::Xs, expected, x.len()) });
+    }
+    let part_x: fn(usize) -> Part = Part::X;
+    for (list, part) in [(&x, part_x), (&z, Part::Z)] {
+        if let Some(k) = list.iter().position(|value| !value.is_finite()) {
+            return Err(Defect::of(part(k), "must be finite", list[k]));
+        }
+        if let Some(k) = list.windows(2).position(|pair| pair[0] >= pair[1]) {
+            let expected = format!("must be above the one before it, {}", number(list[k]));
+            return Err(Defect::of(part(k + 1), expected, list[k + 1]));
+        }
+    }
+    if values.len() != z.len().max(1) {
+        let expected = format!("must have {} rows, one for each z", z.len().max(1));
+        return Err(Defect::of(Part::Values, expected, values.len()));
+    }
+    for (i, row) in values.iter().enumerate() {
+        if row.len() != x.len() {
+            let expected = format!("must have {} numbers, one for each x", x.len());
+            return Err(Defect::of(Part::Row(i), expected, row.len()));
+        }
+        if let Some(j) = row.iter().position(|value| !value.is_finite()) {
+            return Err(Defect::of(Part::Value(i, j), "must be finite", row[j]));
+        }
+    }
+    SplineValues::new(x, z, values).map_err(|fault| Defect {
+        part: Part::Values,
+        expected: fault.to_string(),
+        found: None,
+        hint: None,
+    })
+}
+
+/// What is wrong with the last of these rows (x, value): x must not fall, and only two rows, a step, may be at one x.
+pub(crate) fn disorder(rows: &[[f64; 2]]) -> Option<String> {
+    match rows {
+        [.., before, last] if last[0] < before[0] => {
+            Some(format!("x must not fall: the row before is at {}", number(before[0])))
+        }
+        [.., first, _, last] if last[0] == first[0] => {
+            Some("two rows at one x at most: they are a step".to_owned())
+        }
+        _ => None,
+    }
+}
