@@ -115,7 +115,8 @@ pub fn import(
     let mut warnings = findings.warnings();
     if structure.rails.is_empty() {
         let missing = Diagnostic::of_file(&name, "the spec has no rail, and cannot be solved without one");
-        warnings.push(missing.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
+        warnings
+            .push(missing.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
     }
     let text = write(&structure);
     check_spec(&name, &text, &structure)?;
@@ -192,7 +193,8 @@ fn read_deck(
         return Err(vec![wrong]);
     }
     let empty = ImportedStructure::empty(stem(&name), Units { length, force });
-    bdf::read(path, open, empty, options.spc, &options.skip, findings).map_err(|error| unreadable(path, &error))
+    bdf::read(path, open, empty, options.spc, &options.skip, findings)
+        .map_err(|error| unreadable(path, &error))
 }
 
 /// Reads a gmsh mesh; its unit of length comes from the options, all others from the sections file.

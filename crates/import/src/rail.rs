@@ -101,7 +101,8 @@ pub fn lay(
     let [a, b] = structure.ends(first);
     let along = if first == last { minus(b, a) } else { minus(middle(last), middle(first)) };
     let hint = "give it as /axis=X,Y,Z";
-    let axis = asked.axis.or_else(|| horizontal(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
+    let axis =
+        asked.axis.or_else(|| horizontal(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
     let axis = axis.ok_or_else(|| ["must have an axis that is not along up".to_owned(), hint.to_owned()])?;
     let mut ends: Vec<[f64; 3]> = Vec::new();
     for &member in &members {

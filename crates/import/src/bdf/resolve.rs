@@ -22,9 +22,7 @@ use super::property::Property;
 use super::section::SectionTable;
 use super::support;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use crate::structure::{
-    ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure,
-};
+use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
 use formats::vector::{minus, parallel};
 
 /// A deck and the structure that it becomes.

@@ -22,8 +22,7 @@ impl ComparedColumns {
         let forces = self.columns.iter().filter(|(_, group, _)| *group == ErrorGroup::WheelForce);
         let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
         let least = NEGLIGIBLE * force * length;
-        self.columns
-            .retain(|(_, group, values)| *group != ErrorGroup::Moment || largest(values) > least);
+        self.columns.retain(|(_, group, values)| *group != ErrorGroup::Moment || largest(values) > least);
     }
 
     /// Removes all output times after `time`, s.

@@ -74,4 +74,3 @@ pub fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Resul
         _ => Ok(selected.choices),
     }
 }
-

@@ -290,7 +290,8 @@ mod tests {
 
     #[test]
     fn a_study_ends_where_the_first_of_its_references_diverges() {
-        let all = [diverging(Against::Whole, 6), diverging(Against::Massless, 8), diverging(Against::Own, 11)];
+        let all =
+            [diverging(Against::Whole, 6), diverging(Against::Massless, 8), diverging(Against::Own, 11)];
         assert_eq!(until(&all, 10.0, 1e-2), Some(5.0));
         assert_eq!(until(&all[1..], 10.0, 1e-2), Some(7.0));
         assert_eq!(until(&all[2..], 10.0, 1e-2), None, "they agree to the end");

@@ -375,7 +375,8 @@ mod tests {
 
     #[test]
     fn growth_without_dampers_is_the_limit_of_small_ones() {
-        let compliance = |skew: f64| DMatrix::from_row_slice(2, 2, &[2e-8, 1.5e-8 + skew, 1.5e-8 - skew, 1.8e-8]);
+        let compliance =
+            |skew: f64| DMatrix::from_row_slice(2, 2, &[2e-8, 1.5e-8 + skew, 1.5e-8 - skew, 1.8e-8]);
         let mut growing = 0;
         for skew in [0.0, 1e-10, 4e-9, 1.4e-8, 2e-8, 3e-8] {
             let own = Bogie { x: 0.0, offset: 0.7, gyration: 1.4, half: 1.3, law: [1e8, 0.0], mass: 1.5e5 };

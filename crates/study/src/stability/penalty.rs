@@ -150,7 +150,10 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         map.find(format!("{count} elements: at the stiffness"), best.1);
         for stiff in [1e3, 1e5, 1e7] {
             if let Some(value) = beam.penalty(count, stiff) {
-                map.find(format!("{count} elements: error at the stiffness {stiff:e}"), error_of(beam, value));
+                map.find(
+                    format!("{count} elements: error at the stiffness {stiff:e}"),
+                    error_of(beam, value),
+                );
             }
         }
         map.layers.push(Layer::new(format!("stiff post, {count} elements"), false).with(cells));
