@@ -1,7 +1,7 @@
 //! Models of other programs as beam specs.
 //!
-//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give an [`structure::ImportedStructure`], which [`write()`] turns
-//! into the text of a spec. [`import`] does all of it.
+//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give an [`structure::ImportedStructure`], which
+//! [`write()`] turns into the text of a spec. [`import`] does all of it.
 //!
 //! # Example
 //! ```
@@ -81,8 +81,8 @@ pub struct Imported {
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a model in the format of its file extension: `.bdf`, `.dat` and `.nas` are NASTRAN bulk data, `.msh` is a gmsh mesh. `open` reads
-/// the file and those that it includes.
+/// Reads a model in the format of its file extension: `.bdf`, `.dat` and `.nas` are NASTRAN bulk data, `.msh` is a
+/// gmsh mesh. `open` reads the file and those that it includes.
 ///
 /// # Errors
 /// All errors of the model, with their places; a model with errors is refused as a whole.

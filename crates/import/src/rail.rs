@@ -79,9 +79,9 @@ impl Item {
 
 /// Builds a rail along members.
 ///
-/// Its axis is the given one or, by default, the horizontal part of the direction from the middle of the first member to that of
-/// the last (of a single member: from its end a to b). Its coordinate is 0 at the end of a member with the smallest
-/// coordinate, and its stations are at the points of the members.
+/// Its axis is the given one or, by default, the horizontal part of the direction from the middle of the first member
+/// to that of the last (of a single member: from its end a to b). Its coordinate is 0 at the end of a member with the
+/// smallest coordinate, and its stations are at the points of the members.
 ///
 /// # Errors
 /// Members that do not exist, no usable axis, or a member at right angles to the axis: message and hint.

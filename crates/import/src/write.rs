@@ -11,8 +11,8 @@ const DOFS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
 /// Number of uniform parts that approximate a tapered member.
 pub const PARTS: usize = 32;
 
-/// The beam spec of a structure in the general form. Every number has the fewest digits from which its exact value is read
-/// again.
+/// The beam spec of a structure in the general form. Every number has the fewest digits from which its exact value is
+/// read again.
 #[must_use]
 pub fn write(structure: &ImportedStructure) -> String {
     let mut spec = Map::new();

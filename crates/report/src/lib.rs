@@ -1,7 +1,7 @@
 //! Charts, pictures, the animation of a crane, and the page of a report.
 //!
-//! [`chart`] draws plain data. [`figures`] selects the figures of a run, [`text`] the text and tables of its report. [`Report`] is
-//! one self-contained page of HTML.
+//! [`chart`] draws plain data. [`figures`] selects the figures of a run, [`text`] the text and tables of its report.
+//! [`Report`] is one self-contained page of HTML.
 //!
 //! # Example
 //! ```

@@ -1,7 +1,9 @@
-//! Accuracy against cost: a scene is run in many settings, and the errors of all are measured against converged references.
+//! Accuracy against cost: a scene is run in many settings, and the errors of all are measured against converged
+//! references.
 //!
-//! Beside the study proper ([`study()`]), the crate judges what readings of influence tables cost ([`table_quality`]), chooses
-//! the fewest stations of a table ([`stations`]), and maps where methods fail ([`stability`]).
+//! Beside the study proper ([`study()`]), the crate judges what readings of influence tables cost
+//! ([`table_quality`]), chooses the fewest stations of a table ([`stations`]), and maps where methods fail
+//! ([`stability`]).
 //!
 //! # Example
 //! A Pareto front of measured points (cost, error):

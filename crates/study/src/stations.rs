@@ -1,8 +1,8 @@
 //! Tables of a grid at the fewest stations that keep a tolerance.
 //!
-//! Stations of each rail are searched by [`splines::stations()`], which considers the direct blocks of this rail. Blocks between two
-//! rails or two directions are evaluated afterwards at these stations. Where one of them exceeds the tolerance, all rails are
-//! searched again with a tolerance 0.7 times as large, up to six times.
+//! Stations of each rail are searched by [`splines::stations()`], which considers the direct blocks of this rail.
+//! Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them exceeds
+//! the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
 
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -41,7 +41,8 @@ pub struct ChosenStations {
     pub stations: splines::Stations,
 }
 
-/// Error of the reading of one block, relative to the geometric mean of the largest coefficients of its two direct blocks.
+/// Error of the reading of one block, relative to the geometric mean of the largest coefficients of its two direct
+/// blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockError {
     /// Paths of deflection and load.

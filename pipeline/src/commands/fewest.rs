@@ -14,7 +14,8 @@ use formats::source::Source;
 use study::stations::{self, StationGoal};
 use study::table_quality::TableReadingMethod;
 
-/// The grid at the fewest stations that keep the tolerance; the stations are written to standard error and added to `summary`.
+/// The grid at the fewest stations that keep the tolerance; the stations are written to standard error and added to
+/// `summary`.
 ///
 /// # Errors
 /// A grid without its surface or without the requested directions; a tolerance that no number of stations keeps.

@@ -165,8 +165,8 @@ pub fn resolve(
     resolved
 }
 
-/// Frames of all systems. A system may be defined in any other: each pass resolves those whose reference system is known, until
-/// none is left or a cycle remains.
+/// Frames of all systems. A system may be defined in any other: each pass resolves those whose reference system is
+/// known, until none is left or a cycle remains.
 fn frames(
     systems: &BTreeMap<u64, CoordinateCard>,
     findings: &mut ImportFindings,

@@ -1,7 +1,8 @@
 //! NASTRAN bulk data: beams, bars and rods with their sections, supports, springs, rigid links and masses.
 //!
-//! Reading has four stages: `line` joins the files of a deck, `card` cuts lines into cards and fields, `deck` sorts the cards by what
-//! they describe (one file for each group of cards), and `resolve` turns references into indices of a structure.
+//! Reading has four stages: `line` joins the files of a deck, `card` cuts lines into cards and fields, `deck` sorts
+//! the cards by what they describe (one file for each group of cards), and `resolve` turns references into indices of
+//! a structure.
 //!
 //! # Source
 //! NASTRAN quick reference guides: formats of cards, local axes, planes 1 and 2, offsets and pin flags of CBAR.
@@ -29,8 +30,8 @@ pub use line::Open;
 use super::findings::ImportFindings;
 use super::structure::ImportedStructure;
 
-/// Reads a deck into `empty`, a structure with a name and units only. `spc`: the chosen SPC set; `skip`: names of cards that are
-/// ignored.
+/// Reads a deck into `empty`, a structure with a name and units only. `spc`: the chosen SPC set; `skip`: names of
+/// cards that are ignored.
 ///
 /// # Errors
 /// The deck cannot be read as a file; all other errors are among the findings.

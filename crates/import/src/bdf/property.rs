@@ -1,9 +1,9 @@
 //! Properties: PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS.
 //!
-//! PBAR and PBEAM give the areas and moments themselves. PBARL and PBEAML give a shape with its dimensions DIM1 to DIMn; the
-//! properties of its section come from `formats`, and shapes whose principal axes are oblique are refused. A beam has values at
-//! end A and at intermediate stations; it must be uniform or vary linearly to end B, so that stations between the ends must
-//! repeat one of them.
+//! PBAR and PBEAM give the areas and moments themselves. PBARL and PBEAML give a shape with its dimensions DIM1 to
+//! DIMn; the properties of its section come from `formats`, and shapes whose principal axes are oblique are refused.
+//! A beam has values at end A and at intermediate stations; it must be uniform or vary linearly to end B, so that
+//! stations between the ends must repeat one of them.
 
 use super::fields::CardFields;
 use crate::findings::FilePlace;
@@ -280,8 +280,8 @@ fn section(
     })
 }
 
-/// The dimensions of a PBEAML at end B, where they differ from those at end A; stations between the ends must have those of
-/// end A.
+/// The dimensions of a PBEAML at end B, where they differ from those at end A; stations between the ends must have
+/// those of end A.
 fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
     let count = dimensions.len();
     let last = card.last();

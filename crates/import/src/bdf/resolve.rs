@@ -2,8 +2,8 @@
 //!
 //! The steps follow each other, since later ones need what earlier ones resolve:
 //! 1. grids: coordinate systems are resolved, and coordinates become global;
-//! 2. points: the grids that an element, rigid link, mass or spring names, in the order of their numbers (a grid that only
-//!    orients an element is no point);
+//! 2. points: the grids that an element, rigid link, mass or spring names, in the order of their numbers (a grid that
+//!    only orients an element is no point);
 //! 3. members, with the sections and materials that they use (see [`super::section`]);
 //! 4. links and masses;
 //! 5. supports: permanent constraints of grids and the chosen SPC set;
@@ -36,7 +36,8 @@ struct Resolver<'d, 'f> {
     findings: &'f mut ImportFindings,
 }
 
-/// Makes a structure of a deck. `empty` has its name and units; `asked` is the SPC set that the user chose, where he did.
+/// Makes a structure of a deck. `empty` has its name and units; `asked` is the SPC set that the user chose, where he
+/// did.
 pub fn resolve(
     deck: &BulkDeck,
     empty: ImportedStructure,
@@ -107,8 +108,8 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// The property of an element, with the number that names its section; `None`, with an error, where there is none or where
-    /// it does not suit the element.
+    /// The property of an element, with the number that names its section; `None`, with an error, where there is none
+    /// or where it does not suit the element.
     fn property(&mut self, id: u64, element: &'d ElementCard, about: &str) -> Option<(u64, &'d Property)> {
         let deck = self.deck;
         let (number, property) = match &element.section {
@@ -137,8 +138,8 @@ impl<'d> Resolver<'d, '_> {
         Some((number, property))
     }
 
-    /// The orientation vector of an element whose first grid is at `first`; the outer `None`, with an error, where it names a
-    /// missing grid.
+    /// The orientation vector of an element whose first grid is at `first`; the outer `None`, with an error, where it
+    /// names a missing grid.
     fn orientation(
         &mut self,
         element: &ElementCard,
@@ -382,9 +383,9 @@ impl<'d> Resolver<'d, '_> {
     }
 }
 
-/// Gives a member whose property has no bending or no torsional stiffness the releases that take the same stiffness out of a beam,
-/// or makes it a truss: with neither, it is a truss; with torsion alone, it is hinged at both ends; with bending alone, it turns
-/// freely about its axis.
+/// Gives a member whose property has no bending or no torsional stiffness the releases that take the same stiffness
+/// out of a beam, or makes it a truss: with neither, it is a truss; with torsion alone, it is hinged at both ends;
+/// with bending alone, it turns freely about its axis.
 fn release_missing_stiffness(member: &mut ImportedMember, property: &Property, along: [f64; 3]) {
     let bends = property.bending[0] > 0.0;
     let twists = property.j > 0.0;

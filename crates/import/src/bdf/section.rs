@@ -1,9 +1,9 @@
 //! Sections and materials of a deck, written when the first member uses them.
 //!
-//! A NASTRAN property becomes one section (a tapered one two), its MAT1 one material. Non-structural mass per length NSM is
-//! spread over the area A: the material of such a property has the density rho + NSM / A, and a name of its own. Stiffnesses
-//! that a property lacks cannot be zero in a beam spec: the section has a placeholder there (A^2 / 4 pi for a second moment, as
-//! of a solid round bar; I1 + I2 for J), and the member has the releases that take it out.
+//! A NASTRAN property becomes one section (a tapered one two), its MAT1 one material. Non-structural mass per length
+//! NSM is spread over the area A: the material of such a property has the density rho + NSM / A, and a name of its
+//! own. Stiffnesses that a property lacks cannot be zero in a beam spec: the section has a placeholder there (A^2 / 4
+//! pi for a second moment, as of a solid round bar; I1 + I2 for J), and the member has the releases that take it out.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -26,8 +26,8 @@ pub struct SectionTable {
 
 impl SectionTable {
     /// The index of the section of a property with its number, which is added to `structure` when it is first used.
-    /// `end`: suffix of its name for the end that it belongs to; `about`: the element that uses it. `None`, with an error
-    /// among the findings, where the property cannot be used.
+    /// `end`: suffix of its name for the end that it belongs to; `about`: the element that uses it. `None`, with an
+    /// error among the findings, where the property cannot be used.
     pub fn index_of(
         &mut self,
         deck: &BulkDeck,

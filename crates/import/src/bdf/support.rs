@@ -87,8 +87,8 @@ pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
 
 /// The numbers of the sets that restrain the structure, those of SPCADD expanded.
 ///
-/// `asked`: the set that the user chose; `controlled`: whether the deck has case control; `control`: the sets that case control
-/// chooses, with their places. Where neither chooses, the deck must have one set only.
+/// `asked`: the set that the user chose; `controlled`: whether the deck has case control; `control`: the sets that
+/// case control chooses, with their places. Where neither chooses, the deck must have one set only.
 pub fn chosen(
     holds: &[SupportCard],
     adds: &BTreeMap<u64, Vec<u64>>,

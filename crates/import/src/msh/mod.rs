@@ -1,8 +1,8 @@
 //! Meshes of gmsh in text format 4.1: line cells become members.
 //!
-//! Each curve must belong to exactly one physical group that the sections file knows: by the name of a section, or by an entry
-//! of `members` that names one. The member takes section, orientation and releases from there. Physical groups of points become
-//! sets of points, for supports; other cells are ignored with a warning.
+//! Each curve must belong to exactly one physical group that the sections file knows: by the name of a section, or by
+//! an entry of `members` that names one. The member takes section, orientation and releases from there. Physical
+//! groups of points become sets of points, for supports; other cells are ignored with a warning.
 //!
 //! # Source
 //! Gmsh reference manual, section "MSH file format".
@@ -20,8 +20,8 @@ use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use mesh::Mesh;
 
-/// Reads a mesh into `empty`, a structure with name, units and up direction only; `factor` converts coordinates of the mesh to
-/// the unit of length of the structure. Errors are among the findings.
+/// Reads a mesh into `empty`, a structure with name, units and up direction only; `factor` converts coordinates of
+/// the mesh to the unit of length of the structure. Errors are among the findings.
 #[must_use]
 pub fn read(
     text: &str,
@@ -120,8 +120,8 @@ fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
     groups.filter_map(|group| mesh.names.get(&(dimension, *group)).map(String::as_str)).collect()
 }
 
-/// Adds the nodes of line cells and of physical points, in the order of their numbers, and a set for each physical group of
-/// points; returns the index of the point of each node.
+/// Adds the nodes of line cells and of physical points, in the order of their numbers, and a set for each physical
+/// group of points; returns the index of the point of each node.
 fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeMap<u64, usize> {
     let mut named: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
     for (entity, nodes) in &mesh.points {

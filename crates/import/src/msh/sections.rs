@@ -1,7 +1,7 @@
 //! The sections file: materials, sections and the properties of members by physical group.
 //!
-//! Every section that no entry of `members` uses applies to the physical group of its own name. A section that beams use needs
-//! A, Iy, Iz and J, and a material with G; one that only trusses use needs A.
+//! Every section that no entry of `members` uses applies to the physical group of its own name. A section that beams
+//! use needs A, Iy, Iz and J, and a material with G; one that only trusses use needs A.
 
 use std::collections::BTreeMap;
 
@@ -234,8 +234,8 @@ fn named_groups(
     groups
 }
 
-/// All groups: those of `members`, and those of sections that none of them uses. Adds an error for each section in which a value
-/// is missing that its members need.
+/// All groups: those of `members`, and those of sections that none of them uses. Adds an error for each section in
+/// which a value is missing that its members need.
 fn groups(
     raw: &Raw,
     materials: &[ImportedMaterial],

@@ -1,5 +1,5 @@
-//! Compact JSON of long lists of numbers: values are rounded to multiples of a power of ten and stored as differences of successive
-//! multiples.
+//! Compact JSON of long lists of numbers: values are rounded to multiples of a power of ten and stored as differences
+//! of successive multiples.
 
 use serde_json::{Value, json};
 
@@ -19,8 +19,9 @@ pub fn exponent(range: [f64; 2]) -> i32 {
     if power.is_finite() { power.clamp(-22.0, 22.0) as i32 } else { 0 }
 }
 
-/// `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, n the nearest whole numbers of 10^exponent, without differences
-/// at the end that repeat the one before; as they are, to seven digits, where they are too large for that.
+/// `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, n the nearest whole numbers of 10^exponent,
+/// without differences at the end that repeat the one before; as they are, to seven digits, where they are too large
+/// for that.
 ///
 /// All values must be finite. The error of each is at most half a step.
 #[must_use]

@@ -37,11 +37,12 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report as one HTML page without references to other files. All text except finished SVG pictures is escaped. Charts are
-    /// drawn on at most `threads` threads; `None`: as many as the machine has.
+    /// The report as one HTML page without references to other files. All text except finished SVG pictures is
+    /// escaped. Charts are drawn on at most `threads` threads; `None`: as many as the machine has.
     ///
     /// # Errors
-    /// A number that is not finite, a row whose length differs from the number of columns, or a chart that cannot be drawn.
+    /// A number that is not finite, a row whose length differs from the number of columns, or a chart that cannot be
+    /// drawn.
     pub fn html(&self, threads: Option<u16>) -> Result<String, Error> {
         let sections = self.sections.iter().enumerate();
         let figures: Vec<(usize, usize, &Figure)> = sections

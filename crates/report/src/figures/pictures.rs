@@ -87,8 +87,8 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     plates
 }
 
-/// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free; `events`: what
-/// happened, and when.
+/// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free;
+/// `events`: what happened, and when.
 #[must_use]
 pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     let (scene, record) = (run.scene, run.record);

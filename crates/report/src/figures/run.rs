@@ -9,8 +9,8 @@ use super::error::FigureError;
 use super::pictures::{LabelledRun, RunFigure};
 use super::{animation, pictures, rail_picture, response_picture};
 
-/// The figures of a scene and its comparisons with their `outcomes`: runs first, with comparisons in the same charts, then the
-/// structures, solved in `known`.
+/// The figures of a scene and its comparisons with their `outcomes`: runs first, with comparisons in the same charts,
+/// then the structures, solved in `known`.
 ///
 /// # Errors
 /// A figure that cannot be drawn or evaluated.

@@ -15,8 +15,8 @@ pub struct ComparedColumns {
 const NEGLIGIBLE: f64 = 1e-6;
 
 impl ComparedColumns {
-    /// Removes moments that are rounding: those below [`NEGLIGIBLE`] times the largest wheel force and the `length` of the longest
-    /// rail.
+    /// Removes moments that are rounding: those below [`NEGLIGIBLE`] times the largest wheel force and the `length`
+    /// of the longest rail.
     pub(crate) fn prune(&mut self, length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let forces = self.columns.iter().filter(|(_, group, _)| *group == ErrorGroup::WheelForce);
@@ -42,11 +42,11 @@ pub struct Deviation {
     pub peak: f64,
 }
 
-/// Errors of `run` against `reference` in each group, in the order of [`ErrorGroup::ALL`]; `None` where the reference has
-/// nothing but zeros in a group, or a column of the group is missing in `run`.
+/// Errors of `run` against `reference` in each group, in the order of [`ErrorGroup::ALL`]; `None` where the reference
+/// has nothing but zeros in a group, or a column of the group is missing in `run`.
 ///
-/// e = max |a - b| / max |b| over the columns of a group and the output times that both runs have. The extremes of a column
-/// are compared whatever their times.
+/// e = max |a - b| / max |b| over the columns of a group and the output times that both runs have. The extremes of a
+/// column are compared whatever their times.
 #[must_use]
 pub fn deviations(
     run: &ComparedColumns,
@@ -62,8 +62,9 @@ fn common(run: &ComparedColumns, reference: &ComparedColumns) -> usize {
     pairs.take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9)).count()
 }
 
-/// The last output time until which the largest error of `run` in each of `groups` is at most `wanted`, as [`deviations`]
-/// gives it for runs that end there; `None` where there is no such time, or a column is missing in `run`.
+/// The last output time until which the largest error of `run` in each of `groups` is at most `wanted`, as
+/// [`deviations`] gives it for runs that end there; `None` where there is no such time, or a column is missing in
+/// `run`.
 #[must_use]
 pub fn horizon(
     run: &ComparedColumns,

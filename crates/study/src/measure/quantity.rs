@@ -55,8 +55,8 @@ impl ErrorGroup {
         }
     }
 
-    /// The group of a column of a run of `scene`; `own`: whether the scene records the column itself, else it is a response of a
-    /// structure. Shear forces inside structures belong to no group: they jump where a wheel passes.
+    /// The group of a column of a run of `scene`; `own`: whether the scene records the column itself, else it is a
+    /// response of a structure. Shear forces inside structures belong to no group: they jump where a wheel passes.
     #[must_use]
     pub fn of(column: &HistoryColumn, scene: &Scene, own: bool, is_reaction: bool) -> Option<ErrorGroup> {
         let name = column.name.as_str();

@@ -1,8 +1,8 @@
 //! A study: settings of a scene, their errors against converged references, and their costs.
 //!
 //! 1. "auto" chooses the foundations that the scene leaves to it.
-//! 2. Converged references are run, up to three (see [`Against`]). Where none of them resolves deflections and wheel forces to the
-//!    end of the scene, the study ends earlier.
+//! 2. Converged references are run, up to three (see [`Against`]). Where none of them resolves deflections and wheel
+//!    forces to the end of the scene, the study ends earlier.
 //! 3. Every setting runs once: its largest errors in each group of columns, its counts of steps and stages, its memory.
 //! 4. All settings that ran to their ends are timed, in repetitions that run all of them in turn.
 
@@ -218,9 +218,9 @@ fn references(
     Ok((references, lost))
 }
 
-/// The time at which a study must end before the scene does, at `end`: the earliest until which a reference resolves errors of
-/// deflections and wheel forces down to `resolution`. `None` where all resolve them to the end, or where that time is less
-/// than the fraction [`LEAST`] of `end`.
+/// The time at which a study must end before the scene does, at `end`: the earliest until which a reference resolves
+/// errors of deflections and wheel forces down to `resolution`. `None` where all resolve them to the end, or where
+/// that time is less than the fraction [`LEAST`] of `end`.
 fn until(references: &[ConvergedReference], end: f64, resolution: f64) -> Option<f64> {
     let short = references.iter().filter(|reference| reference.worst_resolution() > resolution);
     let times = short.map(|reference| reference.horizon(resolution).unwrap_or(0.0));

@@ -1,9 +1,10 @@
 //! Converged references: runs whose own error is known by comparison with a second run.
 //!
-//! A reference is a pair of runs that differ in everything that can err: the number of modes (or of elements) and the method of
-//! integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the study must resolve,
-//! until a run exceeds its time limit, or until the list of the budget ends; the closest pair is kept. The difference d of the
-//! pair bounds what the reference can say: errors of settings are resolved from [`MARGIN`] d on.
+//! A reference is a pair of runs that differ in everything that can err: the number of modes (or of elements) and the
+//! method of integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the
+//! study must resolve, until a run exceeds its time limit, or until the list of the budget ends; the closest pair is
+//! kept. The difference d of the pair bounds what the reference can say: errors of settings are resolved from
+//! [`MARGIN`] d on.
 
 use sim::{Method, Stepping};
 
@@ -60,8 +61,8 @@ impl ConvergedReference {
         ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
     }
 
-    /// The smallest error that it resolves in a group: [`MARGIN`] times the difference of its runs; infinite where it has no
-    /// column of the group.
+    /// The smallest error that it resolves in a group: [`MARGIN`] times the difference of its runs; infinite where it
+    /// has no column of the group.
     #[must_use]
     pub fn resolves(&self, group: ErrorGroup) -> f64 {
         let at = ErrorGroup::ALL.iter().position(|own| *own == group);
@@ -81,8 +82,8 @@ impl ConvergedReference {
         self.difference[..ErrorGroup::ASKED].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
     }
 
-    /// The last output time, s, until which it resolves errors of deflections and vertical wheel forces down to `resolution`;
-    /// `None` where it does so at no output time.
+    /// The last output time, s, until which it resolves errors of deflections and vertical wheel forces down to
+    /// `resolution`; `None` where it does so at no output time.
     #[must_use]
     pub fn horizon(&self, resolution: f64) -> Option<f64> {
         horizon(&self.second, &self.columns, &ErrorGroup::ALL[..ErrorGroup::ASKED], resolution / MARGIN)
@@ -103,10 +104,11 @@ fn differences(run: &ComparedColumns, reference: &ComparedColumns) -> [Option<f6
 
 /// Runs ever finer pairs until one agrees (see the top of this file).
 ///
-/// The first run of a pair is the scene that `make` returns for a number of modes, integrated by the method that "auto"
-/// takes; the second has half the modes and is integrated by SDIRK4 at the same accuracy (at ten times the tolerance where the
-/// first run took SDIRK4 as well). Where no pair resolves `budget.resolution` and `meshes` is set, pairs of all modes of a mesh
-/// follow: in buildings the lowest modes are those of single members, and modes converge slowly.
+/// The first run of a pair is the scene that `make` returns for a number of modes, integrated by the method that
+/// "auto" takes; the second has half the modes and is integrated by SDIRK4 at the same accuracy (at ten times the
+/// tolerance where the first run took SDIRK4 as well). Where no pair resolves `budget.resolution` and `meshes` is
+/// set, pairs of all modes of a mesh follow: in buildings the lowest modes are those of single members, and modes
+/// converge slowly.
 ///
 /// # Errors
 /// A scene that cannot start; [`Error::NoReference`] where no pair ran to its end.
@@ -204,8 +206,8 @@ fn pair(
     }
 }
 
-/// Columns of a run with its method and its setting in words; `None` where the method cannot integrate the scene; or why the
-/// run did not reach its end.
+/// Columns of a run with its method and its setting in words; `None` where the method cannot integrate the scene; or
+/// why the run did not reach its end.
 type Attempt = Result<Option<(ComparedColumns, Option<Method>, String)>, String>;
 
 /// Runs `scene` once at `accuracy` by `method`, within `limit` seconds.

@@ -19,9 +19,9 @@ const LARGEST_BATCH: f64 = 200.0;
 
 /// Times all settings that ran to their ends, and the choice of foundations by "auto".
 ///
-/// Every repetition runs all settings once, and each repetition starts with another setting, so that other work of the machine
-/// affects all settings alike. Runs shorter than [`BATCH`] are timed several at once. A setting is not repeated once its
-/// repetitions have taken `budget.limit` seconds.
+/// Every repetition runs all settings once, and each repetition starts with another setting, so that other work of
+/// the machine affects all settings alike. Runs shorter than [`BATCH`] are timed several at once. A setting is not
+/// repeated once its repetitions have taken `budget.limit` seconds.
 pub fn time(
     points: &mut [StudyPoint],
     auto: &mut Result<Auto, String>,

@@ -33,8 +33,8 @@ pub struct StudyBudget {
     pub repetitions: usize,
     /// Thread time, s, that a run may take, and that all repetitions of a setting together may take.
     pub limit: f64,
-    /// Smallest relative error of deflections and wheel forces that the study must resolve: the runs of a reference must agree
-    /// ten times better.
+    /// Smallest relative error of deflections and wheel forces that the study must resolve: the runs of a reference
+    /// must agree ten times better.
     pub resolution: f64,
 }
 

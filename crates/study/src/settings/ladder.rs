@@ -66,8 +66,8 @@ fn mesh(scene: &Scene, known: &[SolvedStructure]) -> Scene {
     })
 }
 
-/// The most complete model of the structures, resolved to `detail`; the exact surface where they have no mass or the analysis is
-/// quasi-static.
+/// The most complete model of the structures, resolved to `detail`; the exact surface where they have no mass or the
+/// analysis is quasi-static.
 #[must_use]
 pub fn whole(scene: &Scene, kinds: SceneKinds, detail: MeshDetail) -> Scene {
     if !kinds.has_mass || scene.analysis != Analysis::Dynamic {

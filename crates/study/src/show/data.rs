@@ -94,8 +94,8 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
     out
 }
 
-/// Ratio of the cost of the first point of `family` to that of the cheapest setting with no larger error, for each group of
-/// columns: 1 on the Pareto front. Errors below the resolution of the reference count as equal to it.
+/// Ratio of the cost of the first point of `family` to that of the cheapest setting with no larger error, for each
+/// group of columns: 1 on the Pareto front. Errors below the resolution of the reference count as equal to it.
 #[must_use]
 pub fn excesses(
     study: &Study,

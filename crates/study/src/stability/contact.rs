@@ -1,10 +1,10 @@
 //! Methods that solve for contact forces at rest, against the product of wheel stiffness and rail compliance.
 //!
-//! The exact forces of wheels on springs k solve (G + I/k) F = d, with the compliance G of the rail at the wheels and the
-//! imposed displacements d. Three methods that iterate instead are compared with it: a fixed point F <- k (d - G F) over all
-//! wheels at once, the same wheel by wheel with the newest forces ("staggered"), and a time integration in which the rail
-//! deflects under the forces of the step before. All three converge only where k times the largest eigenvalue of G is less
-//! than about 1.
+//! The exact forces of wheels on springs k solve (G + I/k) F = d, with the compliance G of the rail at the wheels and
+//! the imposed displacements d. Three methods that iterate instead are compared with it: a fixed point F <- k (d - G
+//! F) over all wheels at once, the same wheel by wheel with the newest forces ("staggered"), and a time integration
+//! in which the rail deflects under the forces of the step before. All three converge only where k times the largest
+//! eigenvalue of G is less than about 1.
 
 use nalgebra::{DMatrix, DVector};
 use sim::Instant;
@@ -23,8 +23,8 @@ const PASSES: usize = 50;
 const ALLOWED: f64 = 1e-6;
 const OBVIOUS: f64 = 1e2;
 
-/// Relative error of the forces after `PASSES` passes of F <- k (d - G F) from F = 0, either of all wheels at once or wheel by
-/// wheel with the newest forces; `exact` are the forces that solve the equation.
+/// Relative error of the forces after `PASSES` passes of F <- k (d - G F) from F = 0, either of all wheels at once or
+/// wheel by wheel with the newest forces; `exact` are the forces that solve the equation.
 fn iterated(compliance: &DMatrix<f64>, k: f64, exact: &DVector<f64>, at_once: bool) -> f64 {
     let n = exact.len();
     let d = compliance * exact + exact / k;
@@ -42,8 +42,8 @@ fn iterated(compliance: &DMatrix<f64>, k: f64, exact: &DVector<f64>, at_once: bo
     (forces - exact).amax() / exact.amax()
 }
 
-/// Relative error of the force on a mass at rest after `PASSES` steps of length h, in which the rail deflects under the force
-/// of the step before. The force starts a thousandth above its exact value `load`.
+/// Relative error of the force on a mass at rest after `PASSES` steps of length h, in which the rail deflects under
+/// the force of the step before. The force starts a thousandth above its exact value `load`.
 fn lagged(compliance: f64, k: f64, mass: f64, load: f64, h: f64) -> f64 {
     let mut z = load * (compliance + 1.0 / k);
     let (mut v, mut force) = (0.0, 1.001 * load);
@@ -55,8 +55,8 @@ fn lagged(compliance: f64, k: f64, mass: f64, load: f64, h: f64) -> f64 {
     (force - load).abs() / load
 }
 
-/// Largest residual of (G + I/k) F = d for the forces F that the simulator solves for, relative to d; its message where it
-/// refuses.
+/// Largest residual of (G + I/k) F = d for the forces F that the simulator solves for, relative to d; its message
+/// where it refuses.
 fn residual_of_simulator(
     subject: &MapSubject<'_>,
     offsets: &[f64],
@@ -185,8 +185,8 @@ fn within(line: Vec<[f64; 2]>, values: &[f64]) -> Vec<[f64; 2]> {
     line.into_iter().filter(|own| (low..=high).contains(&own[1])).collect()
 }
 
-/// Distance from the first support at which `value`, which grows towards midspan, reaches 1, by bisection; `None` where it
-/// does not cross 1 between support and midspan.
+/// Distance from the first support at which `value`, which grows towards midspan, reaches 1, by bisection; `None`
+/// where it does not cross 1 between support and midspan.
 fn first_crossing_of_one(subject: &MapSubject<'_>, value: &dyn Fn(f64) -> f64) -> Option<f64> {
     let mid = 0.5 * subject.length();
     let (mut low, mut high) = (0.0, mid);

@@ -1,9 +1,9 @@
 //! Rounding error of beam elements in double precision, against the number and the length of elements.
 //!
-//! A simply supported Euler-Bernoulli beam of unit length carries a unit force. Its elements are exact at nodes, so whatever
-//! differs from the closed form x^2 (1 - x)^2 / 3 is rounding: the condition number of the stiffness matrix grows with the
-//! fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky factorisation in doubles stands
-//! beside the library, which certifies a bound of its own error.
+//! A simply supported Euler-Bernoulli beam of unit length carries a unit force. Its elements are exact at nodes, so
+//! whatever differs from the closed form x^2 (1 - x)^2 / 3 is rounding: the condition number of the stiffness matrix
+//! grows with the fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky
+//! factorisation in doubles stands beside the library, which certifies a bound of its own error.
 
 use fea::{Frame, Member, Model, Rail, Segment, Support};
 use splines::{Axis, Probe};
@@ -18,8 +18,8 @@ const OBVIOUS: f64 = 0.5;
 /// Smallest error that is drawn: the axis is logarithmic.
 const LEAST: f64 = 1e-17;
 
-/// Stiffness matrix, 4 x 4, of an Euler-Bernoulli element of length h and bending stiffness 1, over the displacement and the
-/// slope of its first and its second end.
+/// Stiffness matrix, 4 x 4, of an Euler-Bernoulli element of length h and bending stiffness 1, over the displacement
+/// and the slope of its first and its second end.
 pub(super) fn bending(h: f64) -> [[f64; 4]; 4] {
     [
         [12.0 / (h * h * h), 6.0 / (h * h), -12.0 / (h * h * h), 6.0 / (h * h)],
@@ -78,8 +78,8 @@ fn factored(mut band: Band) -> Option<Band> {
     Some(band)
 }
 
-/// Deflection of a simply supported beam of unit length and stiffness at `node` under a unit force there, by banded Cholesky
-/// factorisation in doubles; `None` where rounding has made the matrix indefinite.
+/// Deflection of a simply supported beam of unit length and stiffness at `node` under a unit force there, by banded
+/// Cholesky factorisation in doubles; `None` where rounding has made the matrix indefinite.
 fn banded(lengths: &[f64], node: usize) -> Option<f64> {
     let band = factored(assembled(lengths))?;
     let n = band.len();

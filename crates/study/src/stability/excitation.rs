@@ -1,16 +1,17 @@
 //! Self-excitation of a bogie at rest on influence tables that are not symmetric.
 //!
-//! A body on two wheels has the degrees of freedom q = (heave of the centre of mass, pitch). With the compliance G of the
-//! rail at the two wheels, the spring k and the damper c to the ground of each wheel, and the arms B of the wheels, its
-//! small motion obeys
+//! A body on two wheels has the degrees of freedom q = (heave of the centre of mass, pitch). With the compliance G of
+//! the rail at the two wheels, the spring k and the damper c to the ground of each wheel, and the arms B of the
+//! wheels, its small motion obeys
 //!
 //! M q'' + c B^T B q' + B^T (G + I/k)^-1 B q = 0.
 //!
-//! A structure only stores energy: G is symmetric and positive, and no eigenvalue has a positive real part. A table that is
-//! read with G(x, z) different from G(z, x) does work on a closed loop of wheel forces, so the motion can grow without any
-//! excitation. The map first searches the bogie that grows fastest on AKISPL without dampers (its place, the offset of its
-//! centre of mass and its radius of gyration), then bisects the damper that stops this growth, and then evaluates the growth
-//! over place and damper for every reading. A last layer runs the simulator itself on the AKISPL table.
+//! A structure only stores energy: G is symmetric and positive, and no eigenvalue has a positive real part. A table
+//! that is read with G(x, z) different from G(z, x) does work on a closed loop of wheel forces, so the motion can
+//! grow without any excitation. The map first searches the bogie that grows fastest on AKISPL without dampers (its
+//! place, the offset of its centre of mass and its radius of gyration), then bisects the damper that stops this
+//! growth, and then evaluates the growth over place and damper for every reading. A last layer runs the simulator
+//! itself on the AKISPL table.
 
 use std::ops::ControlFlow;
 
@@ -137,8 +138,8 @@ impl BogieFamily<'_, '_> {
 
     /// The bogie whose motion grows fastest without dampers, and its growth rate.
     ///
-    /// A grid of 80 x 8 x 10 candidates is evaluated first; then ten grids of 5 x 5 x 5 about the best candidate so far,
-    /// each 0.6 times as wide as the one before.
+    /// A grid of 80 x 8 x 10 candidates is evaluated first; then ten grids of 5 x 5 x 5 about the best candidate so
+    /// far, each 0.6 times as wide as the one before.
     fn fastest_growing(&self, compliance: &dyn Compliance) -> (f64, Bogie) {
         let mut largest = f64::MIN;
         let mut best = [0.5, 0.0, 0.5];
@@ -202,8 +203,8 @@ impl BogieFamily<'_, '_> {
         cells
     }
 
-    /// Runs of the simulator on the AKISPL `tables` with `bogie` and each of the `dampers`: whether the motion grows, and
-    /// whether the energy residual of the run gives a warning.
+    /// Runs of the simulator on the AKISPL `tables` with `bogie` and each of the `dampers`: whether the motion grows,
+    /// and whether the energy residual of the run gives a warning.
     fn simulated(
         &self,
         akispl: &dyn Compliance,
@@ -331,11 +332,12 @@ fn note_loop_work(
     Ok(())
 }
 
-/// Runs the simulator with one bogie on the AKISPL table for [`EFOLDINGS`] times the time in which its motion grows by the
-/// factor e. A growth rate below a hundredth of the frequency of the wheels counts as that, so that the run ends.
+/// Runs the simulator with one bogie on the AKISPL table for [`EFOLDINGS`] times the time in which its motion grows
+/// by the factor e. A growth rate below a hundredth of the frequency of the wheels counts as that, so that the run
+/// ends.
 ///
-/// Returns whether the speed in the last tenth of the run is more than twice that in the first, and the energy residual of
-/// the run.
+/// Returns whether the speed in the last tenth of the run is more than twice that in the first, and the energy
+/// residual of the run.
 fn run_on_akispl(
     subject: &MapSubject<'_>,
     tables: &[Sheet],

@@ -1,9 +1,10 @@
 //! Loss of contact of a rigid mass that crosses a beam without mass (the problem of Willis and Stokes).
 //!
-//! The beam deflects by y = g(s) F under the mass, at the fraction s = v t / L of the span. With y and F relative to the static
-//! midspan deflection S = P L^3 / 48 E I and to the weight P, the motion is y'' = 16 beta (1 - F), beta = g L^2 / (16 v^2 S). For
-//! small beta the force becomes negative before the end of the span: the mass leaves the rail. A simulator whose contact can
-//! pull continues silently; one with a one-sided contact loses it at the same place.
+//! The beam deflects by y = g(s) F under the mass, at the fraction s = v t / L of the span. With y and F relative to
+//! the static midspan deflection S = P L^3 / 48 E I and to the weight P, the motion is y'' = 16 beta (1 - F), beta =
+//! g L^2 / (16 v^2 S). For small beta the force becomes negative before the end of the span: the mass leaves the
+//! rail. A simulator whose contact can pull continues silently; one with a one-sided contact loses it at the same
+//! place.
 
 use std::ops::ControlFlow;
 
@@ -14,8 +15,8 @@ use super::steps::spread;
 use super::subject::MapSubject;
 use report::chart::{Series, Style};
 
-/// Error of the largest midspan deflection relative to the static one that counts as right, and one that is never reached:
-/// this map knows no divergence.
+/// Error of the largest midspan deflection relative to the static one that counts as right, and one that is never
+/// reached: this map knows no divergence.
 const ALLOWED: f64 = 2e-3;
 const OBVIOUS: f64 = 1e3;
 /// Runge-Kutta steps of the reference over the span.
@@ -35,8 +36,8 @@ struct Passage {
     lost: f64,
 }
 
-/// Deflection at x under a force at z, both fractions of a simply supported span, relative to the deflection at midspan under
-/// the same force there.
+/// Deflection at x under a force at z, both fractions of a simply supported span, relative to the deflection at
+/// midspan under the same force there.
 fn flexibility(x: f64, z: f64) -> f64 {
     let (a, c) = if x < z { (x, z) } else { (z, x) };
     let q = 1.0 - c;
@@ -79,8 +80,8 @@ fn reference(beta: f64) -> Passage {
     out
 }
 
-/// The passage by the simulator, on a stiff wheel whose contact can pull where `pulls`, and the smallest force relative to the
-/// weight.
+/// The passage by the simulator, on a stiff wheel whose contact can pull where `pulls`, and the smallest force
+/// relative to the weight.
 fn simulated(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
     let length = subject.length();
     let mid = 0.5 * (subject.span[0] + subject.span[1]);

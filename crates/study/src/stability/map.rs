@@ -53,7 +53,8 @@ impl MapVerdict {
         MapVerdict::WORDS[at]
     }
 
-    /// The verdict on an error: right up to `allowed`, diverged from `obvious` on or where it is not a number, else wrong.
+    /// The verdict on an error: right up to `allowed`, diverged from `obvious` on or where it is not a number, else
+    /// wrong.
     #[must_use]
     pub fn of(error: f64, allowed: f64, obvious: f64) -> MapVerdict {
         if error <= allowed {

@@ -1,4 +1,5 @@
-//! Maps of where methods fail: where the program solves or refuses a problem, and where other methods are silently wrong.
+//! Maps of where methods fail: where the program solves or refuses a problem, and where other methods are silently
+//! wrong.
 //!
 //! The methods that fail exist in this module only; no simulation uses them.
 

@@ -1,9 +1,9 @@
 //! Rigid offsets modelled by stiff members (a penalty), against exact kinematics.
 //!
-//! The rail of a girder runs at the height h above its axis. The closed form of the lateral compliance of the rail at midspan
-//! is L^3 / 48 E I + h^2 L / (4 G J). A post of s times the bending stiffness of the girder adds its own h^3 / (3 s) where it is
-//! soft, and loses digits of the factorisation where it is stiff: the best error lies between them and grows with the number
-//! of elements. An exact offset has neither error.
+//! The rail of a girder runs at the height h above its axis. The closed form of the lateral compliance of the rail at
+//! midspan is L^3 / 48 E I + h^2 L / (4 G J). A post of s times the bending stiffness of the girder adds its own h^3
+//! / (3 s) where it is soft, and loses digits of the factorisation where it is stiff: the best error lies between
+//! them and grows with the number of elements. An exact offset has neither error.
 
 use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
 use nalgebra::{DMatrix, DVector};
@@ -22,8 +22,8 @@ const USUAL: f64 = 0.06;
 /// Smallest error that is drawn: the axis is logarithmic.
 const LEAST: f64 = 1e-17;
 
-/// A girder of unit length, simply supported and restrained against twist at both ends, with lateral bending stiffness 1,
-/// torsional stiffness `twist` and its rail at the height `offset`.
+/// A girder of unit length, simply supported and restrained against twist at both ends, with lateral bending
+/// stiffness 1, torsional stiffness `twist` and its rail at the height `offset`.
 #[derive(Clone, Copy)]
 struct Beam {
     twist: f64,
@@ -36,8 +36,8 @@ impl Beam {
         1.0 / 48.0 + self.offset * self.offset / (4.0 * self.twist)
     }
 
-    /// The same in doubles by `count` elements and a post at midspan of `stiff` times the bending stiffness of the girder; `None`
-    /// where rounding has made the matrix indefinite.
+    /// The same in doubles by `count` elements and a post at midspan of `stiff` times the bending stiffness of the
+    /// girder; `None` where rounding has made the matrix indefinite.
     fn penalty(self, count: usize, stiff: f64) -> Option<f64> {
         let nodes = count + 1;
         // displacement, slope and twist of each node; then displacement and rotation of the top of the post

@@ -1,11 +1,11 @@
 //! Stability of time steppers for a wheel on a spring that crosses equal spans one after the other.
 //!
-//! The rail compliance G(x) softens the spring k of the wheel: with s(t) = 1 / (1 + k G(v t)), the wheel obeys
-//! z'' + 2 d s(t) z' + omega^2 s(t) z = 0, whose coefficients have the period L/v of a span. By Floquet's theorem the motion
-//! decays where the spectral radius of the matrix that maps (z, z') over one period (the monodromy matrix) is less than 1. The
-//! same matrix of a stepper says whether its solution decays: the stepper is wrong where its spectral radius exceeds 1 and
-//! that of the motion, which a fine Dormand-Prince integration gives. One map varies the step length over speed, the other the
-//! accuracy of adaptive steps.
+//! The rail compliance G(x) softens the spring k of the wheel: with s(t) = 1 / (1 + k G(v t)), the wheel obeys z'' +
+//! 2 d s(t) z' + omega^2 s(t) z = 0, whose coefficients have the period L/v of a span. By Floquet's theorem the
+//! motion decays where the spectral radius of the matrix that maps (z, z') over one period (the monodromy matrix) is
+//! less than 1. The same matrix of a stepper says whether its solution decays: the stepper is wrong where its
+//! spectral radius exceeds 1 and that of the motion, which a fine Dormand-Prince integration gives. One map varies
+//! the step length over speed, the other the accuracy of adaptive steps.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -74,8 +74,9 @@ impl Crossing<'_, '_> {
         FINE.max(60.0 * period * self.omega / (2.0 * PI)).ceil() as usize
     }
 
-    /// Equal steps of about `wanted` / omega over a span at `speed`: the duration of the span, the number of steps and the
-    /// step x frequency that results. `None` where so few steps fit into the span that this differs by more than 20 %.
+    /// Equal steps of about `wanted` / omega over a span at `speed`: the duration of the span, the number of steps
+    /// and the step x frequency that results. `None` where so few steps fit into the span that this differs by more
+    /// than 20 %.
     fn equal_steps(&self, speed: f64, wanted: f64) -> Option<(f64, usize, f64)> {
         let period = self.subject.length() / speed;
         let count = (period * self.omega / wanted).ceil().max(1.0);
@@ -88,8 +89,9 @@ impl Crossing<'_, '_> {
         self.radius((2, STEPPERS[2].2), period, self.fine(period))
     }
 
-    /// Spectral radius of one crossing by the simulator, and the larger energy residual of its two runs: each run starts with
-    /// one of z and z' and gives a column of the monodromy matrix. The message where the simulator refuses.
+    /// Spectral radius of one crossing by the simulator, and the larger energy residual of its two runs: each run
+    /// starts with one of z and z' and gives a column of the monodromy matrix. The message where the simulator
+    /// refuses.
     fn simulated(&self, stepping: Stepping, speed: f64, accuracy: f64) -> Result<(f64, f64), String> {
         let subject = self.subject;
         let law = subject.linear(subject.stiffness, subject.damping);
@@ -208,8 +210,8 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
     map
 }
 
-/// The points of one of [`STEPPERS`], and its shortest unstable step x frequency among motions that plainly decay (infinite
-/// where there is none).
+/// The points of one of [`STEPPERS`], and its shortest unstable step x frequency among motions that plainly decay
+/// (infinite where there is none).
 fn other_stepper(
     crossing: &Crossing<'_, '_>,
     motions: &Motions,

@@ -103,8 +103,8 @@ impl<'a> MapSubject<'a> {
         self.units.label(dimension)
     }
 
-    /// Vertical compliance matrix for the places `at` along the rail, n x n: entry (i, j) is the deflection at place i under a
-    /// unit load at place j, both downward. `None` where `compliance` has no answer at a place.
+    /// Vertical compliance matrix for the places `at` along the rail, n x n: entry (i, j) is the deflection at place
+    /// i under a unit load at place j, both downward. `None` where `compliance` has no answer at a place.
     #[must_use]
     pub fn give(&self, compliance: &dyn Compliance, at: &[f64]) -> Option<nalgebra::DMatrix<f64>> {
         let probes: Vec<Probe> = at.iter().map(|&x| Probe { rail: 0, x, axis: Axis::Vertical }).collect();
@@ -125,8 +125,8 @@ impl<'a> MapSubject<'a> {
         Foundation::influence(Box::new(self.surface.clone()), 1)
     }
 
-    /// A scene of one body of `mass` on wheels at `offsets` that starts at `x0`, moves at constant `speed` and ends at the time
-    /// `end`.
+    /// A scene of one body of `mass` on wheels at `offsets` that starts at `x0`, moves at constant `speed` and ends
+    /// at the time `end`.
     ///
     /// # Errors
     /// A speed or a place that is not finite.

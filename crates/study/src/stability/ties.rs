@@ -1,8 +1,9 @@
 //! Deflection under a moving constant force on a rail on ties, against speed.
 //!
-//! A beam on a Winkler bed of the stiffness u per length has the critical speed v_cr = (4 u E I / m^2)^(1/4). A constant force at
-//! the speed v deflects it by 1 / sqrt(1 - (v / v_cr)^2) times the static deflection. A rail without mass keeps the static
-//! deflection at any speed, and is silently wrong; a rail on ties with mass follows the line.
+//! A beam on a Winkler bed of the stiffness u per length has the critical speed v_cr = (4 u E I / m^2)^(1/4). A
+//! constant force at the speed v deflects it by 1 / sqrt(1 - (v / v_cr)^2) times the static deflection. A rail
+//! without mass keeps the static deflection at any speed, and is silently wrong; a rail on ties with mass follows the
+//! line.
 
 use std::ops::ControlFlow;
 
@@ -30,7 +31,8 @@ const START: f64 = 0.2;
 const EVALUATED: f64 = 0.6;
 const STOP: f64 = 0.7;
 
-/// A rail of 136 lb/yd on ties at 24 in with a track modulus of 3,000 psi, with and without its mass; inches, pounds, seconds.
+/// A rail of 136 lb/yd on ties at 24 in with a track modulus of 3,000 psi, with and without its mass; inches, pounds,
+/// seconds.
 struct Track {
     length: f64,
     /// Static deflection on a Winkler bed per unit force.
@@ -62,7 +64,8 @@ impl Track {
         })
     }
 
-    /// Mean deflection under the wheel at a `fraction` of the critical speed, relative to the static one on a Winkler bed.
+    /// Mean deflection under the wheel at a `fraction` of the critical speed, relative to the static one on a Winkler
+    /// bed.
     fn amplification(&self, fraction: f64, foundation: &Foundation) -> Result<f64, String> {
         let speed = fraction * self.critical_speed;
         let stiffness = SOFT / self.static_flexibility;

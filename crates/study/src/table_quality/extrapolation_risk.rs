@@ -62,9 +62,9 @@ pub enum ExtrapolationRisk {
 }
 
 impl ExtrapolationRisk {
-    /// All risks of a table. `direct`: whether deflections and loads are of one path and direction, so that the diagonal must be
-    /// positive; `linear`: whether the file asks for linear extrapolation; `breaks`: ends of the elements of the loaded rail,
-    /// empty where they are unknown.
+    /// All risks of a table. `direct`: whether deflections and loads are of one path and direction, so that the
+    /// diagonal must be positive; `linear`: whether the file asks for linear extrapolation; `breaks`: ends of the
+    /// elements of the loaded rail, empty where they are unknown.
     #[must_use]
     pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<ExtrapolationRisk> {
         let mut out = Vec::new();

@@ -18,7 +18,8 @@ pub struct Settings {
     pub load: Option<f64>,
     /// Distance of the wheels of a pair.
     pub spacing: Option<f64>,
-    /// Distance beyond the table at which rules of extrapolation are compared; `None`: the spacing of its last two stations.
+    /// Distance beyond the table at which rules of extrapolation are compared; `None`: the spacing of its last two
+    /// stations.
     pub beyond: Option<f64>,
     /// The reading that is judged, and its tolerance relative to the largest coefficient.
     pub judged: Option<(TableReadingMethod, f64)>,
@@ -49,8 +50,8 @@ pub struct TableQuality {
     pub supports: Vec<f64>,
     /// The exact values that errors are measured against.
     pub truth: Truth,
-    /// Scale of the errors of a coupling: the geometric mean of the largest entries of its two direct tables; `None` for a direct
-    /// table, or where these are missing.
+    /// Scale of the errors of a coupling: the geometric mean of the largest entries of its two direct tables; `None`
+    /// for a direct table, or where these are missing.
     pub scale: Option<f64>,
     /// The findings of each reading that accepts the table.
     pub readings: Vec<ReadingFindings>,
@@ -146,8 +147,8 @@ impl TableQuality {
         self.item.table.values().amax() <= UNCOUPLED * self.scale.unwrap_or(0.0)
     }
 
-    /// A relative error. The scale of a direct table is its largest exact coefficient; that of a coupling is the geometric mean of
-    /// the largest coefficients of its two direct tables.
+    /// A relative error. The scale of a direct table is its largest exact coefficient; that of a coupling is the
+    /// geometric mean of the largest coefficients of its two direct tables.
     #[must_use]
     pub fn relative(&self, error: &Deviation) -> f64 {
         match self.scale {

@@ -2,7 +2,8 @@
 
 use splines::{Axis, Compliance, Error, Factored, Kind, Lift, Rank, Reading, Sheet, Table, lift};
 
-/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam stands for the table.
+/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam stands for
+/// the table.
 const MISFIT: f64 = 0.01;
 
 /// A method of reading tables of influence coefficients.

@@ -20,8 +20,8 @@ use formats::units::Units;
 
 /// Largest number of a table; larger ones are refused, since their squares must be finite.
 const LARGEST: f64 = 1e60;
-/// Smallest distance of stations relative to the length of the table; closer ones are refused, since their differences would be
-/// rounding.
+/// Smallest distance of stations relative to the length of the table; closer ones are refused, since their
+/// differences would be rounding.
 const NEAREST: f64 = 1e-9;
 
 /// Tables of one file, and the exact surface where it has one.
@@ -45,7 +45,8 @@ pub struct TableItem {
     pub id: u32,
     /// Its name; empty where it has none.
     pub name: String,
-    /// Paths (rail and direction) of deflection and load; `None` for a coupling whose directions the file does not state.
+    /// Paths (rail and direction) of deflection and load; `None` for a coupling whose directions the file does not
+    /// state.
     pub ways: Option<[Way; 2]>,
     /// Whether the file asks for linear extrapolation; `None` for a grid file.
     pub linear: Option<bool>,
@@ -158,7 +159,8 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
     Ok(Some(TableItem { id: given.id, name, ways: None, linear: None, table }))
 }
 
-/// Paths of a table of a grid with this number of rails, by the number of the table: from 6 on, six for each pair of rails.
+/// Paths of a table of a grid with this number of rails, by the number of the table: from 6 on, six for each pair of
+/// rails.
 fn ways(id: u32, rails: usize) -> Option<[Way; 2]> {
     let place = usize::try_from(id).ok()?.checked_sub(6)?;
     let (pair, index) = (place / 6, place % 6);

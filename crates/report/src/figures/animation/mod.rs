@@ -1,6 +1,7 @@
 //! The animation of a crane: its plan view and the view along the runway, in one picture.
 //!
-//! `draw` is the picture under construction, `view` the data of a run that both views need; `plan` and `section` draw them.
+//! `draw` is the picture under construction, `view` the data of a run that both views need; `plan` and `section` draw
+//! them.
 
 mod draw;
 mod plan;
@@ -23,8 +24,8 @@ const FRAMES: usize = 400;
 
 /// The animation of a run in which bodies carry structures or hang in space; `None` for other runs.
 ///
-/// Its frames are rows of the record at equal distances, at most 400. Without scripts it shows the frame in which the vertical
-/// force of a runway wheel is largest.
+/// Its frames are rows of the record at equal distances, at most 400. Without scripts it shows the frame in which the
+/// vertical force of a runway wheel is largest.
 ///
 /// # Errors
 /// A structure of which no model can be built.
