@@ -15,7 +15,7 @@ pub enum Exit {
     Differs,
     /// Usage, input or I/O.
     Input,
-    /// The numbers cannot be trusted: mechanism, certificate worse than asked, step too small.
+    /// The results cannot be trusted: mechanism, certified error above the tolerance, step too small.
     Untrusted,
 }
 
@@ -60,7 +60,7 @@ impl Failure {
         }
     }
 
-    /// Numbers that cannot be trusted, for the reason that a library gives.
+    /// Results that cannot be trusted, for the reason that a library returns.
     pub(crate) fn untrusted(error: impl std::fmt::Display) -> Failure {
         Failure::Untrusted(error.to_string())
     }

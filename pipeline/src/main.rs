@@ -11,7 +11,7 @@ use girderway::commands;
 use girderway::exit::{Exit, Failure};
 
 fn main() -> ExitCode {
-    // a fault of the program is told in one line below, without a backtrace
+    // an error of the program itself is reported in one line below, without a backtrace
     panic::set_hook(Box::new(|_| {}));
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -43,7 +43,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
     }
 }
 
-/// Help goes to standard output; wrong usage to standard error, as JSON where that was asked for.
+/// Writes help to standard output and wrong usage to standard error, as JSON with --json.
 fn usage(error: &clap::Error) -> Exit {
     if !error.use_stderr() {
         // a reader who has gone away has seen enough

@@ -1,4 +1,4 @@
-//! `manifest.json`: what a run read, how it was set, what it wrote.
+//! `manifest.json`: inputs, settings and outputs of a run.
 
 use serde::Serialize;
 use serde_json::Value;
@@ -8,7 +8,7 @@ use formats::inputs::Inputs;
 /// Name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
 
-/// What a run read, how it was set, what it wrote; written last.
+/// Inputs, settings and outputs of a run; it is written last.
 #[derive(Clone, Debug, Serialize)]
 pub struct Manifest {
     format: &'static str,

@@ -24,7 +24,7 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// The same for a file that must not be there yet.
 ///
 /// # Errors
-/// A file of that name; what the file system refuses, naming the file.
+/// A file of that name exists; the file system refuses an operation, with the name of the file.
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let new = |file: NamedTempFile| file.persist_noclobber(path);
     put_by(path, bytes, new).map_err(|error| cannot_write(path, &error))
@@ -114,7 +114,7 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Writes `text` to the file asked for, and says so, or to standard output.
+/// Writes `text` to the given file, with a message, or to standard output.
 ///
 /// # Errors
 /// What the file system refuses, naming the file.
@@ -144,7 +144,7 @@ impl OutputFolder {
     /// A folder to be at `path`.
     ///
     /// # Errors
-    /// A path where no folder can be: found before any work is done.
+    /// A path at which no folder can be created; this is checked before any work is done.
     pub fn new(path: &Path) -> Result<OutputFolder, Failure> {
         let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
         if let Some(part) = there.filter(|part| !part.is_dir()) {
@@ -231,7 +231,7 @@ impl OutputFolder {
         put(&manifest_path, manifest.text().as_bytes()).map_err(fail(&manifest_path))
     }
 
-    /// Takes away what an older run left and nobody has changed.
+    /// Removes files of an older run that have not been changed since.
     fn clear(&self, older: Option<&Value>) {
         let listed = older.and_then(|manifest| manifest.get("outputs")).and_then(Value::as_array);
         for entry in listed.into_iter().flatten() {

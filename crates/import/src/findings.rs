@@ -1,30 +1,30 @@
-//! What a reader of models has to say: errors and warnings, by place in a file.
+//! Errors and warnings of readers, with their places in files.
 
 use formats::diagnostic::Diagnostic;
 
-/// A place in one of the files of a model, all counted from 1; `file` is an index into their names.
+/// A place in one of the files of a model; `line` and `column` count from 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FilePlace {
-    /// Which file.
+    /// Index of the file among [`ImportFindings::files`].
     pub file: usize,
-    /// Line.
+    /// Line; 0 where the finding is about the whole file.
     pub line: usize,
     /// Column in characters.
     pub column: usize,
 }
 
-/// One thing to say about a place.
+/// An error or a warning about a place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImportFinding {
-    /// Where.
+    /// Its place.
     pub at: FilePlace,
-    /// What it is about, such as `CBAR 12: GA`; may be empty.
+    /// The card or field that it concerns, such as `CBAR 12: GA`; may be empty.
     pub about: String,
-    /// What would have been right, or what has been done.
+    /// What was expected, or what the reader has done.
     pub expected: String,
-    /// What stands there.
+    /// What stands in the file.
     pub found: Option<String>,
-    /// What to do.
+    /// What the user can do.
     pub hint: Option<String>,
 }
 
@@ -35,14 +35,14 @@ impl ImportFinding {
         ImportFinding { at, about: about.into(), expected: expected.into(), found: None, hint: None }
     }
 
-    /// With what was found.
+    /// The same finding with what stands in the file.
     #[must_use]
     pub fn got(mut self, found: impl ToString) -> ImportFinding {
         self.found = Some(found.to_string());
         self
     }
 
-    /// With a hint.
+    /// The same finding with a hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> ImportFinding {
         self.hint = Some(hint.into());
@@ -50,7 +50,7 @@ impl ImportFinding {
     }
 }
 
-/// Errors and warnings so far, and the names of the files that they are in.
+/// Errors and warnings so far, and the names of the files that were read.
 #[derive(Clone, Debug, Default)]
 pub struct ImportFindings {
     /// Names of the files read.
@@ -60,17 +60,17 @@ pub struct ImportFindings {
 }
 
 impl ImportFindings {
-    /// Adds an error: the model will not be taken.
+    /// Adds an error: the model will be refused.
     pub fn error(&mut self, finding: ImportFinding) {
         self.errors.push(finding);
     }
 
-    /// Adds a warning: the model is taken without this, or taken so.
+    /// Adds a warning: the model is read, without this part or with a change.
     pub fn warn(&mut self, finding: ImportFinding) {
         self.warnings.push(finding);
     }
 
-    /// Whether anything forbids to take the model.
+    /// Whether there is any error.
     #[must_use]
     pub fn wrong(&self) -> bool {
         !self.errors.is_empty()

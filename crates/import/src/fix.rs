@@ -1,10 +1,10 @@
-//! Supports asked for on the command line.
+//! Supports that the command line adds to a model.
 
 use std::str::FromStr;
 
 use super::structure::ImportedStructure;
 
-/// Freedoms of a set of points to hold: `SET=ux,uy,uz`.
+/// Degrees of freedom of a set of points to restrain, read from `SET=ux,uy,uz`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SupportRequest {
     set: String,
@@ -26,10 +26,10 @@ impl FromStr for SupportRequest {
     }
 }
 
-/// Holds the points of a set.
+/// Restrains the points of a set.
 ///
 /// # Errors
-/// What must be otherwise, and a hint.
+/// A set that the structure does not have: message and hint.
 pub fn hold(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result<(), [String; 2]> {
     let Some((_, set)) = structure.point_sets.iter().find(|(name, _)| *name == asked.set) else {
         let names: Vec<&str> = structure.point_sets.iter().take(20).map(|(name, _)| name.as_str()).collect();
@@ -41,8 +41,8 @@ pub fn hold(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result
     };
     for point in set {
         let support = structure.supports.entry(*point).or_default();
-        for (freedom, fix) in asked.fix.iter().enumerate() {
-            support[freedom] |= fix;
+        for (dof, fix) in asked.fix.iter().enumerate() {
+            support[dof] |= fix;
         }
     }
     Ok(())

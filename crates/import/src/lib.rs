@@ -1,7 +1,31 @@
 //! Models of other programs as beam specs.
 //!
-//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give a [`structure::Structure`], which [`write()`]
-//! turns into the text of a spec.
+//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give an [`structure::ImportedStructure`], which
+//! [`write()`] turns into the text of a spec. [`import`] does all of it.
+//!
+//! # Example
+//! ```
+//! use std::path::Path;
+//!
+//! use formats::units::{Force, Length};
+//! use import::{ImportOptions, import};
+//!
+//! // a beam of one element, pinned at its left end
+//! let deck = "BEGIN BULK\nGRID,1,,0.,0.,0.,,123\nGRID,2,,6.,0.,0.,,23\nCBAR,7,3,1,2,0.,0.,1.\n\
+//!             PBAR,3,4,0.01,1.E-4,2.E-5,1.E-6\nMAT1,4,2.1E11,,0.3\nENDDATA\n";
+//! let open = |_: &Path| Ok(deck.as_bytes().to_vec());
+//! let options = ImportOptions {
+//!     length: Some(Length::Meter),
+//!     force: Some(Force::Newton),
+//!     up: Some([0.0, 0.0, 1.0]),
+//!     rails: vec!["runway=7".parse().expect("a rail along element 7")],
+//!     ..ImportOptions::default()
+//! };
+//! let model = import(Path::new("beam.bdf"), &open, &options).expect("a model without errors");
+//! assert_eq!(model.structure.members.len(), 1);
+//! assert_eq!(model.structure.rails[0].stations, [0.0, 6.0]);
+//! assert!(model.text.contains("\"PBAR 3\""));
+//! ```
 //!
 //! Wings, lowest first: findings, structure, rail, fix, msh, bdf, write
 
@@ -25,7 +49,7 @@ use formats::source::Source;
 use formats::spec::{Spec, stem};
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
-/// What a user says about a model, because its file does not.
+/// What the user specifies about a model because its file does not.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
     /// Its unit of length.
@@ -34,33 +58,34 @@ pub struct ImportOptions {
     pub force: Option<Force>,
     /// Direction up.
     pub up: Option<[f64; 3]>,
-    /// Rails on its members.
+    /// Rails along its members.
     pub rails: Vec<rail::RailRequest>,
-    /// Supports of its sets of points.
+    /// Supports at its sets of points.
     pub fix: Vec<fix::SupportRequest>,
-    /// The sections file of a mesh, and its bytes.
+    /// The sections file of a mesh.
     pub sections: Option<Source>,
-    /// The set of supports of a deck.
+    /// The SPC set of a deck.
     pub spc: Option<u64>,
-    /// Cards of a deck to leave out.
+    /// Names of cards of a deck that are ignored.
     pub skip: Vec<String>,
 }
 
-/// A model as the text of a beam spec, and what is to be said of it.
+/// A model as a beam spec, with warnings.
 #[derive(Clone, Debug)]
 pub struct Imported {
-    /// The beam spec.
+    /// The text of the beam spec.
     pub text: String,
-    /// What it was made of.
+    /// The structure that it was written from.
     pub structure: ImportedStructure,
-    /// What was left out or taken in another way.
+    /// What was ignored or changed.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a model, in the format of its file's ending.
+/// Reads a model in the format of its file extension: `.bdf`, `.dat` and `.nas` are NASTRAN bulk data, `.msh` is a
+/// gmsh mesh. `open` reads the file and those that it includes.
 ///
 /// # Errors
-/// Everything that is wrong with it, placed; then nothing is taken.
+/// All errors of the model, with their places; a model with errors is refused as a whole.
 pub fn import(
     path: &Path,
     open: bdf::Open<'_>,
@@ -86,20 +111,34 @@ pub fn import(
         return Err(findings.errors());
     }
     structure.up = options.up;
+    add_requested(options, &mut structure)?;
+    let mut warnings = findings.warnings();
+    if structure.rails.is_empty() {
+        let missing = Diagnostic::of_file(&name, "the spec has no rail, and cannot be solved without one");
+        warnings
+            .push(missing.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
+    }
+    let text = write(&structure);
+    check_spec(&name, &text, &structure)?;
+    Ok(Imported { text, structure, warnings })
+}
+
+/// Adds the supports and rails that the user requested.
+fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> Result<(), Vec<Diagnostic>> {
     let mut wrong = Vec::new();
     for asked in &options.fix {
-        wrong.extend(fix::hold(asked, &mut structure).err().map(|told| refused("--fix", told)));
+        wrong.extend(fix::hold(asked, structure).err().map(|message| refused("--fix", message)));
     }
     for asked in &options.rails {
         let Some(up) = options.up else {
-            let told = [
+            let message = [
                 "needs --up: a rail has a direction up, and the model has none".to_owned(),
                 "add --up 0,0,1 or --up 0,1,0".to_owned(),
             ];
-            wrong.push(refused("--rail", told));
+            wrong.push(refused("--rail", message));
             break;
         };
-        match rail::lay(asked, up, &structure) {
+        match rail::lay(asked, up, structure) {
             Ok(rail) if structure.rails.iter().any(|other| other.name == rail.name) => {
                 wrong.push(refused(
                     "--rail",
@@ -107,39 +146,32 @@ pub fn import(
                 ));
             }
             Ok(rail) => structure.rails.push(rail),
-            Err(told) => wrong.push(refused("--rail", told)),
+            Err(message) => wrong.push(refused("--rail", message)),
         }
     }
-    if !wrong.is_empty() {
-        return Err(wrong);
-    }
-    let mut warnings = findings.warnings();
-    if structure.rails.is_empty() {
-        let told = Diagnostic::of_file(&name, "the spec has no rail, and cannot be solved without one");
-        warnings.push(told.hint("add --rail NAME=ELEMENTS and --up X,Y,Z, or write `rails` into the spec"));
-    }
-    let text = write(&structure);
-    sound(&name, &text, &structure)?;
-    Ok(Imported { text, structure, warnings })
+    if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
+/// An error of a flag of the command line, from message and hint.
 fn refused(flag: &str, [expected, hint]: [String; 2]) -> Diagnostic {
     let wrong = Diagnostic::of_file("command line", format!("{flag} {expected}"));
     if hint.is_empty() { wrong } else { wrong.hint(hint) }
 }
 
-/// What the reader of beam specs says of the text, but for rails that nobody asked for.
-fn sound(name: &str, text: &str, structure: &ImportedStructure) -> Result<(), Vec<Diagnostic>> {
+/// Reads the text as a beam spec. A spec without rails is accepted where no rail was requested.
+fn check_spec(name: &str, text: &str, structure: &ImportedStructure) -> Result<(), Vec<Diagnostic>> {
     let source = Source { name: format!("{name}, as a beam spec"), text: text.to_owned() };
     let Err(mut wrong) = Spec::read(&source, None) else { return Ok(()) };
     wrong.retain(|wrong| wrong.path != "rails" || !structure.rails.is_empty());
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
-fn unread(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
+/// The error of a file that cannot be read.
+fn unreadable(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
     vec![Diagnostic::of_file(path.display().to_string(), cannot_read(error))]
 }
 
+/// Reads NASTRAN bulk data; their units come from the options.
 fn read_deck(
     path: &Path,
     open: bdf::Open<'_>,
@@ -161,9 +193,11 @@ fn read_deck(
         return Err(vec![wrong]);
     }
     let empty = ImportedStructure::empty(stem(&name), Units { length, force });
-    bdf::read(path, open, empty, options.spc, &options.skip, findings).map_err(|error| unread(path, &error))
+    bdf::read(path, open, empty, options.spc, &options.skip, findings)
+        .map_err(|error| unreadable(path, &error))
 }
 
+/// Reads a gmsh mesh; its unit of length comes from the options, all others from the sections file.
 fn read_mesh(
     path: &Path,
     open: bdf::Open<'_>,
@@ -173,18 +207,18 @@ fn read_mesh(
     let name = path.display().to_string();
     let mut wrong = Vec::new();
     if options.length.is_none() {
-        let told =
+        let missing =
             Diagnostic::of_file(&name, "a mesh has no units: --length must say that of its coordinates");
-        wrong.push(told.hint("such as --length mm"));
+        wrong.push(missing.hint("such as --length mm"));
     }
     if options.sections.is_none() {
-        let told =
+        let missing =
             Diagnostic::of_file(&name, "a mesh has no sections: --sections must name a file that has them");
         let hint = format!(
             "a JSON file of format {} with units, materials and sections by the names of the physical groups",
             msh::FORMAT
         );
-        wrong.push(told.hint(hint));
+        wrong.push(missing.hint(hint));
     }
     let deck = [
         ("--spc", options.spc.is_some()),
@@ -199,13 +233,13 @@ fn read_mesh(
         return Err(wrong);
     }
     let sections = msh::Sections::read(source)?;
-    let bytes = open(path).map_err(|error| unread(path, &error))?;
+    let bytes = open(path).map_err(|error| unreadable(path, &error))?;
     findings.files.push(name.clone());
     let to = sections.units;
     let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
     let mut empty = ImportedStructure::empty(stem(&name), to);
     empty.up = options.up;
-    // a binary mesh is no text, and its first lines say so
+    // a binary mesh is refused by its header, which is text
     let text = String::from_utf8_lossy(&bytes);
     Ok(msh::read(&text, factor, &sections, empty, findings))
 }

@@ -1,11 +1,11 @@
-//! Rails asked for on the command line, laid on the members of a structure.
+//! Rails that the command line adds along members of a structure.
 
 use std::str::FromStr;
 
 use super::structure::{ImportedRail, ImportedStructure};
 use formats::vector::{dot, length, minus, parallel, unit};
 
-/// A rail as asked for: `NAME=12,23,30-35` or `NAME=SET`, then `/offset=X,Y,Z` and `/axis=X,Y,Z`.
+/// The request of a rail, read from `NAME=12,23,30-35` or `NAME=SET`, then `/offset=X,Y,Z` and `/axis=X,Y,Z`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RailRequest {
     name: String,
@@ -22,10 +22,10 @@ enum Item {
     Set(String),
 }
 
-/// Three numbers between commas.
+/// Three numbers separated by commas.
 ///
 /// # Errors
-/// What else it must be.
+/// Text that is not three finite numbers.
 pub fn triple(text: &str) -> Result<[f64; 3], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
@@ -77,11 +77,14 @@ impl Item {
     }
 }
 
-/// Lays a rail on members: its axis is level and leads from the first of them to the last (of one: from its end a
-/// to b), its coordinate is 0 where the first begins, its stations are at the members' points.
+/// Builds a rail along members.
+///
+/// Its axis is the given one or, by default, the horizontal part of the direction from the middle of the first member
+/// to that of the last (of a single member: from its end a to b). Its coordinate is 0 at the end of a member with the
+/// smallest coordinate, and its stations are at the points of the members.
 ///
 /// # Errors
-/// What must be otherwise, and a hint.
+/// Members that do not exist, no usable axis, or a member at right angles to the axis: message and hint.
 pub fn lay(
     asked: &RailRequest,
     up: [f64; 3],
@@ -98,7 +101,8 @@ pub fn lay(
     let [a, b] = structure.ends(first);
     let along = if first == last { minus(b, a) } else { minus(middle(last), middle(first)) };
     let hint = "give it as /axis=X,Y,Z";
-    let axis = asked.axis.or_else(|| level(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
+    let axis =
+        asked.axis.or_else(|| horizontal(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
     let axis = axis.ok_or_else(|| ["must have an axis that is not along up".to_owned(), hint.to_owned()])?;
     let mut ends: Vec<[f64; 3]> = Vec::new();
     for &member in &members {
@@ -128,15 +132,15 @@ pub fn lay(
     Ok(ImportedRail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
 }
 
-/// The part of a direction that is normal to up; `None` where that is less than a tenth of it.
-fn level(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
+/// The part of a direction that is normal to `up`; `None` where it is less than a tenth of the whole.
+fn horizontal(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
     let up = unit(up)?;
     let rise = dot(along, up);
-    let level = minus(along, up.map(|part| part * rise));
-    (length(level) > 0.1 * length(along)).then_some(level)
+    let horizontal = minus(along, up.map(|part| part * rise));
+    (length(horizontal) > 0.1 * length(along)).then_some(horizontal)
 }
 
-/// The members of a rail in the order given, each once.
+/// The members of a rail in the order of the request, each once.
 fn members(asked: &RailRequest, structure: &ImportedStructure) -> Result<Vec<usize>, [String; 2]> {
     let mut members: Vec<usize> = Vec::new();
     let mut named = vec![false; structure.members.len()];

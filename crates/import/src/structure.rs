@@ -1,4 +1,4 @@
-//! What was read from a model of any format, before it becomes a beam spec.
+//! A structure as read from a model of any format, before it is written as a beam spec.
 
 use std::collections::BTreeMap;
 
@@ -54,7 +54,7 @@ pub struct ImportedMember {
     pub id: u64,
     /// Indices of its points.
     pub points: [usize; 2],
-    /// Whether only its change of length counts.
+    /// Whether it has axial stiffness only.
     pub truss: bool,
     /// Index of its section; of a tapered member that at end a.
     pub section: usize,
@@ -64,7 +64,7 @@ pub struct ImportedMember {
     pub orientation: Option<[f64; 3]>,
     /// Global vectors from the points to the flexible ends.
     pub offsets: [[f64; 3]; 2],
-    /// Local freedoms let go at each end.
+    /// Released local degrees of freedom at each end.
     pub releases: [[bool; 6]; 2],
 }
 
@@ -73,7 +73,7 @@ pub struct ImportedMember {
 pub struct ImportedSpring {
     /// Index of the point.
     pub point: usize,
-    /// Index of the global freedom.
+    /// Index of the global degree of freedom.
     pub freedom: usize,
     /// Stiffness.
     pub k: f64,
@@ -109,7 +109,7 @@ pub struct ImportedRail {
     pub stations: Vec<f64>,
 }
 
-/// Everything that a beam spec in the general form can say.
+/// Everything that a beam spec in the general form can describe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedStructure {
     /// Its name.
@@ -126,7 +126,7 @@ pub struct ImportedStructure {
     pub sections: Vec<ImportedSection>,
     /// Members.
     pub members: Vec<ImportedMember>,
-    /// Held freedoms by point.
+    /// Restrained degrees of freedom of each supported point.
     pub supports: BTreeMap<usize, [bool; 6]>,
     /// Springs to ground.
     pub springs: Vec<ImportedSpring>,
@@ -143,7 +143,7 @@ pub struct ImportedStructure {
 }
 
 impl ImportedStructure {
-    /// A structure without anything in it.
+    /// A structure with a name and units, and nothing else.
     #[must_use]
     pub fn empty(name: String, units: Units) -> ImportedStructure {
         ImportedStructure {
@@ -164,7 +164,7 @@ impl ImportedStructure {
         }
     }
 
-    /// The flexible ends of a member.
+    /// Coordinates of the flexible ends of a member: its points with their offsets.
     #[must_use]
     pub fn ends(&self, member: usize) -> [[f64; 3]; 2] {
         let member = &self.members[member];

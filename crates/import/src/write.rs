@@ -1,16 +1,18 @@
-//! A structure as the text of a beam spec.
+//! Writes a structure as the text of a beam spec.
 
 use serde_json::{Map, Value, json};
 
 use super::structure::{ImportedRail, ImportedSection, ImportedStructure};
 use formats::spec::{FORMAT, theory_word};
 
-const FREEDOMS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
+/// Words of the degrees of freedom.
+const DOFS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
 
-/// Uniform parts that stand for a tapered member.
+/// Number of uniform parts that approximate a tapered member.
 pub const PARTS: usize = 32;
 
-/// The beam spec of a structure, in the general form; every number has the fewest digits that give back its bits.
+/// The beam spec of a structure in the general form. Every number has the fewest digits from which its exact value is
+/// read again.
 #[must_use]
 pub fn write(structure: &ImportedStructure) -> String {
     let mut spec = Map::new();
@@ -48,7 +50,7 @@ pub fn write(structure: &ImportedStructure) -> String {
     put(
         "springs",
         springs
-            .map(|spring| json!({ "point": spring.point, "dof": FREEDOMS[spring.freedom], "k": spring.k }))
+            .map(|spring| json!({ "point": spring.point, "dof": DOFS[spring.freedom], "k": spring.k }))
             .collect(),
     );
     put("links", structure.links.iter().map(|[from, to]| json!({ "from": from, "to": to })).collect());
@@ -71,7 +73,7 @@ fn empty(value: &Value) -> bool {
     value.as_array().is_some_and(Vec::is_empty) || value.as_object().is_some_and(Map::is_empty)
 }
 
-/// Columns of `cell_data` that say more than their defaults.
+/// Columns of `cell_data`; those that hold defaults only are left out.
 fn cell_data(structure: &ImportedStructure) -> Value {
     let members = &structure.members;
     let mut data = Map::new();
@@ -116,7 +118,7 @@ fn cell_data(structure: &ImportedStructure) -> Value {
 }
 
 fn words(set: &[bool; 6]) -> Value {
-    FREEDOMS.iter().zip(set).filter(|(_, on)| **on).map(|(word, _)| json!(word)).collect()
+    DOFS.iter().zip(set).filter(|(_, on)| **on).map(|(word, _)| json!(word)).collect()
 }
 
 fn material(material: &super::structure::ImportedMaterial) -> Value {
@@ -164,7 +166,7 @@ fn rail_json(rail: &ImportedRail) -> Value {
     })
 }
 
-/// One line for each key, and for each item of the long lists.
+/// The object with one line for each key, and one for each item of long lists.
 fn lines(spec: &Map<String, Value>) -> String {
     let long = ["points", "materials", "sections", "supports", "springs", "links", "masses"];
     let mut parts = Vec::new();

@@ -1,6 +1,6 @@
-//! What a report refuses.
+//! Errors of reports.
 
-/// Why a report was not written. Sections and their parts are counted from 0.
+/// Why a report cannot be written. Indices of sections and their parts count from 0.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A fact is infinite or not a number.
@@ -23,7 +23,7 @@ pub enum Error {
         /// Index of the column.
         column: usize,
     },
-    /// A row is shorter or longer than its table's head.
+    /// The length of a row differs from the number of columns.
     #[error("row {row} in table {table} of section {section} has {found} cells, not {expected}")]
     Row {
         /// Index of the section.
@@ -44,10 +44,10 @@ pub enum Error {
         section: usize,
         /// Index of the figure in it.
         figure: usize,
-        /// Why.
+        /// The reason.
         source: crate::chart::Error,
     },
-    /// A number of a moving picture is not finite.
+    /// A number of an animation is not finite.
     #[error("figure {figure} of section {section} moves by a number that is not finite")]
     Animation {
         /// Index of the section.

@@ -1,19 +1,19 @@
-//! What can go wrong with a study, or with a look at tables.
+//! Errors of studies and of the evaluation of tables.
 
 use formats::diagnostic::Diagnostic;
 use formats::motion::UnequalShares;
 use thiserror::Error;
 
-/// Why there is no study, or nothing to be said of tables.
+/// Why a study or an evaluation of tables has no result.
 #[derive(Debug, Error)]
 pub enum Error {
-    /// Something is wrong with a file of tables, or it cannot be read.
+    /// A file of tables is invalid or cannot be read.
     #[error("{}", lines(.0))]
     Input(Vec<Diagnostic>),
     /// A truck of the scene cannot be simulated.
     #[error(transparent)]
     Truck(#[from] UnequalShares),
-    /// A foundation cannot be made.
+    /// A foundation cannot be built.
     #[error(transparent)]
     Foundation(#[from] foundations::Error),
     /// A run has no results.
@@ -22,7 +22,7 @@ pub enum Error {
     /// A table cannot be used, or a rail cannot be evaluated at its stations.
     #[error(transparent)]
     Tables(#[from] splines::Error),
-    /// A structure has no exact surface to make tables of.
+    /// A structure has no exact surface from which tables could be evaluated.
     #[error("the exact surface is not known")]
     NoSurface,
     /// The simulator refuses a run.
@@ -31,7 +31,7 @@ pub enum Error {
     /// No reference could be run.
     #[error("no reference could be run: {0}")]
     NoReference(String),
-    /// None of the references that errors are measured against could be run; why the first could not.
+    /// None of the references could be run; the reason of the first.
     #[error("{0}")]
     Lost(String),
 }

@@ -1,4 +1,25 @@
-//! Accuracy against cost: a scene on a ladder of settings, beside a converged reference.
+//! Accuracy against cost: a scene is run in many settings, and the errors of all are measured against converged
+//! references.
+//!
+//! Beside the study proper ([`study()`]), the crate judges what readings of influence tables cost
+//! ([`table_quality`]), chooses the fewest stations of a table ([`stations`]), and maps where methods fail
+//! ([`stability`]).
+//!
+//! # Example
+//! A Pareto front of measured points (cost, error):
+//! ```
+//! use study::{Spread, StudyBudget, excess, front, on_front};
+//!
+//! let budget = StudyBudget::quick();
+//! assert!(budget.accuracies.windows(2).all(|pair| pair[0] > pair[1]), "coarsest first");
+//!
+//! // median times of three settings, s, and their largest relative errors
+//! let time = |runs: &[f64]| Spread::of(runs).map_or(f64::NAN, |spread| spread.median);
+//! let points = [[time(&[1.0, 1.1, 1.3]), 1e-1], [time(&[2.0, 2.0]), 1e-3], [time(&[4.0]), 1e-2]];
+//! assert_eq!(on_front(&points), [true, true, false]);
+//! assert_eq!(front(&points), [[1.1, 1e-1], [2.0, 1e-3]]);
+//! assert_eq!(excess(points[2], &points), 2.0, "twice as expensive as a more accurate setting");
+//! ```
 //!
 //! Wings, lowest first: error, observer, measure, table_quality, stations, stability, settings, runs, show
 
@@ -19,7 +40,8 @@ pub use measure::memory::Memory;
 pub use measure::quantity::ErrorGroup;
 pub use measure::spread::Spread;
 pub use observer::{Observer, Silent, Steps};
-pub use runs::investigate::{Auto, Study, study};
+pub use runs::auto::Auto;
+pub use runs::investigate::{Study, study};
 pub use runs::point::{MeasuredPoint, PointOutcome, StudyPoint};
 pub use runs::reference::{ConvergedReference, MARGIN};
 pub use settings::budget::StudyBudget;

@@ -1,21 +1,21 @@
-//! What a study tells while it works.
+//! Progress messages of a study.
 
-/// Hears of the progress of a study; the command line shows it.
+/// Receives the progress of a study; the command line shows it.
 pub trait Observer {
-    /// One line of news.
+    /// A message of one line.
     fn say(&self, message: &str);
 
-    /// Work of `steps` steps begins; it is over when the answer is dropped.
+    /// Work of `steps` steps begins; it ends when the returned value is dropped.
     fn begin(&self, message: &str, steps: u64) -> Box<dyn Steps>;
 }
 
-/// Work in steps that is under way.
+/// The progress of work in steps.
 pub trait Steps {
-    /// `step` steps are done.
+    /// `step` steps are complete.
     fn reach(&self, step: u64);
 }
 
-/// Hears nothing.
+/// An observer that ignores all messages.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Silent;
 

@@ -1,4 +1,8 @@
 //! Tables of a grid at the fewest stations that keep a tolerance.
+//!
+//! Stations of each rail are searched by [`splines::stations()`], which considers the direct blocks of this rail.
+//! Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them exceeds
+//! the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
 
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -9,42 +13,43 @@ use crate::table_quality::TableReadingMethod;
 use formats::block::GridBlock;
 use formats::grid::{Grid, GridRail, axes};
 
-/// The most stations of a rail.
+/// Largest number of stations of a rail.
 pub const MOST: usize = 400;
-/// Places along a rail where blocks between two rails are looked at.
+/// Smallest number of places along a rail at which blocks between two rails are evaluated.
 const PLACES: usize = 200;
-/// Rounds of a tighter tolerance, where blocks between two rails need one, and by how much it is tightened.
+/// Largest number of searches with a smaller tolerance, and the factor between them.
 const ROUNDS: usize = 6;
 const TIGHTER: f64 = 0.7;
 
-/// What is wanted.
+/// The goal of a search.
 #[derive(Clone, Debug)]
 pub struct StationGoal {
-    /// How the tables will be read.
+    /// The method by which the tables will be read.
     pub manner: TableReadingMethod,
-    /// Error allowed, of the largest coefficient.
+    /// Tolerance, relative to the largest coefficient.
     pub tolerance: f64,
-    /// Directions that must keep it.
+    /// Directions that must keep the tolerance.
     pub axes: Vec<Axis>,
 }
 
 /// Stations of one rail.
 #[derive(Clone, Debug)]
 pub struct ChosenStations {
-    /// The rail's name.
+    /// The name of the rail.
     pub rail: String,
     /// Its stations and the error of the reading at them.
     pub stations: splines::Stations,
 }
 
-/// Error of the reading of one block, of the geometric mean of its directions' largest coefficients.
+/// Error of the reading of one block, relative to the geometric mean of the largest coefficients of its two direct
+/// blocks.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockError {
-    /// Deflection and load.
+    /// Paths of deflection and load.
     pub ways: [Way; 2],
-    /// Relative.
+    /// Relative error.
     pub error: f64,
-    /// The error itself, and where.
+    /// The error itself and its place.
     pub worst: Extreme,
 }
 
@@ -52,16 +57,16 @@ pub struct BlockError {
 pub struct StationChoice {
     /// The grid.
     pub grid: Grid,
-    /// Its rails.
+    /// The stations of its rails.
     pub rails: Vec<ChosenStations>,
-    /// Blocks between two rails, and those that the goal leaves out.
+    /// Errors of blocks between two rails or directions, and of directions that the goal does not cover.
     pub others: Vec<BlockError>,
 }
 
-/// The grid at the fewest stations found for the goal, from its exact surface.
+/// The grid at the fewest stations for the goal, with values from its exact surface.
 ///
 /// # Errors
-/// As [`splines::stations()`].
+/// As [`splines::stations()`]; [`Error::Stations`] where blocks between rails do not keep the tolerance.
 pub fn choose(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<StationChoice, Error> {
     let mut tolerance = goal.tolerance;
     for round in 0.. {
@@ -79,6 +84,7 @@ pub fn choose(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Stat
     Err(Error::NoSheets)
 }
 
+/// One search of all rails.
 fn attempt(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<StationChoice, Error> {
     let mut rails = Vec::new();
     for (rail, given) in grid.rails.iter().enumerate() {
@@ -124,6 +130,7 @@ pub fn at(grid: &Grid, surface: &Surface, rails: Vec<GridRail>) -> Result<Grid, 
     Ok(out)
 }
 
+/// One matrix from blocks by rows and columns of rails.
 fn assemble(parts: &[Vec<DMatrix<f64>>]) -> DMatrix<f64> {
     let rows = parts.iter().map(|row| row.first().map_or(0, DMatrix::nrows)).sum();
     let columns = parts.first().map_or(0, |row| row.iter().map(DMatrix::ncols).sum());
@@ -140,14 +147,14 @@ fn assemble(parts: &[Vec<DMatrix<f64>>]) -> DMatrix<f64> {
     out
 }
 
-/// Errors of the blocks that no rail's own search has seen.
+/// Errors of the blocks that the searches of single rails do not consider.
 fn others(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Vec<BlockError>, Error> {
     if goal.manner == TableReadingMethod::Exact {
         return Ok(Vec::new());
     }
     let sheets = sheets(grid)?;
     let reading = goal.manner.read(&sheets)?;
-    let spots: Vec<Vec<f64>> = grid
+    let at_rails: Vec<Vec<f64>> = grid
         .rails
         .iter()
         .map(|rail| {
@@ -156,7 +163,7 @@ fn others(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Vec<Bloc
         })
         .collect();
     let largest = |(rail, axis): Way| {
-        let at = &spots[rail];
+        let at = &at_rails[rail];
         Ok::<f64, Error>(Strip::direct(surface, (rail, axis)).block(at, at)?.amax())
     };
     let mut out = Vec::new();
@@ -170,15 +177,15 @@ fn others(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Vec<Bloc
             deflection: *deflection,
             load: *load,
         });
-        let found = deviation(&strips[0], &strips[1], &spots[load.0], &spots[deflection.0])?;
+        let error_of_block = deviation(&strips[0], &strips[1], &at_rails[load.0], &at_rails[deflection.0])?;
         let scale = (largest(*deflection)? * largest(*load)?).sqrt();
-        let error = if scale > 0.0 { found.largest.value.abs() / scale } else { 0.0 };
-        out.push(BlockError { ways: [*deflection, *load], error, worst: found.largest });
+        let error = if scale > 0.0 { error_of_block.largest.value.abs() / scale } else { 0.0 };
+        out.push(BlockError { ways: [*deflection, *load], error, worst: error_of_block.largest });
     }
     Ok(out)
 }
 
-/// All blocks as tables: of two rails a direct one once, couplings both ways.
+/// All blocks as tables: a direct block between two rails once, couplings in both orders.
 fn sheets(grid: &Grid) -> Result<Vec<Sheet>, Error> {
     let mut out = Vec::new();
     let mut top = 0;
@@ -229,7 +236,7 @@ impl StationChoice {
         })
     }
 
-    /// The same for people, a line a rail and one for what the goal leaves out.
+    /// The stations and their errors as text: one line for each rail, and one for directions outside the goal.
     #[must_use]
     pub fn lines(&self, goal: &StationGoal) -> Vec<String> {
         let mut out: Vec<String> = self
@@ -255,7 +262,7 @@ impl StationChoice {
             let blocks = self.others.iter().filter(|block| wanted(block) == within);
             blocks.max_by(|a, b| a.error.total_cmp(&b.error))
         };
-        let tell = |block: &BlockError| {
+        let describe = |block: &BlockError| {
             let [(r, deflection), (c, load)] = block.ways;
             let [row, column] = [r, c].map(|rail| self.grid.rails[rail].name.as_str());
             format!(
@@ -266,16 +273,16 @@ impl StationChoice {
             )
         };
         if let Some(block) = worst(true) {
-            out.push(format!("between rails: {}", tell(block)));
+            out.push(format!("between rails: {}", describe(block)));
         }
         if let Some(block) = worst(false) {
-            out.push(format!("note: directions that were not asked for err by up to {}", tell(block)));
+            out.push(format!("note: directions that were not asked for err by up to {}", describe(block)));
         }
         out
     }
 }
 
-/// Directions that a goal covers where the user names none: vertical and lateral, as far as the grid has them.
+/// Directions that a goal covers by default: vertical and lateral, as far as the grid has them.
 #[must_use]
 pub fn usual(grid: &Grid) -> Vec<Axis> {
     let both = [(GridBlock::Vertical, Axis::Vertical), (GridBlock::Lateral, Axis::Lateral)];
@@ -287,7 +294,7 @@ pub fn usual(grid: &Grid) -> Vec<Axis> {
     if known.is_empty() { vec![Axis::Longitudinal] } else { known }
 }
 
-/// A direction's word.
+/// The word of a direction.
 #[must_use]
 pub const fn word(axis: Axis) -> &'static str {
     match axis {

@@ -1,4 +1,4 @@
-//! `girderway splines --check`: what readings of tables cost.
+//! `girderway splines --check`: the errors of each reading of tables.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use formats::diagnostic::Diagnostic;
 use report::chart::stack;
 use study::table_quality::{Settings, TableQuality, TableReadingMethod, TableSource, json, picture, text};
 
-/// Reads the grid or the tables, tells the findings on standard output, draws them where a file is named.
+/// Reads the grid or the tables, writes the findings to standard output, and draws them where a file is named.
 ///
 /// [`Exit::Differs`] where a table is not symmetric or not positive semi-definite beyond its digits, or a reading
 /// errs more than the tolerance.
@@ -76,8 +76,8 @@ fn form(path: &Path) -> Result<Form, Failure> {
 fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failure> {
     let mut pictures = Vec::new();
     for found in all {
-        for plate in picture::plates(subject, found).map_err(Failure::untrusted)? {
-            pictures.push(plate.svg().map_err(Failure::untrusted)?);
+        for figure in picture::plates(subject, found).map_err(Failure::untrusted)? {
+            pictures.push(figure.svg().map_err(Failure::untrusted)?);
         }
     }
     if pictures.is_empty() {

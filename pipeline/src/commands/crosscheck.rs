@@ -61,10 +61,10 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     Ok(if result.agrees() { Exit::Done } else { Exit::Differs })
 }
 
-/// A spec with what was solved of it so far.
+/// A spec with its solution so far.
 struct Check<'a> {
     source: &'a Source,
-    /// The spec as the user wrote it: what the other codes read.
+    /// The spec as the user wrote it, which the other codes read.
     raw: Value,
     spec: Spec,
     environment: Environment,
@@ -146,7 +146,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Gives a girder the shear areas of a solid rectangle where it has none, and says so.
+/// Adds the shear areas of a solid rectangle to a girder that has none, with a message.
 fn sheared(spec: &mut Spec) -> Option<String> {
     let Form::Girder(girder) = &mut spec.form else { return None };
     let (area, _) = girder.area.zip(girder.g)?;

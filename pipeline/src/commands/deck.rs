@@ -14,7 +14,7 @@ use foundations::{distinct_specs, solve_specs};
 /// Writes the data set to the file named, with its command file beside it, or to standard output.
 ///
 /// # Errors
-/// What is wrong with the scene or its files; a foundation that a deck cannot have; a scene that cannot start.
+/// Errors of the scene or its files; a foundation that a deck cannot have; a scene that cannot start.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     if let Some(path) = &args.output

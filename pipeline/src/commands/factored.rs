@@ -11,7 +11,7 @@ use formats::grid::GridRail;
 use formats::inputs::Input;
 use formats::tables::{self, TableSet};
 
-/// The tables in the factored form; its error told on standard error and, for programs, in `told`.
+/// The tables in factored form; their error is written to standard error and added to `summary`.
 ///
 /// # Errors
 /// Tables without a factored form.
@@ -21,7 +21,7 @@ pub(super) fn factored(
     exact: Option<&(Surface, Vec<GridRail>)>,
     input: &Input,
     progress: &Progress,
-    told: &mut Map<String, Value>,
+    summary: &mut Map<String, Value>,
 ) -> Result<TableSet, Failure> {
     let rank = match (args.rank, args.tolerance.filter(|_| args.reading.is_none())) {
         (Some(rank), _) => Rank::Count(usize::from(rank)),
@@ -50,6 +50,6 @@ pub(super) fn factored(
     let between = between.map(|found| found.json());
     let object =
         json!({ "ranks": ranks, "at_stations": factoring.stations.json(), "against_surface": between });
-    told.insert("factored".into(), object);
+    summary.insert("factored".into(), object);
     Ok(factoring.set)
 }

@@ -60,7 +60,7 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// What modes refuse: a spec without mass by what it lacks, all else as the solver's refusals.
+/// Errors of natural modes: a spec without mass by the missing key, all others as errors of the solver.
 fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
     if *error != fea::Error::NoMass {
         return spec.refuse(source, error).into();

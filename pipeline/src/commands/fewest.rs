@@ -14,17 +14,18 @@ use formats::source::Source;
 use study::stations::{self, StationGoal};
 use study::table_quality::TableReadingMethod;
 
-/// The grid at the fewest stations that keep the tolerance; told on standard error and, for programs, in `told`.
+/// The grid at the fewest stations that keep the tolerance; the stations are written to standard error and added to
+/// `summary`.
 ///
 /// # Errors
-/// A grid without its surface or the directions asked for; a tolerance that no stations keep.
+/// A grid without its surface or without the requested directions; a tolerance that no number of stations keeps.
 pub(super) fn chosen(
     args: &SplinesArgs,
     (manner, tolerance): (TableReadingMethod, f64),
     source: &Source,
     (grid, surface): (&Grid, Option<&Surface>),
     progress: &Progress,
-    told: &mut Map<String, Value>,
+    summary: &mut Map<String, Value>,
 ) -> Result<Grid, Failure> {
     let root = Place::root();
     let refuse = |fault: Fault| Failure::Input(source.diagnose(&Faults(vec![fault])));
@@ -66,7 +67,7 @@ pub(super) fn chosen(
         progress.say(&line);
     }
     if let Value::Object(found) = choice.json(&goal) {
-        told.extend(found);
+        summary.extend(found);
     }
     Ok(choice.grid)
 }

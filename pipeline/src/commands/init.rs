@@ -38,11 +38,11 @@ const fn files(starter: Starter) -> Files {
 /// Writes the files into the folder named; none of them where one is there already.
 ///
 /// # Errors
-/// Files that are there already; a folder that cannot be; what the file system refuses.
+/// Files that exist already; a folder that cannot be created; an operation that the file system refuses.
 pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let folder = args.folder.clone().unwrap_or_else(|| PathBuf::from("."));
-    // a folder that cannot be is told before anything is made
+    // a folder that cannot be created is reported before any file is written
     output::OutputFolder::new(&folder)?;
     let files: Vec<(PathBuf, &str)> =
         files(args.what).iter().map(|(name, text)| (place(&folder, name), *text)).collect();

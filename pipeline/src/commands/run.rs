@@ -35,7 +35,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 /// Where the structures' solutions come from: the document, and the output folder.
 type Source = fn(&Document, &Path, &Progress) -> Result<Vec<SolvedStructure>, Failure>;
 
-/// `run` and `sim` alike, on what `structures` brings.
+/// The common part of `run` and `sim`, on the structures that `structures` returns.
 pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Source) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let mut clock = StageClock::new();
@@ -55,7 +55,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     for ((name, ..), entry) in distinct_specs(&document).iter().zip(&known) {
         let solved = &entry.solution;
         folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, solved.surface.as_ref()));
-        if let Some(text) = tables::adm(name, &solved.grid).map_err(trouble)? {
+        if let Some(text) = tables::adm(name, &solved.grid).map_err(unexpected)? {
             folder.add(&format!("{name}.adm"), text);
         }
     }
@@ -65,8 +65,8 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
             .label
             .as_ref()
             .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
-        folder.add(&name, sheet.map_err(trouble)?);
-        if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.columns).map_err(trouble)? {
+        folder.add(&name, sheet.map_err(unexpected)?);
+        if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.columns).map_err(unexpected)? {
             folder.add(&name.replacen("history", "cycles", 1), cycles);
         }
     }
@@ -81,17 +81,17 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
 
     let plates = figures(&document, &outcomes, &known, &comparison).map_err(|error| match error {
         FigureError::Positions(error) => Failure::untrusted(error),
-        other => trouble(other),
+        other => unexpected(other),
     })?;
     let drawn = parallel_map(&plates, global.threads, |_, plate| plate.svg());
     for (plate, svg) in plates.iter().zip(drawn) {
-        folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(trouble)?.file());
+        folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(unexpected)?.file());
     }
     clock.lap("plots");
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(&known, &structure.origin)).collect();
     let report = story::report(&document, &outcomes, &solved, &comparison, plates);
-    folder.add("report.html", report.html(global.threads).map_err(trouble)?);
+    folder.add("report.html", report.html(global.threads).map_err(unexpected)?);
     clock.lap("report");
     folder.add_varying("timing.json", output::json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
@@ -143,7 +143,7 @@ fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<Solve
     Ok(solve_specs(document, &distinct_specs(document))?)
 }
 
-/// Something that should not happen to checked input, told instead of hidden.
-fn trouble(error: impl std::fmt::Display) -> Failure {
+/// An error that checked input should not cause; it is reported instead of hidden.
+fn unexpected(error: impl std::fmt::Display) -> Failure {
     Failure::Untrusted(format!("the results cannot be shown: {error}"))
 }

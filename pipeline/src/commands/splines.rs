@@ -38,8 +38,8 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let inputs = Inputs::open_bytes(&args.grid).map_err(|fault| *fault)?;
     let input = &inputs.all()[0];
-    let mut told = Map::new();
-    let (mut set, exact) = given(args, input, &progress, &mut told)?;
+    let mut summary = Map::new();
+    let (mut set, exact) = given(args, input, &progress, &mut summary)?;
     if !args.only.is_empty() {
         let directions: Vec<_> = args.only.iter().map(|direction| (*direction).into()).collect();
         set = tables::only(&set, &directions);
@@ -53,7 +53,7 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     match args.form {
         Some(TableFormArg::Table) => set = tables::expand(&set),
         Some(TableFormArg::Factored) => {
-            set = factored(args, &set, exact.as_ref(), input, &progress, &mut told)?
+            set = factored(args, &set, exact.as_ref(), input, &progress, &mut summary)?
         }
         None => {}
     }
@@ -61,15 +61,15 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
         let refused = |why: tables::Unrounded| Diagnostic::of_file(&input.shown, why.to_string());
         let (rounded, rounding) = tables::round(&set, usize::from(digits)).map_err(refused)?;
         progress.say(&rounding.message());
-        told.insert("rounding".into(), rounding.json());
+        summary.insert("rounding".into(), rounding.json());
         set = rounded;
     }
     let bytes = tables::write(&set, format)?;
     output::deliver_bytes(args.output.as_deref(), &bytes, &progress)?;
     if let Some(path) = args.output.as_ref().filter(|_| global.json) {
-        told.insert("output".into(), json!(path.display().to_string()));
-        told.insert("tables".into(), json!(set.tables.len()));
-        output::print(&output::json(&Value::Object(told)))?;
+        summary.insert("output".into(), json!(path.display().to_string()));
+        summary.insert("tables".into(), json!(set.tables.len()));
+        output::print(&output::json(&Value::Object(summary)))?;
     }
     Ok(Exit::Done)
 }
@@ -89,7 +89,7 @@ fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     Err(Diagnostic::of_file("command line", wrong).hint(hint).into())
 }
 
-/// The tables asked for; the exact surface of a grid that has one.
+/// The tables of the input, and the exact surface of a grid that has one.
 type Given = (TableSet, Option<(Surface, Vec<GridRail>)>);
 
 fn given(
@@ -98,18 +98,18 @@ fn given(
     progress: &Progress,
     told_more: &mut Map<String, Value>,
 ) -> Result<Given, Failure> {
-    let told = args.length.zip(args.force);
-    let told = told.map(|(length, force)| Units { length: length.into(), force: force.into() });
+    let units = args.length.zip(args.force);
+    let units = units.map(|(length, force)| Units { length: length.into(), force: force.into() });
     if tables::is_tables(&input.shown, &input.bytes) {
         if args.reading.is_some() {
             let fault = Diagnostic::of_file(&input.shown, "does not say what is exact between its stations");
             return Err(fault.hint("--reading and --tolerance need a grid file").into());
         }
-        return Ok((tables::read(&input.shown, &input.bytes, told)?, None));
+        return Ok((tables::read(&input.shown, &input.bytes, units)?, None));
     }
     let source = input.source()?;
     let (mut grid, surface) = grid_file::read(&source)?;
-    if told.is_some_and(|told| told != grid.units) {
+    if units.is_some_and(|units| units != grid.units) {
         let fault = Diagnostic::of_file(&input.shown, "a grid says its units itself");
         return Err(fault.hint("leave out --length and --force").into());
     }

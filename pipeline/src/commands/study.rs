@@ -28,9 +28,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let scene = document.scene().clone();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&name));
     let mut folder = OutputFolder::new(&path)?;
-    let mut depth = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
-    depth.limit = args.limit.unwrap_or(depth.limit);
-    depth.resolution = args.resolution.unwrap_or(depth.resolution);
+    let mut budget = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
+    budget.limit = args.limit.unwrap_or(budget.limit);
+    budget.resolution = args.resolution.unwrap_or(budget.resolution);
 
     let known = {
         let _stage = progress.stage("solving the structures");
@@ -39,9 +39,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     if args.stability {
         return stability(args, &document, &known, folder, global);
     }
-    let study = study::study(&scene, &known, &depth, &progress)?;
+    let study = study::study(&scene, &known, &budget, &progress)?;
 
-    let result = study::json(&study, &scene, &depth);
+    let result = study::json(&study, &scene, &budget);
     folder.add("study.json", output::json(&result));
     folder.add("study.csv", study::csv(&study).map_err(Failure::untrusted)?);
     folder.add_varying("timing.json", output::json(&study::timing_json(&study)));
@@ -51,7 +51,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         if picture.varies { folder.add_varying(&file, picture.svg) } else { folder.add(&file, picture.svg) }
     }
     let settings = json!({
-        "case": args.case, "quick": args.quick, "limit": depth.limit, "resolution": depth.resolution,
+        "case": args.case, "quick": args.quick, "limit": budget.limit, "resolution": budget.resolution,
     });
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
     for (family, who) in [
@@ -59,12 +59,12 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         (SettingFamily::Auto, "auto's choice"),
         (SettingFamily::Stepping, "as written, beside other methods on its foundations"),
     ] {
-        let dearer = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
+        let excess = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
             let all = study::excesses(&study, family, cost).into_iter();
-            let told: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
-            told.join(", ")
+            let ratios: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
+            ratios.join(", ")
         };
-        let [time, work] = [dearer(&StudyPoint::seconds), dearer(&study::stages)];
+        let [time, work] = [excess(&StudyPoint::seconds), excess(&study::stages)];
         if !work.is_empty() {
             progress.say(&format!(
                 "{who}, by the cheapest setting that errs no more: time {time}; contact solutions {work}"
@@ -76,7 +76,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         let all = json!({ "output": written.display().to_string(), "study": result });
         output::print(&output::json(&all))?;
     }
-    judge(&study, &depth)
+    judge(&study, &budget)
 }
 
 /// Maps of where methods fail.
@@ -106,8 +106,8 @@ fn stability(
     for map in &maps {
         for layer in map.layers.iter().filter(|layer| layer.is_ours) {
             let counts = MapVerdict::WORDS.iter().zip(layer.counts()).filter(|(_, count)| *count > 0);
-            let told: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
-            progress.say(&format!("{}: {}: {}", map.name, layer.method, told.join(", ")));
+            let summary: Vec<String> = counts.map(|(word, count)| format!("{count} {word}")).collect();
+            progress.say(&format!("{}: {}: {}", map.name, layer.method, summary.join(", ")));
         }
     }
     progress.say(&format!("wrote {}", written.display()));
@@ -125,7 +125,7 @@ fn stability(
     }
 }
 
-/// The scene itself, or the comparison asked for.
+/// The scene itself, or the named comparison.
 fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
     let Some(label) = &args.case else {
         return Ok(Case { label: None, scene: document.scene().clone() });
@@ -145,14 +145,14 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
     }
 }
 
-/// Whether the references tell what they were asked to.
-fn judge(study: &Study, depth: &StudyBudget) -> Result<Exit, Failure> {
+/// Whether the references resolve the errors that the budget asks for.
+fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
     if let Some((against, why)) = study.lost.first() {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
         return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
     }
     let worst = study.references.iter().max_by(|a, b| a.worst_resolution().total_cmp(&b.worst_resolution()));
-    match worst.filter(|worst| worst.worst_resolution() > depth.resolution) {
+    match worst.filter(|worst| worst.worst_resolution() > budget.resolution) {
         None => Ok(Exit::Done),
         Some(worst) => Err(Failure::Untrusted(format!(
             "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
@@ -160,7 +160,7 @@ fn judge(study: &Study, depth: &StudyBudget) -> Result<Exit, Failure> {
             worst.against.word(),
             worst.worst_resolution() / study::MARGIN,
             worst.worst_resolution(),
-            depth.resolution
+            budget.resolution
         ))),
     }
 }

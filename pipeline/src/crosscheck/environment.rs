@@ -13,7 +13,7 @@ const OLDEST: [u32; 2] = [3, 11];
 /// Written into an environment when it is complete.
 const MARK: &str = "complete";
 
-/// Where the environment is and what makes it.
+/// The path of the environment and the packages that it is made of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Environment {
     /// The Python that makes the environment.

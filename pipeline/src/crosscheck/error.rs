@@ -1,4 +1,4 @@
-//! What a cross-check refuses, and what can go wrong around it.
+//! Errors of a cross-check.
 
 use formats::block::GridBlock;
 use std::path::PathBuf;
@@ -71,7 +71,7 @@ pub enum Error {
         /// Last lines of what it wrote.
         output: String,
     },
-    /// The script's answer is not what was asked for.
+    /// The answer of the script has an unexpected form.
     #[error("the answer of the model in {code} cannot be read: {source}")]
     Answer {
         /// Which code.

@@ -5,7 +5,7 @@ use serde::Serialize;
 
 /// A straight uniform girder, continuous over its supports, in consistent units.
 ///
-/// Every support holds vertical, lateral and twist, the first also the length; slopes are free. Unknown
+/// Every support restrains vertical, lateral and twist, the first also longitudinal; slopes are free. Unknown
 /// stiffnesses leave out the grids that need them; absent shear stiffnesses mean a beam rigid in shear.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PlainGirder {

@@ -1,4 +1,4 @@
-//! The other codes, and how one is asked.
+//! The other codes, and the call of one of them.
 
 use super::environment::{Environment, tail};
 use super::error::Error;
@@ -45,7 +45,7 @@ pub enum PeerMeasure {
 pub const FLOOR: f64 = 1e-3;
 
 impl Peer {
-    /// All, in the order in which they are asked.
+    /// All codes, in the order in which they run.
     pub const ALL: [Peer; 4] = [Peer::ScikitFem, Peer::OpenSees, Peer::PyNite, Peer::Solid];
 
     /// Its name for people and files.
@@ -106,7 +106,7 @@ impl Peer {
     /// Asks the code: one JSON value in, its answer out.
     ///
     /// # Errors
-    /// Where Python, its environment or the script fails; [`Error::Refused`] for what the code does not solve.
+    /// Python, its environment or the script fails; [`Error::Refused`] where the code does not solve the structure.
     pub fn ask(
         self,
         question: &impl Serialize,

@@ -43,7 +43,7 @@ pub fn crosscheck(
     Ok(outcome)
 }
 
-/// Asks a code and compares what it answers with `ours`, entry by entry.
+/// Runs a code and compares its grids with `ours`, entry by entry.
 ///
 /// `ours` holds grids between all `stations`; the code may answer for some of them. `question` is what its
 /// script reads.
@@ -211,7 +211,7 @@ pub(super) fn compare(
     (differences, skipped)
 }
 
-/// The differences of other grids of ours from the answer that an outcome holds.
+/// The differences of other grids of this program from the answer of an outcome.
 #[must_use]
 pub fn again(outcome: &PeerOutcome, ours: &[(GridBlock, PlainGrid)]) -> Vec<BlockDifference> {
     compare(&part(ours, &outcome.chosen), &outcome.theirs, &outcome.stations, outcome.peer.measure()).0

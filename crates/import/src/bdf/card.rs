@@ -1,10 +1,10 @@
-//! Cards: a name and its fields, from lines in small, large or free field.
+//! Cards: a name with its fields, from lines in small field, large field or free field format.
 
 use super::field::number;
 use super::line::BulkLine;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// A field of a card, where it stands.
+/// A field of a card with its place.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CardField {
     /// Where it begins.
@@ -24,7 +24,7 @@ pub struct Card {
     pub fields: Vec<CardField>,
 }
 
-/// One line, taken apart.
+/// One line, cut into its fields.
 struct Parts {
     head: String,
     fields: Vec<CardField>,
@@ -37,7 +37,7 @@ struct Parts {
 pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
     let mut cards: Vec<Card> = Vec::new();
     let mut tail = String::new();
-    // whether the lines since the last card belong to one that could not be read
+    // whether continuation lines belong to a card that could not be read
     let mut lost = true;
     for line in lines {
         let Some(parts) = take_apart(line, findings) else {

@@ -1,4 +1,4 @@
-//! A deck: which cards it has, sorted by what they are.
+//! A deck: its cards, sorted by what they describe.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use super::rigid::{self, Rigid};
 use super::support::{self, SupportCard};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// Cards that change nothing of a structure at rest, or nothing that a beam spec says: left out with a warning.
+/// Cards that do not affect a structure at rest, or describe what a beam spec does not have: ignored with a warning.
 const LEFT_OUT: &[&str] = &[
     "PARAM", "DEBUG", "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD", "PLOAD", "PLOAD1",
     "PLOAD2", "PLOAD4", "PLOADX1", "SLOAD", "GRAV", "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPRB",
@@ -68,13 +68,13 @@ pub struct BulkDeck {
 }
 
 impl BulkDeck {
-    /// Sorts the lines of a deck; cards named in `skip` are left out without a word.
+    /// Sorts the cards of a deck; cards named in `skip` are ignored without a warning.
     pub fn new(lines: &[BulkLine], skip: &[String], findings: &mut ImportFindings) -> BulkDeck {
         let mut deck = BulkDeck::default();
         let bulk = deck.control(lines, skip, findings);
         let cards = cards(bulk, findings);
         let cards: Vec<&Card> = cards.iter().filter(|card| !skip.contains(&card.name)).collect();
-        // defaults first: they hold for the cards before them too
+        // defaults first: they apply to cards before them as well
         let mut bars = element::BarDefaults::default();
         let mut beams = element::BarDefaults::default();
         let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
@@ -119,7 +119,7 @@ impl BulkDeck {
         deck
     }
 
-    /// Reads executive and case control; gives the bulk data.
+    /// Reads executive and case control, and returns the lines of the bulk data.
     fn control<'l>(
         &mut self,
         lines: &'l [BulkLine],
@@ -187,7 +187,7 @@ impl BulkDeck {
         put(&mut self.elements, id, element, |other| other.card, card, &kind, findings);
     }
 
-    /// Takes a card that belongs to a structure; false where it is none.
+    /// Reads a card that describes a structure; false where it is no such card.
     fn take(&mut self, name: &str, fields: &mut CardFields<'_, '_>) -> bool {
         let at = fields.card.at;
         match name {
@@ -245,7 +245,7 @@ impl BulkDeck {
     }
 }
 
-/// Puts an entry under a number that no other has.
+/// Inserts an entry under its number; an error where the number is used twice.
 fn put<T>(
     map: &mut BTreeMap<u64, T>,
     id: u64,

@@ -1,29 +1,29 @@
-//! CBAR, CBEAM, CROD, CONROD, BAROR and BEAMOR: members.
+//! Elements: CBAR, CBEAM, CROD and CONROD, with the defaults of BAROR and BEAMOR.
 
 use super::field::{Number, number};
 use super::fields::CardFields;
 use super::property::{Property, rod_from};
 use crate::findings::FilePlace;
 
-/// Where local y of a member points.
+/// The direction of local y of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Orientation {
     /// A vector from end A.
     Vector([f64; 3]),
-    /// From grid GA to this one.
+    /// The vector from grid GA to this grid.
     Grid(u64),
 }
 
-/// How a member knows its property.
+/// The property of an element.
 #[derive(Clone, Debug)]
 pub enum SectionOf {
-    /// By number.
+    /// The number of a property.
     Number(u64),
-    /// Its own.
+    /// A property of its own (CONROD).
     Own(Box<Property>),
 }
 
-/// A member as its card has it.
+/// An element as on its card.
 #[derive(Clone, Debug)]
 pub struct ElementCard {
     /// Where its card is.
@@ -34,15 +34,15 @@ pub struct ElementCard {
     pub section: SectionOf,
     /// Its grids.
     pub grids: [u64; 2],
-    /// Where local y points; `None` for rods.
+    /// Direction of local y; `None` for rods.
     pub orientation: Option<Orientation>,
-    /// Freedoms let go at ends A and B.
+    /// Released degrees of freedom at ends A and B.
     pub pins: [[bool; 6]; 2],
     /// Offsets of ends A and B, global.
     pub offsets: [[f64; 3]; 2],
 }
 
-/// What BAROR and BEAMOR give to blank fields.
+/// Defaults of BAROR and BEAMOR for blank fields.
 #[derive(Clone, Debug, Default)]
 pub struct BarDefaults {
     property: Option<u64>,

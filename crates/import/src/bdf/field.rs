@@ -1,4 +1,4 @@
-//! Single fields: integers, real numbers without E, lists of freedoms.
+//! Single fields: integers, real numbers in the notations of bulk data, lists of degrees of freedom.
 
 /// A number of bulk data.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +28,7 @@ pub fn number(text: &str) -> Option<Number> {
     let digits = match exponent.strip_prefix(['E', 'e', 'D', 'd']) {
         Some(digits) => digits,
         None if exponent.is_empty() => "0",
-        // without its letter an exponent has a sign, and the number a decimal point
+        // an exponent without its letter needs a sign, and the number a decimal point
         None if points == 1 && exponent.starts_with(['+', '-']) => exponent,
         None => return None,
     };
@@ -40,7 +40,7 @@ pub fn number(text: &str) -> Option<Number> {
     Some(if value.is_finite() { Number::Real(value) } else { Number::Huge })
 }
 
-/// Digits 1 to 6, each at most once, as a set of freedoms.
+/// A set of degrees of freedom from digits 1 to 6, each at most once.
 #[must_use]
 pub fn freedoms(text: &str) -> Option<[bool; 6]> {
     let mut set = [false; 6];

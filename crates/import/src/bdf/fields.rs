@@ -1,4 +1,4 @@
-//! Fields of a card by number, read as what they must be.
+//! Fields of a card by number, read as values of the type that they must have.
 
 use super::card::{Card, CardField};
 use super::field::{Number, freedoms, number};
@@ -10,7 +10,7 @@ use formats::fault::number as written;
 pub struct CardFields<'c, 'f> {
     /// The card.
     pub card: &'c Card,
-    /// Where faults go.
+    /// Errors and warnings are added here.
     pub findings: &'f mut ImportFindings,
 }
 
@@ -53,7 +53,7 @@ impl CardFields<'_, '_> {
         if id.is_empty() { self.card.name.clone() } else { format!("{} {id}", self.card.name) }
     }
 
-    /// A fault of a field.
+    /// A finding about a field.
     #[must_use]
     pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> ImportFinding {
         let about = if name.is_empty() { self.label() } else { format!("{}: {name}", self.label()) };
@@ -61,7 +61,7 @@ impl CardFields<'_, '_> {
         if self.blank(index) { finding } else { finding.got(ascii(self.text(index))) }
     }
 
-    /// Refuses a field.
+    /// Adds an error about a field.
     pub fn refuse(&mut self, index: usize, name: &str, expected: &str, hint: &str) {
         let fault = self.fault(index, name, expected);
         self.findings.error(if hint.is_empty() { fault } else { fault.hint(hint) });
@@ -143,7 +143,7 @@ impl CardFields<'_, '_> {
         Some([x?, y?, z?])
     }
 
-    /// A set of freedoms; none where the field is blank or 0.
+    /// A set of degrees of freedom; empty where the field is blank or 0.
     pub fn freedoms(&mut self, index: usize, name: &str) -> Option<[bool; 6]> {
         let text = if self.text(index) == "0" { "" } else { self.text(index) };
         let set = freedoms(text);
@@ -153,7 +153,7 @@ impl CardFields<'_, '_> {
         set
     }
 
-    /// Refuses a number other than 0, with the reason.
+    /// Adds an error where a field has a number other than 0, with the reason.
     pub fn zero(&mut self, index: usize, name: &str, hint: &str) -> Option<()> {
         let value = match number(self.text(index)) {
             Some(Number::Integer(value)) => value as f64,
@@ -167,7 +167,7 @@ impl CardFields<'_, '_> {
         Some(())
     }
 
-    /// Refuses what stands from a field on.
+    /// Adds an error where a field from this one on is not blank.
     pub fn end(&mut self, from: usize) {
         let beyond = (from..=self.card.fields.len()).find(|index| !self.blank(*index));
         if let Some(index) = beyond {

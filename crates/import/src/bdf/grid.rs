@@ -1,4 +1,4 @@
-//! GRID, GRDSET and CORD2R: points and the systems that they are given in.
+//! Grids and coordinate systems: GRID, GRDSET and CORD2R, and their resolution to the basic system.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use super::fields::CardFields;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::vector::{cross, dot, minus, unit};
 
-/// A point as its card has it.
+/// A grid as on its card.
 #[derive(Clone, Debug)]
 pub struct GridCard {
     /// Where its card is.
@@ -17,13 +17,13 @@ pub struct GridCard {
     pub cp: Option<u64>,
     /// System of the displacements; `None` where blank.
     pub cd: Option<u64>,
-    /// Freedoms held; `None` where blank.
+    /// Permanently restrained degrees of freedom; `None` where blank.
     pub fix: Option<[bool; 6]>,
     /// Places of `cp` and `cd`.
     pub spots: [FilePlace; 2],
 }
 
-/// What GRDSET gives to blank fields of GRID.
+/// Defaults of GRDSET for blank fields of GRID.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct GridDefaults {
     cp: u64,
@@ -53,7 +53,7 @@ const BASIC: CoordinateFrame =
     CoordinateFrame { origin: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 
 impl CoordinateFrame {
-    /// A point of this system in the basic one; the same bits where this is the basic one.
+    /// A point of this system in the basic system; exactly the same numbers where this is the basic system.
     fn basic(&self, at: [f64; 3]) -> [f64; 3] {
         if self.axes == BASIC.axes {
             return [0, 1, 2].map(|k| self.origin[k] + at[k]);
@@ -110,16 +110,16 @@ pub fn system(card: &mut CardFields<'_, '_>) -> Option<(u64, CoordinateCard)> {
     Some((id, CoordinateCard { card: card.card.at, reference: reference?, points: [a?, b?, c?] }))
 }
 
-/// A point in the basic system.
+/// A grid in the basic system.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolved {
     /// Coordinates.
     pub at: [f64; 3],
-    /// Freedoms that its own card holds.
+    /// Degrees of freedom that its own card restrains.
     pub fix: [bool; 6],
 }
 
-/// Takes all points to the basic system.
+/// Transforms all grids to the basic system.
 pub fn resolve(
     grids: &BTreeMap<u64, GridCard>,
     defaults: GridDefaults,
@@ -165,7 +165,8 @@ pub fn resolve(
     resolved
 }
 
-/// Frames of all systems, whatever their order.
+/// Frames of all systems. A system may be defined in any other: each pass resolves those whose reference system is
+/// known, until none is left or a cycle remains.
 fn frames(
     systems: &BTreeMap<u64, CoordinateCard>,
     findings: &mut ImportFindings,

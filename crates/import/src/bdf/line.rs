@@ -1,4 +1,4 @@
-//! Lines of a deck, with the files that it includes in their places.
+//! Lines of a deck, with included files inserted at their INCLUDE lines.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::inputs::cannot_read;
 
-/// Reads a file.
+/// Function that reads a file; tests and the command line bring their own.
 pub type Open<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
 
-/// Files that one deck may include; more are a sign of a deck that includes itself many times over.
+/// Largest number of files that a deck may include: more mean that it includes itself repeatedly.
 const MOST_FILES: usize = 1000;
 
 /// A line without its comment; never blank.
@@ -51,7 +51,7 @@ impl Reader<'_> {
         let file = findings.files.len();
         findings.files.push(path.display().to_string());
         self.stack.push(path.to_path_buf());
-        // comments may be in any encoding; what is left of a bad byte in a field is refused there
+        // comments may have any encoding; a replaced byte in a field is refused when the field is read
         let text = String::from_utf8_lossy(bytes);
         let mut gap = false;
         for (index, raw) in text.lines().enumerate() {
@@ -133,7 +133,7 @@ fn included(text: &str) -> Option<Result<&str, ()>> {
     Some(if plain { Ok(rest) } else { Err(()) })
 }
 
-/// Tabs as blanks up to the next of the eight-column fields.
+/// The line with each tab as blanks up to the next eight-column field.
 fn expanded(text: &str) -> String {
     if !text.contains('\t') || text.contains(',') {
         return text.replace('\t', " ");

@@ -1,4 +1,4 @@
-//! CONM2, CELAS1 and CELAS2: masses and springs at grids.
+//! Masses and springs at grids: CONM2, CELAS1 and CELAS2.
 
 use super::field::{Number, number};
 use super::fields::CardFields;
@@ -17,13 +17,13 @@ pub struct MassCard {
     pub mass: f64,
     /// Inertias about the global axes through the centre of mass.
     pub inertia: [f64; 3],
-    /// To the centre of mass: from the grid, or from the global origin.
+    /// Vector to the centre of mass, from the grid or from the global origin.
     pub offset: [f64; 3],
     /// Whether the offset is from the global origin.
     pub absolute: bool,
 }
 
-/// A spring between a freedom of a grid and another, or ground.
+/// A spring between a degree of freedom of a grid and another one or ground.
 #[derive(Clone, Debug)]
 pub struct SpringCard {
     /// Where its card is.
@@ -32,16 +32,16 @@ pub struct SpringCard {
     pub label: String,
     /// Its stiffness, or the number of a PELAS with its place.
     pub stiffness: Stiffness,
-    /// Ends: grid and index of the freedom; `None` is ground.
+    /// Ends: grid and index of the degree of freedom; `None` is ground.
     pub ends: [Option<(u64, usize)>; 2],
 }
 
-/// How a spring knows its stiffness.
+/// The stiffness of a spring.
 #[derive(Clone, Copy, Debug)]
 pub enum Stiffness {
-    /// Its own.
+    /// A value of its own.
     Own(f64),
-    /// By the number of a PELAS.
+    /// The number of a PELAS.
     Number(u64),
 }
 

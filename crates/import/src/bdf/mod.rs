@@ -1,8 +1,11 @@
-//! NASTRAN bulk data.
+//! NASTRAN bulk data: beams, bars and rods with their sections, supports, springs, rigid links and masses.
+//!
+//! Reading has four stages: `line` joins the files of a deck, `card` cuts lines into cards and fields, `deck` sorts
+//! the cards by what they describe (one file for each group of cards), and `resolve` turns references into indices of
+//! a structure.
 //!
 //! # Source
-//! The formats of cards are those of the NASTRAN quick reference guides; local axes, planes 1 and 2, offsets and
-//! pin flags of CBAR as there.
+//! NASTRAN quick reference guides: formats of cards, local axes, planes 1 and 2, offsets and pin flags of CBAR.
 
 mod card;
 mod deck;
@@ -16,6 +19,7 @@ mod material;
 mod property;
 mod resolve;
 mod rigid;
+mod section;
 mod support;
 
 use std::io;
@@ -26,11 +30,11 @@ pub use line::Open;
 use super::findings::ImportFindings;
 use super::structure::ImportedStructure;
 
-/// Reads a deck into `empty`, a structure that has its name and units. `spc`: the set of supports; `skip`: cards to
-/// leave out.
+/// Reads a deck into `empty`, a structure with a name and units only. `spc`: the chosen SPC set; `skip`: names of
+/// cards that are ignored.
 ///
 /// # Errors
-/// Why the file cannot be read; everything else is among the findings.
+/// The deck cannot be read as a file; all other errors are among the findings.
 pub fn read(
     path: &Path,
     open: Open<'_>,
@@ -41,7 +45,7 @@ pub fn read(
 ) -> io::Result<ImportedStructure> {
     let lines = line::read(path, open, findings)?;
     let deck = deck::BulkDeck::new(&lines, skip, findings);
-    // what refers to a card that could not be read is no fault of its own
+    // references to cards that could not be read would give errors that are not their own
     if findings.wrong() {
         return Ok(empty);
     }

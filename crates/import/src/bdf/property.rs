@@ -1,4 +1,9 @@
-//! PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS: what elements resist with.
+//! Properties: PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS.
+//!
+//! PBAR and PBEAM give the areas and moments themselves. PBARL and PBEAML give a shape with its dimensions DIM1 to
+//! DIMn; the properties of its section come from `formats`, and shapes whose principal axes are oblique are refused.
+//! A beam has values at end A and at intermediate stations; it must be uniform or vary linearly to end B, so that
+//! stations between the ends must repeat one of them.
 
 use super::fields::CardFields;
 use crate::findings::FilePlace;
@@ -20,11 +25,11 @@ pub struct Property {
     pub bending: [f64; 2],
     /// Torsion constant.
     pub j: f64,
-    /// Shear factors of planes 1 and 2; 0 is rigid in shear.
+    /// Shear factors of planes 1 and 2; 0 means rigid in shear.
     pub shear: [f64; 2],
-    /// Further mass per length, before WTMASS.
+    /// Non-structural mass per length, before WTMASS.
     pub nsm: f64,
-    /// What it is at end B of a tapered beam; it varies linearly between the ends.
+    /// Property at end B of a tapered beam; values vary linearly between the ends.
     pub end: Option<Box<Property>>,
 }
 
@@ -93,7 +98,7 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     whole(card, &property).then_some((id, property))
 }
 
-/// Whether a bar bends in both planes, or in none.
+/// Checks that a bar has bending stiffness in both planes or in none.
 fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let [i1, i2] = property.bending.map(|value| value > 0.0);
     let hint = "give both second moments, or neither for a bar that only changes its length";
@@ -168,16 +173,16 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         nsm,
         end: None,
     };
-    let mut found = property(own);
-    found.end = (other != own).then(|| Box::new(property(other)));
-    let tapered = found.end.is_none() || own.iter().chain(&other).all(|value| *value > 0.0);
-    if !tapered {
+    let mut result = property(own);
+    result.end = (other != own).then(|| Box::new(property(other)));
+    let is_positive = result.end.is_none() || own.iter().chain(&other).all(|value| *value > 0.0);
+    if !is_positive {
         card.refuse(3, "A", "must be positive like I1, I2 and J at both ends of a tapered beam", "");
     }
-    (tapered && spread(card, &found, 8) && whole(card, &found)).then_some((id, found))
+    (is_positive && spread(card, &result, 8) && whole(card, &result)).then_some((id, result))
 }
 
-/// A, I1, I2 and J from a field on, with I12 between; those that are blank are `own`.
+/// A, I1, I2 and J from a field on, with I12 between them; blank fields have the values of `own`.
 fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
     let mut number = |index: usize, name: &str, k: usize| match own {
         Some(own) if card.blank(index) => Some(own[k]),
@@ -195,7 +200,7 @@ fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>)
     Some([a?, i1?, i2?, j?])
 }
 
-/// Reads PBARL or PBEAML; between its ends a beam must vary linearly.
+/// Reads PBARL or PBEAML: a shape with its dimensions, at both ends of a beam; values must vary linearly between them.
 pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
@@ -232,7 +237,7 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     spread(card, &property, 9 + count).then_some((id, property))
 }
 
-/// Whether the further mass can be spread over the area.
+/// Checks that the non-structural mass can be spread over the area, which must not vary then.
 fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> bool {
     let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
@@ -242,7 +247,7 @@ fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> b
     !varies || property.nsm == 0.0
 }
 
-/// The property of a shape.
+/// The property of a shape with its dimensions; an error where the dimensions do not form a section.
 fn section(
     card: &mut CardFields<'_, '_>,
     shape: &str,
@@ -275,7 +280,8 @@ fn section(
     })
 }
 
-/// The dimensions of a PBEAML at end B, where they differ from those at end A.
+/// The dimensions of a PBEAML at end B, where they differ from those at end A; stations between the ends must have
+/// those of end A.
 fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
     let count = dimensions.len();
     let last = card.last();

@@ -1,36 +1,43 @@
-//! A deck as a structure: numbers become indices, defaults become values.
+//! Resolution of a bulk data deck: card numbers become indices of a structure, defaults become values.
+//!
+//! The steps follow each other, since later ones need what earlier ones resolve:
+//! 1. grids: coordinate systems are resolved, and coordinates become global;
+//! 2. points: the grids that an element, rigid link, mass or spring names, in the order of their numbers (a grid that
+//!    only orients an element is no point);
+//! 3. members, with the sections and materials that they use (see [`super::section`]);
+//! 4. links and masses;
+//! 5. supports: permanent constraints of grids and the chosen SPC set;
+//! 6. springs, whose other end must be ground or restrained, so that supports come first;
+//! 7. sets of points and members.
+//!
+//! Errors do not stop the resolution: each is added to the findings with its place, and the card is left out.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 use super::deck::BulkDeck;
 use super::element::{ElementCard, Orientation, SectionOf as Given};
 use super::grid::{self, Resolved};
 use super::lump::Stiffness;
 use super::property::Property;
+use super::section::SectionTable;
 use super::support;
-use crate::PARTS;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use crate::structure::{
-    ImportedMass, ImportedMaterial, ImportedMember, ImportedPoint, ImportedSection, ImportedSpring,
-    ImportedStructure,
-};
+use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
 use formats::vector::{minus, parallel};
 
-/// What a deck becomes, step by step.
+/// A deck and the structure that it becomes.
 struct Resolver<'d, 'f> {
     deck: &'d BulkDeck,
     grids: BTreeMap<u64, Resolved>,
+    /// Index of the point of each grid in use.
     index: BTreeMap<u64, usize>,
-    /// Index of the section of each property in use; true for that at end B.
-    sections: BTreeMap<(u64, bool), usize>,
-    /// Names of the materials written.
-    materials: Vec<String>,
+    sections: SectionTable,
     structure: ImportedStructure,
     findings: &'f mut ImportFindings,
 }
 
-/// Makes a structure of a deck; `empty` has its name and units, `asked` is the set of supports that the user chose.
+/// Makes a structure of a deck. `empty` has its name and units; `asked` is the SPC set that the user chose, where he
+/// did.
 pub fn resolve(
     deck: &BulkDeck,
     empty: ImportedStructure,
@@ -42,8 +49,7 @@ pub fn resolve(
         deck,
         grids,
         index: BTreeMap::new(),
-        sections: BTreeMap::new(),
-        materials: Vec::new(),
+        sections: SectionTable::default(),
         structure: empty,
         findings,
     };
@@ -57,8 +63,8 @@ pub fn resolve(
     resolver.structure
 }
 
-impl Resolver<'_, '_> {
-    /// Points in the order of their numbers: grids that something but an orientation needs.
+impl<'d> Resolver<'d, '_> {
+    /// Adds the points, in the order of their numbers: grids that something other than an orientation names.
     fn points(&mut self) {
         let deck = self.deck;
         let members = deck.elements.values().flat_map(|element| element.grids);
@@ -78,16 +84,17 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// The index of a grid that exists.
+    /// The index of the point of a grid; `None`, with an error, where there is no such grid.
     fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
         let index = self.index.get(&id).copied();
-        // a grid that could not be read has its own error
+        // a grid that exists but could not be read has an error of its own
         if index.is_none() && !self.deck.grids.contains_key(&id) {
             self.findings.error(ImportFinding::new(at, about, "names a grid that is not there").got(id));
         }
         index
     }
 
+    /// Adds the members, in the order of their numbers.
     fn members(&mut self) {
         let deck = self.deck;
         if deck.elements.is_empty() {
@@ -101,9 +108,9 @@ impl Resolver<'_, '_> {
         }
     }
 
-    fn member(&mut self, id: u64, element: &ElementCard) -> Option<ImportedMember> {
-        let about = format!("{} {id}", element.kind);
-        let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
+    /// The property of an element, with the number that names its section; `None`, with an error, where there is none
+    /// or where it does not suit the element.
+    fn property(&mut self, id: u64, element: &'d ElementCard, about: &str) -> Option<(u64, &'d Property)> {
         let deck = self.deck;
         let (number, property) = match &element.section {
             Given::Own(property) => (id, property.as_ref()),
@@ -128,6 +135,42 @@ impl Resolver<'_, '_> {
             self.findings.error(ImportFinding::new(element.card, about, expected).hint(hint));
             return None;
         }
+        Some((number, property))
+    }
+
+    /// The orientation vector of an element whose first grid is at `first`; the outer `None`, with an error, where it
+    /// names a missing grid.
+    fn orientation(
+        &mut self,
+        element: &ElementCard,
+        first: [f64; 3],
+        about: &str,
+    ) -> Option<Option<[f64; 3]>> {
+        match element.orientation {
+            Some(Orientation::Vector(vector)) => Some(Some(vector)),
+            Some(Orientation::Grid(grid)) => {
+                let Some(there) = self.grids.get(&grid) else {
+                    if !self.deck.grids.contains_key(&grid) {
+                        let finding = ImportFinding::new(
+                            element.card,
+                            format!("{about}: G0"),
+                            "names a grid that is not there",
+                        );
+                        self.findings.error(finding.got(grid));
+                    }
+                    return None;
+                };
+                Some(Some(minus(there.at, first)))
+            }
+            None => Some(None),
+        }
+    }
+
+    /// The member of an element; `None`, with an error among the findings, where it cannot be one.
+    fn member(&mut self, id: u64, element: &'d ElementCard) -> Option<ImportedMember> {
+        let about = format!("{} {id}", element.kind);
+        let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
+        let (number, property) = self.property(id, element, &about)?;
         let section = self.section(number, property, "", &about)?;
         let section_b = match &property.end {
             Some(end) => Some(self.section(number, end, " at end B", &about)?),
@@ -142,24 +185,7 @@ impl Resolver<'_, '_> {
             self.findings.error(finding.hint("its ends coincide, offsets included"));
             return None;
         }
-        let orientation = match element.orientation {
-            Some(Orientation::Vector(vector)) => Some(vector),
-            Some(Orientation::Grid(grid)) => {
-                let Some(there) = self.grids.get(&grid) else {
-                    if !deck.grids.contains_key(&grid) {
-                        let finding = ImportFinding::new(
-                            element.card,
-                            format!("{about}: G0"),
-                            "names a grid that is not there",
-                        );
-                        self.findings.error(finding.got(grid));
-                    }
-                    return None;
-                };
-                Some(minus(there.at, ends[0]))
-            }
-            None => None,
-        };
+        let orientation = self.orientation(element, ends[0], &about)?;
         let bends = property.bending[0] > 0.0;
         if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
             let finding =
@@ -177,132 +203,16 @@ impl Resolver<'_, '_> {
             offsets: element.offsets,
             releases: element.pins,
         };
-        self.kind(&mut member, property, along);
+        release_missing_stiffness(&mut member, property, along);
         Some(member)
     }
 
-    /// What a member without some stiffness becomes: releases that take the same out of a beam, or a truss.
-    fn kind(&mut self, member: &mut ImportedMember, property: &Property, along: [f64; 3]) {
-        let bends = property.bending[0] > 0.0;
-        let twists = property.j > 0.0;
-        if !bends && !twists {
-            member.truss = true;
-            // a bar of no bending has no use for pins, but for those that take its force away
-            member.releases.iter_mut().for_each(|pins| pins[1..].fill(false));
-            member.orientation = None;
-        } else if !bends {
-            for pins in &mut member.releases {
-                pins[4] = true;
-                pins[5] = true;
-            }
-            let least = (0..3).min_by(|a, b| along[*a].abs().total_cmp(&along[*b].abs())).unwrap_or(0);
-            let mut across = [0.0; 3];
-            across[least] = 1.0;
-            member.orientation = Some(across);
-        } else if !twists && !member.releases.iter().any(|pins| pins[3]) {
-            member.releases[0][3] = true;
-        }
-    }
-
-    /// The section of a property, written when it is first used.
-    /// `end`: what its name says of the end that it is for.
+    /// Index of the section of a property (see [`SectionTable::index_of`]).
     fn section(&mut self, number: u64, property: &Property, end: &str, about: &str) -> Option<usize> {
-        // CONROD has its element's number, which may be that of a property too
-        let key = if property.kind == "CONROD" { None } else { Some((number, !end.is_empty())) };
-        if let Some(index) = key.and_then(|key| self.sections.get(&key)) {
-            return Some(*index);
-        }
-        let name = format!("{} {number}", property.kind);
-        let Some(found) = self.deck.materials.get(&property.material) else {
-            let finding =
-                ImportFinding::new(property.card, format!("{name}: MID"), "must be the number of a MAT1");
-            self.findings.error(finding.got(property.material));
-            return None;
-        };
-        let [i1, i2] = property.bending;
-        let bends = i1 > 0.0;
-        let sheared = bends && property.shear.iter().any(|k| *k > 0.0);
-        if found.g.is_none() && (property.j > 0.0 || sheared) {
-            let expected = format!("is missing, and {name} of {about} needs it");
-            let finding = ImportFinding::new(found.card, format!("MAT1 {}: G", property.material), expected);
-            self.findings.error(finding.hint("give G, or NU"));
-            return None;
-        }
-        if bends && property.j == 0.0 {
-            let finding = ImportFinding::new(
-                property.card,
-                &name,
-                "has no J: its members turn freely about their axes",
-            );
-            self.findings.warn(finding.hint("taken as a release of rx; the J written is a placeholder"));
-        }
-        if !bends && property.j > 0.0 {
-            let finding = ImportFinding::new(
-                property.card,
-                &name,
-                "has J: its rods are taken as beams hinged at both ends",
-            );
-            self.findings.warn(finding.hint("the Iy and Iz written are placeholders"));
-        }
-        if property.end.is_some() {
-            let expected = format!("is tapered, and solved in {PARTS} uniform parts a member");
-            self.findings.warn(
-                ImportFinding::new(property.card, &name, expected)
-                    .hint("`parts` of the spec may say another number"),
-            );
-        }
-        let wtmass = self.deck.wtmass.unwrap_or(1.0);
-        let mut density = found.density * wtmass;
-        let mut material = format!("MAT1 {}", property.material);
-        if property.nsm > 0.0 {
-            density += property.nsm * wtmass / property.area;
-            material = format!("{material} and NSM of {name}");
-        }
-        if !density.is_finite() {
-            self.findings.error(ImportFinding::new(
-                property.card,
-                &name,
-                "must have a mass that a double can hold",
-            ));
-            return None;
-        }
-        if !self.materials.contains(&material) {
-            self.materials.push(material.clone());
-            let density = (density > 0.0).then_some(density);
-            let (e, g) = (found.e, found.g);
-            self.structure.materials.push(ImportedMaterial { name: material.clone(), e, g, density });
-        }
-        let round = property.area * property.area / (4.0 * PI);
-        let bending = |i: f64| if bends { Some(i) } else { (property.j > 0.0).then_some(round) };
-        let torsion = if property.j > 0.0 { Some(property.j) } else { bends.then_some(i1 + i2) };
-        let shear = |k: f64| (bends && k > 0.0).then_some(k * property.area);
-        let section = ImportedSection {
-            name: format!("{name}{end}"),
-            material,
-            area: Some(property.area),
-            iy: bending(i2),
-            iz: bending(i1),
-            j: torsion,
-            shear_y: shear(property.shear[0]),
-            shear_z: shear(property.shear[1]),
-        };
-        let numbers = [section.iy, section.iz, section.j, section.shear_y, section.shear_z];
-        if numbers.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
-            self.findings.error(ImportFinding::new(
-                property.card,
-                &name,
-                "must have properties that a double can hold",
-            ));
-            return None;
-        }
-        let index = self.structure.sections.len();
-        self.structure.sections.push(section);
-        if let Some(key) = key {
-            self.sections.insert(key, index);
-        }
-        Some(index)
+        self.sections.index_of(self.deck, &mut self.structure, self.findings, (number, property), end, about)
     }
 
+    /// Adds the rigid links.
     fn links(&mut self) {
         let deck = self.deck;
         for rigid in &deck.rigid {
@@ -322,6 +232,7 @@ impl Resolver<'_, '_> {
         }
     }
 
+    /// Adds the masses, scaled by WTMASS.
     fn masses(&mut self) {
         let deck = self.deck;
         let wtmass = deck.wtmass.unwrap_or(1.0);
@@ -350,7 +261,7 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// Own supports of the grids, and the sets that are chosen.
+    /// Adds the permanent constraints of grids and the chosen SPC sets; sets that are not chosen give a warning.
     fn supports(&mut self, asked: Option<u64>) {
         let deck = self.deck;
         for (id, grid) in &self.grids {
@@ -362,32 +273,32 @@ impl Resolver<'_, '_> {
         }
         let sets =
             support::chosen(&deck.holds, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
-        let mut idle: BTreeMap<u64, FilePlace> = BTreeMap::new();
+        let mut unused: BTreeMap<u64, FilePlace> = BTreeMap::new();
         for hold in &deck.holds {
             if !sets.contains(&hold.set) {
-                idle.entry(hold.set).or_insert(hold.card);
+                unused.entry(hold.set).or_insert(hold.card);
                 continue;
             }
             let about = format!("SPC set {}", hold.set);
-            let mut held: Vec<usize> = Vec::new();
+            let mut restrained: Vec<usize> = Vec::new();
             for [from, to] in &hold.ranges {
-                held.extend(self.index.range(from..=to).map(|(_, point)| *point));
+                restrained.extend(self.index.range(from..=to).map(|(_, point)| *point));
             }
             for (grid, at) in &hold.grids {
                 if !deck.grids.contains_key(grid) {
                     self.findings
                         .error(ImportFinding::new(*at, &about, "names a grid that is not there").got(grid));
                 }
-                held.extend(self.index.get(grid));
+                restrained.extend(self.index.get(grid));
             }
-            for point in held {
+            for point in restrained {
                 let support = self.structure.supports.entry(point).or_default();
-                for (freedom, fix) in hold.fix.iter().enumerate() {
-                    support[freedom] |= fix;
+                for (dof, fix) in hold.fix.iter().enumerate() {
+                    support[dof] |= fix;
                 }
             }
         }
-        for (set, at) in idle {
+        for (set, at) in unused {
             self.findings.warn(ImportFinding::new(
                 at,
                 format!("SPC set {set}"),
@@ -396,7 +307,7 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// Springs whose other end is ground, or a freedom that is held.
+    /// Adds the springs. One end must be a free degree of freedom of a grid, the other ground or restrained.
     fn springs(&mut self) {
         let deck = self.deck;
         for spring in &deck.springs {
@@ -420,12 +331,12 @@ impl Resolver<'_, '_> {
             }
             let mut free = Vec::new();
             let mut known = true;
-            for (grid, freedom) in spring.ends.iter().flatten() {
+            for (grid, dof) in spring.ends.iter().flatten() {
                 match self.point(*grid, spring.card, &spring.label) {
                     Some(point) => {
-                        let held = self.structure.supports.get(&point).is_some_and(|fix| fix[*freedom]);
-                        if !held {
-                            free.push((point, *freedom));
+                        let is_restrained = self.structure.supports.get(&point).is_some_and(|fix| fix[*dof]);
+                        if !is_restrained {
+                            free.push((point, *dof));
                         }
                     }
                     None => known = false,
@@ -433,8 +344,8 @@ impl Resolver<'_, '_> {
             }
             match free.as_slice() {
                 _ if !known => {}
-                [(point, freedom)] => {
-                    self.structure.springs.push(ImportedSpring { point: *point, freedom: *freedom, k });
+                [(point, dof)] => {
+                    self.structure.springs.push(ImportedSpring { point: *point, freedom: *dof, k });
                 }
                 [] => {
                     let finding =
@@ -453,7 +364,7 @@ impl Resolver<'_, '_> {
         }
     }
 
-    /// A set for each point, so that messages can name it, and one for each section.
+    /// Adds a set for each point, so that messages can name its grid, and a set of the members of each section.
     fn sets(&mut self) {
         let structure = &mut self.structure;
         structure.point_sets = structure
@@ -469,5 +380,31 @@ impl Resolver<'_, '_> {
         }
         sets.retain(|(_, set)| !set.is_empty());
         structure.cell_sets = sets;
+    }
+}
+
+/// Gives a member whose property has no bending or no torsional stiffness the releases that take the same stiffness
+/// out of a beam, or makes it a truss: with neither, it is a truss; with torsion alone, it is hinged at both ends;
+/// with bending alone, it turns freely about its axis.
+fn release_missing_stiffness(member: &mut ImportedMember, property: &Property, along: [f64; 3]) {
+    let bends = property.bending[0] > 0.0;
+    let twists = property.j > 0.0;
+    if !bends && !twists {
+        member.truss = true;
+        // without bending and torsion, only a release of the axial force has an effect
+        member.releases.iter_mut().for_each(|pins| pins[1..].fill(false));
+        member.orientation = None;
+    } else if !bends {
+        for pins in &mut member.releases {
+            pins[4] = true;
+            pins[5] = true;
+        }
+        // any axis across the member will do: bending is released
+        let least = (0..3).min_by(|a, b| along[*a].abs().total_cmp(&along[*b].abs())).unwrap_or(0);
+        let mut across = [0.0; 3];
+        across[least] = 1.0;
+        member.orientation = Some(across);
+    } else if !twists && !member.releases.iter().any(|pins| pins[3]) {
+        member.releases[0][3] = true;
     }
 }

@@ -9,9 +9,9 @@ use crate::findings::FilePlace;
 pub struct Rigid {
     /// Name and number of its card.
     pub label: String,
-    /// The grid that leads.
+    /// The independent grid.
     pub from: (u64, FilePlace),
-    /// The grids that follow.
+    /// The dependent grids.
     pub to: Vec<(u64, FilePlace)>,
 }
 
@@ -56,7 +56,7 @@ pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
     let [Some(leads_a), Some(leads_b)] = leads else { return None };
     let [Some(follows_a), Some(follows_b)] = follows else { return None };
     let none = [false; 6];
-    // all of one end lead; nothing said of the followers means all of the other end
+    // all degrees of freedom of one end must be independent; blank dependent ones mean all of the other end
     let [leading, following] = match (leads_a == WHOLE, leads_b == WHOLE) {
         (true, false) if leads_b == none && follows_a == none => [a, b],
         (false, true) if leads_a == none && follows_b == none => [b, a],

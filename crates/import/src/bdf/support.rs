@@ -1,11 +1,11 @@
-//! SPC, SPC1, SPCADD: what holds the grids.
+//! Supports: SPC, SPC1 and SPCADD, and the choice among their sets.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fields::CardFields;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// Freedoms of some grids held by a set.
+/// Degrees of freedom of some grids that a set restrains.
 #[derive(Clone, Debug)]
 pub struct SupportCard {
     /// Number of the set.
@@ -14,9 +14,9 @@ pub struct SupportCard {
     pub card: FilePlace,
     /// Grids, each with the place where it is named.
     pub grids: Vec<(u64, FilePlace)>,
-    /// Ranges of grids: those of them that exist are meant.
+    /// Ranges of grids; numbers without a grid are ignored.
     pub ranges: Vec<[u64; 2]>,
-    /// Freedoms.
+    /// Restrained degrees of freedom.
     pub fix: [bool; 6],
 }
 
@@ -73,7 +73,7 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
     Some(hold)
 }
 
-/// Reads SPCADD: a set of sets.
+/// Reads SPCADD: a set that is the union of others.
 pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
     let set = card.id(1, "SID")?;
     let mut parts = Vec::new();
@@ -85,10 +85,10 @@ pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
     Some((set, parts))
 }
 
-/// The sets that hold the structure.
+/// The numbers of the sets that restrain the structure, those of SPCADD expanded.
 ///
-/// `asked`: by the user; `controlled`: whether the deck has case control; `control`: what that chooses, with its place.
-/// Where neither chooses, the only one.
+/// `asked`: the set that the user chose; `controlled`: whether the deck has case control; `control`: the sets that
+/// case control chooses, with their places. Where neither chooses, the deck must have one set only.
 pub fn chosen(
     holds: &[SupportCard],
     adds: &BTreeMap<u64, Vec<u64>>,

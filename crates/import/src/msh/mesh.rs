@@ -1,4 +1,4 @@
-//! Sections of a mesh file: names, entities, nodes, line cells.
+//! The contents of a mesh file: names, entities, nodes, line cells.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format msh41 -o NEW.msh";
 
-/// What of a mesh a frame needs.
+/// The parts of a mesh that a frame needs.
 #[derive(Debug, Default)]
 pub struct Mesh {
     /// Name of each physical group by dimension and number.
@@ -23,10 +23,10 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Reads a mesh; what is wrong is among the findings.
+    /// Reads a mesh; errors are among the findings.
     pub fn read(text: &str, findings: &mut ImportFindings) -> Mesh {
         let mut mesh = Mesh::default();
-        // the first line says what the others are
+        // the header decides whether the rest can be read
         if !plain_41(text, findings) {
             return mesh;
         }
@@ -41,7 +41,7 @@ impl Mesh {
                 continue;
             }
             seen.push(section.name);
-            // a section that breaks off has said why
+            // `None`: the section ended early, with an error among the findings
             let _whole = match section.name {
                 "PhysicalNames" => mesh.read_names(&mut section, findings),
                 "Entities" => mesh.read_entities(&mut section, findings),
@@ -90,7 +90,7 @@ impl Mesh {
             counts[index] = head.whole(index, name, findings)?;
         }
         for (dimension, count) in (0..).zip(counts) {
-            // a point has its three coordinates, everything else its box
+            // words before the groups: tag and coordinates of a point, tag and bounding box of any other entity
             let before = if dimension == 0 { 4 } else { 7 };
             for _ in 0..count {
                 let record = section.next(findings)?;
@@ -207,7 +207,7 @@ const fn kind_name(kind: u64) -> &'static str {
     }
 }
 
-/// Whether the file says that it is text in format 4.1.
+/// Whether the header says text in format 4.1; otherwise an error is added.
 fn plain_41(text: &str, findings: &mut ImportFindings) -> bool {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let at = |line: usize| FilePlace { file: 0, line: line + 1, column: 1 };

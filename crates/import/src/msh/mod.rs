@@ -1,4 +1,8 @@
-//! Meshes of gmsh, format 4.1 in text: line cells become members.
+//! Meshes of gmsh in text format 4.1: line cells become members.
+//!
+//! Each curve must belong to exactly one physical group that the sections file knows: by the name of a section, or by
+//! an entry of `members` that names one. The member takes section, orientation and releases from there. Physical
+//! groups of points become sets of points, for supports; other cells are ignored with a warning.
 //!
 //! # Source
 //! Gmsh reference manual, section "MSH file format".
@@ -16,8 +20,8 @@ use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use mesh::Mesh;
 
-/// Reads a mesh into `empty`, a structure that has its name, units and up; `factor`: its unit of length in that of
-/// the structure.
+/// Reads a mesh into `empty`, a structure with name, units and up direction only; `factor` converts coordinates of
+/// the mesh to the unit of length of the structure. Errors are among the findings.
 #[must_use]
 pub fn read(
     text: &str,
@@ -35,7 +39,8 @@ pub fn read(
     structure.sections.clone_from(&groups.sections);
     let index = points(&mesh, factor, &mut structure);
     let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    let mut told = Vec::new();
+    // curves with an error: each gives one, not one for each of its cells
+    let mut reported = Vec::new();
     for (&id, &(curve, nodes, at)) in &mesh.lines {
         let about = format!("element {id}");
         let [a, b] = nodes.map(|node| index.get(&node).copied());
@@ -48,9 +53,8 @@ pub fn read(
         let known: Vec<&str> =
             names.iter().filter(|name| groups.groups.contains_key(**name)).copied().collect();
         let &[name] = known.as_slice() else {
-            // once a curve
-            if !told.contains(&curve) {
-                told.push(curve);
+            if !reported.contains(&curve) {
+                reported.push(curve);
                 let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
                 let expected = format!(
                     "must be in one physical group that is a section or in `members`, {}",
@@ -69,8 +73,8 @@ pub fn read(
             continue;
         }
         if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
-            if !told.contains(&curve) {
-                told.push(curve);
+            if !reported.contains(&curve) {
+                reported.push(curve);
                 let hint = format!("give \"{name}\" an `orientation` in `members` of the sections file");
                 findings.error(
                     ImportFinding::new(at, about, "must have an orientation that is not along it").hint(hint),
@@ -101,6 +105,7 @@ pub fn read(
     structure
 }
 
+/// The physical groups of a curve in words.
 fn list(names: &[&str]) -> String {
     if names.is_empty() {
         "and is in none with a name".to_owned()
@@ -115,7 +120,8 @@ fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
     groups.filter_map(|group| mesh.names.get(&(dimension, *group)).map(String::as_str)).collect()
 }
 
-/// Nodes of line cells and of physical points, in the order of their numbers, with sets for the latter.
+/// Adds the nodes of line cells and of physical points, in the order of their numbers, and a set for each physical
+/// group of points; returns the index of the point of each node.
 fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeMap<u64, usize> {
     let mut named: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
     for (entity, nodes) in &mesh.points {

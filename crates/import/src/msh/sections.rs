@@ -1,4 +1,7 @@
-//! The sections file: what the physical groups of a mesh are made of.
+//! The sections file: materials, sections and the properties of members by physical group.
+//!
+//! Every section that no entry of `members` uses applies to the physical group of its own name. A section that beams
+//! use needs A, Iy, Iz and J, and a material with G; one that only trusses use needs A.
 
 use std::collections::BTreeMap;
 
@@ -68,16 +71,16 @@ struct RawMember {
     release_b: Option<Vec<String>>,
 }
 
-/// What the members of a physical group are.
+/// Properties of the members of a physical group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SectionGroup {
     /// Index of the section.
     pub section: usize,
-    /// Whether only their change of length counts.
+    /// Whether they have axial stiffness only.
     pub truss: bool,
-    /// Where local y points; absent = up.
+    /// Direction of local y; `None`: up.
     pub orientation: Option<[f64; 3]>,
-    /// Freedoms let go at their ends.
+    /// Released degrees of freedom at both ends.
     pub releases: [[bool; 6]; 2],
 }
 
@@ -90,17 +93,17 @@ pub struct Sections {
     pub materials: Vec<ImportedMaterial>,
     /// Sections in its order.
     pub sections: Vec<ImportedSection>,
-    /// Groups by name: those of `members`, and one for each section that is not among them.
+    /// Physical groups by name: those of `members`, and one for each section that none of them uses.
     pub groups: BTreeMap<String, SectionGroup>,
 }
 
-const FREEDOMS: [(&str, usize); 6] = [("ux", 0), ("uy", 1), ("uz", 2), ("rx", 3), ("ry", 4), ("rz", 5)];
+const DOFS: [(&str, usize); 6] = [("ux", 0), ("uy", 1), ("uz", 2), ("rx", 3), ("ry", 4), ("rz", 5)];
 
 impl Sections {
     /// Reads a sections file.
     ///
     /// # Errors
-    /// Everything that is wrong with it, placed.
+    /// All errors of the file, with their places.
     pub fn read(source: &Source) -> Result<Sections, Vec<Diagnostic>> {
         let raw: Raw = source.parse(FORMAT).map_err(|error| vec![*error])?;
         let mut faults = Faults::default();
@@ -184,16 +187,15 @@ fn unknown(faults: &mut Faults, at: &Place<'_>, what: &str, name: &str, known: &
     faults.add(Fault::new(at, format!("must be the name of {what}")).got(format!("\"{name}\"")).hint(hint));
 }
 
-fn groups(
+/// The groups of `members`.
+fn named_groups(
     raw: &Raw,
-    materials: &[ImportedMaterial],
     sections: &[ImportedSection],
     root: &Place<'_>,
     faults: &mut Faults,
 ) -> BTreeMap<String, SectionGroup> {
     let mut groups = BTreeMap::new();
     let place = root.key("members");
-    let list = root.key("sections");
     for (name, raw) in raw.members.iter().flat_map(|members| &members.0) {
         let at = place.key(name);
         let mut group = SectionGroup { orientation: raw.orientation, ..SectionGroup::default() };
@@ -208,7 +210,7 @@ fn groups(
         {
             let list = at.key(key);
             for (index, word) in words.iter().flatten().enumerate() {
-                if let Some(freedom) = faults.word(word, &list.index(index), &FREEDOMS) {
+                if let Some(freedom) = faults.word(word, &list.index(index), &DOFS) {
                     group.releases[end][freedom] = true;
                 }
             }
@@ -229,12 +231,25 @@ fn groups(
         }
         groups.insert(name.clone(), group);
     }
+    groups
+}
+
+/// All groups: those of `members`, and those of sections that none of them uses. Adds an error for each section in
+/// which a value is missing that its members need.
+fn groups(
+    raw: &Raw,
+    materials: &[ImportedMaterial],
+    sections: &[ImportedSection],
+    root: &Place<'_>,
+    faults: &mut Faults,
+) -> BTreeMap<String, SectionGroup> {
+    let mut groups = named_groups(raw, sections, root, faults);
+    let list = root.key("sections");
     for (index, section) in sections.iter().enumerate() {
-        // a section that `members` does not speak of is for the group of its own name
         if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
             groups.insert(section.name.clone(), SectionGroup { section: index, ..SectionGroup::default() });
         }
-        // what a beam needs; a truss has its length alone
+        // a truss needs its area only
         let used: Vec<&SectionGroup> = groups.values().filter(|group| group.section == index).collect();
         let beams = used.iter().any(|group| !group.truss);
         let at = list.index(index);

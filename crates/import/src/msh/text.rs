@@ -1,4 +1,4 @@
-//! A mesh file as lines of words.
+//! A mesh file as blocks of lines of words.
 
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
@@ -7,7 +7,7 @@ use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 pub struct MeshRecord<'t> {
     /// Its place.
     pub at: FilePlace,
-    /// The whole line without blanks around it.
+    /// The whole line, trimmed.
     pub line: &'t str,
     words: Vec<(usize, &'t str)>,
 }
@@ -17,7 +17,7 @@ impl<'t> MeshRecord<'t> {
         let trimmed = text.trim();
         let mut words = Vec::new();
         for word in trimmed.split_ascii_whitespace() {
-            // where a word begins, counted in bytes from the beginning of the line
+            // offset of the word in bytes from the start of the line
             let column = word.as_ptr() as usize - text.as_ptr() as usize;
             words.push((column + 1, word));
         }
@@ -31,7 +31,7 @@ impl<'t> MeshRecord<'t> {
         self.words.len()
     }
 
-    /// A word by index; where the line has too few, that is an error.
+    /// A word by index; an error where the line has too few.
     fn word(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<(FilePlace, &'t str)> {
         let word = self.words.get(index).map(|&(column, word)| (FilePlace { column, ..self.at }, word));
         if word.is_none() {
@@ -86,7 +86,7 @@ pub struct MeshBlock<'t> {
 }
 
 impl<'t> MeshBlock<'t> {
-    /// The next line that is not blank; its lack is an error.
+    /// The next line that is not blank; an error where there is none.
     pub fn next(&mut self, findings: &mut ImportFindings) -> Option<MeshRecord<'t>> {
         let record = self.lines.get(self.next).cloned();
         self.next += 1;
@@ -99,7 +99,7 @@ impl<'t> MeshBlock<'t> {
     }
 }
 
-/// Cuts a text into its sections.
+/// Cuts a text into its blocks.
 pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlock<'t>> {
     let mut sections: Vec<MeshBlock<'t>> = Vec::new();
     let mut open = false;

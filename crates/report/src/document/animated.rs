@@ -1,47 +1,48 @@
-//! An animated picture: a picture, and what changes in it over time.
+//! Animated pictures: a picture, and the changes of its elements over time.
 
 use serde_json::json;
 
 use crate::chart::Svg;
 use crate::coded;
 
-/// What changes at an element of the picture, with one value for each frame.
+/// What changes at an element of the picture, with one value for each frame: the track of the element.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnimationTrack {
-    /// Its displacement (x, y) in pixels.
+    /// Displacement (x, y) of the element, pixels.
     Displacement(Vec<[f64; 2]>),
-    /// An attribute with its values.
+    /// An attribute of the element with its values.
     Attribute(&'static str, Vec<f64>),
-    /// The number that it shows, with so many digits after the point.
+    /// Number of decimals, and the values that the element shows.
     Number(usize, Vec<f64>),
 }
 
-/// An animated picture; it is drawn as at one frame.
+/// An animated picture. Without scripts it shows one of its frames.
 ///
 /// ```
-/// use report::document::animated::{Animation, AnimationTrack};
 /// use report::chart::Svg;
+/// use report::document::animated::{Animation, AnimationTrack};
 ///
 /// let picture = Svg::new(100.0, 20.0, "<circle data-m=\"0\" cy=\"100\" r=\"50\"/>");
 /// let places = vec![[0.0, 0.0], [80.0, 0.0]];
-/// let film = Animation { svg: picture, still_time: 0.0, times: vec![0.0, 1.0], tracks: vec![(0, AnimationTrack::Displacement(places))] };
-/// assert!(film.data().is_some_and(|data| data.contains("transform")));
+/// let tracks = vec![(0, AnimationTrack::Displacement(places))];
+/// let animation = Animation { svg: picture, still_time: 0.0, times: vec![0.0, 1.0], tracks };
+/// assert!(animation.data().is_some_and(|data| data.contains("transform")));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Animation {
-    /// The picture at that frame. Element `i` of the tracks has the attribute `data-m="i"`.
+    /// The picture at one frame. Element `i` of the tracks has the attribute `data-m="i"`.
     pub svg: Svg,
-    /// Time of the frame as which the picture is drawn, in seconds.
+    /// Time of the frame at which the picture is drawn, s.
     pub still_time: f64,
-    /// Times of the frames in seconds, increasing.
+    /// Increasing times of the frames, s.
     pub times: Vec<f64>,
-    /// Elements with their tracks.
+    /// Numbers of elements with their tracks.
     pub tracks: Vec<(usize, AnimationTrack)>,
 }
 
-/// Power of ten to which places are kept: a hundredth of a pixel is not seen.
+/// Power of ten to which displacements are rounded, pixels: a hundredth of a pixel is invisible.
 const PIXEL: i32 = -2;
-/// Power of ten to which times are kept, in seconds.
+/// Power of ten to which times are rounded, s.
 const INSTANT: i32 = -6;
 
 impl Animation {

@@ -1,27 +1,29 @@
-//! Long lists of numbers in few characters: whole steps of a power of ten, each from the one before.
+//! Compact JSON of long lists of numbers: values are rounded to multiples of a power of ten and stored as differences
+//! of successive multiples.
 
 use serde_json::{Value, json};
 
 use formats::number::rounded;
 
-/// Steps in the range of an axis, at least: twenty a pixel.
+/// Smallest number of steps in the range of an axis: twenty for each pixel.
 const FINE: f64 = 2e4;
 
-/// Steps beyond which doubles do not count by one.
+/// Largest number of steps that doubles count exactly.
 const MOST: f64 = 9e15;
 
 /// The power of ten that divides a range into [`FINE`] steps or up to ten times as many.
 #[must_use]
 pub fn exponent(range: [f64; 2]) -> i32 {
     let power = ((range[1] - range[0]).abs() / FINE).log10().floor();
-    // beyond the powers of ten that scripts have exactly nothing is gained
+    // JavaScript represents only these powers of ten exactly
     if power.is_finite() { power.clamp(-22.0, 22.0) as i32 } else { 0 }
 }
 
-/// `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, n the nearest whole numbers of 10^exponent, without differences
-/// at the end that repeat the one before; as they are, to seven digits, where they are too large for that.
+/// `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, n the nearest whole numbers of 10^exponent,
+/// without differences at the end that repeat the one before; as they are, to seven digits, where they are too large
+/// for that.
 ///
-/// Finite values are needed. Each is off by half a step at most.
+/// All values must be finite. The error of each is at most half a step.
 #[must_use]
 pub(crate) fn coded(values: &[f64], exponent: i32) -> Value {
     let steps = |value: f64| {
@@ -59,7 +61,7 @@ pub fn plain(values: &[f64]) -> Value {
 pub(crate) mod tests {
     use super::*;
 
-    /// What the scripts make of it.
+    /// The values as the script of the page decodes them.
     pub fn decoded(code: &Value) -> Vec<f64> {
         if let Some(plain) = code.as_array() {
             return plain.iter().map(|value| value.as_f64().expect("a number")).collect();

@@ -1,4 +1,4 @@
-//! Numbers for people.
+//! Numbers as readers see them.
 
 /// `value` with at most `digits` significant digits (1 to 17), trailing zeros dropped.
 ///
@@ -11,7 +11,7 @@ pub fn number(value: f64, digits: usize) -> Option<String> {
     if value == 0.0 {
         return Some("0".to_owned());
     }
-    // Rounded first: 9999999.7 becomes 10^7.
+    // rounded before the notation is chosen: 9999999.7 becomes 10^7
     let scientific = format!("{:.*e}", digits.clamp(1, 17) - 1, value.abs());
     let (mantissa, power) = scientific.split_once('e')?;
     let power: i32 = power.parse().ok()?;

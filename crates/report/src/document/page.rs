@@ -1,4 +1,4 @@
-//! The page: sections to HTML.
+//! The page of a report: sections as HTML.
 
 use crate::chart::{Chart, Drawing};
 use crate::document::code::{coded, exponent, plain};
@@ -11,27 +11,38 @@ use serde_json::json;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
-const FILM: &str = include_str!("film.js");
+const ANIMATION_SCRIPT: &str = include_str!("film.js");
 /// Significant digits of shown numbers.
 const DIGITS: usize = 7;
 
 /// A report: title and sections.
+///
+/// ```
+/// use report::{Report, ReportSection};
+///
+/// let sections = vec![ReportSection::new("Case <1>").say("Values are escaped.")];
+/// let report = Report { title: "Crossing".to_owned(), subtitle: "one wheel".to_owned(), sections };
+/// let page = report.html(None)?;
+/// assert!(page.contains("Case &lt;1&gt;"));
+/// # Ok::<(), report::Error>(())
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
     /// Title of the page.
     pub title: String,
     /// Line below the title.
     pub subtitle: String,
-    /// Chapters.
+    /// Sections.
     pub sections: Vec<ReportSection>,
 }
 
 impl Report {
-    /// The report as one HTML page that refers to nothing outside itself. Everything but finished SVG
-    /// pictures is escaped. Charts are drawn on at most `threads` threads; `None`: as many as the machine has.
+    /// The report as one HTML page without references to other files. All text except finished SVG pictures is
+    /// escaped. Charts are drawn on at most `threads` threads; `None`: as many as the machine has.
     ///
     /// # Errors
-    /// Where a number is not finite, a table's row does not fit its head or a picture cannot be drawn.
+    /// A number that is not finite, a row whose length differs from the number of columns, or a chart that cannot be
+    /// drawn.
     pub fn html(&self, threads: Option<u16>) -> Result<String, Error> {
         let sections = self.sections.iter().enumerate();
         let figures: Vec<(usize, usize, &Figure)> = sections
@@ -67,7 +78,7 @@ impl Report {
                     main { @for body in bodies? { (body) } }
                     footer { "girderway " (env!("CARGO_PKG_VERSION")) }
                     script { (PreEscaped(SCRIPT)) }
-                    @if moves { script { (PreEscaped(FILM)) } }
+                    @if moves { script { (PreEscaped(ANIMATION_SCRIPT)) } }
                 }
             }
         };
@@ -75,7 +86,7 @@ impl Report {
     }
 }
 
-/// One section; `tables_before` counts those of the page, `drawn` has its figures next.
+/// One section as HTML. `tables_before` is the number of tables before it on the page; `drawn` yields its figures next.
 fn section(
     index: usize,
     section: &ReportSection,
@@ -129,7 +140,7 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
         }
         rows.push(texts);
     }
-    // A column's head stands over its numbers.
+    // headers of numeric columns are aligned with their numbers
     let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
     Ok(html! {
         div.scroll {
@@ -192,7 +203,7 @@ fn shown(cell: &TableCell) -> Option<String> {
     }
 }
 
-/// What the read-out over a chart needs, as JSON that may stand inside a script element.
+/// The data of a chart for the display of values under the pointer, as JSON that is safe inside a script element.
 fn data(chart: &Chart, drawing: &Drawing) -> String {
     let frame = &drawing.frame;
     let axis = |axis: &crate::chart::ChartAxis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
@@ -200,7 +211,7 @@ fn data(chart: &Chart, drawing: &Drawing) -> String {
     let list = |values: &[f64], axis: &crate::chart::ChartAxis, range| {
         if axis.log { plain(values) } else { coded(values, exponent(range)) }
     };
-    // curves over the same places have them once
+    // curves over the same abscissas store them once
     let mut places: Vec<Vec<f64>> = Vec::new();
     let series: Vec<_> = chart
         .series

@@ -1,16 +1,24 @@
-//! Parts of a report.
+//! Sections of a report and their parts: facts, tables, figures.
 
 use crate::chart::{Chart, Svg};
 use crate::document::animated::Animation;
 
-/// A chapter of a report: shown in this order, empty parts left out.
+/// A section of a report. Its parts are shown in the order of the fields; empty ones are left out.
+///
+/// ```
+/// use report::{ReportSection, TableCell};
+///
+/// let section = ReportSection::new("Results").say("All runs reached their ends.").fact("steps", 120_usize, "");
+/// assert_eq!(section.facts[0].value, TableCell::Number(120.0));
+/// assert_eq!(section.paragraphs.len(), 1);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReportSection {
     /// Heading, also in the table of contents.
     pub heading: String,
-    /// Text.
+    /// Paragraphs of text.
     pub paragraphs: Vec<String>,
-    /// Table of names and values.
+    /// Facts, shown as a table of names and values.
     pub facts: Vec<Fact>,
     /// Further tables.
     pub tables: Vec<ReportTable>,
@@ -93,7 +101,7 @@ impl From<String> for TableCell {
 /// A name with its value.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Fact {
-    /// What it is.
+    /// Name of the quantity.
     pub name: String,
     /// The value.
     pub value: TableCell,
@@ -101,7 +109,7 @@ pub struct Fact {
     pub unit: String,
 }
 
-/// Head of a column.
+/// The header of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TableColumn {
     /// What the column holds.
@@ -111,29 +119,38 @@ pub struct TableColumn {
 }
 
 impl TableColumn {
-    /// A column's head.
+    /// A header from its parts.
     pub fn new(name: impl Into<String>, unit: impl Into<String>) -> Self {
         TableColumn { name: name.into(), unit: unit.into() }
     }
 }
 
-/// A table.
+/// A table; every row has one cell for each column.
+///
+/// ```
+/// use report::{ReportTable, TableColumn};
+///
+/// let columns = vec![TableColumn::new("wheel", ""), TableColumn::new("largest force", "kN")];
+/// let rows = vec![vec!["front".into(), 81.3.into()], vec!["rear".into(), 79.0.into()]];
+/// let table = ReportTable { caption: "Wheel forces".to_owned(), columns, rows };
+/// assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReportTable {
-    /// Shown above it, after its number.
+    /// Caption, shown above the table after its number.
     pub caption: String,
-    /// Heads.
+    /// Headers.
     pub columns: Vec<TableColumn>,
-    /// Rows, each with one cell a column.
+    /// Rows, each with one cell for each column.
     pub rows: Vec<Vec<TableCell>>,
 }
 
 /// What a figure shows.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Picture {
-    /// A chart, with read-out where scripts run.
+    /// A chart; where scripts run, values are shown under the pointer.
     Chart(Box<Chart>),
-    /// A finished picture; it is trusted and taken in as it is.
+    /// A finished SVG picture; it is trusted and inserted unchanged.
     Svg(Svg),
     /// A picture that moves where scripts run.
     Animation(Box<Animation>),
@@ -156,6 +173,6 @@ impl From<Svg> for Picture {
 pub struct Figure {
     /// What is shown.
     pub picture: Picture,
-    /// Shown below it, after its number.
+    /// Caption, shown below the picture after its number.
     pub caption: String,
 }

@@ -1,4 +1,4 @@
-//! What can go wrong with a figure.
+//! Errors of figures.
 
 use thiserror::Error;
 
@@ -7,10 +7,10 @@ use crate::chart;
 /// Why a figure cannot be drawn.
 #[derive(Debug, Error)]
 pub enum FigureError {
-    /// Places of rails on bodies are not known.
+    /// The places of rails on bodies cannot be determined.
     #[error(transparent)]
     Positions(#[from] foundations::Error),
-    /// A chart refuses its data.
+    /// A chart cannot draw its data.
     #[error(transparent)]
     Chart(#[from] chart::Error),
     /// A rail cannot be evaluated.

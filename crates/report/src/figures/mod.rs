@@ -1,4 +1,4 @@
-//! What is drawn of a run: charts, plans, the moving crane.
+//! Figures of a run: charts, girder plots, the animation of the crane.
 
 pub mod animation;
 pub mod error;

@@ -1,4 +1,4 @@
-//! The pictures of a run.
+//! Charts of a run and of its structures.
 
 use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
 
@@ -14,17 +14,17 @@ use formats::units::{Dimension, Units};
 use foundations::SolvedModel;
 use results::record::{NamedColumns, peak};
 
-/// Points along a rail at which smooth pictures are sampled.
+/// Number of points along a rail at which smooth curves are sampled.
 const SAMPLES: usize = 61;
 
-/// Most wheels in a chart of lateral forces or traction.
+/// Largest number of wheels in a chart of lateral forces or traction.
 const WHEELS: usize = 6;
 
 /// A named picture with a caption.
 pub struct RunFigure {
-    /// File name without its ending.
+    /// File name without extension.
     pub name: String,
-    /// What it shows.
+    /// The caption.
     pub caption: String,
     /// The picture.
     pub picture: Picture,
@@ -43,7 +43,7 @@ impl RunFigure {
     /// As SVG.
     ///
     /// # Errors
-    /// What the chart cannot draw.
+    /// Data that the chart cannot draw.
     pub fn svg(&self) -> Result<Svg, chart::Error> {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
@@ -53,7 +53,7 @@ impl RunFigure {
     }
 }
 
-/// One run under its label.
+/// One run with its label.
 pub struct LabelledRun<'a> {
     /// Its label.
     pub label: String,
@@ -87,8 +87,8 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     plates
 }
 
-/// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free; `events`: what
-/// happened, and when.
+/// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free;
+/// `events`: what happened, and when.
 #[must_use]
 pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     let (scene, record) = (run.scene, run.record);

@@ -1,4 +1,4 @@
-//! Forces of all wheels on a rail, run against run.
+//! Sums of wheel forces on each rail, compared between runs.
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
 use crate::figures::pictures::{LabelledRun, RunFigure};
@@ -8,10 +8,10 @@ use formats::units::Dimension;
 use results::record::NamedColumns;
 use results::response::{ColumnStatistics, RunComparison, rail_sums};
 
-/// Most rails that are drawn.
+/// Largest number of rails that are drawn.
 const RAILS: usize = 4;
 
-/// Share of the range below which a mean is nearly zero.
+/// Fraction of the range below which a mean counts as zero.
 const SMALL: f64 = 0.1;
 
 /// Vertical and lateral sums of each rail on the ground over time, their numbers below; none where
@@ -60,7 +60,7 @@ fn plate(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
 fn line(label: &str, found: &ColumnStatistics, unit: &str) -> String {
     let text = |value: f64| number(value, 4).unwrap_or_default();
     let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
-    // about a mean of zero every swing is an excursion
+    // relative to a mean of zero, an excursion has no percentage
     let swings = found.settled.abs() > SMALL * (found.peak.value - found.least.value);
     let times = if swings { format!(", {} excursions", found.excursions) } else { String::new() };
     format!(

@@ -1,4 +1,4 @@
-//! Pictures of reactions and internal forces.
+//! Figures of reactions and internal forces.
 
 use splines::{Axis as Direction, Probe};
 
@@ -9,13 +9,13 @@ use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
 use results::response::{ColumnInfluence, Response};
 
-/// Most curves of one chart.
+/// Largest number of curves of a chart.
 const CURVES: usize = 8;
-/// Reactions of one direction shown run against run.
+/// Largest number of reactions of one direction that are compared between runs.
 const SHOWN: usize = 2;
-/// Share of the largest reaction below which one is rounding.
+/// Fraction of the largest reaction below which one is rounding.
 const STILL: f64 = 1e-9;
-/// Places at which an influence line is drawn.
+/// Number of places at which an influence line is evaluated.
 const SAMPLES: usize = 241;
 
 /// Reactions of the first run over time, the largest of them in all runs, and influence lines of named sections.
@@ -46,7 +46,7 @@ pub fn pictures(
 fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Vec<RunFigure> {
     let scene = run.scene;
     let mut plates = Vec::new();
-    // what a body holds is not held by the ground
+    // reactions on a body are not reactions of the ground
     let ridden: Vec<String> = scene
         .structures
         .iter()
@@ -67,7 +67,7 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
             .map(|column| (reach(run.record.values(&column.name)), column))
             .filter(|(reach, _)| *reach > STILL * most)
             .collect();
-        // the largest first; equals stay in their order
+        // largest first, in a stable order
         own.sort_by(|a, b| b.0.total_cmp(&a.0));
         let largest = own.first().map_or(0.0, |(reach, _)| *reach);
         let mut shown: Vec<&Column> = own.iter().take(CURVES).map(|(_, column)| *column).collect();
@@ -130,7 +130,7 @@ fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluenc
                 let point = |i: usize| {
                     let x = from + (to - from) * i as f64 / (SAMPLES - 1) as f64;
                     let value = lines.unit(Probe { rail, x, axis: Direction::Vertical })?;
-                    // a wheel presses down
+                    // a wheel load acts downward
                     Some([x, 0.0 - value[index]])
                 };
                 let points: Vec<[f64; 2]> = (0..SAMPLES).filter_map(point).collect();

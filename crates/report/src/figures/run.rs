@@ -9,11 +9,11 @@ use super::error::FigureError;
 use super::pictures::{LabelledRun, RunFigure};
 use super::{animation, pictures, rail_picture, response_picture};
 
-/// The figures of a document whose cases gave `outcomes`: the scene's own run, beside those that are compared with it, then its
-/// structures, which are `known`.
+/// The figures of a scene and its comparisons with their `outcomes`: runs first, with comparisons in the same charts,
+/// then the structures, solved in `known`.
 ///
 /// # Errors
-/// What cannot be drawn.
+/// A figure that cannot be drawn or evaluated.
 pub fn figures(
     document: &Document,
     outcomes: &[CaseResult],

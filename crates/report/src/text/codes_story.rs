@@ -1,14 +1,14 @@
-//! What the report says of codes.
+//! Report content on values of codes.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::number::rounded;
 use formats::scene::Scene;
 use results::codes::{CodeCheck, CodeComparison};
 
-/// Digits of values: codes have no more.
+/// Significant digits of code values; codes give no more.
 const DIGITS: usize = 5;
 
-/// The section of all runs that have one; `None`: the scene does not ask for it.
+/// The section on code values, with those of all runs that have any; `None` where the scene does not ask for them.
 #[must_use]
 pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<ReportSection> {
     let all: Vec<(&str, &CodeCheck)> =

@@ -1,4 +1,4 @@
-//! What the report says of fatigue.
+//! Report content on fatigue.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::number::rounded;
@@ -10,7 +10,7 @@ use results::fatigue::FatigueResult;
 /// Digits of stresses and damages.
 const DIGITS: usize = 4;
 
-/// The section of all runs; `None`: there are no stress points.
+/// The section on fatigue, with all runs; `None` where there are no stress points.
 #[must_use]
 pub fn section(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> Option<ReportSection> {
     if runs.iter().all(|(_, verdicts)| verdicts.is_empty()) {

@@ -1,4 +1,4 @@
-//! What the report says of a run, section by section.
+//! The content of the report of a run, section by section.
 
 pub(crate) mod codes_story;
 pub(crate) mod fatigue_story;

@@ -1,4 +1,4 @@
-//! What the report says of reactions, internal forces, sag and uplift.
+//! Report content on reactions, internal forces, sag and uplift.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::number::rounded;
@@ -7,9 +7,9 @@ use formats::units::Dimension;
 use results::record::NamedColumns;
 use results::response::{Response, RunComparison};
 
-/// Most rows of a table.
+/// Largest number of rows of a table.
 const ROWS: usize = 60;
-/// Share of a range below which a value is rounding.
+/// Fraction of a range below which a value is rounding.
 const ROUNDING: f64 = 1e-12;
 
 /// The section of the first run.
@@ -63,9 +63,9 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
     section
 }
 
-/// Runs beside each other in numbers; `None`: there is one alone, or nothing to compare.
+/// Comparison of runs in numbers; `None` where there is a single run or nothing to compare.
 ///
-/// `labels`: those of the runs that were compared; `record`: that of the first of them.
+/// `labels`: labels of the compared runs; `record`: columns of the first of them.
 #[must_use]
 pub fn beside(
     scene: &Scene,
@@ -147,7 +147,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     ReportTable { caption, columns, rows }
 }
 
-/// The value, or zero where it is what rounding leaves of a range.
+/// The value, or zero where it is rounding relative to its range.
 fn cleared(value: f64, range: f64) -> f64 {
     if value.abs() < ROUNDING * range { 0.0 } else { value }
 }

@@ -1,4 +1,4 @@
-//! The report of a run: what was asked, what came out, what to look at.
+//! The report of a run: input, results and warnings, figures, structures, energy audit.
 
 use crate::figures::pictures::RunFigure;
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
@@ -32,7 +32,7 @@ pub fn report(
         let section = std::mem::take(target);
         *target = section.figure(plate.picture, plate.caption);
     }
-    // pictures after the results, tables of the structures after them
+    // figures follow the results; tables of the structures follow the figures
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
@@ -101,7 +101,7 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         .table(table)
 }
 
-/// What every structure is and how it was made.
+/// The foundation of every structure, with the reason of its choice and its properties.
 fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Choice]) -> ReportSection {
     let mut section = ReportSection::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
@@ -143,7 +143,7 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
     section
 }
 
-/// Range of every wheel's forces in the first run.
+/// Extremes of the forces of every wheel in the first run.
 fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     let unit = scene.units.label(Dimension::FORCE);
     let mut table = ReportTable {

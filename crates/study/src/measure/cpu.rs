@@ -1,8 +1,8 @@
-//! Time that a thread has worked.
+//! Thread time.
 
 use std::ops::ControlFlow;
 
-/// Seconds that this thread has worked since some instant: what other jobs of the machine take does not count.
+/// Thread time, s, since an arbitrary instant: time that other jobs of the machine take does not count.
 #[cfg(unix)]
 #[must_use]
 pub fn seconds() -> f64 {
@@ -11,7 +11,7 @@ pub fn seconds() -> f64 {
     now.tv_sec as f64 + 1e-9 * now.tv_nsec as f64
 }
 
-/// Seconds since the first call, on systems that do not tell what a thread has worked.
+/// Time, s, since the first call, on systems without a clock for threads.
 #[cfg(not(unix))]
 #[must_use]
 pub fn seconds() -> f64 {
@@ -19,7 +19,7 @@ pub fn seconds() -> f64 {
     START.get_or_init(std::time::Instant::now).elapsed().as_secs_f64()
 }
 
-/// Runs `job` with a watch that stops it once this thread has worked for `limit` seconds.
+/// Runs `job` with a callback that stops it once this thread has worked for `limit` seconds.
 pub fn limited<T>(limit: f64, job: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> T) -> T {
     let start = seconds();
     job(&mut |_| if seconds() - start > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })

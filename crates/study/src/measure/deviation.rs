@@ -1,4 +1,4 @@
-//! How far a run is from the reference.
+//! Deviation of a run from its reference, by groups of columns.
 
 use crate::measure::quantity::ErrorGroup;
 
@@ -7,25 +7,25 @@ use crate::measure::quantity::ErrorGroup;
 pub struct ComparedColumns {
     /// Output times.
     pub time: Vec<f64>,
-    /// Group and values of each column.
+    /// Name, group and values of each column.
     pub columns: Vec<(String, ErrorGroup, Vec<f64>)>,
 }
 
-/// Moments below this share of the largest force times the longest rail are rounding.
-const NOTHING: f64 = 1e-6;
+/// Moments below this fraction of the largest force times the longest rail are rounding.
+const NEGLIGIBLE: f64 = 1e-6;
 
 impl ComparedColumns {
-    /// Leaves out moments that nothing in the scene causes: they are rounding. `length`: that of the longest rail.
+    /// Removes moments that are rounding: those below [`NEGLIGIBLE`] times the largest wheel force and the `length`
+    /// of the longest rail.
     pub(crate) fn prune(&mut self, length: f64) {
         let largest = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-        let forces = self.columns.iter().filter(|(_, quantity, _)| *quantity == ErrorGroup::WheelForce);
+        let forces = self.columns.iter().filter(|(_, group, _)| *group == ErrorGroup::WheelForce);
         let force = forces.map(|(.., values)| largest(values)).fold(0.0, f64::max);
-        let least = NOTHING * force * length;
-        self.columns
-            .retain(|(_, quantity, values)| *quantity != ErrorGroup::Moment || largest(values) > least);
+        let least = NEGLIGIBLE * force * length;
+        self.columns.retain(|(_, group, values)| *group != ErrorGroup::Moment || largest(values) > least);
     }
 
-    /// Leaves out all after `time`, s.
+    /// Removes all output times after `time`, s.
     pub(crate) fn cut(&mut self, time: f64) {
         let count = self.time.iter().take_while(|own| **own <= time).count();
         self.time.truncate(count);
@@ -33,37 +33,38 @@ impl ComparedColumns {
     }
 }
 
-/// Errors of the columns of one group, relative to the largest value that the reference has in the group.
+/// Errors of the columns of one group, relative to the largest value of the reference in this group.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Deviation {
     /// Largest difference at an output time.
     pub largest: f64,
-    /// Largest difference of a column's extremes.
+    /// Largest difference of the maxima or of the minima of a column.
     pub peak: f64,
 }
 
-/// Errors of `run` against `reference`, a group each; `None` where the reference has nothing in it but zeros, or `run`
-/// lacks a column of it.
+/// Errors of `run` against `reference` in each group, in the order of [`ErrorGroup::ALL`]; `None` where the reference
+/// has nothing but zeros in a group, or a column of the group is missing in `run`.
 ///
-/// e = max |a - b| / max |b| over columns and output times that both have; the extremes of a column are compared
-/// whenever they are.
+/// e = max |a - b| / max |b| over the columns of a group and the output times that both runs have. The extremes of a
+/// column are compared whatever their times.
 #[must_use]
 pub fn deviations(
     run: &ComparedColumns,
     reference: &ComparedColumns,
 ) -> [Option<Deviation>; ErrorGroup::COUNT] {
     let common = common(run, reference);
-    ErrorGroup::ALL.map(|quantity| of(run, reference, quantity, common))
+    ErrorGroup::ALL.map(|group| of(run, reference, group, common))
 }
 
-/// How many output times both have, from the first on.
+/// Number of output times that both runs have in common, from the first on.
 fn common(run: &ComparedColumns, reference: &ComparedColumns) -> usize {
     let pairs = run.time.iter().zip(&reference.time);
     pairs.take_while(|(a, b)| (*a - *b).abs() <= 1e-9 * b.abs().max(1e-9)).count()
 }
 
-/// The last output time until which `run` errs by no more than `wanted` in each of `groups`, as [`misfits`] has it for runs that
-/// end there. `None`: at none; or `run` lacks a column.
+/// The last output time until which the largest error of `run` in each of `groups` is at most `wanted`, as
+/// [`deviations`] gives it for runs that end there; `None` where there is no such time, or a column is missing in
+/// `run`.
 #[must_use]
 pub fn horizon(
     run: &ComparedColumns,
@@ -93,15 +94,16 @@ pub fn horizon(
     last
 }
 
+/// The deviation in one group over the first `common` output times.
 fn of(
     run: &ComparedColumns,
     reference: &ComparedColumns,
-    quantity: ErrorGroup,
+    of_group: ErrorGroup,
     common: usize,
 ) -> Option<Deviation> {
     let mut scale = 0.0_f64;
     let mut worst = Deviation::default();
-    for (name, _, wanted) in reference.columns.iter().filter(|(_, group, _)| *group == quantity) {
+    for (name, _, wanted) in reference.columns.iter().filter(|(_, group, _)| *group == of_group) {
         let (_, _, found) = run.columns.iter().find(|(own, ..)| own == name)?;
         scale = wanted.iter().fold(scale, |most, value| most.max(value.abs()));
         for (a, b) in found.iter().zip(wanted).take(common) {
@@ -113,8 +115,8 @@ fn of(
         }
     }
     let relative = |value: f64| value / scale;
-    let is_told = common > 0 && scale > 0.0 && worst.largest.is_finite() && worst.peak.is_finite();
-    is_told.then(|| Deviation { largest: relative(worst.largest), peak: relative(worst.peak) })
+    let is_known = common > 0 && scale > 0.0 && worst.largest.is_finite() && worst.peak.is_finite();
+    is_known.then(|| Deviation { largest: relative(worst.largest), peak: relative(worst.peak) })
 }
 
 #[cfg(test)]

@@ -1,18 +1,25 @@
-//! Pareto fronts: what nothing else beats in both cost and error.
+//! Pareto fronts of points (cost, error).
+//!
+//! A point a dominates b if a costs no more and errs no more than b, and a differs from b. The front is the set of
+//! points that no other dominates. All pairs are compared: a study has a hundred points.
 
-/// Whether each point (cost, error) lies on the front: no other costs no more and errs no more, one of them less.
+/// Whether each point (cost, error) lies on the Pareto front, which no other point dominates.
 ///
 /// Of points that are equal in both, all are on the front or none is.
+///
+/// ```
+/// assert_eq!(study::on_front(&[[1.0, 0.1], [2.0, 0.01], [3.0, 0.05]]), [true, true, false]);
+/// ```
 ///
 /// # Source
 /// V. Pareto, Manuale di economia politica (1906): no change makes one better without making the other worse.
 #[must_use]
 pub fn on_front(points: &[[f64; 2]]) -> Vec<bool> {
-    let beats = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
-    points.iter().map(|point| !points.iter().any(|other| beats(other, point))).collect()
+    let dominates = |a: &[f64; 2], b: &[f64; 2]| a[0] <= b[0] && a[1] <= b[1] && a != b;
+    points.iter().map(|point| !points.iter().any(|other| dominates(other, point))).collect()
 }
 
-/// The front of `points` (cost, error) in the order of cost; equal points once.
+/// The Pareto front of `points` (cost, error), by ascending cost; equal points appear once.
 #[must_use]
 pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let kept = points.iter().zip(on_front(points)).filter(|(_, on)| *on).map(|(point, _)| *point);
@@ -22,7 +29,7 @@ pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     front
 }
 
-/// How much dearer a point is than the cheapest of `points` that errs no more: 1 on the front.
+/// Ratio of the cost of a point (cost, error) to that of the cheapest of `points` with no larger error: 1 on the front.
 #[must_use]
 pub fn excess(point: [f64; 2], points: &[[f64; 2]]) -> f64 {
     let no_worse = points.iter().filter(|other| other[1] <= point[1]);
@@ -35,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn front_is_what_nothing_beats() {
+    fn front_is_what_no_point_dominates() {
         let points =
             [[1.0, 1e-1], [2.0, 1e-2], [2.5, 5e-2], [3.0, 1e-2], [4.0, 1e-4], [9.0, 1e-3], [4.0, 1e-4]];
         assert_eq!(on_front(&points), [true, true, false, false, true, false, true]);
@@ -44,7 +51,7 @@ mod tests {
 
     #[test]
     fn errors_of_a_front_fall_as_its_costs_rise() {
-        // a cloud without order: multiples of two irrational numbers, modulo 1
+        // a scattered cloud: multiples of two irrational numbers, modulo 1
         let point = |i: i32| [f64::from(i) * 0.618_034 % 1.0, f64::from(i) * 0.414_214 % 1.0];
         let cloud: Vec<[f64; 2]> = (1..500).map(point).collect();
         let front = front(&cloud);

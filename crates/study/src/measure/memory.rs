@@ -1,31 +1,31 @@
-//! Memory that a run takes: bytes that its thread asks the allocator for.
+//! Memory that a run takes, counted as the bytes that its thread requests from the allocator.
 //!
-//! Counted where the program is built with the feature `memory`, as it is by default.
+//! Allocations are counted where the crate is built with the feature `memory`, as it is by default.
 
 /// Bytes that a setting takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Memory {
-    /// What its foundations hold: surfaces, tables, modes.
+    /// Bytes of its foundations: surfaces, tables, modes.
     pub foundations: u64,
-    /// The most that a run held beyond them, its history among it.
+    /// Largest number of bytes that a run held at once beyond these, its history included.
     pub run: u64,
 }
 
 impl Memory {
-    /// All of it.
+    /// Foundations and run together.
     #[must_use]
     pub fn total(self) -> u64 {
         self.foundations + self.run
     }
 }
 
-/// What came of a job, with the bytes that it still holds, and the most that it held at once; none where nobody counts.
+/// The result of a job with the bytes that it allocated; `None` where allocations are not counted.
 pub struct AllocationCount<T> {
-    /// What it gave.
+    /// The result of the job.
     pub out: T,
-    /// Bytes of it.
+    /// Bytes that the result holds.
     pub retained: Option<u64>,
-    /// The most at once.
+    /// Largest number of bytes that were held at once.
     pub peak: Option<u64>,
 }
 
@@ -41,10 +41,10 @@ pub fn count_allocations<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
     }
 }
 
-/// Counts nothing.
+/// Runs `job` without counting.
 #[cfg(not(feature = "memory"))]
-pub fn held<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
-    AllocationCount { out: job(), kept: None, most: None }
+pub fn count_allocations<T>(job: impl FnOnce() -> T) -> AllocationCount<T> {
+    AllocationCount { out: job(), retained: None, peak: None }
 }
 
 #[cfg(all(test, feature = "memory"))]
@@ -52,11 +52,11 @@ mod tests {
     use super::count_allocations;
 
     #[test]
-    fn what_is_kept_and_what_was_held_at_once_are_told() {
-        let found = count_allocations(|| {
+    fn retained_and_peak_bytes_are_counted() {
+        let counted = count_allocations(|| {
             drop(vec![0_u8; 5000]);
             vec![0_u8; 1000]
         });
-        assert_eq!((found.out.len(), found.retained, found.peak), (1000, Some(1000), Some(5000)));
+        assert_eq!((counted.out.len(), counted.retained, counted.peak), (1000, Some(1000), Some(5000)));
     }
 }

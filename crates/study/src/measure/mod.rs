@@ -1,4 +1,4 @@
-//! What is measured of a run: deviations from a reference, time, memory.
+//! Measurements of a run: deviation from a reference, time, memory.
 
 pub mod cpu;
 pub(crate) mod deviation;

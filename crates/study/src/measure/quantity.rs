@@ -1,26 +1,26 @@
-//! What errors are measured in: groups of a run's columns.
+//! Groups of columns in which errors are measured.
 
 use formats::scene::Scene;
 use formats::units::Dimension;
 use results::record::HistoryColumn;
 
-/// A group of columns that have one scale.
+/// A group of columns whose errors are relative to one common largest value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorGroup {
     /// Deflections of bodies, of rails under wheels, and of gauges.
     Deflection,
     /// Vertical forces of wheels on rails.
     WheelForce,
-    /// Lateral ones: flanges that strike make them the most sensitive of all.
+    /// Lateral forces of wheels on rails; impacts of flanges make them the most sensitive group.
     LateralForce,
-    /// Forces of the ground, and sums of wheel forces by rail.
+    /// Reactions of supports, and sums of wheel forces on a rail.
     Reaction,
-    /// Moments of the ground and internal moments.
+    /// Moments of supports and internal moments.
     Moment,
 }
 
 impl ErrorGroup {
-    /// All of them, in the order of charts.
+    /// All groups, in the order of charts.
     pub const ALL: [ErrorGroup; ErrorGroup::COUNT] = [
         ErrorGroup::Deflection,
         ErrorGroup::WheelForce,
@@ -28,12 +28,12 @@ impl ErrorGroup {
         ErrorGroup::Reaction,
         ErrorGroup::Moment,
     ];
-    /// How many they are.
+    /// Number of groups.
     pub const COUNT: usize = 5;
-    /// How many of the first a study must tell: deflections and vertical wheel forces.
+    /// Number of leading groups that a study must resolve: deflections and vertical wheel forces.
     pub const ASKED: usize = 2;
 
-    /// Its word in files.
+    /// The word of the group in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ impl ErrorGroup {
         }
     }
 
-    /// Its name in pictures.
+    /// The name of the group in pictures.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -55,8 +55,8 @@ impl ErrorGroup {
         }
     }
 
-    /// The group of a column of a run of `scene`; `own`: what the scene records by itself, else what its structures
-    /// answer. Shears inside structures have none: they jump where a wheel passes.
+    /// The group of a column of a run of `scene`; `own`: whether the scene records the column itself, else it is a
+    /// response of a structure. Shear forces inside structures belong to no group: they jump where a wheel passes.
     #[must_use]
     pub fn of(column: &HistoryColumn, scene: &Scene, own: bool, is_reaction: bool) -> Option<ErrorGroup> {
         let name = column.name.as_str();

@@ -1,20 +1,20 @@
-//! Times of equal runs.
+//! Median and extremes of repeated times.
 
-/// Median, least and most of repeated times.
+/// Median, minimum and maximum of repeated times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
     /// Median, s.
     pub median: f64,
-    /// Least, s.
+    /// Minimum, s.
     pub least: f64,
-    /// Most, s.
+    /// Maximum, s.
     pub most: f64,
-    /// How many there are.
+    /// Number of times.
     pub count: usize,
 }
 
 impl Spread {
-    /// Of the `times`, s; `None` where there are none.
+    /// The spread of `times`, s; `None` where there are none.
     #[must_use]
     pub fn of(times: &[f64]) -> Option<Spread> {
         let mut sorted = times.to_vec();

@@ -1,4 +1,4 @@
-//! What came of a setting.
+//! Settings with their outcomes: errors and costs.
 
 use crate::measure::deviation::Deviation;
 use crate::measure::memory::Memory;
@@ -6,45 +6,45 @@ use crate::measure::quantity::ErrorGroup;
 use crate::measure::spread::Spread;
 use crate::settings::setting::Setting;
 
-/// A setting with what came of it.
+/// A setting with its outcome.
 #[derive(Clone, Debug)]
 pub struct StudyPoint {
     /// The setting.
     pub setting: Setting,
-    /// What came of it.
+    /// Its outcome.
     pub outcome: PointOutcome,
 }
 
-/// What came of a setting.
+/// The outcome of a setting.
 #[derive(Clone, Debug)]
 pub enum PointOutcome {
     /// It ran to its end.
     Done(Box<MeasuredPoint>),
-    /// It took longer than a setting may.
+    /// It exceeded the time limit of a setting.
     Stopped,
-    /// It could not be set up or did not reach its end; why.
+    /// It could not be set up or did not reach its end; the reason.
     Refused(String),
 }
 
 /// Error and cost of a run.
 #[derive(Clone, Debug)]
 pub struct MeasuredPoint {
-    /// Errors, one a group.
+    /// Errors in the order of [`ErrorGroup::ALL`]; `None` where the reference has nothing to compare.
     pub errors: [Option<Deviation>; ErrorGroup::COUNT],
-    /// Steps, stages, events.
+    /// Numbers of steps, stages and events.
     pub counts: sim::Counts,
-    /// Freedoms of the foundations.
+    /// Degrees of freedom of the foundations.
     pub dof_count: usize,
-    /// Times of runs, in seconds that the thread worked.
+    /// Thread times of runs.
     pub time: Option<Spread>,
-    /// Seconds that it took to make the foundations.
+    /// Thread time, s, that building the foundations took.
     pub setup: f64,
-    /// Memory that it takes, where the program counts it.
+    /// Memory that it takes, where the program counts allocations.
     pub memory: Option<Memory>,
 }
 
 impl StudyPoint {
-    /// What was measured, where it ran to its end.
+    /// The measured error and cost, where the setting ran to its end.
     #[must_use]
     pub fn measured(&self) -> Option<&MeasuredPoint> {
         match &self.outcome {
@@ -53,14 +53,14 @@ impl StudyPoint {
         }
     }
 
-    /// Largest error in a group.
+    /// Largest relative error in a group.
     #[must_use]
-    pub fn error(&self, quantity: ErrorGroup) -> Option<f64> {
-        let at = ErrorGroup::ALL.iter().position(|own| *own == quantity)?;
+    pub fn error(&self, group: ErrorGroup) -> Option<f64> {
+        let at = ErrorGroup::ALL.iter().position(|own| *own == group)?;
         self.measured()?.errors[at].map(|own| own.largest)
     }
 
-    /// Median time.
+    /// Median thread time of a run, s.
     #[must_use]
     pub fn seconds(&self) -> Option<f64> {
         self.measured()?.time.map(|spread| spread.median)

@@ -1,4 +1,10 @@
-//! Converged runs that errors are measured against.
+//! Converged references: runs whose own error is known by comparison with a second run.
+//!
+//! A reference is a pair of runs that differ in everything that can err: the number of modes (or of elements) and the
+//! method of integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the
+//! study must resolve, until a run exceeds its time limit, or until the list of the budget ends; the closest pair is
+//! kept. The difference d of the pair bounds what the reference can say: errors of settings are resolved from
+//! [`MARGIN`] d on.
 
 use sim::{Method, Stepping};
 
@@ -13,37 +19,37 @@ use crate::settings::setting::{Against, Setting, SettingFamily};
 use formats::scene::{Analysis, Scene, stepper_word};
 use results::run_error;
 
-/// How much closer than the smallest error told the two finest runs must agree.
+/// Ratio of the smallest error that a reference resolves to the difference of its two runs.
 pub const MARGIN: f64 = 10.0;
-/// How much longer than other runs a reference may take.
-const PATIENCE: f64 = 10.0;
-/// Smallest error told above which nothing is said of a quantity.
-const UNTOLD: f64 = 0.1;
-/// Difference at which nothing finer is tried.
-const CLOSE: f64 = 1e-9;
+/// Ratio of the time limit of a reference to that of other runs.
+const LIMIT_FACTOR: f64 = 10.0;
+/// Resolution above which a reference says nothing about a group of columns.
+const COARSEST: f64 = 0.1;
+/// Difference of a pair below which no finer pair is run.
+const SMALLEST_DIFFERENCE: f64 = 1e-9;
 
-/// What makes a scene of such a detail.
+/// Function that makes the scene of a reference for a number of modes or elements.
 pub type Make<'m> = dyn Fn(MeshDetail) -> Scene + 'm;
 
-/// A converged run, and how far from it the one next to it is.
+/// A converged run, and the second run whose difference from it bounds its error.
 #[derive(Clone, Debug)]
 pub struct ConvergedReference {
-    /// What it is the reference for.
+    /// The kind of settings that it is the reference for.
     pub against: Against,
-    /// The run itself.
+    /// Columns of the run itself.
     pub columns: ComparedColumns,
-    /// The one beside it.
+    /// Columns of the second run.
     pub second: ComparedColumns,
-    /// The two settings in words: the run's, and that of the one beside it.
+    /// The settings of both runs in words.
     pub words: [String; 2],
-    /// Largest difference of the two in each group.
+    /// Largest relative difference of both runs in each group.
     pub difference: [Option<f64>; ErrorGroup::COUNT],
-    /// Largest differences of the pairs before in what a study must tell, by the accuracy asked.
+    /// Accuracy, and largest relative difference of deflections and wheel forces, of each pair that was run.
     pub approach: Vec<(f64, f64)>,
 }
 
 impl ConvergedReference {
-    /// `trace` as the reference, which tells as much as it is close to `beside`; `words`: the settings of both.
+    /// A reference from the columns of its two runs; `words`: the settings of both.
     #[must_use]
     pub fn new(
         against: Against,
@@ -55,34 +61,35 @@ impl ConvergedReference {
         ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
     }
 
-    /// The smallest error that it can tell in a group; infinite where it does not know the group.
+    /// The smallest error that it resolves in a group: [`MARGIN`] times the difference of its runs; infinite where it
+    /// has no column of the group.
     #[must_use]
-    pub fn resolves(&self, quantity: ErrorGroup) -> f64 {
-        let at = ErrorGroup::ALL.iter().position(|own| *own == quantity);
+    pub fn resolves(&self, group: ErrorGroup) -> f64 {
+        let at = ErrorGroup::ALL.iter().position(|own| *own == group);
         let difference = at.and_then(|at| self.difference[at]);
         difference.map_or(f64::INFINITY, |difference| MARGIN * difference.max(f64::EPSILON))
     }
 
-    /// The same, where it tells more than whether a run is of any use.
+    /// The same; `None` where that is coarser than 0.1, which says nothing of use.
     #[must_use]
-    pub fn resolution_of(&self, quantity: ErrorGroup) -> Option<f64> {
-        Some(self.resolves(quantity)).filter(|least| *least <= UNTOLD)
+    pub fn resolution_of(&self, group: ErrorGroup) -> Option<f64> {
+        Some(self.resolves(group)).filter(|least| *least <= COARSEST)
     }
 
-    /// The larger of those of deflections and vertical wheel forces.
+    /// The larger resolution of deflections and vertical wheel forces.
     #[must_use]
     pub fn worst_resolution(&self) -> f64 {
         self.difference[..ErrorGroup::ASKED].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
     }
 
-    /// Until when it tells deflections and vertical wheel forces down to `resolution`: the last output time to which the two
-    /// runs are close enough. `None`: not even at the first.
+    /// The last output time, s, until which it resolves errors of deflections and vertical wheel forces down to
+    /// `resolution`; `None` where it does so at no output time.
     #[must_use]
     pub fn horizon(&self, resolution: f64) -> Option<f64> {
         horizon(&self.second, &self.columns, &ErrorGroup::ALL[..ErrorGroup::ASKED], resolution / MARGIN)
     }
 
-    /// The same reference for the motion until `time`, s.
+    /// Restricts the reference to the motion until `time`, s.
     pub fn cut(&mut self, time: f64) {
         self.columns.cut(time);
         self.second.cut(time);
@@ -95,73 +102,76 @@ fn differences(run: &ComparedColumns, reference: &ComparedColumns) -> [Option<f6
     deviations(run, reference).map(|own| own.map(|own| own.largest))
 }
 
-/// Runs two settings that differ in everything that can err, ever finer, until they agree: the scene that `make` gives for a
-/// number of modes by the method that "auto" takes, beside that of half the modes by SDIRK, at the same accuracy; a scene
-/// that only SDIRK integrates, at ten times the accuracy. Where modes come no nearer than `depth.resolution`, as in
-/// buildings, whose lowest modes are those of single members, and `meshes`: the same by whole meshes.
+/// Runs ever finer pairs until one agrees (see the top of this file).
+///
+/// The first run of a pair is the scene that `make` returns for a number of modes, integrated by the method that
+/// "auto" takes; the second has half the modes and is integrated by SDIRK4 at the same accuracy (at ten times the
+/// tolerance where the first run took SDIRK4 as well). Where no pair resolves `budget.resolution` and `meshes` is
+/// set, pairs of all modes of a mesh follow: in buildings the lowest modes are those of single members, and modes
+/// converge slowly.
 ///
 /// # Errors
-/// A scene that cannot start; no pair that ran to its end.
+/// A scene that cannot start; [`Error::NoReference`] where no pair ran to its end.
 pub fn reference(
-    workshop: &mut SetupCache<'_>,
+    cache: &mut SetupCache<'_>,
     against: Against,
     make: &Make<'_>,
     meshes: bool,
-    depth: &StudyBudget,
+    budget: &StudyBudget,
 ) -> Result<ConvergedReference, Error> {
     let mut search = Search { best: None, approach: Vec::new(), why: String::new() };
-    let modes = depth.references.iter().map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
-    search.climb(workshop, against, make, modes, depth)?;
-    let is_near = search.best.as_ref().is_some_and(|best| best.worst_resolution() <= depth.resolution);
+    let modes = budget.references.iter().map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
+    search.refine(cache, against, make, modes, budget)?;
+    let is_near = search.best.as_ref().is_some_and(|best| best.worst_resolution() <= budget.resolution);
     if meshes && !is_near {
-        let all = depth.meshes.iter().map(|&(accuracy, elements)| (accuracy, MeshDetail::Mesh(elements)));
-        search.climb(workshop, against, make, all, depth)?;
+        let all = budget.meshes.iter().map(|&(accuracy, elements)| (accuracy, MeshDetail::Mesh(elements)));
+        search.refine(cache, against, make, all, budget)?;
     }
-    let untold = || Error::NoReference(search.why.clone());
-    let best = search.best.ok_or_else(untold)?;
+    let no_reference = || Error::NoReference(search.why.clone());
+    let best = search.best.ok_or_else(no_reference)?;
     Ok(ConvergedReference { approach: search.approach, ..best })
 }
 
-/// The closest pair so far.
+/// The closest pair so far, and the differences of all pairs.
 struct Search {
     best: Option<ConvergedReference>,
     approach: Vec<(f64, f64)>,
-    /// Why it ended.
+    /// Reason of the end, where a run did not reach its own.
     why: String,
 }
 
 impl Search {
-    /// Goes through `rungs` until a pair agrees or one of its runs exceeds its limit.
-    fn climb(
+    /// Runs the pairs of `levels` until one agrees or one of its runs exceeds its limit.
+    fn refine(
         &mut self,
-        workshop: &mut SetupCache<'_>,
+        cache: &mut SetupCache<'_>,
         against: Against,
         make: &Make<'_>,
-        rungs: impl Iterator<Item = (f64, MeshDetail)>,
-        depth: &StudyBudget,
+        levels: impl Iterator<Item = (f64, MeshDetail)>,
+        budget: &StudyBudget,
     ) -> Result<(), Error> {
-        let wanted = (depth.resolution / MARGIN * 1e-2).max(CLOSE);
-        for (accuracy, detail) in rungs {
+        let wanted = (budget.resolution / MARGIN * 1e-2).max(SMALLEST_DIFFERENCE);
+        for (accuracy, detail) in levels {
             let scenes = [make(detail), make(detail.half())];
-            let [(trace, method), (beside, second)] =
-                match pair(workshop, &scenes, accuracy, depth.limit * PATIENCE) {
+            let [(columns, words), (second, second_words)] =
+                match pair(cache, &scenes, accuracy, budget.limit * LIMIT_FACTOR) {
                     Ok(Ok(pair)) => pair,
                     Ok(Err(stopped)) => {
                         self.why = stopped;
                         break;
                     }
-                    // more modes than can be found: what was run before stands
+                    // more modes than the structure has: the pairs that ran before remain
                     Err(failure) if self.best.is_some() => {
                         self.why = failure.to_string();
                         break;
                     }
                     Err(failure) => return Err(failure),
                 };
-            let found = ConvergedReference::new(against, trace, beside, [method, second]);
-            let largest = found.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
-            self.approach.push((accuracy, found.worst_resolution() / MARGIN));
-            if self.best.as_ref().is_none_or(|best| found.worst_resolution() < best.worst_resolution()) {
-                self.best = Some(found);
+            let reference = ConvergedReference::new(against, columns, second, [words, second_words]);
+            let largest = reference.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
+            self.approach.push((accuracy, reference.worst_resolution() / MARGIN));
+            if self.best.as_ref().is_none_or(|best| reference.worst_resolution() < best.worst_resolution()) {
+                self.best = Some(reference);
             }
             if largest < wanted {
                 break;
@@ -171,48 +181,49 @@ impl Search {
     }
 }
 
-/// A run's columns, and its setting in words.
-type Told = (ComparedColumns, String);
+/// Columns of a run, and its setting in words.
+type DescribedRun = (ComparedColumns, String);
 
-/// Two runs that differ in all that can err; the inner error says why one of them did not reach its end.
+/// The two runs of a pair; the inner error says why one of them did not reach its end.
 fn pair(
-    workshop: &mut SetupCache<'_>,
+    cache: &mut SetupCache<'_>,
     scenes: &[Scene; 2],
     accuracy: f64,
     limit: f64,
-) -> Result<Result<[Told; 2], String>, Error> {
+) -> Result<Result<[DescribedRun; 2], String>, Error> {
     let none = || Err("no method integrates it".to_owned());
-    let (first, method, words) = match one(workshop, &scenes[0], accuracy, Method::Auto, limit)? {
-        Ok(Some(told)) => told,
+    let (first, method, words) = match one(cache, &scenes[0], accuracy, Method::Auto, limit)? {
+        Ok(Some(run)) => run,
         Ok(None) => return Ok(none()),
         Err(why) => return Ok(Err(why)),
     };
-    let is_other = !matches!(method, Some(Method::Sdirk4));
-    let again = if is_other { accuracy } else { 10.0 * accuracy };
-    match one(workshop, &scenes[1], again, Method::Sdirk4, limit)? {
-        Ok(Some((second, _, beside))) => Ok(Ok([(first, words), (second, beside)])),
+    let differs = !matches!(method, Some(Method::Sdirk4));
+    let again = if differs { accuracy } else { 10.0 * accuracy };
+    match one(cache, &scenes[1], again, Method::Sdirk4, limit)? {
+        Ok(Some((second, _, second_words))) => Ok(Ok([(first, words), (second, second_words)])),
         Ok(None) => Ok(none()),
         Err(why) => Ok(Err(why)),
     }
 }
 
-/// A run with its method and its setting in words; `None` where no method integrates it; or why it did not reach its end.
-type Tried = Result<Option<(ComparedColumns, Option<Method>, String)>, String>;
+/// Columns of a run with its method and its setting in words; `None` where the method cannot integrate the scene; or
+/// why the run did not reach its end.
+type Attempt = Result<Option<(ComparedColumns, Option<Method>, String)>, String>;
 
-/// One run; `None` where the method does not suit the scene.
+/// Runs `scene` once at `accuracy` by `method`, within `limit` seconds.
 fn one(
-    workshop: &mut SetupCache<'_>,
+    cache: &mut SetupCache<'_>,
     scene: &Scene,
     accuracy: f64,
     method: Method,
     limit: f64,
-) -> Result<Tried, Error> {
+) -> Result<Attempt, Error> {
     let stepping = Stepping { method, step: None };
     let scene = Scene { accuracy, stepping, ..scene.clone() };
     let setting =
         Setting { family: SettingFamily::Written, knob: "accuracy", value: accuracy, scene, stations: None };
-    let rig = workshop.set_up(&setting)?;
-    let run = match limited(limit, |watch| rig.run(watch)) {
+    let case = cache.set_up(&setting)?;
+    let run = match limited(limit, |watch| case.run(watch)) {
         Ok(run) => run,
         Err(sim::Error::Method { .. }) => return Ok(Ok(None)),
         Err(error) => return Err(Error::Run(run_error::in_scene_names(&error, &setting.scene))),
@@ -220,9 +231,9 @@ fn one(
     if !run.status.is_complete() {
         return Ok(Err(run_error::reason_incomplete(&run.status, &setting.scene).unwrap_or_default()));
     }
-    let mut trace = workshop.columns_of(&rig, &run)?;
+    let mut columns = cache.columns_of(&case, &run)?;
     let lengths = setting.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
-    trace.prune(lengths.fold(0.0, f64::max));
+    columns.prune(lengths.fold(0.0, f64::max));
     let mut words: Vec<String> = Vec::new();
     for structure in &setting.scene.structures {
         words.push(format!("{}: {}", structure.name, foundation(structure)));
@@ -234,10 +245,10 @@ fn one(
         }
         Analysis::QuasiStatic => words.push("equilibrium at every output time".to_owned()),
     }
-    Ok(Ok(Some((trace, run.method, words.join("; ")))))
+    Ok(Ok(Some((columns, run.method, words.join("; ")))))
 }
 
-/// A foundation in words.
+/// The foundation of a structure in words.
 #[must_use]
 pub fn foundation(structure: &formats::scene::Structure) -> String {
     use formats::scene::Foundation;

@@ -1,4 +1,4 @@
-//! A setting made ready to run, as often as wanted.
+//! Settings made ready to run any number of times.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -22,92 +22,97 @@ use results::cases::records_structure;
 use results::record::NamedColumns;
 use results::response::{self, Response};
 
-/// What makes settings ready: solved structures and modes that were found already.
+/// Builds the foundations of settings, and keeps modes and tables that settings have in common.
 pub struct SetupCache<'k> {
     known: &'k [SolvedStructure],
-    spectra: Vec<ModeCache>,
-    /// Tables by their stations a rail.
+    /// Modes of each structure.
+    modes: Vec<ModeCache>,
+    /// Structures with grids at equal distances, by the number of stations of each rail.
     tables: Vec<(usize, Vec<SolvedStructure>)>,
 }
 
-/// A setting made ready.
+/// A setting that is ready to run.
 pub struct CaseSetup {
     scene: Scene,
     cast: Cast,
     foundations: Vec<Foundation>,
-    /// Stations a rail of the tables.
+    /// Stations of each rail of the tables that are read; `None`: those of the specs.
     stations: Option<usize>,
-    /// Seconds of thread time that it took to make the foundations.
+    /// Thread time, s, that building the foundations took.
     pub setup: f64,
 }
 
+/// A setting that ran to its end, with the thread time, s, of its first run; `None` where it did not.
+pub type TimedCase = Option<(CaseSetup, f64)>;
+
 impl<'k> SetupCache<'k> {
-    /// For runs of `scene` and of what settings make of it.
+    /// An empty cache for settings of `scene`.
     #[must_use]
     pub fn new(scene: &Scene, known: &'k [SolvedStructure]) -> SetupCache<'k> {
-        let spectra = scene.structures.iter().map(|_| ModeCache::default()).collect();
-        SetupCache { known, spectra, tables: Vec::new() }
+        let modes = scene.structures.iter().map(|_| ModeCache::default()).collect();
+        SetupCache { known, modes, tables: Vec::new() }
     }
 
-    /// Makes a setting ready.
+    /// Builds the foundations of a setting and makes it ready to run.
     ///
     /// # Errors
-    /// Foundations that cannot be made.
+    /// A truck that cannot be simulated; foundations that cannot be built.
     pub fn set_up(&mut self, setting: &Setting) -> Result<CaseSetup, Error> {
         let start = cpu::seconds();
         let scene = setting.scene.clone();
         let cast = cast(&scene)?;
-        let mut laid = self.build(&scene, setting.stations)?;
+        let mut built = self.build(&scene, setting.stations)?;
         if setting.family.is_pure() {
-            for laid in laid.iter_mut().filter(|laid| laid.foundation.structure.is_some()) {
-                laid.foundation.compliance = None;
+            for own in built.iter_mut().filter(|own| own.foundation.structure.is_some()) {
+                own.foundation.compliance = None;
             }
         }
         let recorded = records_structure(&scene, self.known);
-        let mut foundations: Vec<Foundation> = laid.into_iter().map(|laid| laid.foundation).collect();
+        let mut foundations: Vec<Foundation> = built.into_iter().map(|own| own.foundation).collect();
         for (s, foundation) in foundations.iter_mut().enumerate() {
             foundation.recorded = recorded(s, foundation);
         }
         Ok(CaseSetup { scene, cast, foundations, stations: setting.stations, setup: cpu::seconds() - start })
     }
 
-    /// The columns of a run that errors are measured in.
+    /// The columns of a `run` of `case` that errors are measured in.
     ///
     /// # Errors
-    /// A structure that does not stand.
-    pub fn columns_of(&mut self, rig: &CaseSetup, run: &Run) -> Result<ComparedColumns, Error> {
-        let scene = &rig.scene;
-        let laid = self.build(scene, rig.stations)?;
+    /// A structure that is a mechanism.
+    pub fn columns_of(&mut self, case: &CaseSetup, run: &Run) -> Result<ComparedColumns, Error> {
+        let scene = &case.scene;
+        let built = self.build(scene, case.stations)?;
         let known = self.known;
         let solved: Vec<Option<&SolvedModel>> =
             scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
-        let lines = response::lines(scene, &laid, &solved)?;
+        let lines = response::lines(scene, &built, &solved)?;
         let mut record = NamedColumns::new(scene, &run.history);
-        let response = Response::new(scene, &rig.cast, &run.history, &laid, &solved, &lines, &mut record)?;
+        let response = Response::new(scene, &case.cast, &run.history, &built, &solved, &lines, &mut record)?;
         let own = quantities(scene).len();
-        let mut trace = ComparedColumns { time: record.values("time").to_vec(), columns: Vec::new() };
+        let mut columns = ComparedColumns { time: record.values("time").to_vec(), columns: Vec::new() };
         for (index, column) in record.columns.into_iter().enumerate() {
             let is_reaction =
                 index >= own && response.columns[index - own].kind == formats::scene::columns::Kind::Reaction;
             if let Some(quantity) = ErrorGroup::of(&column, scene, index < own, is_reaction) {
-                trace.columns.push((column.name, quantity, column.values));
+                columns.columns.push((column.name, quantity, column.values));
             }
         }
-        Ok(trace)
+        Ok(columns)
     }
 
+    /// The foundations of `scene`, their tables at `stations` equal distances a rail where that is given.
     fn build(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<BuiltFoundation>, Error> {
         let lateral = scene.pushes_sideways();
         let at = stations.map(|count| self.table(count)).transpose()?;
         let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
-        let each = scene.structures.iter().zip(&mut self.spectra);
-        let laid = each
-            .map(|(own, spectra)| foundations::build(spectra, own, solution_of(known, &own.origin), lateral))
+        let each = scene.structures.iter().zip(&mut self.modes);
+        let built = each
+            .map(|(own, modes)| foundations::build(modes, own, solution_of(known, &own.origin), lateral))
             .collect::<Result<_, _>>()?;
-        Ok(laid)
+        Ok(built)
     }
 
-    /// Index of the grids at `count` even stations a rail.
+    /// Index in `tables` of the grids at `count` equally spaced stations of each rail.
     fn table(&mut self, count: usize) -> Result<usize, Error> {
         if let Some(at) = self.tables.iter().position(|(own, _)| *own == count) {
             return Ok(at);
@@ -121,7 +126,7 @@ impl<'k> SetupCache<'k> {
     }
 }
 
-/// The same structure with grids at `count` even stations a rail.
+/// The same structure with its grid at `count` equally spaced stations of each rail, from the exact surface.
 fn table(solved: &SolvedModel, count: usize) -> Result<SolvedModel, Error> {
     let Some(surface) = &solved.surface else {
         return Err(Error::NoSurface);
@@ -146,15 +151,15 @@ fn table(solved: &SolvedModel, count: usize) -> Result<SolvedModel, Error> {
 }
 
 impl CaseSetup {
-    /// Runs it once. `watch` sees the time reached, and may stop the run.
+    /// Runs the setting once. `watch` receives the simulated time, s, and can stop the run.
     ///
     /// # Errors
-    /// A scene that cannot start; a method that does not suit it.
+    /// A scene that cannot start; a method that cannot integrate it.
     pub fn run(&self, watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Run, sim::Error> {
         sim::run_by(self.scene.stepping, &self.cast.scene, &self.foundations, watch)
     }
 
-    /// Freedoms of bodies aside, how many the foundations have.
+    /// Degrees of freedom of all foundations; those of bodies do not count.
     #[must_use]
     pub fn dof_count(&self) -> usize {
         self.foundations.iter().map(Foundation::freedoms).sum()

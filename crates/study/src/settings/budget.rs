@@ -1,36 +1,45 @@
-//! How far a study goes.
+//! The values that a study tries, and its limits of time.
 
-/// Values that a study tries, and what it may cost.
+/// The values that a study tries, and how much time it may take.
+///
+/// ```
+/// use study::StudyBudget;
+///
+/// let budget = StudyBudget { modes: vec![1, 4, 16], limit: 2.0, ..StudyBudget::quick() };
+/// assert!(budget.modes.len() < StudyBudget::full().modes.len());
+/// assert_eq!(budget.repetitions, StudyBudget::quick().repetitions);
+/// ```
 #[derive(Clone, Debug)]
 pub struct StudyBudget {
     /// Accuracies of adaptive steps, coarsest first.
     pub accuracies: Vec<f64>,
-    /// Accuracy where something else varies.
+    /// Accuracy of settings in which something else varies.
     pub fine: f64,
-    /// Numbers of equal steps.
+    /// Numbers of equal steps over the scene.
     pub steps: Vec<u32>,
     /// Numbers of modes.
     pub modes: Vec<usize>,
-    /// Elements a member.
+    /// Numbers of elements of each member.
     pub elements: Vec<usize>,
     /// Numbers of rigid parts.
     pub parts: Vec<usize>,
-    /// Stations a rail.
+    /// Numbers of stations of each rail.
     pub stations: Vec<usize>,
-    /// Accuracies of references and, where structures have mass, their modes: one after the other until two runs agree.
+    /// Accuracy and number of modes of each pair of reference runs, coarsest first; pairs are run until one agrees.
     pub references: Vec<(f64, usize)>,
-    /// The same with elements a member, where modes do not agree.
+    /// The same with the number of elements of each member, for structures whose modes converge slowly.
     pub meshes: Vec<(f64, usize)>,
-    /// Most repetitions of a run.
+    /// Largest number of timed repetitions of a run.
     pub repetitions: usize,
-    /// Seconds that a run may take, and all repetitions of a setting.
+    /// Thread time, s, that a run may take, and that all repetitions of a setting together may take.
     pub limit: f64,
-    /// Error of deflections and wheel forces down to which the study must tell: the references must agree ten times better.
+    /// Smallest relative error of deflections and wheel forces that the study must resolve: the runs of a reference
+    /// must agree ten times better.
     pub resolution: f64,
 }
 
 impl StudyBudget {
-    /// For a picture to print.
+    /// The budget of a study for publication: minutes to an hour of computation.
     #[must_use]
     pub fn full() -> StudyBudget {
         StudyBudget {
@@ -49,7 +58,7 @@ impl StudyBudget {
         }
     }
 
-    /// For a first look.
+    /// The budget of a first look: fewer values, coarser references.
     #[must_use]
     pub fn quick() -> StudyBudget {
         StudyBudget {

@@ -1,16 +1,16 @@
-//! How fine the mesh or the modes of a reference are.
+//! The resolution of a structure with mass in a reference.
 
-/// How finely a structure with mass is resolved.
+/// How a structure with mass is resolved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeshDetail {
-    /// So many of its lowest natural modes, and the static give of all others.
+    /// This number of its lowest natural modes, with the residual flexibility of all others.
     Modes(usize),
-    /// All modes of a mesh of so many elements a member.
+    /// All modes of a mesh with this number of elements in each member.
     Mesh(usize),
 }
 
 impl MeshDetail {
-    /// The same by half as many.
+    /// The same with half the number.
     pub(crate) const fn half(self) -> MeshDetail {
         match self {
             MeshDetail::Modes(count) => MeshDetail::Modes(count / 2),

@@ -1,4 +1,4 @@
-//! The settings of a study.
+//! The list of settings of a study.
 
 use sim::Method;
 
@@ -8,10 +8,10 @@ use crate::settings::setting::{Setting, SettingFamily};
 use formats::scene::{Analysis, Foundation, Handover, Origin, Reading, Scene, Structure};
 use foundations::{SolvedStructure, solution_of};
 
-/// What a scene's structures can be.
+/// Properties of the structures of a scene that decide which settings exist.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneKinds {
-    /// Some structure has a beam spec whose foundation may vary: no ties.
+    /// Some structure has a beam spec and no ties: its foundation can vary.
     pub varies: bool,
     /// Every such structure has mass.
     pub has_mass: bool,
@@ -20,7 +20,7 @@ pub struct SceneKinds {
 }
 
 impl SceneKinds {
-    /// Of the structures of `scene`.
+    /// The kinds of the structures of `scene`.
     #[must_use]
     pub fn of(scene: &Scene, known: &[SolvedStructure]) -> SceneKinds {
         let solved = || {
@@ -36,21 +36,21 @@ impl SceneKinds {
     }
 }
 
-/// Whether the foundation of a structure is the study's to vary.
+/// Whether a study can vary the foundation of a structure: it has a beam spec and no ties.
 #[must_use]
 pub fn varies(structure: &Structure) -> bool {
     let has_spec = matches!(structure.origin, Origin::Spec { .. });
     has_spec && !matches!(structure.foundation, Foundation::Ties { .. })
 }
 
-/// `scene` with every foundation that may vary set by `set`.
+/// `scene` with every foundation that can vary replaced by that of `set`.
 #[must_use]
 pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
     let mut out = scene.clone();
     for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
         structure.foundation = set(structure);
         structure.auto = false;
-        // neither gives way along the rails
+        // rigid foundations and rigid parts have no compliance along the rails
         if matches!(structure.foundation, Foundation::Rigid | Foundation::Parts { .. }) {
             structure.longitudinal = false;
         }
@@ -58,7 +58,7 @@ pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
     out
 }
 
-/// The mesh that "auto" takes as the top.
+/// The scene on the mesh that is the highest fidelity of "auto".
 fn mesh(scene: &Scene, known: &[SolvedStructure]) -> Scene {
     with(scene, |structure| {
         let elements = foundations::mesh_elements(solution_of(known, &structure.origin));
@@ -66,7 +66,8 @@ fn mesh(scene: &Scene, known: &[SolvedStructure]) -> Scene {
     })
 }
 
-/// The structure with all that is known of it, to such a detail; without mass, the exact surface.
+/// The most complete model of the structures, resolved to `detail`; the exact surface where they have no mass or the
+/// analysis is quasi-static.
 #[must_use]
 pub fn whole(scene: &Scene, kinds: SceneKinds, detail: MeshDetail) -> Scene {
     if !kinds.has_mass || scene.analysis != Analysis::Dynamic {
@@ -81,7 +82,7 @@ pub fn whole(scene: &Scene, kinds: SceneKinds, detail: MeshDetail) -> Scene {
     })
 }
 
-/// The structure without mass, exactly.
+/// The scene on the exact influence surfaces of its structures, without mass.
 #[must_use]
 pub fn massless(scene: &Scene) -> Scene {
     let mut out = with(scene, |_| Foundation::Influence);
@@ -91,15 +92,15 @@ pub fn massless(scene: &Scene) -> Scene {
     out
 }
 
-/// The settings of a study of `scene`, whose foundations are chosen.
+/// The settings of a study of `scene`, in which no foundation is left to "auto".
 #[must_use]
 pub fn settings(
     scene: &Scene,
     known: &[SolvedStructure],
     kinds: SceneKinds,
-    depth: &StudyBudget,
+    budget: &StudyBudget,
 ) -> Vec<Setting> {
-    let mut list = List { depth, dynamic: scene.analysis == Analysis::Dynamic, all: Vec::new() };
+    let mut list = List { budget, dynamic: scene.analysis == Analysis::Dynamic, all: Vec::new() };
     if kinds.varies {
         list.foundations(scene, known, kinds);
         list.tables(&massless(scene));
@@ -110,8 +111,9 @@ pub fn settings(
     list.all
 }
 
+/// Settings under construction.
 struct List<'d> {
-    depth: &'d StudyBudget,
+    budget: &'d StudyBudget,
     dynamic: bool,
     all: Vec<Setting>,
 }
@@ -121,20 +123,22 @@ impl List<'_> {
         self.all.push(Setting { family, knob, value, scene, stations: None });
     }
 
+    /// One setting for each accuracy.
     fn by_accuracy(&mut self, family: SettingFamily, scene: &Scene) {
-        // equilibria know no accuracy
-        let all = if self.dynamic { self.depth.accuracies.as_slice() } else { &[self.depth.fine] };
+        // an equilibrium has no accuracy that could vary
+        let all = if self.dynamic { self.budget.accuracies.as_slice() } else { &[self.budget.fine] };
         for &accuracy in all {
             self.add(family, "accuracy", accuracy, Scene { accuracy, ..scene.clone() });
         }
     }
 
+    /// Settings that vary the foundation.
     fn foundations(&mut self, scene: &Scene, known: &[SolvedStructure], kinds: SceneKinds) {
         let scene = &Scene { stepping: sim::Stepping::default(), ..scene.clone() };
-        let fine = Scene { accuracy: self.depth.fine, ..massless(scene) };
+        let fine = Scene { accuracy: self.budget.fine, ..massless(scene) };
         self.by_accuracy(SettingFamily::Rigid, &with(&fine, |_| Foundation::Rigid));
         if kinds.is_girder {
-            for &count in &self.depth.parts {
+            for &count in &self.budget.parts {
                 let handover = Handover::Blend { length: None };
                 let scene = with(&fine, |_| Foundation::Parts { count, handover, damping: 0.0 });
                 self.add(SettingFamily::Parts, "parts", count as f64, scene);
@@ -143,12 +147,12 @@ impl List<'_> {
         self.by_accuracy(SettingFamily::Influence, &fine);
         if kinds.has_mass && self.dynamic {
             for family in [SettingFamily::Modal, SettingFamily::Pure] {
-                for &modes in &self.depth.modes {
+                for &modes in &self.budget.modes {
                     let scene = with(&fine, |own| Foundation::Modal { modes, damping: own.damping });
                     self.add(family, "modes", modes as f64, scene);
                 }
             }
-            for &elements in &self.depth.elements {
+            for &elements in &self.budget.elements {
                 let scene = with(&fine, |own| Foundation::Full { elements, damping: own.damping });
                 self.add(SettingFamily::Mesh, "elements", elements as f64, scene);
             }
@@ -156,15 +160,16 @@ impl List<'_> {
         }
     }
 
+    /// Settings that read influence coefficients from tables.
     fn tables(&mut self, scene: &Scene) {
-        let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());
+        let (accuracy, stepping) = (self.budget.fine, sim::Stepping::default());
         let exact = Scene { accuracy, stepping, ..scene.clone() };
         let rails = scene.structures.iter().filter(|own| varies(own)).flat_map(|own| &own.rails);
         let stations = rails.map(|rail| rail.stations.len()).max().unwrap_or(0);
         self.add(SettingFamily::Table(Reading::Exact), "stations", stations as f64, exact);
         for reading in [Reading::Natural, Reading::Akispl, Reading::Cubspl] {
-            for &count in &self.depth.stations {
-                let (accuracy, stepping) = (self.depth.fine, sim::Stepping::default());
+            for &count in &self.budget.stations {
+                let (accuracy, stepping) = (self.budget.fine, sim::Stepping::default());
                 let mut scene = Scene { accuracy, stepping, ..scene.clone() };
                 for structure in scene.structures.iter_mut().filter(|structure| varies(structure)) {
                     structure.reading = reading;
@@ -176,18 +181,19 @@ impl List<'_> {
         }
     }
 
+    /// Settings that vary the method of integration.
     fn methods(&mut self, scene: &Scene) {
         for method in [Method::Sdirk4, Method::Radau, Method::Series] {
-            for &accuracy in &self.depth.accuracies {
+            for &accuracy in &self.budget.accuracies {
                 let stepping = sim::Stepping { method, step: None };
                 let scene = Scene { accuracy, stepping, ..scene.clone() };
                 self.add(SettingFamily::Adaptive(method), "accuracy", accuracy, scene);
             }
         }
         for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
-            for &count in &self.depth.steps {
+            for &count in &self.budget.steps {
                 let stepping = sim::Stepping { method, step: Some(scene.end / f64::from(count)) };
-                let scene = Scene { accuracy: self.depth.fine, stepping, ..scene.clone() };
+                let scene = Scene { accuracy: self.budget.fine, stepping, ..scene.clone() };
                 self.add(SettingFamily::Fixed(method), "steps", f64::from(count), scene);
             }
         }

@@ -1,4 +1,4 @@
-//! What is run: settings on ladders, and how much of them a study may do.
+//! What a study runs: the list of settings, and the budget that limits it.
 
 pub(crate) mod budget;
 pub(crate) mod detail;

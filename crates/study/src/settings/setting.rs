@@ -1,53 +1,53 @@
-//! One way to run a scene.
+//! Settings: the scene with one foundation, one accuracy, one method.
 
 use sim::Method;
 
 use formats::scene::{Reading, Scene, stepper_word};
 
-/// What varies along a curve of a chart, everything else alike.
+/// A family of settings: the points of one curve of a chart, along which one parameter varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SettingFamily {
-    /// Rails that do not give, by accuracy.
+    /// Rigid rails, over accuracy.
     Rigid,
-    /// Chains of rigid parts, by their number.
+    /// Chains of rigid parts, over their number.
     Parts,
-    /// Influence without mass, by accuracy.
+    /// Influence surfaces without mass, over accuracy.
     Influence,
-    /// Natural modes with the static give of the others, by their number.
+    /// Natural modes with the residual flexibility of the others, over their number.
     Modal,
-    /// Natural modes alone, by their number.
+    /// Natural modes without residual flexibility, over their number.
     Pure,
-    /// All modes of a mesh, by elements a member.
+    /// All modes of a mesh, over the number of elements of a member.
     Mesh,
-    /// All modes of the mesh that "auto" takes as the top, by accuracy.
+    /// All modes of the mesh that is the highest fidelity of "auto", over accuracy.
     Full,
-    /// The scene's own foundations by one method, by accuracy.
+    /// The scene's own foundations by one method with adaptive steps, over accuracy.
     Adaptive(Method),
-    /// The scene's own foundations by steps of one length.
+    /// The scene's own foundations by one method with equal steps, over their number.
     Fixed(Method),
-    /// Influence read from tables, by stations a rail.
+    /// Influence coefficients read from tables, over the number of stations of a rail.
     Table(Reading),
-    /// The scene as it is written, or on the foundations that "auto" chose where it asks for that.
+    /// The scene as written; foundations that it leaves to "auto" are those that "auto" chose.
     Written,
     /// The foundations that "auto" chose, at the accuracy of its last run.
     Auto,
-    /// The scene as it is written, beside other methods on its own foundations.
+    /// The scene as written, compared with other methods on its own foundations.
     Stepping,
 }
 
-/// Which converged run errors are measured against.
+/// Kinds of converged references.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Against {
-    /// The structure with all that is known of it: its mass where it has one.
+    /// The most complete model of the structure: with mass where it has any.
     Whole,
     /// The scene's own foundations.
     Own,
-    /// The structure without mass, exactly.
+    /// The exact influence surface of the structure, without mass.
     Massless,
 }
 
 impl Against {
-    /// Its word in files.
+    /// The word of this kind in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -58,23 +58,23 @@ impl Against {
     }
 }
 
-/// One way to run a scene.
+/// One setting of a study: a scene with everything chosen.
 #[derive(Clone, Debug)]
 pub struct Setting {
     /// The curve it belongs to.
     pub family: SettingFamily,
-    /// What varies along the curve, in words, such as `accuracy`.
+    /// Name of the parameter that varies along the curve, such as `accuracy`.
     pub knob: &'static str,
-    /// Its value.
+    /// Value of this parameter.
     pub value: f64,
-    /// The scene with everything set.
+    /// The scene with this foundation, accuracy and method.
     pub scene: Scene,
-    /// Stations a rail of the tables that are read; `None`: those of the specs.
+    /// Number of stations of each rail of the tables that are read; `None`: those of the specs.
     pub stations: Option<usize>,
 }
 
 impl SettingFamily {
-    /// Its name in legends and files.
+    /// The name of the family in legends and files.
     #[must_use]
     pub fn name(self) -> String {
         match self {
@@ -94,7 +94,7 @@ impl SettingFamily {
         }
     }
 
-    /// What its errors are measured against.
+    /// The kind of reference that its errors are measured against.
     #[must_use]
     pub const fn against(self) -> Against {
         match self {
@@ -104,7 +104,7 @@ impl SettingFamily {
         }
     }
 
-    /// Whether its modes are to leave out the static give of the others.
+    /// Whether the residual flexibility is left out.
     #[must_use]
     pub const fn is_pure(self) -> bool {
         matches!(self, SettingFamily::Pure)
@@ -112,7 +112,7 @@ impl SettingFamily {
 }
 
 impl Setting {
-    /// In words, such as `modal, 4 modes`.
+    /// The setting in words, such as `modal, modes 4`.
     #[must_use]
     pub fn label(&self) -> String {
         let Setting { family, knob, value, .. } = self;

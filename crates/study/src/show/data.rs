@@ -1,4 +1,4 @@
-//! A study as JSON and CSV; times apart.
+//! A study as JSON and CSV. Times stand in files of their own: they differ between runs.
 
 use serde_json::{Map, Value, json};
 
@@ -12,16 +12,16 @@ use crate::settings::setting::SettingFamily;
 use formats::scene::Scene;
 use results::record::bytes;
 
-/// `study.json`: everything but times.
+/// `study.json`: everything except times.
 #[must_use]
-pub fn json(study: &Study, scene: &Scene, depth: &StudyBudget) -> Value {
+pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
     let fronts = fronts(study, &stages);
     let points = study.points.iter().enumerate();
     json!({
         "format": "girderway-study/1",
         "name": scene.name,
-        "resolution": depth.resolution,
-        "limit": depth.limit,
+        "resolution": budget.resolution,
+        "limit": budget.limit,
         "until": study.until,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
         "lost": study.lost.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
@@ -32,11 +32,12 @@ pub fn json(study: &Study, scene: &Scene, depth: &StudyBudget) -> Value {
             }
             Err(why) => json!({ "why": why }),
         },
-        "dearer_by_stages": dearer(study, &stages),
+        "dearer_by_stages": excess_costs(study, &stages),
         "settings": points.map(|(k, own)| setting(own, &on(&fronts, k))).collect::<Vec<_>>(),
     })
 }
 
+/// A reference with its resolution in each group.
 fn reference(own: &ConvergedReference) -> Value {
     let each = |value: &dyn Fn(usize) -> Option<f64>| {
         let all = ErrorGroup::ALL.iter().enumerate();
@@ -54,6 +55,7 @@ fn reference(own: &ConvergedReference) -> Value {
     })
 }
 
+/// A setting with its outcome and the groups on whose front it is.
 fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
     let StudyPoint { setting, outcome } = point;
     let structures = setting.scene.structures.iter().map(|own| (own.name.clone(), json!(foundation(own))));
@@ -92,7 +94,8 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
     out
 }
 
-/// By how much the points of `family` are dearer than the cheapest that errs no more, by quantity: 1 on the front.
+/// Ratio of the cost of the first point of `family` to that of the cheapest setting with no larger error, for each
+/// group of columns: 1 on the Pareto front. Errors below the resolution of the reference count as equal to it.
 #[must_use]
 pub fn excesses(
     study: &Study,
@@ -113,8 +116,8 @@ pub fn excesses(
     ErrorGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// The same as JSON, for the scene as written (by foundations and by methods) and for what "auto" chose.
-fn dearer(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
+/// The same as JSON, for the scene as written (among foundations and among methods) and for the choice of "auto".
+fn excess_costs(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
     let of = |family: SettingFamily| {
         let all = excesses(study, family, cost).into_iter();
         Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
@@ -122,13 +125,13 @@ fn dearer(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
     json!({ "as written": of(SettingFamily::Written), "auto": of(SettingFamily::Auto), "stepping": of(SettingFamily::Stepping) })
 }
 
-/// Contact solutions of a point.
+/// Cost of a point as its number of contact solutions, where it ran to its end.
 #[must_use]
 pub fn stages(point: &StudyPoint) -> Option<f64> {
     Some(point.measured()?.counts.stages as f64)
 }
 
-/// Which points are on the front of each quantity by `cost`, among those of one reference.
+/// Indices of the points on the Pareto front of each group by `cost`, among the points of one reference.
 fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<usize>> {
     let of = |quantity: ErrorGroup| {
         let mut kept = Vec::new();
@@ -148,12 +151,13 @@ fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<u
     ErrorGroup::ALL.map(of).to_vec()
 }
 
+/// Words of the groups on whose front a point is.
 fn on(fronts: &[Vec<usize>], point: usize) -> Vec<&'static str> {
     let all = ErrorGroup::ALL.iter().zip(fronts);
     all.filter(|(_, own)| own.contains(&point)).map(|(quantity, _)| quantity.word()).collect()
 }
 
-/// `timing.json`: times of runs, in seconds that the thread worked.
+/// `timing.json`: thread times of runs, s.
 #[must_use]
 pub fn timing_json(study: &Study) -> Value {
     let fronts = fronts(study, &StudyPoint::seconds);
@@ -173,7 +177,7 @@ pub fn timing_json(study: &Study) -> Value {
     let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
     json!({
         "clock": if cfg!(unix) { "time that the thread worked, s" } else { "time, s" },
-        "dearer": dearer(study, &StudyPoint::seconds),
+        "dearer": excess_costs(study, &StudyPoint::seconds),
         "settings": points.collect::<Vec<_>>(),
         "auto_with_its_trials": trials.map(|own| json!({
             "median": own.median, "least": own.least, "most": own.most, "repetitions": own.count,
@@ -181,7 +185,7 @@ pub fn timing_json(study: &Study) -> Value {
     })
 }
 
-/// `study.csv`: a row a setting, without times.
+/// `study.csv`: one row for each setting, without times.
 ///
 /// # Errors
 /// None in practice: memory takes every byte.
@@ -226,7 +230,7 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     bytes(writer)
 }
 
-/// `timing.csv`: a row a setting that ran, ms.
+/// `timing.csv`: one row for each setting that ran to its end; times in ms.
 ///
 /// # Errors
 /// None in practice: memory takes every byte.

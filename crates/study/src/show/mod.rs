@@ -1,4 +1,4 @@
-//! A study as data and as pictures.
+//! Output of a study: data files and charts.
 
 pub(crate) mod data;
 pub(crate) mod picture;

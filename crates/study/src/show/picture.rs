@@ -1,4 +1,4 @@
-//! Charts of a study.
+//! Charts of a study: error against cost, with the Pareto front.
 
 use crate::measure::front::front;
 use crate::measure::quantity::ErrorGroup;
@@ -7,51 +7,54 @@ use crate::runs::point::{PointOutcome, StudyPoint};
 use crate::settings::setting::{Against, SettingFamily};
 use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
 
-/// A picture, and whether equal studies may differ in it: it has times.
+/// A picture of a study.
 #[derive(Clone, Debug)]
 pub struct StudyPicture {
-    /// Its name in the folder `plots`, without ending.
+    /// Its file name in the folder `plots`, without extension.
     pub name: String,
     /// The SVG file.
     pub svg: String,
-    /// Whether times are in it.
+    /// Whether it shows times, in which equal studies differ.
     pub varies: bool,
 }
 
-/// What is along x.
+/// The quantity along x.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Cost {
     /// Median time of a run, ms.
     Time,
-    /// Contact solutions in stages.
+    /// Number of contact solutions.
     Stages,
     /// Memory of foundations and run, kB.
     Memory,
-    /// What varies along each curve.
+    /// The parameter that varies along each curve.
     Knob,
 }
 
-/// Which families a chart shows.
-type Takes = fn(SettingFamily) -> bool;
+/// Whether a chart shows a family.
+type Filter = fn(SettingFamily) -> bool;
 
+/// Families that vary the foundation.
 fn is_foundation(family: SettingFamily) -> bool {
     family.against() == Against::Whole && !matches!(family, SettingFamily::Written | SettingFamily::Auto)
 }
 
+/// Families that vary the method of integration.
 fn is_method(family: SettingFamily) -> bool {
     family.against() == Against::Own
 }
 
+/// Families that read tables.
 fn is_table(family: SettingFamily) -> bool {
     matches!(family, SettingFamily::Table(_))
 }
 
-/// All charts of a study: each is a file with a chart a quantity, below each other.
+/// All pictures of a study: each has one chart for each group of columns, below each other.
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
 pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
-    let all: [(&str, &str, Takes, Cost); 10] = [
+    let all: [(&str, &str, Filter, Cost); 10] = [
         ("foundations-time", "foundations", is_foundation, Cost::Time),
         ("foundations-stages", "foundations", is_foundation, Cost::Stages),
         ("foundations-memory", "foundations", is_foundation, Cost::Memory),
@@ -64,10 +67,10 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
         ("elements", "elements", |own| own == SettingFamily::Mesh, Cost::Knob),
     ];
     let mut out = Vec::new();
-    for (file, what, takes, cost) in all {
+    for (file, what, is_shown, cost) in all {
         let mut charts = Vec::new();
         for quantity in ErrorGroup::ALL {
-            if let Some(chart) = chart(study, name, what, takes, cost, quantity) {
+            if let Some(chart) = chart(study, name, what, is_shown, cost, quantity) {
                 charts.push(chart.svg()?);
             }
         }
@@ -79,7 +82,7 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
     Ok(out)
 }
 
-/// Cost of a point, where it has one.
+/// Cost of a point, where it ran to its end and has one.
 fn cost_of(point: &StudyPoint, cost: Cost) -> Option<f64> {
     let measured = point.measured()?;
     let value = match cost {
@@ -91,30 +94,70 @@ fn cost_of(point: &StudyPoint, cost: Cost) -> Option<f64> {
     (value > 0.0).then_some(value)
 }
 
-/// One chart; `None` where nothing can be drawn.
+/// One chart; `None` where there is nothing to draw: no such settings, no reference, or no error that it resolves.
 fn chart(
     study: &Study,
     name: &str,
     what: &str,
-    takes: Takes,
+    is_shown: Filter,
     cost: Cost,
     quantity: ErrorGroup,
 ) -> Option<Chart> {
-    let shown = || study.points.iter().filter(|point| takes(point.setting.family));
-    let against = shown().next()?.setting.family.against();
+    let shown: Vec<&StudyPoint> =
+        study.points.iter().filter(|point| is_shown(point.setting.family)).collect();
+    let first = &shown.first()?.setting;
+    let against = first.family.against();
     let reference = study.reference(against)?;
     let least = reference.resolution_of(quantity)?;
-    // errors below what the reference can tell stand at that line
+    // errors below the resolution of the reference are drawn at this resolution
     let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
-    let knob = shown().next()?.setting.knob;
-    let x = match cost {
+    let title = title(study, name, what, cost, first.knob, quantity);
+    let x = cost_axis(cost, first.knob);
+    let mut chart = Chart::new(title, x.log(), ChartAxis::new("largest error / largest value", "").log());
+    let mut all = add_curves(&mut chart, &shown, cost, &place);
+    if all.iter().all(|own| own[1] <= least) {
+        return None;
+    }
+    if cost != Cost::Knob {
+        marks(study, &mut chart, &mut all, cost, against, &place);
+        // first: below the points, and in the darkest colour
+        chart.series.insert(0, Series::new("Pareto front", Style::Step, front(&all)));
+    }
+    let low = all.iter().map(|own| own[0]).fold(f64::INFINITY, f64::min);
+    let high = all.iter().map(|own| own[0]).fold(0.0, f64::max);
+    chart.series.push(Series::new(
+        "what the reference tells",
+        Style::Limit,
+        vec![[low, least], [high, least]],
+    ));
+    let unfinished = shown.iter().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
+    chart.note = format!(
+        "Largest difference at an output time by the largest value there is; points on the dashed line err by no more than that. \
+         Reference: {}; beside it {}: {:.1e} apart.",
+        reference.words[0],
+        reference.words[1],
+        least / crate::runs::reference::MARGIN
+    );
+    if unfinished > 0 {
+        chart.note += &format!(" {unfinished} settings refused or stopped: see study.json.");
+    }
+    Some(chart)
+}
+
+/// The axis of a cost.
+fn cost_axis(cost: Cost, knob: &str) -> ChartAxis {
+    match cost {
         Cost::Time => ChartAxis::new("time of a run (median; bar: least to most)", "ms"),
         Cost::Stages => ChartAxis::new("contact solutions", ""),
         Cost::Memory => ChartAxis::new("memory of foundations and run", "kB"),
         Cost::Knob if knob == "stations" => ChartAxis::new("stations a rail", ""),
         Cost::Knob if knob == "elements" => ChartAxis::new("elements a member", ""),
         Cost::Knob => ChartAxis::new(knob, ""),
-    };
+    }
+}
+
+/// The title of a chart.
+fn title(study: &Study, name: &str, what: &str, cost: Cost, knob: &str, quantity: ErrorGroup) -> String {
     let mut title = format!("{name}: error of the {} against ", quantity.name());
     title += match cost {
         Cost::Time => "time",
@@ -128,16 +171,26 @@ fn chart(
     if let Some(time) = study.until {
         title += &format!(", until {time} s");
     }
-    let mut chart = Chart::new(title, x.log(), ChartAxis::new("largest error / largest value", "").log());
+    title
+}
+
+/// Adds one curve for each family, and returns the points of all.
+fn add_curves(
+    chart: &mut Chart,
+    shown: &[&StudyPoint],
+    cost: Cost,
+    place: &dyn Fn(&StudyPoint) -> Option<[f64; 2]>,
+) -> Vec<[f64; 2]> {
     let mut families: Vec<SettingFamily> = Vec::new();
-    for point in shown() {
+    for point in shown {
         if !families.contains(&point.setting.family) {
             families.push(point.setting.family);
         }
     }
     let mut all: Vec<[f64; 2]> = Vec::new();
     for family in families {
-        let own: Vec<&StudyPoint> = shown().filter(|point| point.setting.family == family).collect();
+        let own: Vec<&StudyPoint> =
+            shown.iter().copied().filter(|point| point.setting.family == family).collect();
         let points: Vec<[f64; 2]> = own.iter().filter_map(|point| place(point)).collect();
         if points.is_empty() {
             continue;
@@ -152,37 +205,10 @@ fn chart(
         all.extend(points);
         chart.series.push(series);
     }
-    // nothing but points that the reference cannot tell from it
-    if all.iter().all(|own| own[1] <= least) {
-        return None;
-    }
-    if cost != Cost::Knob {
-        marks(study, &mut chart, &mut all, cost, against, &place);
-        // first: under the points, and in the darkest ink
-        chart.series.insert(0, Series::new("Pareto front", Style::Step, front(&all)));
-    }
-    let low = all.iter().map(|own| own[0]).fold(f64::INFINITY, f64::min);
-    let high = all.iter().map(|own| own[0]).fold(0.0, f64::max);
-    chart.series.push(Series::new(
-        "what the reference tells",
-        Style::Limit,
-        vec![[low, least], [high, least]],
-    ));
-    let gone = shown().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
-    chart.note = format!(
-        "Largest difference at an output time by the largest value there is; points on the dashed line err by no more than that. \
-         Reference: {}; beside it {}: {:.1e} apart.",
-        reference.words[0],
-        reference.words[1],
-        least / crate::runs::reference::MARGIN
-    );
-    if gone > 0 {
-        chart.note += &format!(" {gone} settings refused or stopped: see study.json.");
-    }
-    Some(chart)
+    all
 }
 
-/// The scene as written and what "auto" chose, on charts against the reference that tells of both.
+/// Adds the scene as written and the choice of "auto", on charts against the most complete reference.
 fn marks(
     study: &Study,
     chart: &mut Chart,

@@ -1,4 +1,10 @@
-//! Stiffness by give against divergence: how contact forces are found.
+//! Methods that solve for contact forces at rest, against the product of wheel stiffness and rail compliance.
+//!
+//! The exact forces of wheels on springs k solve (G + I/k) F = d, with the compliance G of the rail at the wheels and
+//! the imposed displacements d. Three methods that iterate instead are compared with it: a fixed point F <- k (d - G
+//! F) over all wheels at once, the same wheel by wheel with the newest forces ("staggered"), and a time integration
+//! in which the rail deflects under the forces of the step before. All three converge only where k times the largest
+//! eigenvalue of G is less than about 1.
 
 use nalgebra::{DMatrix, DVector};
 use sim::Instant;
@@ -9,54 +15,58 @@ use super::subject::MapSubject;
 use formats::units::Dimension;
 use report::chart::{Series, Style};
 
-/// Passes of an iteration that then takes what it has.
+/// Methods, in the order of layers.
+const METHODS: [&str; 4] = ["fixed point", "staggered", "lag of one step", "girderway, direct"];
+/// Passes after which an iteration stops with the forces that it has.
 const PASSES: usize = 50;
-/// Error that is none, and one that nobody overlooks.
+/// Largest relative error that counts as right, and the smallest that no user overlooks.
 const ALLOWED: f64 = 1e-6;
 const OBVIOUS: f64 = 1e2;
 
-/// Error of `PASSES` passes of F <- k (d - G F) from nothing: all wheels at once, or each with the newest forces.
-fn iterated(give: &DMatrix<f64>, k: f64, wanted: &DVector<f64>, at_once: bool) -> f64 {
-    let n = wanted.len();
-    let d = give * wanted + wanted / k;
+/// Relative error of the forces after `PASSES` passes of F <- k (d - G F) from F = 0, either of all wheels at once or
+/// wheel by wheel with the newest forces; `exact` are the forces that solve the equation.
+fn iterated(compliance: &DMatrix<f64>, k: f64, exact: &DVector<f64>, at_once: bool) -> f64 {
+    let n = exact.len();
+    let d = compliance * exact + exact / k;
     let mut forces = DVector::zeros(n);
     for _ in 0..PASSES {
         if at_once {
-            forces = (&d - give * &forces) * k;
+            forces = (&d - compliance * &forces) * k;
         } else {
             for i in 0..n {
-                let own: f64 = (0..n).map(|j| give[(i, j)] * forces[j]).sum();
+                let own: f64 = (0..n).map(|j| compliance[(i, j)] * forces[j]).sum();
                 forces[i] = k * (d[i] - own);
             }
         }
     }
-    (forces - wanted).amax() / wanted.amax()
+    (forces - exact).amax() / exact.amax()
 }
 
-/// Error of the force on a mass at rest after `PASSES` steps of length h, the rail's deflection that of the force one step
-/// ago; it starts a thousandth off.
-fn lagged(give: f64, k: f64, mass: f64, load: f64, h: f64) -> f64 {
-    let mut z = load * (give + 1.0 / k);
+/// Relative error of the force on a mass at rest after `PASSES` steps of length h, in which the rail deflects under
+/// the force of the step before. The force starts a thousandth above its exact value `load`.
+fn lagged(compliance: f64, k: f64, mass: f64, load: f64, h: f64) -> f64 {
+    let mut z = load * (compliance + 1.0 / k);
     let (mut v, mut force) = (0.0, 1.001 * load);
     for _ in 0..PASSES {
-        force = k * (z - give * force);
+        force = k * (z - compliance * force);
         v += h * (load - force) / mass;
         z += h * v;
     }
     (force - load).abs() / load
 }
 
-/// Error of the program's forces, or its message.
-fn ours(
+/// Largest residual of (G + I/k) F = d for the forces F that the simulator solves for, relative to d; its message
+/// where it refuses.
+fn residual_of_simulator(
     subject: &MapSubject<'_>,
     offsets: &[f64],
     k: f64,
     x: f64,
-    give: &DMatrix<f64>,
+    compliance: &DMatrix<f64>,
 ) -> Result<f64, String> {
-    let wanted = DVector::from_element(offsets.len(), subject.load);
-    let d = (give * &wanted)[0] + subject.load / k;
-    // a body that neither turns nor tilts has one displacement: forces of it, not of even loads
+    let even = DVector::from_element(offsets.len(), subject.load);
+    let d = (compliance * &even)[0] + subject.load / k;
+    // the body neither pitches nor rolls: all wheels have the same displacement d, and their loads are not even
     let law = subject.linear(k, 0.0);
     let scene = subject.crossing(subject.mass(), offsets, law, [x, 0.0, 1.0]).map_err(|e| e.to_string())?;
     let mut displacement = [0.0; 6];
@@ -68,18 +78,77 @@ fn ours(
         spin: vec![0.0; offsets.len()],
         penetration: vec![None; offsets.len()],
     };
-    let found =
+    let solved =
         sim::contact_forces(&scene, &[subject.foundation()], &[instant]).map_err(|e| e.to_string())?;
-    let forces = DVector::from_vec(found.into_iter().next().map(|own| own.vertical).unwrap_or_default());
+    let forces = DVector::from_vec(solved.into_iter().next().map(|own| own.vertical).unwrap_or_default());
     if forces.len() != offsets.len() {
         return Err("no forces".to_owned());
     }
-    // what is left of (G + I/k) F = d
-    let left = give * &forces + &forces / k - DVector::from_element(offsets.len(), d);
-    Ok(left.amax() / d.abs())
+    let residual = compliance * &forces + &forces / k - DVector::from_element(offsets.len(), d);
+    Ok(residual.amax() / d.abs())
 }
 
-/// The map.
+/// The compliance of the rail under some wheels, and its largest eigenvalue.
+fn compliance_at(subject: &MapSubject<'_>, offsets: &[f64], x: f64) -> Option<(DMatrix<f64>, f64)> {
+    let at: Vec<f64> = offsets.iter().map(|own| x + own).collect();
+    let compliance = subject.give(subject.surface, &at)?;
+    let largest = compliance.clone().symmetric_eigenvalues().amax();
+    Some((compliance, largest))
+}
+
+/// Errors of the four methods of [`METHODS`] for wheels of the stiffness `k` at the place `x`.
+fn errors(
+    subject: &MapSubject<'_>,
+    offsets: &[f64],
+    k: f64,
+    x: f64,
+    compliance: &DMatrix<f64>,
+) -> [Result<f64, String>; 4] {
+    let exact = DVector::from_element(offsets.len(), subject.load);
+    let count = offsets.len() as f64;
+    [
+        Ok(iterated(compliance, k, &exact, true)),
+        Ok(iterated(compliance, k, &exact, false)),
+        Ok(lagged(compliance.mean(), k * count, subject.mass() * count, subject.load * count, 1e-4)),
+        residual_of_simulator(subject, offsets, k, x, compliance),
+    ]
+}
+
+/// The layers of all methods for wheels at `offsets`, which the map calls `who`.
+fn layers(
+    subject: &MapSubject<'_>,
+    who: &str,
+    offsets: &[f64],
+    places: &[f64],
+    stiffnesses: &[f64],
+) -> Vec<Layer> {
+    let mut layers: Vec<Layer> = METHODS
+        .iter()
+        .map(|name| Layer::new(format!("{name}, {who}"), name.starts_with("girderway")))
+        .collect();
+    let mut line = Vec::new();
+    for &x in places {
+        let Some((compliance, largest)) = compliance_at(subject, offsets, x) else { continue };
+        line.push([x, 1.0 / largest]);
+        for &k in stiffnesses {
+            let all = errors(subject, offsets, k, x, &compliance);
+            for (index, (layer, result)) in layers.iter_mut().zip(all).enumerate() {
+                // the lagged run starts a thousandth off: it need not have come to rest, but must not have grown
+                let allowed = if index == 2 { 1e-3 } else { ALLOWED };
+                let (value, verdict) = match result {
+                    Ok(error) => (error, MapVerdict::of(error, allowed, OBVIOUS)),
+                    Err(why) => (0.0, MapVerdict::Refused(why)),
+                };
+                layer.cells.push(MapPoint { at: [x, k], value: finite(value), verdict });
+            }
+        }
+    }
+    let line = Series::new("k G = 1", Style::Line, within(line, stiffnesses));
+    layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
+    layers
+}
+
+/// The map of wheel stiffness against place, for one wheel and, where the scene's truck has several, for the truck.
 #[must_use]
 pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let axes = [
@@ -97,79 +166,35 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let places: Vec<f64> =
         (0..points).map(|i| subject.span[0] + subject.length() * (i as f64 + 0.5) / points as f64).collect();
     for (who, offsets) in both.iter().take(if subject.offsets.len() > 1 { 2 } else { 1 }) {
-        let of = |x: f64| {
-            let at: Vec<f64> = offsets.iter().map(|own| x + own).collect();
-            let give = subject.give(subject.surface, &at)?;
-            let largest = give.clone().symmetric_eigenvalues().amax();
-            Some((give, largest))
-        };
+        let gain = |x: f64| Some(subject.stiffness * compliance_at(subject, offsets, x)?.1);
         let mid = 0.5 * (subject.span[0] + subject.span[1]);
-        if let Some((_, largest)) = of(mid) {
-            map.find(
-                format!("{who}: k times the largest eigenvalue of G at midspan"),
-                subject.stiffness * largest,
-            );
+        if let Some(gain) = gain(mid) {
+            map.find(format!("{who}: k times the largest eigenvalue of G at midspan"), gain);
         }
-        if let Some(x) = reach(subject, &|x| of(x).map_or(f64::NAN, |own| subject.stiffness * own.1)) {
+        if let Some(x) = first_crossing_of_one(subject, &|x| gain(x).unwrap_or(f64::NAN)) {
             map.find(format!("{who}: distance from the support where it is 1"), x);
         }
-        let methods = ["fixed point", "staggered", "lag of one step", "girderway, direct"];
-        let mut layers: Vec<Layer> = methods
-            .iter()
-            .map(|name| Layer::new(format!("{name}, {who}"), name.starts_with("girderway")))
-            .collect();
-        let mut line = Vec::new();
-        for &x in &places {
-            let Some((give, largest)) = of(x) else { continue };
-            line.push([x, 1.0 / largest]);
-            let wanted = DVector::from_element(offsets.len(), subject.load);
-            for &k in &stiffnesses {
-                let load = subject.load * offsets.len() as f64;
-                let found = [
-                    Ok(iterated(&give, k, &wanted, true)),
-                    Ok(iterated(&give, k, &wanted, false)),
-                    Ok(lagged(
-                        give.mean(),
-                        k * offsets.len() as f64,
-                        subject.mass() * offsets.len() as f64,
-                        load,
-                        1e-4,
-                    )),
-                    ours(subject, offsets, k, x, &give),
-                ];
-                for (index, (layer, found)) in layers.iter_mut().zip(found).enumerate() {
-                    // what a lag leaves of its start: it need not have come to rest, but not have grown
-                    let allowed = if index == 2 { 1e-3 } else { ALLOWED };
-                    let (value, verdict) = match found {
-                        Ok(error) => (error, MapVerdict::of(error, allowed, OBVIOUS)),
-                        Err(why) => (0.0, MapVerdict::Refused(why)),
-                    };
-                    layer.cells.push(MapPoint { at: [x, k], value: finite(value), verdict });
-                }
-            }
-        }
-        let line = Series::new("k G = 1", Style::Line, inside(line, &stiffnesses));
-        layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
-        map.layers.extend(layers);
+        map.layers.extend(layers(subject, who, offsets, &places, &stiffnesses));
     }
     map
 }
 
-/// The points of a line between the least and the largest of `values`.
-fn inside(line: Vec<[f64; 2]>, values: &[f64]) -> Vec<[f64; 2]> {
+/// The points of a line whose ordinates lie between the first and the last of the ascending `values`.
+fn within(line: Vec<[f64; 2]>, values: &[f64]) -> Vec<[f64; 2]> {
     let (low, high) = (values.first().copied().unwrap_or(0.0), values.last().copied().unwrap_or(f64::MAX));
     line.into_iter().filter(|own| (low..=high).contains(&own[1])).collect()
 }
 
-/// Distance from the first support to where `value` first reaches 1.
-fn reach(subject: &MapSubject<'_>, value: &dyn Fn(f64) -> f64) -> Option<f64> {
+/// Distance from the first support at which `value`, which grows towards midspan, reaches 1, by bisection; `None`
+/// where it does not cross 1 between support and midspan.
+fn first_crossing_of_one(subject: &MapSubject<'_>, value: &dyn Fn(f64) -> f64) -> Option<f64> {
     let mid = 0.5 * subject.length();
     let (mut low, mut high) = (0.0, mid);
-    let at = |share: f64| value(subject.span[0] + share);
-    let starts_below = at(low) < 1.0 && at(high) > 1.0;
+    let at = |distance: f64| value(subject.span[0] + distance);
+    let is_bracketed = at(low) < 1.0 && at(high) > 1.0;
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
         if at(middle) < 1.0 { low = middle } else { high = middle }
     }
-    starts_below.then_some(low)
+    is_bracketed.then_some(low)
 }

@@ -5,7 +5,7 @@ use serde_json::{Map as Object, Value, json};
 use super::map::{Layer, MapVerdict, StabilityMap};
 use results::record::bytes;
 
-/// `stability.json`: counts, numbers found and messages of every map, and why others are absent.
+/// `stability.json`: counts of verdicts, single numbers and messages of every map, and the reasons of absent ones.
 #[must_use]
 pub fn json(maps: &[StabilityMap], absent: &[(String, String)]) -> Value {
     let points = |ours: bool| {
@@ -23,14 +23,14 @@ pub fn json(maps: &[StabilityMap], absent: &[(String, String)]) -> Value {
 
 fn map(own: &StabilityMap) -> Value {
     let axis = |k: usize| json!({ "label": own.axes[k].label, "unit": own.axes[k].unit });
-    let found = own.findings.iter().map(|finding| json!({ "what": finding.what, "value": finding.value }));
+    let findings = own.findings.iter().map(|finding| json!({ "what": finding.what, "value": finding.value }));
     json!({
         "name": own.name,
         "title": own.title,
         "note": own.note,
         "x": axis(0),
         "y": axis(1),
-        "measured": found.collect::<Vec<_>>(),
+        "measured": findings.collect::<Vec<_>>(),
         "methods": own.layers.iter().map(layer).collect::<Vec<_>>(),
     })
 }
@@ -54,7 +54,7 @@ fn layer(own: &Layer) -> Value {
     })
 }
 
-/// `stability.csv`: a row a point.
+/// `stability.csv`: one row for each point.
 ///
 /// # Errors
 /// None in practice: memory takes every byte.

@@ -1,4 +1,10 @@
-//! A rigid mass on a beam without mass (Willis and Stokes): where contact is lost.
+//! Loss of contact of a rigid mass that crosses a beam without mass (the problem of Willis and Stokes).
+//!
+//! The beam deflects by y = g(s) F under the mass, at the fraction s = v t / L of the span. With y and F relative to
+//! the static midspan deflection S = P L^3 / 48 E I and to the weight P, the motion is y'' = 16 beta (1 - F), beta =
+//! g L^2 / (16 v^2 S). For small beta the force becomes negative before the end of the span: the mass leaves the
+//! rail. A simulator whose contact can pull continues silently; one with a one-sided contact loses it at the same
+//! place.
 
 use std::ops::ControlFlow;
 
@@ -9,34 +15,36 @@ use super::steps::spread;
 use super::subject::MapSubject;
 use report::chart::{Series, Style};
 
-/// Error of the largest midspan deflection, by the static one, that is none.
+/// Error of the largest midspan deflection relative to the static one that counts as right, and one that is never
+/// reached: this map knows no divergence.
 const ALLOWED: f64 = 2e-3;
 const OBVIOUS: f64 = 1e3;
-/// Steps over the span of the reference.
+/// Runge-Kutta steps of the reference over the span.
 const STEPS: usize = 40_000;
-/// Where a passage ends, as a share of the span, and its samples.
+/// Fraction of the span at which a passage ends, and the number of its samples.
 const LAST: f64 = 0.98;
 const SAMPLES: f64 = 4000.0;
-/// Stiffness of a wheel by that of the span: as good as rigid.
+/// Stiffness of a wheel relative to that of the span at midspan: practically rigid.
 const RIGID: f64 = 3e4;
 
-/// Largest midspan deflection by the static one S = P L^3 / 48 E I as long as the force has not turned negative, and the
-/// share of the span at which it does (1 where it does not).
+/// One passage of the mass.
 #[derive(Clone, Copy, Debug)]
 struct Passage {
+    /// Largest midspan deflection relative to the static one S, before contact is lost.
     factor: f64,
+    /// Fraction of the span at which the force becomes negative; 1 where it does not.
     lost: f64,
 }
 
-/// Give at the share x of a simply supported span under a force at z, by that at midspan under one there.
-fn give(x: f64, z: f64) -> f64 {
+/// Deflection at x under a force at z, both fractions of a simply supported span, relative to the deflection at
+/// midspan under the same force there.
+fn flexibility(x: f64, z: f64) -> f64 {
     let (a, c) = if x < z { (x, z) } else { (z, x) };
     let q = 1.0 - c;
     8.0 * a * q * (1.0 - a * a - q * q)
 }
 
-/// The passage by a fixed fine step: y'' = 16 beta (1 - F), F = y / g(s), y and F by S and the weight, s the share of the
-/// span as time.
+/// The passage by Runge-Kutta 4 with [`STEPS`] equal steps: y'' = 16 beta (1 - F), F = y / g(s).
 ///
 /// # Source
 /// G. G. Stokes, Discussion of a differential equation relating to the breaking of railway bridges, Trans. Cambridge
@@ -44,11 +52,11 @@ fn give(x: f64, z: f64) -> f64 {
 fn reference(beta: f64) -> Passage {
     let h = 1.0 / STEPS as f64;
     let force = |s: f64, y: f64| {
-        let own = give(s, s);
+        let own = flexibility(s, s);
         if own > 1e-12 { y / own } else { 1.0 }
     };
     let slope = |s: f64, [y, v]: [f64; 2]| [v, 16.0 * beta * (1.0 - force(s, y))];
-    // near the support g = 16 s^2: a path that begins level has y = 16 F s^2, so 32 F = 16 beta (1 - F)
+    // near the support g = 16 s^2 (0/0 in F): a path that begins level has y = 16 F s^2, so 32 F = 16 beta (1 - F)
     let mut s = (1e-3 / h).round() * h;
     let own = beta / (beta + 2.0);
     let mut state = [16.0 * own * s * s, 32.0 * own * s];
@@ -67,20 +75,21 @@ fn reference(beta: f64) -> Passage {
             out.lost = s;
             break;
         }
-        out.factor = out.factor.max(force(s, state[0]) * give(0.5, s));
+        out.factor = out.factor.max(force(s, state[0]) * flexibility(0.5, s));
     }
     out
 }
 
-/// The same by the program, on a stiff wheel that `pulls` (or not); least force by the weight.
-fn ours(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
+/// The passage by the simulator, on a stiff wheel whose contact can pull where `pulls`, and the smallest force
+/// relative to the weight.
+fn simulated(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
     let length = subject.length();
     let mid = 0.5 * (subject.span[0] + subject.span[1]);
-    let give = subject.at(mid);
+    let midspan = subject.at(mid);
     let mass = subject.mass();
-    let speed = (subject.gravity * length * length / (16.0 * beta * subject.load * give)).sqrt();
-    let stiffness = RIGID / give;
-    // the wheel itself is not to ring
+    let speed = (subject.gravity * length * length / (16.0 * beta * subject.load * midspan)).sqrt();
+    let stiffness = RIGID / midspan;
+    // half of critical damping: oscillations of the wheel itself decay
     let damping = (stiffness * mass).sqrt();
     let law =
         sim::NormalLaw { bilateral: pulls, damper: sim::Damper::Rail, ..subject.linear(stiffness, damping) };
@@ -94,7 +103,7 @@ fn ours(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f6
     if run.status != Status::Done {
         return Err(results::run_error::status(&run.status).1.unwrap_or_default());
     }
-    let statical = subject.load * give;
+    let static_deflection = subject.load * midspan;
     let forces = run.history.column(Channel::Vertical(0));
     let first = forces.iter().position(|force| *force <= 0.0);
     let gauge = run.history.column(Channel::Gauge(0));
@@ -102,10 +111,10 @@ fn ours(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f6
     let deepest = until.fold(0.0_f64, |most, own| most.max(-own));
     let lost = first.map_or(1.0, |at| LAST * at as f64 / (forces.len() - 1) as f64);
     let least = forces.iter().fold(f64::MAX, |least, own| least.min(*own)) / subject.load;
-    Ok((Passage { factor: deepest / statical, lost }, least))
+    Ok((Passage { factor: deepest / static_deflection, lost }, least))
 }
 
-/// The map.
+/// The map of the place where contact is lost against beta, and factors at five values of beta as numbers.
 #[must_use]
 pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let axes = [
@@ -122,7 +131,7 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     );
     for beta in [100.0, 25.0, 10.0, 5.0, 2.0] {
         let right = reference(beta);
-        let own = ours(subject, beta, false);
+        let own = simulated(subject, beta, false);
         for (who, passage) in [("Stokes", Some(right)), ("girderway", own.ok().map(|own| own.0))] {
             let Some(passage) = passage else { continue };
             map.find(format!("{who}: factor at beta {beta}"), passage.factor);
@@ -138,7 +147,7 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         let right = reference(beta);
         lost.push([beta, right.lost]);
         for (layer, pulls) in layers.iter_mut().zip([true, false]) {
-            let (at, value, verdict) = match ours(subject, beta, pulls) {
+            let (at, value, verdict) = match simulated(subject, beta, pulls) {
                 Ok((own, least)) => {
                     let apart = (own.factor - right.factor).abs().max(0.2 * (own.lost - right.lost).abs());
                     let error = if least < -1e-6 { 1.0 } else { apart };

@@ -1,28 +1,46 @@
-//! A map of where methods work and where they fail.
+//! Maps of where methods work and where they fail: one layer a method, one verdict a point.
+//!
+//! # Example
+//! ```
+//! use study::stability::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+//!
+//! // Explicit Euler on z' = -z: its factor per step is 1 - h, so that it diverges for h > 2.
+//! let axes = [MapScale::new("step", "s", false), MapScale::new("amplification", "", false)];
+//! let mut map = StabilityMap::new("euler", "Explicit Euler", axes, "Wrong where the solution grows.");
+//! let cells = [0.5_f64, 1.5, 2.5].map(|h| {
+//!     let value = (1.0 - h).abs();
+//!     MapPoint { at: [h, value], value, verdict: MapVerdict::of(value, 1.0, 10.0) }
+//! });
+//! map.layers.push(Layer::new("explicit Euler", false).with(cells.to_vec()));
+//! map.find("largest stable step, s", 2.0);
+//!
+//! assert_eq!(map.layers[0].counts(), [2, 1, 0, 0, 0]);
+//! assert_eq!(map.silent(), 0, "no layer is the program's own");
+//! ```
 
 use report::chart::Series;
 
-/// What a method gave at a point.
+/// Judgement of what a method returns at a point.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MapVerdict {
-    /// What it should.
+    /// The method is right.
     Right,
-    /// Numbers that look like any others, and are not right; nobody is told.
+    /// Its numbers look plausible and are wrong, and no message says so.
     Wrong,
-    /// Numbers without bound: wrong, and seen to be.
+    /// Its numbers grow without bound, which a user sees.
     Diverged,
-    /// Wrong, and the program says so.
+    /// Its numbers are wrong, and a warning says so.
     Warned,
-    /// None, with a message.
+    /// It returns no numbers but this message.
     Refused(String),
 }
 
 impl MapVerdict {
-    /// Their words, in the order of charts.
+    /// Words of the verdicts in files and legends, in the order of charts.
     pub const WORDS: [&'static str; 5] =
         ["right", "silently wrong", "diverges", "wrong, with a warning", "refused"];
 
-    /// Its word.
+    /// The word of the verdict in files and legends.
     #[must_use]
     pub const fn word(&self) -> &'static str {
         let at = match self {
@@ -35,7 +53,8 @@ impl MapVerdict {
         MapVerdict::WORDS[at]
     }
 
-    /// Of an error: right up to `allowed`, without bound beyond `obvious`.
+    /// The verdict on an error: right up to `allowed`, diverged from `obvious` on or where it is not a number, else
+    /// wrong.
     #[must_use]
     pub fn of(error: f64, allowed: f64, obvious: f64) -> MapVerdict {
         if error <= allowed {
@@ -43,7 +62,7 @@ impl MapVerdict {
         } else if error < obvious {
             MapVerdict::Wrong
         } else {
-            // not a number included
+            // also where the error is not a number
             MapVerdict::Diverged
         }
     }
@@ -52,9 +71,9 @@ impl MapVerdict {
 /// A point of a map.
 #[derive(Clone, Debug)]
 pub struct MapPoint {
-    /// Place on the map.
+    /// Coordinates on both axes.
     pub at: [f64; 2],
-    /// What the verdict follows from, such as a spectral radius or an error.
+    /// The number that the verdict follows from, such as a spectral radius or an error.
     pub value: f64,
     /// The verdict.
     pub verdict: MapVerdict,
@@ -65,35 +84,35 @@ pub struct MapPoint {
 pub struct Layer {
     /// Its name.
     pub method: String,
-    /// Whether it is what the program does.
+    /// Whether it is a method of this program.
     pub is_ours: bool,
     /// Its points.
     pub cells: Vec<MapPoint>,
-    /// Lines over them.
+    /// Lines drawn over the points.
     pub lines: Vec<Series>,
 }
 
 impl Layer {
-    /// A method without points.
+    /// A layer without points.
     #[must_use]
     pub fn new(method: impl Into<String>, is_ours: bool) -> Layer {
         Layer { method: method.into(), is_ours, cells: Vec::new(), lines: Vec::new() }
     }
 
-    /// The same with its points.
+    /// The same layer with these points.
     #[must_use]
     pub fn with(self, cells: Vec<MapPoint>) -> Layer {
         Layer { cells, ..self }
     }
 
-    /// How many points have each verdict, in the order of [`Verdict::WORDS`].
+    /// The number of points of each verdict, in the order of [`MapVerdict::WORDS`].
     #[must_use]
     pub fn counts(&self) -> [usize; 5] {
         MapVerdict::WORDS.map(|word| self.cells.iter().filter(|cell| cell.verdict.word() == word).count())
     }
 }
 
-/// A number found on the way.
+/// A single number that a map reports beside its points.
 #[derive(Clone, Debug)]
 pub struct MapFinding {
     /// What it is, with its unit.
@@ -102,26 +121,26 @@ pub struct MapFinding {
     pub value: f64,
 }
 
-/// An axis of a map: label, unit, whether logarithmic.
+/// Label, unit and scale of an axis of a map.
 #[derive(Clone, Debug)]
 pub struct MapScale {
     /// What is measured.
     pub label: String,
-    /// Unit; empty for numbers.
+    /// Unit; empty for dimensionless quantities.
     pub unit: String,
-    /// Whether it is logarithmic.
+    /// Whether the axis is logarithmic.
     pub log: bool,
 }
 
 impl MapScale {
-    /// An axis.
+    /// An axis from its parts.
     #[must_use]
     pub fn new(label: &str, unit: &str, log: bool) -> MapScale {
         MapScale { label: label.to_owned(), unit: unit.to_owned(), log }
     }
 }
 
-/// A map.
+/// Verdicts of several methods over two axes.
 #[derive(Clone, Debug)]
 pub struct StabilityMap {
     /// Its name in files.
@@ -132,9 +151,9 @@ pub struct StabilityMap {
     pub axes: [MapScale; 2],
     /// Methods.
     pub layers: Vec<Layer>,
-    /// Numbers found on the way.
+    /// Single numbers beside the points.
     pub findings: Vec<MapFinding>,
-    /// What the verdicts mean here.
+    /// What the verdicts mean on this map.
     pub note: String,
 }
 
@@ -146,12 +165,12 @@ impl StabilityMap {
         StabilityMap { name, title: title.to_owned(), axes, layers, findings, note: note.to_owned() }
     }
 
-    /// Notes a number.
+    /// Adds a single number.
     pub fn find(&mut self, what: impl Into<String>, value: f64) {
         self.findings.push(MapFinding { what: what.into(), value });
     }
 
-    /// Points at which the program itself is silently wrong.
+    /// Number of points at which the program itself is wrong without a warning.
     #[must_use]
     pub fn silent(&self) -> usize {
         let ours = self.layers.iter().filter(|layer| layer.is_ours);

@@ -1,6 +1,7 @@
-//! Maps of where methods fail: what the program solves and refuses, and what others get silently wrong.
+//! Maps of where methods fail: where the program solves or refuses a problem, and where other methods are silently
+//! wrong.
 //!
-//! The failing methods live here alone.
+//! The methods that fail exist in this module only; no simulation uses them.
 
 mod contact;
 mod data;
@@ -22,10 +23,10 @@ pub use subject::MapSubject;
 
 use crate::observer::Observer;
 
-/// Maps, and the names of those that are absent with why.
+/// Maps, and names and reasons of those that could not be made.
 pub type Maps = (Vec<StabilityMap>, Vec<(String, String)>);
 
-/// All maps for `subject`; with `quick` of fewer points.
+/// All maps for `subject`; `quick` maps have a third of the points along each axis and leave out the rail on ties.
 #[must_use]
 pub fn maps(subject: &MapSubject<'_>, quick: bool, observer: &dyn Observer) -> Maps {
     let points = |full: usize| if quick { full / 3 } else { full };

@@ -1,4 +1,9 @@
-//! Rigid offsets by stiff members against exact kinematics.
+//! Rigid offsets modelled by stiff members (a penalty), against exact kinematics.
+//!
+//! The rail of a girder runs at the height h above its axis. The closed form of the lateral compliance of the rail at
+//! midspan is L^3 / 48 E I + h^2 L / (4 G J). A post of s times the bending stiffness of the girder adds its own h^3
+//! / (3 s) where it is soft, and loses digits of the factorisation where it is stiff: the best error lies between
+//! them and grows with the number of elements. An exact offset has neither error.
 
 use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
 use nalgebra::{DMatrix, DVector};
@@ -9,16 +14,16 @@ use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
 use super::subject::MapSubject;
 
-/// Relative error that is none, and one that nobody overlooks.
+/// Largest relative error that counts as right, and the smallest that no user overlooks.
 const ALLOWED: f64 = 1e-6;
 const OBVIOUS: f64 = 0.5;
-/// Offset of a rail by the span where the scene's girder has none.
+/// Offset of the rail relative to the span where the scene's girder has none.
 const USUAL: f64 = 0.06;
-/// The least error drawn.
+/// Smallest error that is drawn: the axis is logarithmic.
 const LEAST: f64 = 1e-17;
 
-/// A girder of unit length, simply supported and held against twist at both ends: lateral bending 1, torsion `twist`, its
-/// rail at the height `offset`.
+/// A girder of unit length, simply supported and restrained against twist at both ends, with lateral bending
+/// stiffness 1, torsional stiffness `twist` and its rail at the height `offset`.
 #[derive(Clone, Copy)]
 struct Beam {
     twist: f64,
@@ -26,15 +31,16 @@ struct Beam {
 }
 
 impl Beam {
-    /// Lateral give of the rail at midspan: L^3/48 + h^2 L/(4 G J).
+    /// Lateral compliance of the rail at midspan: L^3 / 48 + h^2 L / (4 G J).
     fn exact(self) -> f64 {
         1.0 / 48.0 + self.offset * self.offset / (4.0 * self.twist)
     }
 
-    /// The same by `count` elements and a post at midspan of `stiff` times the girder's bending stiffness, in doubles.
+    /// The same in doubles by `count` elements and a post at midspan of `stiff` times the bending stiffness of the
+    /// girder; `None` where rounding has made the matrix indefinite.
     fn penalty(self, count: usize, stiff: f64) -> Option<f64> {
         let nodes = count + 1;
-        // displacement, slope and twist of each node; then displacement and turn of the post's top
+        // displacement, slope and twist of each node; then displacement and rotation of the top of the post
         let n = 3 * nodes + 2;
         let mut k = DMatrix::zeros(n, n);
         let mut add = |at: [usize; 4], h: f64, stiffness: f64| {
@@ -57,17 +63,17 @@ impl Beam {
                 k[(i, j)] += sign * value;
             }
         }
-        let held = [0, 2, 3 * count, 3 * count + 2];
-        let kept: Vec<usize> = (0..n).filter(|i| !held.contains(i)).collect();
-        let small = DMatrix::from_fn(kept.len(), kept.len(), |i, j| k[(kept[i], kept[j])]);
-        let mut load = DVector::zeros(kept.len());
-        let top = kept.len() - 2;
+        let restrained = [0, 2, 3 * count, 3 * count + 2];
+        let free: Vec<usize> = (0..n).filter(|i| !restrained.contains(i)).collect();
+        let reduced = DMatrix::from_fn(free.len(), free.len(), |i, j| k[(free[i], free[j])]);
+        let mut load = DVector::zeros(free.len());
+        let top = free.len() - 2;
         load[top] = 1.0;
-        small.cholesky().map(|factor| factor.solve(&load)[top])
+        reduced.cholesky().map(|factor| factor.solve(&load)[top])
     }
 
-    /// The same by the program.
-    fn ours(self, count: usize) -> Result<f64, String> {
+    /// The same by the library, whose rail has the offset in its kinematics.
+    fn by_offset(self, count: usize) -> Result<f64, String> {
         let section =
             Section { e: 1.0, g: 1.0, area: 1.0, iy: 1.0, iz: 1.0, j: self.twist, ..Section::default() };
         let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
@@ -88,16 +94,43 @@ impl Beam {
     }
 }
 
-/// The map.
-#[must_use]
-pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
+/// A beam of the proportions of the scene's girder; usual ones where it has no torsional stiffness or no offset.
+fn beam_of(subject: &MapSubject<'_>) -> Beam {
     let girder = subject.girder;
     let twist = match (girder.g.zip(girder.j), girder.i_lateral) {
         (Some((g, j)), Some(i)) if g * j > 0.0 && i > 0.0 => g * j / (girder.e * i),
         _ => 0.3,
     };
     let height = (girder.rail_height / subject.length()).abs();
-    let beam = Beam { twist, offset: if height > 0.0 { height } else { USUAL } };
+    Beam { twist, offset: if height > 0.0 { height } else { USUAL } }
+}
+
+/// Relative error of a compliance, at least [`LEAST`].
+fn error_of(beam: Beam, value: f64) -> f64 {
+    (value / beam.exact() - 1.0).abs().max(LEAST)
+}
+
+/// The points of a post over its stiffnesses `stiffs`, and the smallest error with its stiffness.
+fn post(beam: Beam, count: usize, stiffs: &[f64]) -> (Vec<MapPoint>, (f64, f64)) {
+    let mut cells = Vec::new();
+    let mut best = (f64::INFINITY, 0.0);
+    for &stiff in stiffs {
+        let (value, verdict) = match beam.penalty(count, stiff).map(|value| error_of(beam, value)) {
+            Some(error) => (error, MapVerdict::of(error, ALLOWED, OBVIOUS)),
+            None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
+        };
+        if value < best.0 {
+            best = (value, stiff);
+        }
+        cells.push(MapPoint { at: [stiff, value], value, verdict });
+    }
+    (cells, best)
+}
+
+/// The map of the error against the stiffness of the post.
+#[must_use]
+pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
+    let beam = beam_of(subject);
     let axes = [
         MapScale::new("stiffness of the post by that of the girder", "", true),
         MapScale::new("relative error of the rail's lateral give", "", true),
@@ -110,39 +143,29 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     );
     map.find("torsional stiffness by lateral bending stiffness", beam.twist);
     map.find("height of the rail by the span", beam.offset);
-    let wanted = beam.exact();
-    let relative = |found: f64| (found / wanted - 1.0).abs().max(LEAST);
     let stiffs = spread(1.0, 1e16, points);
     for count in [4, 16, 64] {
-        let mut cells = Vec::new();
-        let mut best = (f64::INFINITY, 0.0);
-        for &stiff in &stiffs {
-            let (value, verdict) = match beam.penalty(count, stiff) {
-                Some(found) => (relative(found), MapVerdict::of(relative(found), ALLOWED, OBVIOUS)),
-                None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
-            };
-            if value < best.0 {
-                best = (value, stiff);
-            }
-            cells.push(MapPoint { at: [stiff, value], value, verdict });
-        }
+        let (cells, best) = post(beam, count, &stiffs);
         map.find(format!("{count} elements: least error"), best.0);
         map.find(format!("{count} elements: at the stiffness"), best.1);
         for stiff in [1e3, 1e5, 1e7] {
-            if let Some(found) = beam.penalty(count, stiff) {
-                map.find(format!("{count} elements: error at the stiffness {stiff:e}"), relative(found));
+            if let Some(value) = beam.penalty(count, stiff) {
+                map.find(
+                    format!("{count} elements: error at the stiffness {stiff:e}"),
+                    error_of(beam, value),
+                );
             }
         }
         map.layers.push(Layer::new(format!("stiff post, {count} elements"), false).with(cells));
     }
     let mut cells = Vec::new();
     for count in [4, 16, 64] {
-        let (value, verdict) = match beam.ours(count) {
-            Ok(found) => (relative(found), MapVerdict::of(relative(found), ALLOWED, OBVIOUS)),
+        let (value, verdict) = match beam.by_offset(count).map(|value| error_of(beam, value)) {
+            Ok(error) => (error, MapVerdict::of(error, ALLOWED, OBVIOUS)),
             Err(why) => (1.0, MapVerdict::Refused(why)),
         };
         map.find(format!("girderway, {count} elements: error"), value);
-        // no stiffness to choose: the same everywhere
+        // there is no stiffness to choose: the error is drawn over the whole axis
         cells.extend(stiffs.iter().map(|stiff| MapPoint {
             at: [*stiff, value],
             value,
@@ -159,14 +182,14 @@ mod tests {
 
     #[test]
     fn post_errs_by_its_own_bending() {
-        // F h^3 / (3 s): the rest is exact
+        // the post adds h^3 / (3 s); the rest is exact
         let beam = Beam { twist: 0.3, offset: 0.06 };
         for stiff in [1.0, 10.0, 1e3] {
-            let found = beam.penalty(8, stiff).expect("a beam that stands");
-            let wanted = beam.exact() + 0.06_f64.powi(3) / (3.0 * stiff);
-            assert!((found / wanted - 1.0).abs() < 1e-10, "{stiff}: {found} {wanted}");
+            let value = beam.penalty(8, stiff).expect("a stable beam");
+            let expected = beam.exact() + 0.06_f64.powi(3) / (3.0 * stiff);
+            assert!((value / expected - 1.0).abs() < 1e-10, "{stiff}: {value} {expected}");
         }
-        let found = beam.ours(8).expect("a beam that stands");
-        assert!((found / beam.exact() - 1.0).abs() < 1e-13, "{found}");
+        let value = beam.by_offset(8).expect("a stable beam");
+        assert!((value / beam.exact() - 1.0).abs() < 1e-13, "{value}");
     }
 }

@@ -1,8 +1,9 @@
-//! Maps drawn: a chart a method, a few below each other.
+//! Maps as pictures: one chart for each method, up to four below each other.
 
 use super::map::{MapScale, MapVerdict, StabilityMap};
 use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
 
+/// The axis of a chart over `range`, 3 % wider at both ends.
 fn axis(scale: &MapScale, range: [f64; 2]) -> ChartAxis {
     let axis = ChartAxis::new(scale.label.clone(), scale.unit.clone());
     let [low, high] = range;
@@ -15,20 +16,20 @@ fn axis(scale: &MapScale, range: [f64; 2]) -> ChartAxis {
     }
 }
 
-/// Charts a picture.
-const A_PICTURE: usize = 4;
+/// Largest number of charts on a picture.
+const CHARTS: usize = 4;
 
-/// The pictures of a map, as many methods each as fit a page.
+/// The pictures of a map as SVG files, with as many methods each as fit a page.
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
 pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
-    let drawn = |at: &[f64; 2]| {
+    let is_drawable = |at: &[f64; 2]| {
         let fits = |k: usize| at[k].is_finite() && (!map.axes[k].log || at[k] > 0.0);
         fits(0) && fits(1)
     };
     let points =
-        || map.layers.iter().flat_map(|layer| &layer.cells).map(|cell| cell.at).filter(|at| drawn(at));
+        || map.layers.iter().flat_map(|layer| &layer.cells).map(|cell| cell.at).filter(|at| is_drawable(at));
     let range = |k: usize| {
         let low = points().map(|at| at[k]).fold(f64::INFINITY, f64::min);
         [low, points().map(|at| at[k]).fold(f64::MIN, f64::max)]
@@ -44,23 +45,23 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
         let mut chart = Chart::new(title, x, y);
         for word in MapVerdict::WORDS {
             let own = layer.cells.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
-            chart.series.push(Series::new(word, Style::Points, own.filter(|at| drawn(at)).collect()));
+            chart.series.push(Series::new(word, Style::Points, own.filter(|at| is_drawable(at)).collect()));
         }
         for line in &layer.lines {
-            let points = line.points.iter().copied().filter(|at| drawn(at)).collect();
+            let points = line.points.iter().copied().filter(|at| is_drawable(at)).collect();
             chart.series.push(Series { points, ..line.clone() });
         }
         let counts = layer.counts();
-        let told: Vec<String> = MapVerdict::WORDS
+        let summary: Vec<String> = MapVerdict::WORDS
             .iter()
             .zip(counts)
             .filter(|(_, count)| *count > 0)
             .map(|(word, count)| format!("{count} {word}"))
             .collect();
-        chart.note = format!("{} Points: {}.", map.note, told.join(", "));
-        if layer.cells.iter().any(|cell| drawn(&cell.at)) {
+        chart.note = format!("{} Points: {}.", map.note, summary.join(", "));
+        if layer.cells.iter().any(|cell| is_drawable(&cell.at)) {
             charts.push(chart.svg()?);
         }
     }
-    Ok(charts.chunks(A_PICTURE).map(|few| stack(few).file()).collect())
+    Ok(charts.chunks(CHARTS).map(|few| stack(few).file()).collect())
 }

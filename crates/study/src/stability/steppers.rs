@@ -1,4 +1,4 @@
-//! Steppers that others use, on one oscillator whose stiffness and damping depend on time.
+//! Usual time steppers for one oscillator whose stiffness and damping depend on time, and their monodromy matrices.
 
 use nalgebra::DMatrix;
 
@@ -10,13 +10,13 @@ pub struct Oscillator<'a> {
     pub stiffness: &'a dyn Fn(f64) -> f64,
 }
 
-/// State of a stepper: z, z' and up to two numbers that it remembers.
+/// State of a stepper: z, z' and up to two more numbers (an acceleration, or z and z' of the step before).
 pub type OscillatorState = [f64; 4];
 
 /// One step of length `h` from time `t`.
 pub type StepMethod = fn(&Oscillator<'_>, f64, f64, OscillatorState) -> OscillatorState;
 
-/// A stepper by its name, with the length of its state.
+/// Steppers: name, length of the state, function of one step.
 pub const STEPPERS: [(&str, usize, StepMethod); 8] = [
     ("semi-implicit Euler", 2, euler),
     ("Runge-Kutta 4", 2, rk4),
@@ -33,11 +33,11 @@ impl Oscillator<'_> {
         [v, -(self.damping)(t) * v - (self.stiffness)(t) * z]
     }
 
-    /// Solves y = right + share A(t) y, A the matrix of the first-order system.
-    fn implicit(&self, t: f64, share: f64, [z, v]: [f64; 2]) -> [f64; 2] {
+    /// Solves y = r + h A(t) y for y, with r = (z, v) and the matrix A of the first-order system.
+    fn implicit(&self, t: f64, h: f64, [z, v]: [f64; 2]) -> [f64; 2] {
         let s = (self.stiffness)(t);
-        let new = (v - share * s * z) / (1.0 + share * (self.damping)(t) + share * share * s);
-        [z + share * new, new]
+        let new = (v - h * s * z) / (1.0 + h * (self.damping)(t) + h * h * s);
+        [z + h * new, new]
     }
 }
 
@@ -46,7 +46,7 @@ fn euler(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -> Os
     [z + h * v, v, 0.0, 0.0]
 }
 
-/// Explicit Runge-Kutta by the rows of its tableau.
+/// One step of an explicit Runge-Kutta method by the nodes, rows and weights of its tableau.
 fn explicit<const S: usize>(
     of: &Oscillator<'_>,
     t: f64,
@@ -59,8 +59,8 @@ fn explicit<const S: usize>(
     let mut slopes = [[0.0; 2]; S];
     for (stage, (node, row)) in nodes.iter().zip(rows).enumerate() {
         let mut at = [z, v];
-        for (share, slope) in row.iter().zip(&slopes) {
-            at = [at[0] + h * share * slope[0], at[1] + h * share * slope[1]];
+        for (weight, slope) in row.iter().zip(&slopes) {
+            at = [at[0] + h * weight * slope[0], at[1] + h * weight * slope[1]];
         }
         slopes[stage] = of.slope(t + node * h, at);
     }
@@ -73,6 +73,8 @@ fn rk4(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> Oscillato
     explicit(of, t, h, state, [0.0, 0.5, 0.5, 1.0], [&[], &[0.5], &[0.0, 0.5], &[0.0, 0.0, 1.0]], weights)
 }
 
+/// One step of the method of order 5 of Dormand and Prince.
+///
 /// # Source
 /// J. R. Dormand, P. J. Prince, A family of embedded Runge-Kutta formulae, J. Comput. Appl. Math. 6 (1980), 19-26.
 fn dp5(of: &Oscillator<'_>, t: f64, h: f64, state: OscillatorState) -> OscillatorState {
@@ -100,6 +102,8 @@ fn trapezoid(of: &Oscillator<'_>, t: f64, h: f64, [z, v, ..]: OscillatorState) -
     [z, v, 0.0, 0.0]
 }
 
+/// One step of the generalised-alpha method with the spectral radius `radius` at infinite frequency.
+///
 /// # Source
 /// J. Chung, G. M. Hulbert, A time integration algorithm for structural dynamics with improved numerical dissipation,
 /// J. Appl. Mech. 60 (1993), 371-375.
@@ -130,7 +134,7 @@ fn bdf2(of: &Oscillator<'_>, t: f64, h: f64, [z, v, z0, v0]: OscillatorState) ->
     [new, speed, z, v]
 }
 
-/// Largest absolute value of the eigenvalues; infinite where the matrix is not finite.
+/// Spectral radius: the largest absolute value of the eigenvalues; infinite where an entry is not finite.
 #[must_use]
 pub fn radius(matrix: &DMatrix<f64>) -> f64 {
     if matrix.iter().any(|own| !own.is_finite()) {
@@ -139,7 +143,9 @@ pub fn radius(matrix: &DMatrix<f64>) -> f64 {
     matrix.complex_eigenvalues().iter().map(|own| own.norm()).fold(0.0, f64::max)
 }
 
-/// Spectral radius of what `count` steps over the time `period` make of the first `size` numbers of a state.
+/// Spectral radius of the monodromy matrix of `count` equal steps over the time `period`.
+///
+/// Column j of this `size` x `size` matrix is the state after all steps that start from the unit state j.
 #[must_use]
 pub fn monodromy(of: &Oscillator<'_>, step: StepMethod, size: usize, period: f64, count: usize) -> f64 {
     let h = period / count as f64;
@@ -167,7 +173,7 @@ mod tests {
         let of = Oscillator { damping: &|t| 0.2 + 0.3 * t, stiffness: &stiffness };
         let run = |name: &str, step: StepMethod, steps: u32| {
             let h = 1.0 / f64::from(steps);
-            // what multistep methods remember: an earlier state, an acceleration
+            // a multistep method starts from an earlier exact state or acceleration
             let fine = |until: f64| {
                 let count = 4000;
                 let h = until / f64::from(count);
@@ -188,8 +194,8 @@ mod tests {
     fn steppers_have_their_orders() {
         for ((name, _, step), order) in STEPPERS.into_iter().zip([1.0, 4.0, 5.0, 2.0, 2.0, 2.0, 2.0, 2.0]) {
             let [coarse, fine] = [40, 80].map(|steps| error(name, step, steps));
-            let found = (coarse / fine).log2();
-            assert!((found - order).abs() < 0.3, "{name}: order {found}, theory {order}");
+            let observed = (coarse / fine).log2();
+            assert!((observed - order).abs() < 0.3, "{name}: order {observed}, theory {order}");
         }
     }
 }

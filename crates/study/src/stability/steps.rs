@@ -1,4 +1,11 @@
-//! Step times frequency against speed: a wheel on a spring that crosses equal spans without end.
+//! Stability of time steppers for a wheel on a spring that crosses equal spans one after the other.
+//!
+//! The rail compliance G(x) softens the spring k of the wheel: with s(t) = 1 / (1 + k G(v t)), the wheel obeys z'' +
+//! 2 d s(t) z' + omega^2 s(t) z = 0, whose coefficients have the period L/v of a span. By Floquet's theorem the
+//! motion decays where the spectral radius of the matrix that maps (z, z') over one period (the monodromy matrix) is
+//! less than 1. The same matrix of a stepper says whether its solution decays: the stepper is wrong where its
+//! spectral radius exceeds 1 and that of the motion, which a fine Dormand-Prince integration gives. One map varies
+//! the step length over speed, the other the accuracy of adaptive steps.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -13,67 +20,79 @@ use formats::scene::stepper_word;
 use formats::units::Dimension;
 use results::warning::RESIDUAL;
 
-/// Steps over a span by which the physical motion is known.
+/// Steps a span, at least, of the integration that stands for the exact motion.
 const FINE: f64 = 4000.0;
-/// Excess of a spectral radius that is growth.
+/// Excess of a spectral radius over 1 above which a motion counts as growing.
 const GROWTH: f64 = 1e-6;
-/// Relative error of the spectral radius of the motion.
-const KNOWN: f64 = 1e-6;
-/// Growth a span of a motion that plainly decays.
+/// Relative error of the spectral radius of the exact motion.
+const RADIUS_ERROR: f64 = 1e-6;
+/// Spectral radius below which a motion plainly decays.
 const DECAYS: f64 = 0.95;
-/// How much more a motion that grows may grow.
-const ALIKE: f64 = 1.02;
-/// Growth a span that nobody overlooks.
+/// Factor by which a stepper may exceed the spectral radius of a motion that grows.
+const TOLERATED: f64 = 1.02;
+/// Spectral radius, relative to the allowed one, that no user overlooks.
 const OBVIOUS: f64 = 100.0;
 
 /// The crossing of one span by one wheel.
 struct Crossing<'s, 'a> {
     subject: &'s MapSubject<'a>,
-    /// Frequency of the wheel on its spring alone.
+    /// Frequency of the wheel on its spring alone, radian/s.
     omega: f64,
-    /// Its damping by 2 m.
+    /// Its damper by its mass, 1/s.
     damping: f64,
     /// k G at even places of the span.
-    give: Vec<f64>,
+    softness: Vec<f64>,
 }
 
 impl Crossing<'_, '_> {
-    /// By how much the rail's give softens the wheel at a share of the span.
-    fn softened(&self, share: f64) -> f64 {
-        let at = share.clamp(0.0, 1.0) * (self.give.len() - 1) as f64;
-        let low = (at as usize).min(self.give.len() - 2);
+    /// 1 / (1 + k G) at a `fraction` of the span, 0 to 1: the factor by which the rail softens spring and damper.
+    fn softening(&self, fraction: f64) -> f64 {
+        let at = fraction.clamp(0.0, 1.0) * (self.softness.len() - 1) as f64;
+        let low = (at as usize).min(self.softness.len() - 2);
         let part = at - low as f64;
-        let give = self.give[low] * (1.0 - part) + self.give[low + 1] * part;
-        1.0 / (1.0 + give)
+        let softness = self.softness[low] * (1.0 - part) + self.softness[low + 1] * part;
+        1.0 / (1.0 + softness)
     }
 
-    /// Spectral radius by a stepper, `count` steps a span.
+    /// Spectral radius of the monodromy matrix by a stepper with `count` steps a span of the duration `period`.
     fn radius(&self, (size, step): (usize, StepMethod), period: f64, count: usize) -> f64 {
-        let stiffness = |t: f64| self.omega * self.omega * self.softened(t / period);
-        let damping = |t: f64| self.damping * self.softened(t / period);
+        let stiffness = |t: f64| self.omega * self.omega * self.softening(t / period);
+        let damping = |t: f64| self.damping * self.softening(t / period);
         let of = Oscillator { damping: &damping, stiffness: &stiffness };
         monodromy(&of, step, size, period, count)
     }
 
-    /// That of the motion where the damper's force goes past the rail.
-    fn beside(&self, period: f64) -> f64 {
-        let stiffness = |t: f64| self.omega * self.omega * self.softened(t / period);
+    /// Spectral radius of the exact motion where the damper acts against the ground instead of the rail.
+    fn physical_with_ground_damper(&self, period: f64) -> f64 {
+        let stiffness = |t: f64| self.omega * self.omega * self.softening(t / period);
         let of = Oscillator { damping: &|_| self.damping, stiffness: &stiffness };
         monodromy(&of, STEPPERS[2].2, 2, period, self.fine(period))
     }
 
-    /// Steps a span by which the motion is known.
+    /// Steps a span of the integration that stands for the exact motion: at least 60 a period of the wheel.
     fn fine(&self, period: f64) -> usize {
         FINE.max(60.0 * period * self.omega / (2.0 * PI)).ceil() as usize
     }
 
-    /// That of the motion itself.
+    /// Equal steps of about `wanted` / omega over a span at `speed`: the duration of the span, the number of steps
+    /// and the step x frequency that results. `None` where so few steps fit into the span that this differs by more
+    /// than 20 %.
+    fn equal_steps(&self, speed: f64, wanted: f64) -> Option<(f64, usize, f64)> {
+        let period = self.subject.length() / speed;
+        let count = (period * self.omega / wanted).ceil().max(1.0);
+        let real = period / count * self.omega;
+        (real >= 0.8 * wanted).then_some((period, count as usize, real))
+    }
+
+    /// Spectral radius of the exact motion.
     fn physical(&self, period: f64) -> f64 {
         self.radius((2, STEPPERS[2].2), period, self.fine(period))
     }
 
-    /// By the program itself, with its energy residual; the message where it refuses.
-    fn ours(&self, stepping: Stepping, speed: f64, accuracy: f64) -> Result<(f64, f64), String> {
+    /// Spectral radius of one crossing by the simulator, and the larger energy residual of its two runs: each run
+    /// starts with one of z and z' and gives a column of the monodromy matrix. The message where the simulator
+    /// refuses.
+    fn simulated(&self, stepping: Stepping, speed: f64, accuracy: f64) -> Result<(f64, f64), String> {
         let subject = self.subject;
         let law = subject.linear(subject.stiffness, subject.damping);
         let end = subject.length() / speed;
@@ -82,7 +101,7 @@ impl Crossing<'_, '_> {
         for column in 0..2 {
             let scene = subject.crossing(subject.mass(), &[0.0], law.clone(), [subject.span[0], speed, end]);
             let mut scene = scene.map_err(|error| error.to_string())?;
-            // free oscillation: nothing but the start drives it
+            // free oscillation: nothing drives it but its initial state
             scene.gravity = 0.0;
             scene.accuracy = accuracy;
             let unit = 1e-2 * subject.length() / 60.0;
@@ -113,14 +132,45 @@ impl Crossing<'_, '_> {
     }
 }
 
-/// The maps: steps of one length, and those by accuracy.
+/// The maps: one over equal steps, one over the accuracy of adaptive steps.
 #[must_use]
 pub fn maps(subject: &MapSubject<'_>, points: usize) -> Vec<StabilityMap> {
     let omega = (subject.stiffness / subject.mass()).sqrt();
     let count = 8000;
     let place = |i: usize| subject.span[0] + subject.length() * i as f64 / f64::from(count);
-    let give = (0..=count as usize).map(|i| subject.stiffness * subject.at(place(i))).collect();
-    let crossing = Crossing { subject, omega, damping: subject.damping / subject.mass(), give };
+    let softness = (0..=count as usize).map(|i| subject.stiffness * subject.at(place(i))).collect();
+    let crossing = Crossing { subject, omega, damping: subject.damping / subject.mass(), softness };
+    // from quasi-static to the speed at which a span passes in about a period of the wheel on its spring
+    let fastest = omega * subject.length() / (2.0 * PI) * 0.86;
+    let speeds = spread(fastest / 300.0, fastest, points);
+    let physical = speeds.iter().map(|speed| crossing.physical(subject.length() / speed)).collect();
+    let motion = Motions { speeds, physical };
+    vec![by_step(&crossing, &motion, fastest, points), by_accuracy(&crossing, &motion, points)]
+}
+
+/// The speeds of a map, and the spectral radius of the exact motion at each.
+struct Motions {
+    speeds: Vec<f64>,
+    physical: Vec<f64>,
+}
+
+impl Motions {
+    /// Speed and spectral radius of the exact motion.
+    fn each(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.speeds.iter().copied().zip(self.physical.iter().copied())
+    }
+}
+
+/// Verdict on the spectral radius of a stepper where that of the exact motion is `physical`: a motion that grows may be
+/// exceeded by 2 %, one that does not grow must not be made to.
+fn judge(radius: f64, physical: f64) -> MapVerdict {
+    let allowed = if physical > 1.0 { TOLERATED * physical } else { 1.0 + GROWTH };
+    MapVerdict::of(radius, allowed, OBVIOUS * allowed)
+}
+
+/// The map of step length against speed.
+fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points: usize) -> StabilityMap {
+    let (subject, omega) = (crossing.subject, crossing.omega);
     let axes = [
         MapScale::new("speed", &subject.unit(Dimension::SPEED), true),
         MapScale::new("step x frequency of the wheel on its spring", "", true),
@@ -134,83 +184,85 @@ pub fn maps(subject: &MapSubject<'_>, points: usize) -> Vec<StabilityMap> {
     );
     map.find("frequency of the wheel on its spring, radian/s", omega);
     map.find("share of critical damping", 0.5 * crossing.damping / omega);
-    let most = 12.0;
-    // from quasi-static to where a span passes in a fifth of a wave
-    let fastest = omega * subject.length() / (2.0 * PI) * 0.86;
-    let speeds: Vec<f64> = spread(fastest / 300.0, fastest, points);
-    let steps: Vec<f64> = spread(0.2, most, points);
-    let physical: Vec<f64> = speeds.iter().map(|speed| crossing.physical(subject.length() / speed)).collect();
-    let beside = crossing.beside(subject.length() / fastest);
-    map.find("growth a span at the highest speed, the damper's force past the rail", beside);
-    for (speed, physical) in speeds.iter().zip(&physical) {
-        if *physical > 1.0 + GROWTH {
+    let ground = crossing.physical_with_ground_damper(subject.length() / fastest);
+    map.find("growth a span at the highest speed, the damper's force past the rail", ground);
+    for (speed, physical) in motions.each() {
+        if physical > 1.0 + GROWTH {
             map.find(
                 format!("growth a span of the motion itself at {speed:.4} {}", map.axes[0].unit),
-                *physical,
+                physical,
             );
         }
     }
-    let judge = |found: f64, physical: f64| {
-        // a motion that grows is to grow alike; one that does not is not to
-        let allowed = if physical > 1.0 { ALIKE * physical } else { 1.0 + GROWTH };
-        MapVerdict::of(found, allowed, OBVIOUS * allowed)
-    };
-    let counted = |speed: f64, step: f64| {
-        let period = subject.length() / speed;
-        let count = (period * omega / step).ceil().max(1.0);
-        (period, count as usize, period / count * omega)
-    };
+    let steps = spread(0.2, 12.0, points);
     for (name, size, step) in STEPPERS {
-        let mut cells = Vec::new();
-        let mut first = f64::INFINITY;
-        for (speed, physical) in speeds.iter().zip(&physical) {
-            for wanted in &steps {
-                let (period, count, real) = counted(*speed, *wanted);
-                // few steps a span: the step asked for does not divide it
-                if real < 0.8 * wanted {
-                    continue;
-                }
-                let value = crossing.radius((size, step), period, count);
-                let verdict = judge(value, *physical);
-                if verdict != MapVerdict::Right && *physical < DECAYS {
-                    first = first.min(real);
-                }
-                cells.push(MapPoint { at: [*speed, real], value: finite(value), verdict });
-            }
-        }
+        let (cells, first) = other_stepper(crossing, motions, &steps, (size, step));
         if first.is_finite() {
             map.find(format!("{name}: first unstable step x frequency of a motion that decays"), first);
         }
         map.layers.push(Layer::new(name, false).with(cells));
     }
     for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
-        let mut cells = Vec::new();
-        for (speed, physical) in speeds.iter().zip(&physical).filter(|(speed, _)| **speed > fastest / 60.0) {
-            for wanted in &steps {
-                let (period, count, real) = counted(*speed, *wanted);
-                if real < 0.8 * wanted {
-                    continue;
-                }
-                let stepping = Stepping { method, step: Some(period / count as f64) };
-                let (value, verdict) = match crossing.ours(stepping, *speed, 1e-4) {
-                    Ok((value, residual)) => match judge(value, *physical) {
-                        MapVerdict::Right => (value, MapVerdict::Right),
-                        _ if residual > RESIDUAL => (value, MapVerdict::Warned),
-                        other => (value, other),
-                    },
-                    Err(why) => (0.0, MapVerdict::Refused(why)),
-                };
-                cells.push(MapPoint { at: [*speed, real], value: finite(value), verdict });
-            }
-        }
+        let cells = simulator_by_step(crossing, motions, &steps, fastest, method);
         let word = stepper_word(method);
         map.layers.push(Layer::new(format!("girderway, {word}, equal steps"), true).with(cells));
     }
-    vec![map, by_accuracy(&crossing, &speeds, &physical, points)]
+    map
 }
 
-/// Steps that the program chooses itself, by the accuracy it is asked for.
-fn by_accuracy(crossing: &Crossing<'_, '_>, speeds: &[f64], physical: &[f64], points: usize) -> StabilityMap {
+/// The points of one of [`STEPPERS`], and its shortest unstable step x frequency among motions that plainly decay
+/// (infinite where there is none).
+fn other_stepper(
+    crossing: &Crossing<'_, '_>,
+    motions: &Motions,
+    steps: &[f64],
+    stepper: (usize, StepMethod),
+) -> (Vec<MapPoint>, f64) {
+    let mut cells = Vec::new();
+    let mut first = f64::INFINITY;
+    for (speed, physical) in motions.each() {
+        for &wanted in steps {
+            let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else { continue };
+            let value = crossing.radius(stepper, period, count);
+            let verdict = judge(value, physical);
+            if verdict != MapVerdict::Right && physical < DECAYS {
+                first = first.min(real);
+            }
+            cells.push(MapPoint { at: [speed, real], value: finite(value), verdict });
+        }
+    }
+    (cells, first)
+}
+
+/// The points of a `method` of the simulator with equal steps; speeds below a sixtieth of the highest are left out.
+fn simulator_by_step(
+    crossing: &Crossing<'_, '_>,
+    motions: &Motions,
+    steps: &[f64],
+    fastest: f64,
+    method: Method,
+) -> Vec<MapPoint> {
+    let mut cells = Vec::new();
+    for (speed, physical) in motions.each().filter(|(speed, _)| *speed > fastest / 60.0) {
+        for &wanted in steps {
+            let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else { continue };
+            let stepping = Stepping { method, step: Some(period / count as f64) };
+            let (value, verdict) = match crossing.simulated(stepping, speed, 1e-4) {
+                Ok((value, residual)) => match judge(value, physical) {
+                    MapVerdict::Right => (value, MapVerdict::Right),
+                    _ if residual > RESIDUAL => (value, MapVerdict::Warned),
+                    other => (value, other),
+                },
+                Err(why) => (0.0, MapVerdict::Refused(why)),
+            };
+            cells.push(MapPoint { at: [speed, real], value: finite(value), verdict });
+        }
+    }
+    cells
+}
+
+/// The map of the accuracy that the simulator is asked for against speed, with adaptive steps.
+fn by_accuracy(crossing: &Crossing<'_, '_>, motions: &Motions, points: usize) -> StabilityMap {
     let axes = [
         MapScale::new("speed", &crossing.subject.unit(Dimension::SPEED), true),
         MapScale::new("accuracy asked for", "", true),
@@ -223,28 +275,28 @@ fn by_accuracy(crossing: &Crossing<'_, '_>, speeds: &[f64], physical: &[f64], po
          by more than the accuracy, relatively.",
     );
     let mut cells = Vec::new();
-    for (speed, physical) in speeds.iter().zip(physical) {
+    for (speed, physical) in motions.each() {
         for accuracy in spread(1e-7, 1e-1, points.min(13)) {
-            let (value, verdict) = match crossing.ours(Stepping::default(), *speed, accuracy) {
+            let (value, verdict) = match crossing.simulated(Stepping::default(), speed, accuracy) {
                 Ok((value, _)) => {
-                    (value, MapVerdict::of(value / physical.max(1.0) - 1.0, accuracy + KNOWN, OBVIOUS))
+                    (value, MapVerdict::of(value / physical.max(1.0) - 1.0, accuracy + RADIUS_ERROR, OBVIOUS))
                 }
                 Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            cells.push(MapPoint { at: [*speed, accuracy], value: finite(value), verdict });
+            cells.push(MapPoint { at: [speed, accuracy], value: finite(value), verdict });
         }
     }
     map.layers.push(Layer::new("girderway", true).with(cells));
     map
 }
 
-/// `count` values from `low` to `high`, evenly in their logarithms.
+/// `count` values from `low` to `high`, equally spaced in their logarithms.
 #[must_use]
 pub fn spread(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| low * (high / low).powf(i as f64 / (count - 1).max(1) as f64)).collect()
 }
 
-/// A number that a file can hold.
+/// The value, or the largest finite number where it is infinite or not a number: files hold finite numbers only.
 #[must_use]
 pub fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::MAX }

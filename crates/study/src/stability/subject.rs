@@ -1,4 +1,4 @@
-//! What maps are made for: a straight girder and a wheel on it, of a scene.
+//! The subject of stability maps: the first straight girder of a scene, and the wheels of a truck on it.
 
 use sim::{Damper, Foundation, Given, NormalLaw, Profile};
 use splines::{Axis, Compliance, Influence, Probe, Surface};
@@ -8,31 +8,31 @@ use formats::units::{Dimension, Units};
 use foundations::SolvedModel;
 use foundations::{SolvedStructure, solution_of};
 
-/// A straight girder and the wheels on it.
+/// A straight girder and the wheels on it, in the units of the scene.
 pub struct MapSubject<'a> {
     /// The scene's name.
     pub name: &'a str,
     /// Units of all numbers.
     pub units: Units,
-    /// Gravity.
+    /// Acceleration of gravity.
     pub gravity: f64,
     /// The structure.
     pub structure: &'a Structure,
-    /// What is known of it.
+    /// Its solution: model, grid, surface.
     pub solved: &'a SolvedModel,
     /// Its exact surface.
     pub surface: &'a Surface,
     /// The girder.
     pub girder: &'a fea::Girder,
-    /// First and last support of its longest span.
+    /// Coordinates of the supports of its longest span.
     pub span: [f64; 2],
     /// Weight that each wheel carries.
     pub load: f64,
-    /// Stiffness and damper of a wheel.
+    /// Stiffness of a wheel.
     pub stiffness: f64,
     /// Damper of a wheel.
     pub damping: f64,
-    /// Wheels of one truck, by their offsets from their mean.
+    /// Offsets of the wheels of one truck from their mean, ascending.
     pub offsets: Vec<f64>,
 }
 
@@ -40,16 +40,16 @@ impl<'a> MapSubject<'a> {
     /// The first straight girder of `scene` under a truck.
     ///
     /// # Errors
-    /// What the scene lacks, in words.
+    /// What is missing in the scene, in words.
     pub fn of(scene: &'a Scene, known: &'a [SolvedStructure]) -> Result<MapSubject<'a>, String> {
         let find = |truck: &'a formats::scene::Truck| {
             let structure = &scene.structures[scene.rails[truck.rail].structure];
             let solved = solution_of(known, &structure.origin)?;
             Some((truck, structure, solved, solved.girder.as_ref()?, solved.surface.as_ref()?))
         };
-        let found = scene.trucks.iter().find_map(find);
+        let first = scene.trucks.iter().find_map(find);
         let (truck, structure, solved, girder, surface) =
-            found.ok_or("stability maps need a truck on a straight girder, the short form of a beam spec")?;
+            first.ok_or("stability maps need a truck on a straight girder, the short form of a beam spec")?;
         let wheels: usize = scene
             .trucks
             .iter()
@@ -85,25 +85,26 @@ impl<'a> MapSubject<'a> {
         })
     }
 
-    /// Length of the span.
+    /// Length of the longest span.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.span[1] - self.span[0]
     }
 
-    /// Mass that a wheel carries.
+    /// Mass that a wheel carries: load by gravity.
     #[must_use]
     pub fn mass(&self) -> f64 {
         self.load / self.gravity
     }
 
-    /// Unit of `dimension`.
+    /// Label of the unit of `dimension`.
     #[must_use]
     pub fn unit(&self, dimension: Dimension) -> String {
         self.units.label(dimension)
     }
 
-    /// Downward give at the places of `at` under unit loads down there, by `compliance`.
+    /// Vertical compliance matrix for the places `at` along the rail, n x n: entry (i, j) is the deflection at place
+    /// i under a unit load at place j, both downward. `None` where `compliance` has no answer at a place.
     #[must_use]
     pub fn give(&self, compliance: &dyn Compliance, at: &[f64]) -> Option<nalgebra::DMatrix<f64>> {
         let probes: Vec<Probe> = at.iter().map(|&x| Probe { rail: 0, x, axis: Axis::Vertical }).collect();
@@ -112,22 +113,23 @@ impl<'a> MapSubject<'a> {
         Some(out.value)
     }
 
-    /// Give at x under a unit load there.
+    /// Deflection at x under a unit load there, both downward; not a number beyond the rail.
     #[must_use]
     pub fn at(&self, x: f64) -> f64 {
-        self.give(self.surface, &[x]).map_or(f64::NAN, |give| give[(0, 0)])
+        self.give(self.surface, &[x]).map_or(f64::NAN, |matrix| matrix[(0, 0)])
     }
 
-    /// The girder without mass, exactly.
+    /// The exact influence surface of the girder as a foundation without mass.
     #[must_use]
     pub fn foundation(&self) -> Foundation {
         Foundation::influence(Box::new(self.surface.clone()), 1)
     }
 
-    /// A scene of one body of `mass` on wheels at `offsets`, from `x0` at `speed` until `end`.
+    /// A scene of one body of `mass` on wheels at `offsets` that starts at `x0`, moves at constant `speed` and ends
+    /// at the time `end`.
     ///
     /// # Errors
-    /// A motion that is none.
+    /// A speed or a place that is not finite.
     pub fn crossing(
         &self,
         mass: f64,
@@ -138,17 +140,14 @@ impl<'a> MapSubject<'a> {
         crossing(self.gravity, mass, offsets, law, [x0, speed, end])
     }
 
-    /// A linear wheel that holds on to the rail, with its damper to the ground.
+    /// The law of a linear wheel whose contact can pull, with its damper to the ground.
     #[must_use]
     pub fn linear(&self, stiffness: f64, damping: f64) -> NormalLaw {
         NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, damping, Damper::Ground) }
     }
 }
 
-/// A scene of one body of `mass` under `gravity` on wheels at `offsets`, from `x0` at `speed` until `end`.
-///
-/// # Errors
-/// A motion that is none.
+/// As [`MapSubject::crossing`], under any `gravity`.
 pub(super) fn crossing(
     gravity: f64,
     mass: f64,

@@ -1,4 +1,9 @@
-//! Speed against the critical speed of a rail on ties.
+//! Deflection under a moving constant force on a rail on ties, against speed.
+//!
+//! A beam on a Winkler bed of the stiffness u per length has the critical speed v_cr = (4 u E I / m^2)^(1/4). A
+//! constant force at the speed v deflects it by 1 / sqrt(1 - (v / v_cr)^2) times the static deflection. A rail
+//! without mass keeps the static deflection at any speed, and is silently wrong; a rail on ties with mass follows the
+//! line.
 
 use std::ops::ControlFlow;
 
@@ -12,28 +17,29 @@ use formats::units::{Force, Length, Units};
 use foundations::{full_mesh, solve};
 use report::chart::{Series, Style};
 
-/// Error of the deflection that is none, and one that nobody overlooks.
+/// Largest relative error of the deflection that counts as right, and the smallest that no user overlooks.
 const ALLOWED: f64 = 1e-2;
 const OBVIOUS: f64 = 10.0;
-/// Length of the rail by that of its bending, (4 E I / u)^(1/4).
+/// Length of the rail relative to its characteristic length (4 E I / u)^(1/4).
 const LENGTH: f64 = 100.0;
-/// Highest speed by the critical one: beyond it, waves are too slow to leave a wheel on a rail of this length.
+/// Highest speed relative to the critical one: above it, waves do not leave the wheel within a rail of this length.
 const FASTEST: f64 = 0.7;
-/// Stiffness of the wheel by that of the rail: its force is as good as constant.
+/// Stiffness of the wheel relative to that of the rail: so soft that its force is practically constant.
 const SOFT: f64 = 1e-4;
-/// Where the wheel starts, and from where on it is looked at, as shares of the rail.
+/// Fractions of the rail at which the wheel starts, its deflection is evaluated from, and the run ends.
 const START: f64 = 0.2;
-const LOOK: f64 = 0.6;
+const EVALUATED: f64 = 0.6;
 const STOP: f64 = 0.7;
 
-/// A rail of 136 lb/yd on ties of 3,000 lb/in a 24 in of track, with and without its mass; inches, pounds, seconds.
+/// A rail of 136 lb/yd on ties at 24 in with a track modulus of 3,000 psi, with and without its mass; inches, pounds,
+/// seconds.
 struct Track {
-    /// Its length, deflection at rest by force, critical speed.
     length: f64,
-    give: f64,
-    critical: f64,
-    moving: Foundation,
-    still: Foundation,
+    /// Static deflection on a Winkler bed per unit force.
+    static_flexibility: f64,
+    critical_speed: f64,
+    with_mass: Foundation,
+    massless: Foundation,
 }
 
 impl Track {
@@ -47,21 +53,22 @@ impl Track {
         let units = Units { length: Length::Inch, force: Force::Pound };
         let spec = on_ground("track", units, &ties, [0.0, length]).map_err(|error| error.to_string())?;
         let solved = solve(&spec).map_err(|error| error.to_string())?;
-        let moving = full_mesh(&solved, 1).map_err(|failure| failure.to_string())?;
+        let with_mass = full_mesh(&solved, 1).map_err(|failure| failure.to_string())?;
         let surface = solved.surface.ok_or("the surface of the track is not known")?;
         Ok(Track {
             length,
-            give: 1.0 / (8.0 * bending * beta * beta * beta),
-            critical: (4.0 * bed * bending / (mass * mass)).powf(0.25),
-            moving,
-            still: Foundation::influence(Box::new(surface), 1),
+            static_flexibility: 1.0 / (8.0 * bending * beta * beta * beta),
+            critical_speed: (4.0 * bed * bending / (mass * mass)).powf(0.25),
+            with_mass,
+            massless: Foundation::influence(Box::new(surface), 1),
         })
     }
 
-    /// Mean deflection under the wheel by that at rest on a Winkler bed.
-    fn amplified(&self, share: f64, foundation: &Foundation) -> Result<f64, String> {
-        let speed = share * self.critical;
-        let stiffness = SOFT / self.give;
+    /// Mean deflection under the wheel at a `fraction` of the critical speed, relative to the static one on a Winkler
+    /// bed.
+    fn amplification(&self, fraction: f64, foundation: &Foundation) -> Result<f64, String> {
+        let speed = fraction * self.critical_speed;
+        let stiffness = SOFT / self.static_flexibility;
         let [x0, end] = [START * self.length, (STOP - START) * self.length / speed];
         let (weight, gravity) = (1e4, 386.0886);
         let law = NormalLaw { bilateral: true, ..NormalLaw::linear(stiffness, 0.0, Damper::Rail) };
@@ -73,16 +80,17 @@ impl Track {
         if !run.status.is_complete() {
             return Err(results::run_error::status(&run.status).1.unwrap_or_default());
         }
-        let (gives, forces) =
+        let (deflections, forces) =
             (run.history.column(Channel::Give(0)), run.history.column(Channel::Vertical(0)));
-        let from = ((LOOK - START) / (STOP - START) * gives.len() as f64) as usize;
-        let shares: Vec<f64> =
-            gives.iter().zip(&forces).skip(from).map(|(give, force)| give / (force * self.give)).collect();
-        Ok(shares.iter().sum::<f64>() / shares.len().max(1) as f64)
+        let from = ((EVALUATED - START) / (STOP - START) * deflections.len() as f64) as usize;
+        let pairs = deflections.iter().zip(&forces).skip(from);
+        let ratios: Vec<f64> =
+            pairs.map(|(deflection, force)| deflection / (force * self.static_flexibility)).collect();
+        Ok(ratios.iter().sum::<f64>() / ratios.len().max(1) as f64)
     }
 }
 
-/// The map.
+/// The map of the deflection against speed.
 ///
 /// # Errors
 /// A track that cannot be solved.
@@ -98,26 +106,26 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
         axes,
         "Mean over a tenth of a rail of 184 ties, 136 lb/yd on 3,000 psi; the line is 1 / sqrt(1 - (v / v_cr)^2) of a rail on a bed. Wrong from 1e-2 on.",
     );
-    map.find("critical speed, in/s", track.critical);
+    map.find("critical speed, in/s", track.critical_speed);
     let mut layers = [("rail without mass", false), ("girderway, ties with mass", true)]
         .map(|(method, ours)| Layer::new(method, ours));
     let mut line = Vec::new();
     for i in 0..points {
-        let share = 0.05 + (FASTEST - 0.05) * i as f64 / (points - 1).max(1) as f64;
-        let wanted = 1.0 / (1.0 - share * share).sqrt();
-        line.push([share, wanted]);
-        for (layer, foundation) in layers.iter_mut().zip([&track.still, &track.moving]) {
-            let (at, value, verdict) = match track.amplified(share, foundation) {
-                Ok(found) => {
-                    let error = (found / wanted - 1.0).abs();
-                    (found, error, MapVerdict::of(error, ALLOWED, OBVIOUS))
+        let fraction = 0.05 + (FASTEST - 0.05) * i as f64 / (points - 1).max(1) as f64;
+        let expected = 1.0 / (1.0 - fraction * fraction).sqrt();
+        line.push([fraction, expected]);
+        for (layer, foundation) in layers.iter_mut().zip([&track.massless, &track.with_mass]) {
+            let (at, value, verdict) = match track.amplification(fraction, foundation) {
+                Ok(value) => {
+                    let error = (value / expected - 1.0).abs();
+                    (value, error, MapVerdict::of(error, ALLOWED, OBVIOUS))
                 }
-                Err(why) => (wanted, 0.0, MapVerdict::Refused(why)),
+                Err(why) => (expected, 0.0, MapVerdict::Refused(why)),
             };
             if layer.is_ours {
-                map.find(format!("deflection at {share:.3} of it"), at);
+                map.find(format!("deflection at {fraction:.3} of it"), at);
             }
-            layer.cells.push(MapPoint { at: [share, at], value, verdict });
+            layer.cells.push(MapPoint { at: [fraction, at], value, verdict });
         }
     }
     let line = Series::new("rail on a bed", Style::Line, line);

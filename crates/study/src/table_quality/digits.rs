@@ -1,11 +1,11 @@
-//! Numbers of findings in few digits.
+//! Numbers of findings with few significant digits.
 
-/// Three digits.
+/// The value with three significant digits.
 pub(super) fn short(value: f64) -> String {
     digits(value, 3)
 }
 
-/// Four digits.
+/// The value with four significant digits.
 pub(super) fn sharp(value: f64) -> String {
     digits(value, 4)
 }

@@ -1,4 +1,4 @@
-//! What about a table's stations, rather than its values, will hurt.
+//! Risks that follow from the stations of a table rather than from its values.
 
 use std::fmt;
 
@@ -7,20 +7,20 @@ use splines::check::supports;
 
 use super::digits::short;
 
-/// Spacings that differ by more than this share are uneven.
+/// Relative difference above which spacings are unequal.
 const EVEN: f64 = 1e-6;
-/// Fewest x values on which all documents of AKISPL's dialects agree.
+/// Smallest number of x values that all documents of AKISPL accept.
 const PORTABLE: usize = 6;
 
-/// Breaks that are named one by one.
+/// Largest number of breaks that a message lists.
 const LISTED: usize = 6;
 
-/// Something that a user of the table should know.
+/// A risk that a user of the table should know.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExtrapolationRisk {
     /// Few x values.
     Few {
-        /// How many.
+        /// Their number.
         found: usize,
     },
     /// Stations at unequal distances.
@@ -35,35 +35,36 @@ pub enum ExtrapolationRisk {
     },
     /// Stations along z that differ from those along x.
     Rectangle {
-        /// Curves, and values a curve.
+        /// Number of curves, and of values of each curve.
         shape: [usize; 2],
     },
-    /// A rail that goes on beyond the table.
+    /// A rail that extends beyond the table.
     Short {
         /// First and last place of the rail.
         rail: [f64; 2],
     },
-    /// Ends of cells (supports, hinges, changes of section) that are no stations.
+    /// Ends of rail elements (supports, hinges, changes of section) without a station.
     Breaks {
         /// Where.
         at: Vec<f64>,
     },
     /// No LINEAR_EXTRAPOLATE.
     NotLinear,
-    /// Deflections against their own load.
+    /// A deflection against the direction of its own load.
     Negative {
         /// Where.
         at: f64,
         /// The entry.
         value: f64,
     },
-    /// Nothing but zeros.
+    /// All values are zero.
     Zero,
 }
 
 impl ExtrapolationRisk {
-    /// All of a table; `breaks` are the ends of the cells of the rail that loads stand on, where they are known,
-    /// `direct` whether a diagonal must be positive.
+    /// All risks of a table. `direct`: whether deflections and loads are of one path and direction, so that the
+    /// diagonal must be positive; `linear`: whether the file asks for linear extrapolation; `breaks`: ends of the
+    /// elements of the loaded rail, empty where they are unknown.
     #[must_use]
     pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<ExtrapolationRisk> {
         let mut out = Vec::new();
@@ -115,7 +116,7 @@ impl ExtrapolationRisk {
         out
     }
 
-    /// Its word in results.
+    /// The word of the risk in results.
     #[must_use]
     pub const fn word(&self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! All numbers of one table.
+//! The findings of one table, and the verdicts that follow.
 
 use splines::check::{
     Beyond, Deviation, Digits, Extreme, Spectrum, Way, beyond, digits, station_asymmetry, station_spectrum,
@@ -11,77 +11,78 @@ use super::reading_method::{TableReadingMethod, raised};
 use super::readings::{ReadingFindings, ReadingPlanes, strip};
 use super::subject::{TableItem, TableSource};
 
-/// What the user asks.
+/// Settings of an evaluation.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Settings {
     /// Force of one wheel.
     pub load: Option<f64>,
     /// Distance of the wheels of a pair.
     pub spacing: Option<f64>,
-    /// How far beyond the table its rules are compared; one spacing of the stations where absent.
+    /// Distance beyond the table at which rules of extrapolation are compared; `None`: the spacing of its last two
+    /// stations.
     pub beyond: Option<f64>,
-    /// The reading whose error is judged, and how large it may be, of the largest coefficient.
+    /// The reading that is judged, and its tolerance relative to the largest coefficient.
     pub judged: Option<(TableReadingMethod, f64)>,
 }
 
-/// What a reading is compared with.
+/// The exact values with which readings are compared.
 #[derive(Clone, Debug)]
 pub enum Truth {
     /// The exact surface of the grid file.
     Surface,
-    /// The beam behind the table.
+    /// The beam whose influence coefficients the table holds.
     Lifted(Lift),
     /// Neither.
     None,
 }
 
-/// One table.
+/// The findings of one table.
 pub struct TableQuality {
     /// The table.
     pub item: TableItem,
     /// Digits that its entries were written with.
     pub digits: Digits,
-    /// Largest |T_ij - T_ji|; `None` where that has no meaning.
+    /// Largest |T_ij - T_ji|; `None` for couplings and for unequal stations.
     pub asymmetry: Option<Extreme>,
-    /// Ends of its spectrum; `None` where that has no meaning.
+    /// Smallest and largest eigenvalue; `None` for couplings and for unequal stations.
     pub spectrum: Option<Spectrum>,
     /// Rigid supports.
     pub supports: Vec<f64>,
-    /// What errors are against.
+    /// The exact values that errors are measured against.
     pub truth: Truth,
-    /// Of a coupling, the geometric mean of its two directions' largest entries; `None` of a direct table, or
-    /// where they are not known.
+    /// Scale of the errors of a coupling: the geometric mean of the largest entries of its two direct tables; `None`
+    /// for a direct table, or where these are missing.
     pub scale: Option<f64>,
-    /// Each reading; those that the table does not allow are left out.
+    /// The findings of each reading that accepts the table.
     pub readings: Vec<ReadingFindings>,
-    /// The row with the largest spread of rules beyond the first and the last station.
+    /// For each end of the table, the row in which rules of extrapolation differ most.
     pub beyond: Vec<Beyond>,
-    /// What about its stations will hurt.
+    /// Risks of its stations.
     pub hazards: Vec<ExtrapolationRisk>,
-    /// What has failed.
+    /// Failed checks.
     pub verdicts: Vec<TableVerdict>,
-    /// Force of one wheel, where the user gave it.
+    /// Force of one wheel, where it is known.
     pub load: Option<f64>,
 }
 
-/// What a table must be and is not.
+/// A check that a table fails.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TableVerdict {
-    /// Unsymmetric beyond its digits.
+    /// It is unsymmetric beyond the rounding of its entries.
     Asymmetric(Extreme),
-    /// An eigenvalue below zero beyond its digits.
+    /// An eigenvalue is negative beyond the rounding of its entries.
     Indefinite(Spectrum),
-    /// The judged reading errs more than allowed, relative.
+    /// The judged reading exceeds its tolerance: method, relative error, tolerance.
     Error(TableReadingMethod, f64, f64),
-    /// The judged reading has nothing to be compared with.
+    /// The error of the judged reading is unknown.
     Unknown(TableReadingMethod),
 }
 
 impl TableQuality {
-    /// The numbers of table `index` of a file.
+    /// The findings of table `index` of a file.
     ///
     /// # Errors
-    /// A place of the table for which the exact surface has no answer.
+    /// A place of the table at which the exact surface cannot be evaluated.
     pub fn of(subject: &TableSource, index: usize, settings: &Settings) -> Result<TableQuality, Error> {
         let item = &subject.items[index];
         let table = &item.table;
@@ -93,7 +94,7 @@ impl TableQuality {
             _ => Truth::None,
         };
         let supports = if direct { supports(table) } else { Vec::new() };
-        let mut found = TableQuality {
+        let mut quality = TableQuality {
             item: item.clone(),
             digits: digits(table),
             asymmetry: station_asymmetry(table).filter(|_| direct),
@@ -109,13 +110,14 @@ impl TableQuality {
         };
         for end in ends(table.x(), settings.beyond) {
             let worst = beyond(table, end)?.into_iter().max_by(|a, b| a.spread().total_cmp(&b.spread()));
-            found.beyond.extend(worst);
+            quality.beyond.extend(worst);
         }
-        found.readings = found.read(subject, settings, lifted.as_ref())?;
-        found.judge(settings);
-        Ok(found)
+        quality.readings = quality.read(subject, settings, lifted.as_ref())?;
+        quality.judge(settings);
+        Ok(quality)
     }
 
+    /// The findings of every reading that accepts the table.
     fn read(
         &self,
         subject: &TableSource,
@@ -127,7 +129,7 @@ impl TableQuality {
         let Some(frame) = self.frame(subject, settings, ways) else { return Ok(out) };
         for manner in TableReadingMethod::ALL {
             if manner == TableReadingMethod::Exact {
-                // The raised table is worth a column where something else says what is exact.
+                // the beam behind the table is a reading where another surface is the exact one
                 if let (Some(lift), Truth::Surface) = (lifted, &self.truth) {
                     out.push(ReadingFindings::of(manner, &strip(&lift.surface, UP), &frame)?);
                 }
@@ -139,14 +141,14 @@ impl TableQuality {
         Ok(out)
     }
 
-    /// Whether the table holds nothing but zeros, or rounding beside its directions' own tables.
+    /// Whether all values are zero or, for a coupling, rounding relative to its direct tables.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.item.table.values().amax() <= UNCOUPLED * self.scale.unwrap_or(0.0)
     }
 
-    /// An error by what it is relative to: the largest exact coefficient of a direct table, the geometric mean of
-    /// its two directions' of a coupling.
+    /// A relative error. The scale of a direct table is its largest exact coefficient; that of a coupling is the
+    /// geometric mean of the largest coefficients of its two direct tables.
     #[must_use]
     pub fn relative(&self, error: &Deviation) -> f64 {
         match self.scale {
@@ -155,7 +157,7 @@ impl TableQuality {
         }
     }
 
-    /// What readings are held against; `None` where table and exact surface have no place in common.
+    /// The exact block and the places of comparison; `None` where table and exact surface have no place in common.
     fn frame<'a>(
         &'a self,
         subject: &'a TableSource,
@@ -186,6 +188,7 @@ impl TableQuality {
         range.iter().all(|[a, b]| a < b).then_some(frame)
     }
 
+    /// Adds the checks that fail.
     fn judge(&mut self, settings: &Settings) {
         let slack = self.digits.slack;
         if let Some(worst) = self.asymmetry.filter(|worst| worst.value > slack) {
@@ -208,15 +211,15 @@ impl TableQuality {
     }
 }
 
-/// The raised table answers as the vertical of its first rail, whatever it is.
+/// The beam behind a table has one rail and gives its vertical deflections, whatever the direction of the table.
 pub(super) const UP: [Way; 2] = [(0, Axis::Vertical); 2];
-/// Eigenvalues above minus this, of the largest, are rounding.
+/// Fraction of the largest eigenvalue below which a negative one is rounding.
 const ROUNDING: f64 = 1e-13;
 
-/// A coupling below this share of its directions' own coefficients is none.
+/// Fraction of the coefficients of its direct tables below which a coupling is rounding.
 const UNCOUPLED: f64 = 1e-9;
 
-/// Geometric mean of the largest entries of a coupling's two directions.
+/// Geometric mean of the largest entries of the two direct tables of a coupling.
 fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
     let largest = |way: Way| {
         let own = subject.items.iter().filter(|item| item.ways == Some([way; 2]));
@@ -226,7 +229,7 @@ fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
     Some((largest(deflection)? * largest(load)?).sqrt())
 }
 
-/// A reading of the table: together with all others where they allow it, alone otherwise.
+/// A reading of the table: together with all other tables where the method accepts them, else alone.
 pub(super) fn reading(
     subject: &TableSource,
     item: &TableItem,
@@ -239,13 +242,13 @@ pub(super) fn reading(
     together.or_else(|| manner.read(&[own]).ok())
 }
 
-/// Ends of the cells of the rail that loads stand on; nothing where they are not known.
+/// Ends of the elements of the loaded rail; empty where they are unknown.
 fn breaks(subject: &TableSource, item: &TableItem) -> Vec<f64> {
     let surface = subject.surface.as_ref().zip(item.ways);
     surface.map(|(surface, [_, load])| surface.breaks(load.0)).unwrap_or_default()
 }
 
-/// Places beyond both ends, at the distance asked for or at that of the last two stations.
+/// Places beyond both ends, at the given `distance` or at the spacing of the outermost two stations.
 fn ends(x: &[f64], distance: Option<f64>) -> [f64; 2] {
     let n = x.len();
     [x[0] - distance.unwrap_or(x[1] - x[0]), x[n - 1] + distance.unwrap_or(x[n - 1] - x[n - 2])]

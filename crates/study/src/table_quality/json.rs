@@ -7,10 +7,10 @@ use super::findings::{TableQuality, TableVerdict, Truth};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
 use super::subject::TableSource;
 
-/// The word of the format, with its version.
+/// Name of the format with its version.
 pub const FORMAT: &str = "girderway-check/1";
 
-/// The whole text.
+/// All findings as one JSON text.
 #[must_use]
 pub fn json(subject: &TableSource, all: &[TableQuality]) -> String {
     let tables: Vec<Value> = all.iter().map(table).collect();

@@ -1,7 +1,15 @@
-//! What each reading of tables will cost an ADAMS user.
+//! The quality of influence tables: the errors of each method of reading them, symmetry, definiteness, risks of
+//! extrapolation.
 //!
-//! [`Subject`] is what a file says of its tables, [`Findings`] the numbers of one of them; `text`, `json` and
-//! `picture` show them. The numbers themselves come from [`splines::check`].
+//! 1. [`TableSource`] reads the tables of a file, with the exact surface where the file has one.
+//! 2. [`TableQuality::of`] evaluates one table. At its stations: the digits of its entries, its asymmetry and the
+//!    ends of its spectrum. Between them: each of the [`TableReadingMethod`]s against the exact surface or, where
+//!    there is none, against the beam in bending whose influence coefficients the table holds, if its values lie
+//!    within 1 % of one.
+//! 3. A reading that is not symmetric does work on closed loops of wheel forces; one that is not positive lets
+//!    several stiff wheels at some layout sink without load. [`ReadingFindings`] holds both, as computed by
+//!    [`splines::check`].
+//! 4. `text`, `json` and `picture` write the findings.
 
 pub mod digits;
 pub mod extrapolation_risk;

@@ -1,4 +1,4 @@
-//! Findings as pictures: errors under a moving wheel, and over all places of load and deflection.
+//! Findings as figures: errors under a moving wheel, and over all places of load and deflection.
 
 use splines::Error;
 use splines::check::{Strip, places};
@@ -12,16 +12,16 @@ use formats::units::Dimension;
 use report::chart::{self, Chart, ChartAxis, Series, Style, SurfacePlot, Svg};
 use report::{self, Picture, Report, ReportSection};
 
-/// Places along the rail on a picture.
+/// Number of places along the rail of a chart.
 const ACROSS: usize = 240;
-/// Places along each edge of a map.
+/// Number of places along each axis of a map.
 const MAP: usize = 90;
 
-/// A picture with its caption.
+/// A figure with its caption.
 pub struct TableFigure {
-    /// What it shows.
+    /// The picture.
     pub picture: Picture,
-    /// In words.
+    /// The caption.
     pub caption: String,
 }
 
@@ -29,20 +29,20 @@ impl TableFigure {
     /// As SVG.
     ///
     /// # Errors
-    /// What a chart cannot draw.
+    /// Data that a chart cannot draw.
     pub fn svg(&self) -> Result<Svg, chart::Error> {
         match &self.picture {
             Picture::Chart(chart) => chart.svg(),
             Picture::Svg(svg) => Ok(svg.clone()),
-            Picture::Animation(film) => Ok(film.svg.clone()),
+            Picture::Animation(animation) => Ok(animation.svg.clone()),
         }
     }
 }
 
-/// Pictures of one table: none where nothing says what is exact.
+/// Figures of one table; none where exact values are unknown.
 ///
 /// # Errors
-/// What a chart cannot draw, or a reading cannot answer.
+/// Data that a chart cannot draw, or a place at which a reading cannot be evaluated.
 pub fn plates(
     subject: &TableSource,
     found: &TableQuality,
@@ -77,22 +77,37 @@ pub fn plates(
     if found.item.is_direct() {
         out.extend(diagonal(subject, found, &exact, x, &title, &length)?);
     }
+    out.extend(error_map(subject, found, &exact, [x, z], &title, &length)?);
+    Ok(out)
+}
+
+/// Map of the error of the worst reading over `range` of loads and of deflections; `None` where no reading errs.
+fn error_map(
+    subject: &TableSource,
+    found: &TableQuality,
+    exact: &Strip<'_>,
+    [x, z]: [[f64; 2]; 2],
+    title: &str,
+    length: &str,
+) -> Result<Option<TableFigure>, Box<dyn std::error::Error>> {
+    let Some(ways) = found.item.ways else { return Ok(None) };
+    let table = &found.item.table;
     let worst = found
         .readings
         .iter()
         .filter_map(|r| Some((r.manner, found.relative(&r.error?))))
         .max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((manner, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(out) };
-    let Some(reading) = reading(subject, &found.item, manner) else { return Ok(out) };
+    let Some((manner, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(None) };
+    let Some(reading) = reading(subject, &found.item, manner) else { return Ok(None) };
     let (x, z) = (places(table.x(), x, MAP), places(table.z(), z, MAP));
     let scale = scale(found);
-    let mut values = map(&strip(reading.as_ref(), ways), &exact, &z, &x)?;
+    let mut values = map(&strip(reading.as_ref(), ways), exact, &z, &x)?;
     values.iter_mut().flatten().for_each(|value| *value *= 100.0 / scale);
     let plot = SurfacePlot {
         title: format!("{title}: {} less exact", manner.word()),
         label: "error, of the largest coefficient".to_owned(),
         unit: "%".to_owned(),
-        length_unit: length,
+        length_unit: length.to_owned(),
         at: z,
         loads: x,
         values,
@@ -104,15 +119,16 @@ pub fn plates(
         manner.word(),
         short(100.0 * error)
     );
-    out.push(TableFigure { picture: plot.svg()?.into(), caption });
-    Ok(out)
+    Ok(Some(TableFigure { picture: plot.svg()?.into(), caption }))
 }
 
+/// Scale of relative errors.
 fn scale(found: &TableQuality) -> f64 {
     let own = found.readings.iter().find_map(|r| r.error.map(|e| e.scale));
     found.scale.or(own).filter(|scale| *scale > 0.0).unwrap_or(1.0)
 }
 
+/// Chart of the error of G(x, x) of every reading along the rail.
 fn diagonal(
     subject: &TableSource,
     found: &TableQuality,
@@ -152,10 +168,10 @@ fn diagonal(
     Ok(Some(TableFigure { picture: chart.into(), caption }))
 }
 
-/// Findings as one page.
+/// All findings as one page of HTML.
 ///
 /// # Errors
-/// As [`plates`], and what a page cannot hold.
+/// As [`plates`], and as [`Report::html`].
 pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<dyn std::error::Error>> {
     let mut report = Report {
         title: "What readings of these tables cost".to_owned(),
@@ -171,14 +187,15 @@ pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<d
         if !found.readings.is_empty() {
             section = section.table(readings(subject, found));
         }
-        for plate in plates(subject, found)? {
-            section = section.figure(plate.picture, plate.caption);
+        for figure in plates(subject, found)? {
+            section = section.figure(figure.picture, figure.caption);
         }
         report.sections.push(section);
     }
     Ok(report.html(None)?)
 }
 
+/// Table of the readings of one table.
 fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable {
     let unit = |dimension| subject.units.map(|units| units.label(dimension)).unwrap_or_default();
     let column = |name: &str, unit: &str| report::TableColumn::new(name, unit);

@@ -1,11 +1,12 @@
-//! Readings by their words.
+//! Methods of reading tables.
 
 use splines::{Axis, Compliance, Error, Factored, Kind, Lift, Rank, Reading, Sheet, Table, lift};
 
-/// A table further than this from any beam in bending, of its largest entry, is not raised.
+/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam stands for
+/// the table.
 const MISFIT: f64 = 0.01;
 
-/// A way to read tables of values.
+/// A method of reading tables of influence coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableReadingMethod {
     /// AKISPL along the load, linear along the deflection.
@@ -16,14 +17,14 @@ pub enum TableReadingMethod {
     Cubspl,
     /// Natural splines along both.
     Natural,
-    /// Products of one-curve CUBSPLs.
+    /// Sums of products of CUBSPLs of one variable.
     Factored,
-    /// The beam behind the values.
+    /// The beam whose influence coefficients the table holds.
     Exact,
 }
 
 impl TableReadingMethod {
-    /// All, as tables of findings list them.
+    /// All methods, in the order of findings.
     pub const ALL: [TableReadingMethod; 6] = [
         TableReadingMethod::Akispl,
         TableReadingMethod::Symmetrised,
@@ -33,7 +34,7 @@ impl TableReadingMethod {
         TableReadingMethod::Exact,
     ];
 
-    /// Its word on the command line and in results.
+    /// The word of the method on the command line and in results.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -46,7 +47,7 @@ impl TableReadingMethod {
         }
     }
 
-    /// Power of the distance of stations with which its error falls where bending alone gives.
+    /// Order of its error in the distance of stations, for beams in bending.
     #[must_use]
     pub const fn order(self) -> f64 {
         match self {
@@ -55,7 +56,7 @@ impl TableReadingMethod {
         }
     }
 
-    /// The tables read so. [`Manner::Exact`] raises one table of bending; it takes no couplings.
+    /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without couplings.
     ///
     /// # Errors
     /// As [`Reading::new`], [`Factored::new`] and [`raised()`].
@@ -79,11 +80,11 @@ impl TableReadingMethod {
     }
 }
 
-/// The beam in bending behind a table.
+/// The beam in bending whose influence coefficients a table holds, with its rail `rail`.
 ///
 /// # Errors
-/// A table that is further than 1 percent from any such beam.
+/// A table that deviates from every such beam by more than 1 percent of its largest entry.
 pub fn raised(rail: usize, table: &Table) -> Result<Lift, Error> {
-    let found = lift(rail, table)?;
-    if found.misfit <= MISFIT { Ok(found) } else { Err(Error::Unliftable) }
+    let beam = lift(rail, table)?;
+    if beam.misfit <= MISFIT { Ok(beam) } else { Err(Error::Unliftable) }
 }

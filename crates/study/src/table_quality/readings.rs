@@ -1,4 +1,4 @@
-//! The numbers of one reading of one table.
+//! The findings of one reading of one table.
 
 use splines::check::{
     Deviation, Extreme, Kink, Layout, Spectrum, Strip, Work, asymmetry, deviation, diagonal_kinks,
@@ -8,47 +8,47 @@ use splines::{Compliance, Error};
 
 use super::reading_method::TableReadingMethod;
 
-/// Numbers of wheels whose layouts are searched.
+/// Numbers of wheels for which indefinite layouts are searched.
 pub const WHEELS: [usize; 3] = [2, 4, 8];
-/// Random layouts of each number.
+/// Number of random layouts for each number of wheels.
 const LAYOUTS: usize = 1000;
-/// Least and most places along the rail at which a reading is looked at, and fewer for spectra.
+/// Smallest and largest number of places along the rail at which a reading is evaluated, and the number for spectra.
 const PLACES: [usize; 2] = [300, 900];
 const SPECTRUM: usize = 120;
 
-/// One reading of one table.
+/// The findings of one reading of one table.
 #[derive(Clone, Debug)]
 pub struct ReadingFindings {
-    /// Which.
+    /// The method.
     pub manner: TableReadingMethod,
-    /// Against the exact surface, over the whole table; `None` where none is known.
+    /// Error against the exact surface over the whole table; `None` where no exact values are known.
     pub error: Option<Deviation>,
     /// The same between the first and the last support.
     pub span: Option<Deviation>,
-    /// Of a direct table, what an unsymmetric and indefinite give costs.
+    /// Findings of a direct table on symmetry and definiteness.
     pub direct: Option<DirectFindings>,
 }
 
-/// What holds of deflections and loads of one way alone.
+/// Findings that are defined only for deflections and loads of one path and direction.
 #[derive(Clone, Debug)]
 pub struct DirectFindings {
     /// Largest |G(x, z) - G(z, x)|.
     pub asymmetry: Extreme,
-    /// Largest |G| at the places looked at.
+    /// Largest |G| at the evaluated places.
     pub scale: f64,
-    /// Ends of the spectrum of the symmetric part, densely sampled.
+    /// Smallest and largest eigenvalue of the symmetric part at densely spaced places.
     pub spectrum: Spectrum,
-    /// Share of random layouts of 2, 4, 8 wheels that are indefinite.
+    /// Fraction of random layouts of 2, 4 and 8 wheels whose compliance matrix is indefinite.
     pub shares: [f64; 3],
     /// The weakest layouts of 2, 4, 8 wheels.
     pub layouts: Vec<Layout>,
     /// The largest jump of slope under a moving wheel; `None` where there is no station between the ends.
     pub kink: Option<Kink>,
-    /// Two wheels at the distance asked for.
+    /// Findings of two wheels at the distance of the settings.
     pub pair: Option<Pair>,
 }
 
-/// Two wheels at one distance.
+/// Findings of two wheels at a fixed distance.
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// The loop of forces with the most work.
@@ -57,11 +57,11 @@ pub struct Pair {
     pub kink: Option<Kink>,
 }
 
-/// What a reading is held against, and where.
+/// Exact block and places with which a reading is compared.
 pub struct ReadingPlanes<'a> {
     /// The exact block.
     pub exact: Option<Strip<'a>>,
-    /// Places of loads and of deflections that both know.
+    /// Ranges of loads and of deflections that both cover.
     pub range: [[f64; 2]; 2],
     /// From the first to the last support, where there are two.
     pub span: Option<[f64; 2]>,
@@ -70,10 +70,10 @@ pub struct ReadingPlanes<'a> {
 }
 
 impl ReadingFindings {
-    /// The numbers of a reading whose block is `strip`.
+    /// The findings of a reading whose block is `strip`.
     ///
     /// # Errors
-    /// A place for which the reading or the exact surface has no answer.
+    /// A place at which the reading or the exact surface cannot be evaluated.
     pub fn of(
         manner: TableReadingMethod,
         strip: &Strip<'_>,
@@ -96,10 +96,12 @@ impl ReadingFindings {
     }
 }
 
+/// Densely spaced places over `range`, the breaks included.
 fn dense(breaks: &[f64], range: [f64; 2]) -> Vec<f64> {
     places(breaks, range, (4 * breaks.len()).clamp(PLACES[0], PLACES[1]))
 }
 
+/// The findings on symmetry and definiteness of a direct block.
 fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &ReadingPlanes<'_>) -> Result<DirectFindings, Error> {
     let range = frame.range[0];
     let at = dense(breaks, range);
@@ -128,7 +130,7 @@ fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &ReadingPlanes<'_>) -> Resul
     })
 }
 
-/// Errors over places, for pictures: reading less exact, by rows of deflections.
+/// Errors (reading less exact) over places, for maps: one row for each place `z` of the deflection.
 ///
 /// # Errors
 /// As [`ReadingFindings::of`].
@@ -137,7 +139,7 @@ pub fn map(strip: &Strip<'_>, exact: &Strip<'_>, z: &[f64], x: &[f64]) -> Result
     Ok(error.row_iter().map(|row| row.iter().copied().collect()).collect())
 }
 
-/// A block of a compliance.
+/// The block of a compliance between two paths: deflection and load.
 #[must_use]
 pub fn strip(compliance: &dyn Compliance, [deflection, load]: [splines::check::Way; 2]) -> Strip<'_> {
     Strip { compliance, deflection, load }

@@ -1,4 +1,4 @@
-//! What a file says of its tables.
+//! Tables read from a file.
 
 use std::path::Path;
 
@@ -18,22 +18,23 @@ use formats::source::Source;
 use formats::tables::{self, Contents, TableSet};
 use formats::units::Units;
 
-/// Larger numbers are refused: their squares must be finite.
+/// Largest number of a table; larger ones are refused, since their squares must be finite.
 const LARGEST: f64 = 1e60;
-/// Nearer stations are refused, of the table's length: their differences would be rounding.
+/// Smallest distance of stations relative to the length of the table; closer ones are refused, since their
+/// differences would be rounding.
 const NEAREST: f64 = 1e-9;
 
 /// Tables of one file, and the exact surface where it has one.
 pub struct TableSource {
     /// The file as the user named it.
     pub file: String,
-    /// Units of all numbers, where the file says them.
+    /// Units of all numbers, where the file states them.
     pub units: Option<Units>,
     /// Its tables.
     pub items: Vec<TableItem>,
-    /// The exact surface behind them.
+    /// The exact surface of which they are values.
     pub surface: Option<Surface>,
-    /// What a user should know of what is not here.
+    /// Messages about parts of the file that are not read.
     pub notes: Vec<String>,
 }
 
@@ -44,16 +45,17 @@ pub struct TableItem {
     pub id: u32,
     /// Its name; empty where it has none.
     pub name: String,
-    /// Ways of deflection and load; `None` where the file does not say of what a coupling is.
+    /// Paths (rail and direction) of deflection and load; `None` for a coupling whose directions the file does not
+    /// state.
     pub ways: Option<[Way; 2]>,
-    /// Whether the file would have ADAMS go on with a line beyond the ends; `None` where it is no ADAMS file.
+    /// Whether the file asks for linear extrapolation; `None` for a grid file.
     pub linear: Option<bool>,
     /// Its values.
     pub table: Table,
 }
 
 impl TableItem {
-    /// Whether deflections and loads are of one way: only such a table is symmetric.
+    /// Whether deflections and loads are of the same path: only such a table is symmetric.
     #[must_use]
     pub fn is_direct(&self) -> bool {
         self.ways.is_some_and(|[deflection, load]| deflection == load)
@@ -61,10 +63,10 @@ impl TableItem {
 }
 
 impl TableSource {
-    /// Reads a grid file or tables.
+    /// Reads a grid file or a file of tables.
     ///
     /// # Errors
-    /// A file that cannot be read, or has no table.
+    /// A file that cannot be read, is invalid or has no table.
     pub fn open(path: &Path) -> Result<TableSource, Error> {
         let inputs = Inputs::open_bytes(path)?;
         let input = &inputs.all()[0];
@@ -104,7 +106,7 @@ impl TableSource {
                 None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", table.id)),
             }
         }
-        // Nothing says which tables belong together: each is a way of its own.
+        // the file does not state which tables belong together: each is a path of its own
         for (index, item) in items.iter_mut().enumerate() {
             if !is_coupling(&item.name) {
                 item.ways = Some([(index, splines::Axis::Vertical); 2]);
@@ -120,7 +122,7 @@ impl TableSource {
         Ok(TableSource { file: file.to_owned(), units: contents.units, items, surface: None, notes })
     }
 
-    /// The tables whose ways are known and have tables of their own, as a reading takes them.
+    /// The tables that can be read together: those of known paths, whose direct tables are in the file.
     #[must_use]
     pub fn sheets(&self) -> Vec<Sheet> {
         let own = |way: Way| self.items.iter().any(|item| item.ways == Some([way; 2]));
@@ -132,7 +134,7 @@ impl TableSource {
     }
 }
 
-/// A family as a table; `None` for one curve alone.
+/// A family of curves as a table; `None` for a single curve.
 fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
     let curves = &given.curves;
     if curves.z().is_empty() {
@@ -157,7 +159,8 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
     Ok(Some(TableItem { id: given.id, name, ways: None, linear: None, table }))
 }
 
-/// Ways of a grid's table by its number, of a grid of that many rails: six a pair of rails, from 6 on.
+/// Paths of a table of a grid with this number of rails, by the number of the table: from 6 on, six for each pair of
+/// rails.
 fn ways(id: u32, rails: usize) -> Option<[Way; 2]> {
     let place = usize::try_from(id).ok()?.checked_sub(6)?;
     let (pair, index) = (place / 6, place % 6);
@@ -165,7 +168,7 @@ fn ways(id: u32, rails: usize) -> Option<[Way; 2]> {
     Some([(pair / rails.max(1), deflection), (pair % rails.max(1), load)])
 }
 
-/// Whether a table's name says that it relates two directions or two rails.
+/// Whether the name of a table says that it couples two directions or two rails.
 fn is_coupling(name: &str) -> bool {
     let couplings = GridBlock::ALL.into_iter().filter(|quantity| quantity.direct() != [*quantity; 2]);
     name.contains("_from_") || couplings.into_iter().any(|quantity| name.ends_with(quantity.name()))

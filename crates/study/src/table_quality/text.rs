@@ -1,4 +1,4 @@
-//! Findings as text: a column a reading.
+//! Findings as text: a table with one column for each reading.
 
 use std::fmt::Write;
 
@@ -10,11 +10,11 @@ use super::readings::{DirectFindings, ReadingFindings, WHEELS};
 use super::subject::TableSource;
 use formats::units::{Dimension, Units};
 
-/// Width of the names of rows, and of a column.
+/// Width of the names of rows and of each column, characters.
 const NAME: usize = 43;
 const COLUMN: usize = 13;
 
-/// Units of a text; empty where the file says none.
+/// Labels of units; empty where the file states none.
 #[derive(Clone, Copy)]
 struct Words(Option<Units>);
 
@@ -30,7 +30,7 @@ impl Words {
     }
 }
 
-/// The whole text.
+/// The findings of all tables.
 #[must_use]
 pub fn text(subject: &TableSource, all: &[TableQuality]) -> String {
     let units = Words(subject.units);
@@ -48,6 +48,7 @@ pub fn text(subject: &TableSource, all: &[TableQuality]) -> String {
     out
 }
 
+/// The findings of one table.
 fn one(out: &mut String, found: &TableQuality, units: Words) {
     let table = &found.item.table;
     let (x, length) = (table.x(), units.of(Dimension::LENGTH));
@@ -82,6 +83,7 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
     }
 }
 
+/// Findings at the stations: digits, asymmetry, spectrum.
 fn stations(out: &mut String, found: &TableQuality, units: Words) {
     let flexibility = units.of(Dimension::FLEXIBILITY);
     let _ = writeln!(out, "  at the stations: {} digits", found.digits.count);
@@ -113,7 +115,7 @@ fn stations(out: &mut String, found: &TableQuality, units: Words) {
     }
 }
 
-/// What errors are against.
+/// The exact values that errors are measured against, in words.
 fn truth(found: &TableQuality, units: Words) -> String {
     match &found.truth {
         Truth::Surface => "readings, errors against the exact surface of the grid file".to_owned(),
@@ -132,58 +134,93 @@ fn truth(found: &TableQuality, units: Words) -> String {
     }
 }
 
-fn readings(out: &mut String, found: &TableQuality, units: Words) {
-    let all = &found.readings;
-    let length = units.bracket(Dimension::LENGTH);
-    let mut row = |name: &str, cell: &dyn Fn(&ReadingFindings) -> Option<String>| {
-        let cells: Vec<Option<String>> = all.iter().map(cell).collect();
+/// Rows of a table with one cell for each reading.
+struct Rows<'t> {
+    out: &'t mut String,
+    all: &'t [ReadingFindings],
+}
+
+impl Rows<'_> {
+    /// Adds a row, unless all its cells are empty.
+    fn add(&mut self, name: &str, cell: &dyn Fn(&ReadingFindings) -> Option<String>) {
+        let cells: Vec<Option<String>> = self.all.iter().map(cell).collect();
         if cells.iter().any(Option::is_some) {
             let mut line = format!("    {name:NAME$}");
             for cell in cells {
                 let _ = write!(line, " {:>COLUMN$}", cell.unwrap_or_else(|| "-".to_owned()));
             }
-            let _ = writeln!(out, "{}", line.trim_end());
+            let _ = writeln!(self.out, "{}", line.trim_end());
         }
-    };
-    row("", &|r| Some(r.manner.word().to_owned()));
-    row("largest error (%)", &|r| r.error.map(|e| short(100.0 * found.relative(&e))));
-    row(&format!("  at x, z{length}"), &|r| r.error.map(|e| place(&e.largest)));
-    row("largest error under the load itself (%)", &|r| {
+    }
+}
+
+/// The table of all readings.
+fn readings(out: &mut String, found: &TableQuality, units: Words) {
+    let mut rows = Rows { out, all: &found.readings };
+    errors(&mut rows, found, units);
+    loop_work(&mut rows, found, units);
+    definiteness(&mut rows, units);
+    slope_jumps(&mut rows, found, units);
+}
+
+/// Errors and asymmetry.
+fn errors(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
+    let length = units.bracket(Dimension::LENGTH);
+    rows.add("", &|r| Some(r.manner.word().to_owned()));
+    rows.add("largest error (%)", &|r| r.error.map(|e| short(100.0 * found.relative(&e))));
+    rows.add(&format!("  at x, z{length}"), &|r| r.error.map(|e| place(&e.largest)));
+    rows.add("largest error under the load itself (%)", &|r| {
         r.error.and_then(|e| Some(short(100.0 * e.diagonal?.value.abs() / e.scale.max(f64::MIN_POSITIVE))))
     });
-    row(&format!("  at x{length}"), &|r| r.error.and_then(|e| Some(short(e.diagonal?.x))));
-    row("largest error between the supports (%)", &|r| r.span.map(|e| short(100.0 * e.relative())));
-    row(&format!("  at x, z{length}"), &|r| r.span.map(|e| place(&e.largest)));
-    row("largest |G(x, z) - G(z, x)| (%)", &|r| {
+    rows.add(&format!("  at x{length}"), &|r| r.error.and_then(|e| Some(short(e.diagonal?.x))));
+    rows.add("largest error between the supports (%)", &|r| r.span.map(|e| short(100.0 * e.relative())));
+    rows.add(&format!("  at x, z{length}"), &|r| r.span.map(|e| place(&e.largest)));
+    rows.add("largest |G(x, z) - G(z, x)| (%)", &|r| {
         r.direct.as_ref().map(|d| percent(d.asymmetry.value, d.scale))
     });
-    row(&format!("  at x, z{length}"), &|r| {
+    rows.add(&format!("  at x, z{length}"), &|r| {
         r.direct.as_ref().filter(|d| d.asymmetry.value > 0.0).map(|d| place(&d.asymmetry))
     });
+}
+
+/// Work of a closed loop of wheel forces.
+fn loop_work(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
+    let length = units.bracket(Dimension::LENGTH);
     let (factor, work) = match found.load {
         Some(load) => (load * load, format!("work of a loop of forces{}", units.bracket(Dimension::MOMENT))),
         None => (1.0, format!("work of a loop by P^2{}", units.bracket(Dimension::FLEXIBILITY))),
     };
-    row(&work, &|r| r.direct.as_ref().map(|d| short(factor * d.asymmetry.value)));
-    row(&format!("{work}, pair"), &|r| pair(r).map(|p| short(factor * p.work.work)));
-    row("  of what the pair stores there (%)", &|r| pair(r).map(|p| percent(p.work.work, p.work.stored)));
-    row(&format!("  first wheel at{length}"), &|r| {
+    rows.add(&work, &|r| r.direct.as_ref().map(|d| short(factor * d.asymmetry.value)));
+    rows.add(&format!("{work}, pair"), &|r| pair(r).map(|p| short(factor * p.work.work)));
+    rows.add("  of what the pair stores there (%)", &|r| {
+        pair(r).map(|p| percent(p.work.work, p.work.stored))
+    });
+    rows.add(&format!("  first wheel at{length}"), &|r| {
         pair(r).filter(|p| p.work.work > 0.0).map(|p| short(p.work.at[0]))
     });
-    row("smallest eigenvalue, of the largest", &|r| {
+}
+
+/// Eigenvalues and indefinite layouts of wheels.
+fn definiteness(rows: &mut Rows<'_>, units: Words) {
+    rows.add("smallest eigenvalue, of the largest", &|r| {
         r.direct.as_ref().map(|d| rounded(d.spectrum.smallest / d.spectrum.largest.max(f64::MIN_POSITIVE)))
     });
     for (k, wheels) in WHEELS.into_iter().enumerate() {
-        row(&format!("indefinite layouts of {wheels} wheels (%)"), &|r| {
+        rows.add(&format!("indefinite layouts of {wheels} wheels (%)"), &|r| {
             r.direct.as_ref().map(|d| short(100.0 * d.shares[k]))
         });
     }
     for (k, wheels) in WHEELS.into_iter().enumerate() {
         let unit = units.bracket(Dimension::STIFFNESS);
-        row(&format!("{wheels} wheels indefinite from k ={unit}"), &|r| {
+        rows.add(&format!("{wheels} wheels indefinite from k ={unit}"), &|r| {
             r.direct.as_ref().and_then(|d| d.layouts.get(k)).map(stiffness)
         });
     }
+}
+
+/// Jumps of slope under one wheel and under a pair.
+fn slope_jumps(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
+    let length = units.bracket(Dimension::LENGTH);
     let slope = match found.load {
         Some(_) => "jump of slope under a wheel (rad)".to_owned(),
         None => format!("jump of slope under a wheel{}", units.bracket(Dimension::of(0, -1, 0))),
@@ -191,20 +228,21 @@ fn readings(out: &mut String, found: &TableQuality, units: Words) {
     let load = found.load.unwrap_or(1.0);
     let jump =
         |value: f64, d: &DirectFindings| if noise(value, d) { "0".to_owned() } else { short(load * value) };
-    row(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.kink?.jump(), d))));
-    row(&format!("  at x{length}"), &|r| {
+    rows.add(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.kink?.jump(), d))));
+    rows.add(&format!("  at x{length}"), &|r| {
         r.direct.as_ref().and_then(|d| d.kink.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
     });
-    row(&format!("{slope}, pair"), &|r| {
+    rows.add(&format!("{slope}, pair"), &|r| {
         let d = r.direct.as_ref()?;
         Some(jump(d.pair?.kink?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
     });
-    row(&format!("  first wheel at{length}"), &|r| {
+    rows.add(&format!("  first wheel at{length}"), &|r| {
         let d = r.direct.as_ref()?;
         d.pair?.kink.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
     });
 }
 
+/// Rules of extrapolation beyond the table.
 fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     let flexibility = units.of(Dimension::FLEXIBILITY);
     let scale = found.item.table.values().amax();
@@ -223,6 +261,7 @@ fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     }
 }
 
+/// A failed check in words.
 fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
     let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
     match verdict {
@@ -265,12 +304,12 @@ fn percent(part: f64, whole: f64) -> String {
     short(if whole > 0.0 { 100.0 * part / whole } else { 0.0 })
 }
 
-/// A jump that rounding alone makes.
+/// Whether a jump is rounding.
 fn noise(jump: f64, direct: &DirectFindings) -> bool {
     jump.abs() < 1e-10 * direct.scale
 }
 
-/// A share below rounding is none.
-fn rounded(share: f64) -> String {
-    if share.abs() < 1e-13 { "0".to_owned() } else { short(share) }
+/// A ratio, 0 where it is rounding.
+fn rounded(ratio: f64) -> String {
+    if ratio.abs() < 1e-13 { "0".to_owned() } else { short(ratio) }
 }

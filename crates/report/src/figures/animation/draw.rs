@@ -5,7 +5,7 @@ use crate::document::animated::AnimationTrack;
 
 /// Width of the picture.
 pub(super) const WIDTH: f64 = 860.0;
-/// Room at both sides.
+/// Margin at both sides.
 pub(super) const SIDE: f64 = 56.0;
 
 pub(super) const INK: &str = "#22222a";
@@ -40,7 +40,7 @@ impl PlanDrawing {
         format!("data-m=\"{element}\"")
     }
 
-    /// What `draw` adds moves along `places`; drawn as at the frame `still`.
+    /// Adds elements by `draw` that move along `places`; they are drawn at the frame `still`.
     pub fn moving(&mut self, places: Vec<[f64; 2]>, still: usize, draw: impl FnOnce(&mut PlanDrawing)) {
         let [x, y] = places.get(still).copied().unwrap_or_default();
         let mark = self.element([AnimationTrack::Displacement(places)]);
@@ -131,7 +131,7 @@ impl PlanDrawing {
     ) {
         let now = values.get(still).copied().unwrap_or_default();
         let power = 10f64.powi(i32::try_from(digits).unwrap_or_default());
-        // no minus before a zero
+        // a rounded zero has no sign
         let now = (now * power).round() / power + 0.0;
         let mark = self.element([AnimationTrack::Number(digits, values)]);
         let (name, unit) = (escaped(name), escaped(unit));
@@ -142,7 +142,7 @@ impl PlanDrawing {
         ));
     }
 
-    /// The picture, and its tracks.
+    /// The finished picture with its tracks.
     pub fn finish(self, width: f64, height: f64) -> (Svg, Vec<(usize, AnimationTrack)>) {
         let svg =
             Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));

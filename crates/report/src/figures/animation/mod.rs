@@ -1,7 +1,7 @@
-//! The animation of a crane: its plan and the view along the runway, as one picture and what changes in it over time.
+//! The animation of a crane: its plan view and the view along the runway, in one picture.
 //!
-//! Files in their order, each of which imports from earlier ones only: `film`, `draw`, `view`, then `plan` and
-//! `section`.
+//! `draw` is the picture under construction, `view` the data of a run that both views need; `plan` and `section` draw
+//! them.
 
 mod draw;
 mod plan;
@@ -24,11 +24,11 @@ const FRAMES: usize = 400;
 
 /// The animation of a run in which bodies carry structures or hang in space; `None` for other runs.
 ///
-/// The first of every so many rows of the record are its frames, at most 400. It is drawn as at the frame in which a
-/// wheel of the runway has the largest vertical force.
+/// Its frames are rows of the record at equal distances, at most 400. Without scripts it shows the frame in which the
+/// vertical force of a runway wheel is largest.
 ///
 /// # Errors
-/// A spec that no model can be made of.
+/// A structure of which no model can be built.
 pub fn animation_figure(run: &LabelledRun, cast: &Cast) -> Result<Option<RunFigure>, Error> {
     let scene = run.scene;
     let rides = scene.structures.iter().any(|structure| structure.on.is_some());

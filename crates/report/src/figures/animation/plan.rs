@@ -1,12 +1,12 @@
-//! The plan: x to the right, what lies to the right of the rails downwards.
+//! The plan view: x to the right, the right side of the runway downward.
 
 use super::draw::{BLUE, DARK, GREY, INK, ORANGE, PlanDrawing, SIDE, STEEL, WIDTH};
 use super::view::{AnimationView, BAR};
 
-/// Most pixels across.
+/// Largest height of the view, pixels.
 const ACROSS: f64 = 300.0;
 
-/// Draws the plan below `top`; gives where it ends.
+/// Draws the plan below the ordinate `top`, and returns the ordinate of its lower end.
 pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) -> f64 {
     let scene = view.scene;
     let rails = view.rails();

@@ -1,13 +1,13 @@
-//! The view along the runway: what lies to the right of the rails to the right, up is up; and numbers beside it.
+//! The view along the runway: lateral to the right, vertical up, with numbers beside it.
 
 use super::draw::{DARK, GREY, INK, ORANGE, PlanDrawing, STEEL, WIDTH};
 use super::view::{AnimationView, BAR};
 use formats::units::Dimension;
 
-/// Room for the view; the numbers stand right of it.
+/// Width of the view, pixels; the numbers stand to its right.
 const ROOM: [f64; 2] = [600.0, 330.0];
 
-/// Draws the view below `top`; gives where it ends.
+/// Draws the view below the ordinate `top`, and returns the ordinate of its lower end.
 pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) -> f64 {
     let scene = view.scene;
     let rails = view.rails();
@@ -43,13 +43,13 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
             let all: Vec<Vec<f64>> = wheels.iter().map(|wheel| view.wheel(*wheel, part)).collect();
             (0..view.rows.len()).map(|k| all.iter().map(|values| values[k]).sum()).collect()
         };
-        // all wheels of a rail together may be as long as all their bars
+        // the bar of all wheels of a rail may be as long as their own bars together
         let force = view.force / wheels.len().max(1) as f64 * 2.0;
         let down = sum("vertical").into_iter().map(|f| at[1] + depth + force * f).collect();
         drawing.bar([at[0], at[1] + depth], "y2", down, view.still, (INK, 5.0));
         let aside = sum("lateral").into_iter().map(|f| at[0] + force * f * 2.0).collect();
         drawing.bar([at[0], at[1] - 3.0], "x2", aside, view.still, (ORANGE, 5.0));
-        // on the inner side: numbers stand beside the view
+        // labels stand on the inner side: numbers stand beside the view
         let inner = if *z > middle { -1.0 } else { 1.0 };
         let anchor = if inner > 0.0 { "start" } else { "end" };
         let beside = [at[0] + inner * 0.7 * depth, at[1] + 0.8 * depth];

@@ -1,4 +1,4 @@
-//! One run as both views of the animation need it.
+//! The data of one run that both views of the animation need.
 
 use crate::figures::pictures::LabelledRun;
 use formats::motion::Cast;
@@ -8,7 +8,7 @@ use results::layout::ScenePositions;
 /// Length of the longest bar of a force, in pixels.
 pub(super) const BAR: f64 = 48.0;
 
-/// What both views need of one run.
+/// One run with the frames of its animation.
 pub(super) struct AnimationView<'v> {
     pub scene: &'v Scene,
     pub cast: &'v Cast,
@@ -16,7 +16,7 @@ pub(super) struct AnimationView<'v> {
     pub run: &'v LabelledRun<'v>,
     /// Rows of the record that are drawn as frames.
     pub rows: Vec<usize>,
-    /// Index among them of the frame that is drawn where scripts do not run.
+    /// Index of the frame that is shown without scripts.
     pub still: usize,
     /// Pixels for each unit of force.
     pub force: f64,

@@ -1,0 +1,146 @@
+//! Sections and materials of a deck, written when the first member uses them.
+//!
+//! A NASTRAN property becomes one section (a tapered one two), its MAT1 one material. Non-structural mass per length
+//! NSM is spread over the area A: the material of such a property has the density rho + NSM / A, and a name of its
+//! own. Stiffnesses that a property lacks cannot be zero in a beam spec: the section has a placeholder there (A^2 / 4
+//! pi for a second moment, as of a solid round bar; I1 + I2 for J), and the member has the releases that take it out.
+
+use std::collections::BTreeMap;
+use std::f64::consts::PI;
+
+use super::deck::BulkDeck;
+use super::material::MaterialCard;
+use super::property::Property;
+use crate::PARTS;
+use crate::findings::{ImportFinding, ImportFindings};
+use crate::structure::{ImportedMaterial, ImportedSection, ImportedStructure};
+
+/// The sections and materials that a structure has already.
+#[derive(Default)]
+pub struct SectionTable {
+    /// Index of the section of each property in use; true for that at end B.
+    indices: BTreeMap<(u64, bool), usize>,
+    /// Names of the materials.
+    materials: Vec<String>,
+}
+
+impl SectionTable {
+    /// The index of the section of a property with its number, which is added to `structure` when it is first used.
+    /// `end`: suffix of its name for the end that it belongs to; `about`: the element that uses it. `None`, with an
+    /// error among the findings, where the property cannot be used.
+    pub fn index_of(
+        &mut self,
+        deck: &BulkDeck,
+        structure: &mut ImportedStructure,
+        findings: &mut ImportFindings,
+        (number, property): (u64, &Property),
+        end: &str,
+        about: &str,
+    ) -> Option<usize> {
+        // CONROD has the number of its element, which can be that of a property as well
+        let key = if property.kind == "CONROD" { None } else { Some((number, !end.is_empty())) };
+        if let Some(index) = key.and_then(|key| self.indices.get(&key)) {
+            return Some(*index);
+        }
+        let name = format!("{} {number}", property.kind);
+        let known = material_of(deck, property, &name, about, findings)?;
+        warn_of_placeholders(property, &name, findings);
+        let wtmass = deck.wtmass.unwrap_or(1.0);
+        let mut density = known.density * wtmass;
+        let mut material = format!("MAT1 {}", property.material);
+        if property.nsm > 0.0 {
+            density += property.nsm * wtmass / property.area;
+            material = format!("{material} and NSM of {name}");
+        }
+        if !density.is_finite() {
+            let expected = "must have a mass that a double can hold";
+            findings.error(ImportFinding::new(property.card, &name, expected));
+            return None;
+        }
+        if !self.materials.contains(&material) {
+            self.materials.push(material.clone());
+            let density = (density > 0.0).then_some(density);
+            let (e, g) = (known.e, known.g);
+            structure.materials.push(ImportedMaterial { name: material.clone(), e, g, density });
+        }
+        let section = section_of(property, format!("{name}{end}"), material);
+        let numbers = [section.iy, section.iz, section.j, section.shear_y, section.shear_z];
+        if numbers.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
+            let expected = "must have properties that a double can hold";
+            findings.error(ImportFinding::new(property.card, &name, expected));
+            return None;
+        }
+        let index = structure.sections.len();
+        structure.sections.push(section);
+        if let Some(key) = key {
+            self.indices.insert(key, index);
+        }
+        Some(index)
+    }
+}
+
+/// The material of a property; `None`, with an error, where there is none, or no G where torsion or shear needs it.
+fn material_of<'d>(
+    deck: &'d BulkDeck,
+    property: &Property,
+    name: &str,
+    about: &str,
+    findings: &mut ImportFindings,
+) -> Option<&'d MaterialCard> {
+    let Some(material) = deck.materials.get(&property.material) else {
+        let finding =
+            ImportFinding::new(property.card, format!("{name}: MID"), "must be the number of a MAT1");
+        findings.error(finding.got(property.material));
+        return None;
+    };
+    let is_shear_flexible = property.bending[0] > 0.0 && property.shear.iter().any(|k| *k > 0.0);
+    if material.g.is_none() && (property.j > 0.0 || is_shear_flexible) {
+        let expected = format!("is missing, and {name} of {about} needs it");
+        let finding = ImportFinding::new(material.card, format!("MAT1 {}: G", property.material), expected);
+        findings.error(finding.hint("give G, or NU"));
+        return None;
+    }
+    Some(material)
+}
+
+/// Warns of stiffnesses that are missing in a property, and of a taper.
+fn warn_of_placeholders(property: &Property, name: &str, findings: &mut ImportFindings) {
+    let bends = property.bending[0] > 0.0;
+    if bends && property.j == 0.0 {
+        let expected = "has no J: its members turn freely about their axes";
+        let finding = ImportFinding::new(property.card, name, expected);
+        findings.warn(finding.hint("taken as a release of rx; the J written is a placeholder"));
+    }
+    if !bends && property.j > 0.0 {
+        let expected = "has J: its rods are taken as beams hinged at both ends";
+        let finding = ImportFinding::new(property.card, name, expected);
+        findings.warn(finding.hint("the Iy and Iz written are placeholders"));
+    }
+    if property.end.is_some() {
+        let expected = format!("is tapered, and solved in {PARTS} uniform parts a member");
+        findings.warn(
+            ImportFinding::new(property.card, name, expected)
+                .hint("`parts` of the spec may say another number"),
+        );
+    }
+}
+
+/// The section of a property, with placeholders for missing stiffnesses.
+fn section_of(property: &Property, name: String, material: String) -> ImportedSection {
+    let [i1, i2] = property.bending;
+    let bends = i1 > 0.0;
+    let round = property.area * property.area / (4.0 * PI);
+    let bending = |i: f64| if bends { Some(i) } else { (property.j > 0.0).then_some(round) };
+    let torsion = if property.j > 0.0 { Some(property.j) } else { bends.then_some(i1 + i2) };
+    let shear = |k: f64| (bends && k > 0.0).then_some(k * property.area);
+    ImportedSection {
+        name,
+        material,
+        area: Some(property.area),
+        iy: bending(i2),
+        iz: bending(i1),
+        j: torsion,
+        shear_y: shear(property.shear[0]),
+        shear_z: shear(property.shear[1]),
+    }
+}
