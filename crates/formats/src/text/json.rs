@@ -136,6 +136,14 @@ impl<'t> Parser<'t> {
         Node { start, end: if self.error.is_some() { 0 } else { self.at }, value }
     }
 
+    /// The error of a value that stands at `step` of the list or object that is being read.
+    #[cold]
+    fn within(&mut self, step: Step) -> Result<(), SyntaxError> {
+        let Some(mut error) = self.error.take() else { return Ok(()) };
+        error.path.0.insert(0, step);
+        Err(error)
+    }
+
     /// The items of a list and its closing bracket.
     fn list(&mut self) -> (Value<'t>, Result<(), SyntaxError>) {
         let mut items = Vec::new();
@@ -165,9 +173,8 @@ impl<'t> Parser<'t> {
                 Some(_) => return Err(self.ahead("expected `,` or `]`")),
             }
             items.push(self.value());
-            if let Some(mut error) = self.error.take() {
-                error.path.0.insert(0, Step::Index(items.len() - 1));
-                return Err(error);
+            if self.error.is_some() {
+                return self.within(Step::Index(items.len() - 1));
             }
         }
     }
@@ -216,9 +223,8 @@ impl<'t> Parser<'t> {
             let value = self.value();
             let last = members.len() - 1;
             members[last].value = value;
-            if let Some(mut error) = self.error.take() {
-                error.path.0.insert(0, Step::Key(members[last].key.clone().into_owned()));
-                return Err(error);
+            if self.error.is_some() {
+                return self.within(Step::Key(members[last].key.clone().into_owned()));
             }
         }
     }
@@ -235,11 +241,10 @@ impl<'t> Parser<'t> {
     }
 
     fn skip_digits(&mut self) -> usize {
-        let from = self.at;
-        while let Some(b'0'..=b'9') = self.peek() {
-            self.at += 1;
-        }
-        self.at - from
+        let rest = &self.bytes[self.at..];
+        let count = rest.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(rest.len());
+        self.at += count;
+        count
     }
 
     fn number(&mut self) -> Result<Value<'t>, SyntaxError> {
