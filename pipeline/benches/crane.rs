@@ -6,11 +6,11 @@
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
-use formats::motion::cast;
+use formats::scene::motion::simulation_input;
 use formats::scene::{Case, Document};
 use foundations::{ModeCache, build, solve};
 use foundations::{SolvedStructure, distinct_specs, solution_of};
-use sim::{Channel, Freedom, Run};
+use sim::{BodyDof, Channel, Run};
 use study::measure::cpu::seconds;
 
 /// What the command line asks for.
@@ -72,12 +72,12 @@ fn wanted() -> Outcome<Wanted> {
 #[expect(clippy::print_stdout, reason = "a benchmark prints")]
 fn time(case: &Case, known: &[SolvedStructure], wanted: &Wanted) -> Outcome<()> {
     let given = &case.scene;
-    let mut scene = cast(given).map_err(|_| "the scene cannot be set up")?.scene;
+    let mut scene = simulation_input(given).map_err(|_| "the scene cannot be set up")?.scene;
     scene.accuracy = wanted.accuracy.unwrap_or(scene.accuracy);
     let mut foundations = Vec::new();
     for structure in &given.structures {
         let solved = solution_of(known, &structure.origin);
-        let laid = build(&mut ModeCache::default(), structure, solved, given.pushes_sideways());
+        let laid = build(&mut ModeCache::default(), structure, solved, given.has_flanges());
         foundations.push(laid.map_err(|_| "a foundation cannot be made")?.foundation);
     }
     let mut times = Vec::new();
@@ -128,7 +128,7 @@ fn errors(run: &Run, exact: &Run, bodies: usize) -> [f64; 3] {
         most / largest
     };
     [
-        apart(&mut (0..bodies).map(|b| Channel::Displacement(b, Freedom::Y))),
+        apart(&mut (0..bodies).map(|b| Channel::Displacement(b, BodyDof::Y))),
         apart(&mut (0..wheels).map(Channel::Vertical)),
         apart(&mut (0..wheels).map(Channel::Lateral)),
     ]

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use deck::DeckForm;
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use formats::units::{Force, Length};
 use import::rail::triple;
 use import::{fix, rail};
@@ -429,7 +429,7 @@ pub struct FeaArgs {
     #[arg(long)]
     pub theory: Option<TheoryArg>,
     /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
-    #[arg(long, value_name = "BOUND", default_value_t = fea::ACCURACY, value_parser = share)]
+    #[arg(long, value_name = "BOUND", default_value_t = fea::DEFAULT_ACCURACY, value_parser = share)]
     pub accuracy: f64,
     /// Add the N lowest natural modes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -451,11 +451,11 @@ pub enum TheoryArg {
     Timoshenko,
 }
 
-impl From<TheoryArg> for fea::Theory {
-    fn from(theory: TheoryArg) -> fea::Theory {
+impl From<TheoryArg> for fea::BeamTheory {
+    fn from(theory: TheoryArg) -> fea::BeamTheory {
         match theory {
-            TheoryArg::EulerBernoulli => fea::Theory::EulerBernoulli,
-            TheoryArg::Timoshenko => fea::Theory::Timoshenko,
+            TheoryArg::EulerBernoulli => fea::BeamTheory::EulerBernoulli,
+            TheoryArg::Timoshenko => fea::BeamTheory::Timoshenko,
         }
     }
 }

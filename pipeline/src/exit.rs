@@ -2,9 +2,9 @@
 
 use std::process::ExitCode;
 
-use formats::diagnostic::Diagnostic;
 use formats::spec::SolveError;
 use formats::tables::WriteError;
+use formats::text::diagnostic::Diagnostic;
 
 /// Exit status of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,7 +111,7 @@ impl From<SolveError> for Failure {
     fn from(error: SolveError) -> Self {
         match error {
             SolveError::Input(diagnostics) => Failure::Input(diagnostics),
-            SolveError::Untrusted(message) => Failure::Untrusted(message),
+            SolveError::NoSolution(message) => Failure::Untrusted(message),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::panic;
 use std::process::ExitCode;
 
 use clap::Parser;
-use formats::diagnostic::Diagnostic;
+use formats::text::diagnostic::Diagnostic;
 use girderway::cli::{Cli, Command};
 use girderway::commands;
 use girderway::exit::{Exit, Failure};

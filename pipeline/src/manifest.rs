@@ -3,7 +3,7 @@
 use serde::Serialize;
 use serde_json::Value;
 
-use formats::inputs::Inputs;
+use formats::text::inputs::Inputs;
 
 /// Name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
@@ -47,7 +47,7 @@ impl Manifest {
     /// The manifest of a command that read these files under these settings.
     #[must_use]
     pub fn new(command: &str, inputs: &Inputs, settings: Value) -> Manifest {
-        let entry = |input: &formats::inputs::Input| InputEntry {
+        let entry = |input: &formats::text::inputs::Input| InputEntry {
             name: input.name.clone(),
             bytes: input.bytes.len(),
             sha256: input.sha256.clone(),

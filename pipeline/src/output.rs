@@ -10,8 +10,8 @@ use tempfile::NamedTempFile;
 use crate::exit::Failure;
 use crate::manifest::{MANIFEST, Manifest, OutputEntry};
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
-use formats::inputs::sha256;
+use formats::text::diagnostic::Diagnostic;
+use formats::text::inputs::sha256;
 
 /// Writes a file whole or not at all: into a temporary file beside it, to the disk, then under its name.
 ///
@@ -256,7 +256,7 @@ impl OutputFolder {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use formats::inputs::Inputs;
+    use formats::text::inputs::Inputs;
     use serde_json::json;
 
     fn commit(path: &Path, files: &[(&str, &str)]) {

@@ -74,7 +74,7 @@ impl Bar {
 }
 
 impl Observer for Progress {
-    fn say(&self, message: &str) {
+    fn message(&self, message: &str) {
         Progress::say(self, message);
     }
 
@@ -84,7 +84,7 @@ impl Observer for Progress {
 }
 
 impl Steps for Bar {
-    fn reach(&self, step: u64) {
+    fn advance_to(&self, step: u64) {
         self.set(step);
     }
 }

@@ -203,7 +203,7 @@ fn run_writes_a_folder_whose_manifest_names_and_hashes_every_file() {
         let name = entry["name"].as_str().expect("a name");
         let bytes = fs::read(out.join(name)).expect("a file that the manifest lists");
         if name != "timing.json" {
-            assert_eq!(entry["sha256"], formats::inputs::sha256(&bytes), "{name}");
+            assert_eq!(entry["sha256"], formats::text::inputs::sha256(&bytes), "{name}");
         }
         listed.push(name.to_owned());
     }

@@ -1,6 +1,6 @@
 //! Frames in OpenSees and PyNite, solids of gmsh and scikit-fem.
 
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use girderway::crosscheck::{Peer, PlainGrid, Station, ask};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};

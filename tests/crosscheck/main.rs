@@ -2,7 +2,7 @@
 //!
 //! Needs Python 3.11 with venv, and PyPI the first time; the environment stays in the target directory.
 
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use girderway::crosscheck::{Environment, PeerOutcome, PlainGirder, crosscheck};
 use std::io::Write;
 use std::path::{Path, PathBuf};

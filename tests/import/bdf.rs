@@ -1,6 +1,6 @@
 //! NASTRAN bulk data: published displacements, formats that mean the same, cards by hand.
 
-use fea::Kind;
+use fea::MemberKind;
 use formats::units::{Force, Length};
 use import::ImportOptions;
 use serde_json::json as value;
@@ -147,7 +147,7 @@ fn local_axes_are_those_of_nastran() {
     let frame = frame(&imported);
     let column = frame.model.members[0];
     // plane 1 of the columns is x-z of the building: I1 = 2.5e-4 resists sway along the girder
-    assert_eq!((column.kind, column.orientation), (Kind::Beam, [1.0, 0.0, 0.0]));
+    assert_eq!((column.kind, column.orientation), (MemberKind::Beam, [1.0, 0.0, 0.0]));
     let section = frame.model.sections[column.section];
     assert_eq!((section.iz, section.iy), (2.5e-4, 8.5e-5));
 }

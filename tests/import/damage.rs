@@ -1,7 +1,7 @@
 //! Decks and meshes with random damage: refused with a place, or taken; never a panic, never a number that is none.
 
-use formats::source::Source;
 use formats::spec::Spec;
+use formats::text::source::Source;
 use formats::units::Length;
 use import::ImportOptions;
 
@@ -78,7 +78,10 @@ fn damaged(text: &str, dice: &mut Dice) -> String {
 }
 
 /// Takes a damaged text, and says whether it was taken; what is taken must be a sound spec.
-fn taken(result: Result<import::Imported, Vec<formats::diagnostic::Diagnostic>>, damaged: &str) -> bool {
+fn taken(
+    result: Result<import::Imported, Vec<formats::text::diagnostic::Diagnostic>>,
+    damaged: &str,
+) -> bool {
     match result {
         Ok(imported) => {
             let source = Source { name: "spec.json".to_owned(), text: imported.text };

@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use formats::diagnostic::Diagnostic;
-use formats::source::Source;
-use formats::spec::{Form, Frame, Spec};
+use formats::spec::{Form, FrameSpec, Spec};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::source::Source;
 use formats::units::{Force, Length};
 use import::{ImportOptions, Imported, import};
 use nalgebra::DVector;
@@ -56,7 +56,7 @@ fn told(wrong: &[Diagnostic]) -> String {
 }
 
 /// The frame of the spec that was written, as `girderway fea` reads it.
-fn frame(imported: &Imported) -> Frame {
+fn frame(imported: &Imported) -> FrameSpec {
     let source = Source { name: "spec.json".to_owned(), text: imported.text.clone() };
     let spec = Spec::read(&source, None).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
     match spec.form {
@@ -66,12 +66,12 @@ fn frame(imported: &Imported) -> Frame {
 }
 
 /// Displacements of points under a load on the first of them; points by the names of their sets.
-fn displacements(frame: &Frame, points: &[&str], load: [f64; 6]) -> DVector<f64> {
+fn displacements(frame: &FrameSpec, points: &[&str], load: [f64; 6]) -> DVector<f64> {
     let index = |name: &&str| {
         let set = frame.point_sets.iter().find(|(known, _)| known == name).expect("a set");
         set.1[0]
     };
     let points: Vec<usize> = points.iter().map(index).collect();
-    let (compliance, _) = fea::nodal(&frame.model, &points).expect("a structure that stands");
+    let (compliance, _) = fea::point_compliance(&frame.model, &points).expect("a structure that stands");
     compliance.columns(0, 6) * DVector::from_row_slice(&load)
 }

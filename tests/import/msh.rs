@@ -1,8 +1,8 @@
 //! Meshes written by gmsh.
 
-use fea::Kind;
-use formats::diagnostic::Diagnostic;
-use formats::source::Source;
+use fea::MemberKind;
+use formats::text::diagnostic::Diagnostic;
+use formats::text::source::Source;
 use formats::units::Length;
 use import::{ImportOptions, Imported, import};
 use serde_json::json as value;
@@ -47,15 +47,16 @@ fn physical_names_become_sections_and_sets() {
     );
     let frame = frame(&imported);
     let [column, girder, brace] = [0, 6, 14].map(|index| frame.model.members[index]);
-    assert_eq!((column.kind, column.section, column.orientation), (Kind::Beam, 0, [1.0, 0.0, 0.0]));
+    assert_eq!((column.kind, column.section, column.orientation), (MemberKind::Beam, 0, [1.0, 0.0, 0.0]));
     assert_eq!((girder.section, girder.orientation), (1, [0.0, 0.0, 1.0]));
-    assert_eq!((brace.kind, brace.section), (Kind::Truss, 2));
+    assert_eq!((brace.kind, brace.section), (MemberKind::Truss, 2));
     assert_eq!(frame.model.supports.len(), 3);
     let (_, rail) = &frame.rails[0];
     assert_eq!(rail.axis, [1.0, 0.0, 0.0]);
     assert_eq!((rail.stations.len(), frame.ranges[0]), (9, [0.0, 12.0]));
     // it can be solved
-    let solved = fea::Frame::new(&frame.model, std::slice::from_ref(rail)).expect("a structure that stands");
+    let solved =
+        fea::FactoredFrame::new(&frame.model, std::slice::from_ref(rail)).expect("a structure that stands");
     assert!(solved.certificate().error_bound < 1e-6);
 }
 

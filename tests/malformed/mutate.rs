@@ -2,12 +2,12 @@
 
 use std::fs;
 
-use fea::Frame;
-use formats::grid::Grid;
-use formats::grid_file;
+use fea::FactoredFrame;
+use formats::grid::StationGrid;
+use formats::grid::file as grid_file;
 use formats::scene::Document;
-use formats::source::Source;
 use formats::spec::Spec;
+use formats::text::source::Source;
 
 use super::base;
 
@@ -88,8 +88,8 @@ fn damaged_specs_are_refused_or_give_finite_grids() {
             let Ok(spec) = Spec::read(&damaged, None) else { continue };
             let grid = spec
                 .model()
-                .and_then(|(model, rails)| Frame::new(&model, &rails))
-                .and_then(|frame| Grid::of(&spec, &frame));
+                .and_then(|(model, rails)| FactoredFrame::new(&model, &rails))
+                .and_then(|frame| StationGrid::of(&spec, &frame));
             match grid {
                 Ok(grid) => {
                     let finite =
@@ -98,7 +98,8 @@ fn damaged_specs_are_refused_or_give_finite_grids() {
                     solved += 1;
                 }
                 Err(error) => {
-                    let told = girderway::exit::Failure::from(spec.refuse(&damaged, &error)).report(false);
+                    let told =
+                        girderway::exit::Failure::from(spec.locate_error(&damaged, &error)).report(false);
                     assert!(told.contains(name), "{told}");
                 }
             }

@@ -13,7 +13,7 @@ const GAUSS: [[f64; 2]; 4] = [
 /// Integral of m phi_k along the girder for each freedom: momentum per unit speed, from the shapes alone.
 fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     let Some(structure) = &laid.foundation.structure else { return Vec::new() };
-    let n = laid.foundation.freedoms();
+    let n = laid.foundation.dofs();
     if let Some(MotionBasis::Parts(parts)) = &laid.motion {
         let of = |k: usize| {
             let each = parts.ends.windows(2).enumerate();

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use formats::block::GridBlock;
-use formats::source::Source;
+use formats::grid::block::GridBlock;
 use formats::spec::Spec;
 use formats::tables;
+use formats::text::source::Source;
 use foundations::{SolvedModel, solve};
 use serde_json::{Value, json};
 

@@ -3,12 +3,12 @@
 
 use std::f64::consts::PI;
 
-use formats::source::Source;
 use formats::spec::Spec;
+use formats::text::source::Source;
 use foundations::{SolvedModel, solve};
 use sim::{
-    Actuators, Analysis, Body, Contact, Damper, Freedom, Given, Load, NormalLaw, Profile, Scene, Schedule,
-    Wheel,
+    Actuators, Analysis, Body, BodyDof, Contact, Damper, Load, MotionKind, NormalLaw, Profile, Scene,
+    Schedule, Wheel,
 };
 
 const GRAVITY: f64 = 32.174;
@@ -117,7 +117,7 @@ pub fn duty(seed: u64, index: u64) -> Duty {
         // A quarter come on over up to half of the run.
         let ramp = if dice.share() < 0.25 { dice.decades(0.01, 0.5) * end } else { 1e-6 * end };
         let value = Schedule::new(&[[at, 0.0], [at + ramp, -weight * dice.even(0.3, 1.0)]]);
-        actuators.loads.push(Load { body: 0, freedom: Freedom::Y, value: value.expect("times increase") });
+        actuators.loads.push(Load { body: 0, dof: BodyDof::Y, value: value.expect("times increase") });
     }
     let count = if two { 2.0 } else { 1.0 };
     let (body_mass, stiffness) =
@@ -133,7 +133,9 @@ pub fn duty(seed: u64, index: u64) -> Duty {
             free: [false, true, false, false, false, two],
             start: [first, 0.0, 0.0, 0.0, 0.0, 0.0],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], first, 0.0).expect("a valid table")),
+            motion: Some(
+                Profile::new(MotionKind::Speed, &[[0.0, speed]], first, 0.0).expect("a valid table"),
+            ),
             pinned: None,
         }],
         wheels: vec![Wheel {

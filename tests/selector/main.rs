@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use duty::{Duty, duty};
 use foundations::{Error, ModeCache, excited_modes, foundation_at};
-use sim::{Choice, Foundation, Ladder, Reason, Run, Rung, Scene, choose, distance};
+use sim::{Choice, Fidelity, Foundation, FoundationProvider, Reason, Run, Scene, choose, distance};
 
 /// What the rules of the selector were fitted to, and what they were not.
 const FITTED: u64 = 0;
@@ -18,28 +18,28 @@ const HELD_OUT: u64 = 1;
 /// Scenes of every kind that are soon run.
 const QUICK: [u64; 12] = [1, 2, 3, 4, 11, 12, 15, 16, 22, 25, 30, 33];
 
-const RUNGS: [Rung; 9] = [
-    Rung::Rigid,
-    Rung::Influence,
-    Rung::Modal(2),
-    Rung::Modal(4),
-    Rung::Modal(6),
-    Rung::Modal(8),
-    Rung::Modal(12),
-    Rung::Modal(16),
-    Rung::Full,
+const RUNGS: [Fidelity; 9] = [
+    Fidelity::Rigid,
+    Fidelity::Influence,
+    Fidelity::Modal(2),
+    Fidelity::Modal(4),
+    Fidelity::Modal(6),
+    Fidelity::Modal(8),
+    Fidelity::Modal(12),
+    Fidelity::Modal(16),
+    Fidelity::Full,
 ];
 
 struct Rungs<'a>(&'a Duty, ModeCache);
 
-impl Ladder for Rungs<'_> {
+impl FoundationProvider for Rungs<'_> {
     type Error = Error;
 
     fn modes(&mut self, _: usize, count: usize) -> Result<Option<sim::Structure>, Error> {
         Ok(excited_modes(&self.0.solved, count)?)
     }
 
-    fn foundation(&mut self, _: usize, rung: Rung) -> Result<Foundation, Error> {
+    fn foundation(&mut self, _: usize, rung: Fidelity) -> Result<Foundation, Error> {
         Ok(foundation_at(&mut self.1, &self.0.solved, rung, self.0.damping, 1)?)
     }
 }
@@ -49,12 +49,12 @@ fn run(scene: &Scene, foundation: Foundation) -> Run {
 }
 
 /// Rigid, influence, modal, full.
-fn class(rung: Rung) -> usize {
+fn class(rung: Fidelity) -> usize {
     match rung {
-        Rung::Rigid => 0,
-        Rung::Influence => 1,
-        Rung::Modal(_) => 2,
-        Rung::Half | Rung::Full => 3,
+        Fidelity::Rigid => 0,
+        Fidelity::Influence => 1,
+        Fidelity::Modal(_) => 2,
+        Fidelity::Half | Fidelity::Full => 3,
     }
 }
 
@@ -64,7 +64,7 @@ struct Verdict {
     choice: Choice,
     /// Of the choice.
     own: f64,
-    cheapest: Rung,
+    cheapest: Fidelity,
     /// Of the mesh whole, by one with twice as many elements, on a sample.
     mesh: Option<f64>,
     /// Runs made, and time by that of the chosen rung alone.
@@ -75,7 +75,7 @@ struct Verdict {
 fn judge(seed: u64, index: u64) -> Verdict {
     let duty = duty(seed, index);
     // the caches are warm
-    foundation_at(&mut ModeCache::default(), &duty.solved, Rung::Influence, 0.0, 1).expect("a surface");
+    foundation_at(&mut ModeCache::default(), &duty.solved, Fidelity::Influence, 0.0, 1).expect("a surface");
     let mut scene = duty.scene.clone();
     let start = Instant::now();
     let mut rungs = Rungs(&duty, ModeCache::default());
@@ -87,7 +87,7 @@ fn judge(seed: u64, index: u64) -> Verdict {
     let choice = selection.choices[0].clone();
     scene.accuracy = 0.03 * duty.tolerance;
     let start = Instant::now();
-    let alone = foundation_at(&mut ModeCache::default(), &duty.solved, choice.rung, duty.damping, 1);
+    let alone = foundation_at(&mut ModeCache::default(), &duty.solved, choice.fidelity, duty.damping, 1);
     run(&scene, alone.expect("it has mass"));
     let spent = start.elapsed().as_secs_f64();
     let cost = taken / spent;
@@ -99,12 +99,12 @@ fn judge(seed: u64, index: u64) -> Verdict {
         foundation_at(&mut rungs.1, &duty.solved, rung, duty.damping, finer).expect("it has mass")
     };
     scene.accuracy = 3e-3 * duty.tolerance;
-    let reference = run(&scene, of(Rung::Full, 1));
-    let with_mesh = class(choice.rung) == 3 && index.is_multiple_of(3);
-    let mesh = with_mesh.then(|| distance(&run(&scene, of(Rung::Full, 2)), &reference, &scene));
+    let reference = run(&scene, of(Fidelity::Full, 1));
+    let with_mesh = class(choice.fidelity) == 3 && index.is_multiple_of(3);
+    let mesh = with_mesh.then(|| distance(&run(&scene, of(Fidelity::Full, 2)), &reference, &scene));
     scene.accuracy = 0.03 * duty.tolerance;
     let mut errors = Vec::new();
-    let mut cheapest = Rung::Full;
+    let mut cheapest = Fidelity::Full;
     for rung in RUNGS {
         let error = distance(&run(&scene, of(rung, 1)), &reference, &scene);
         errors.push(error);
@@ -125,7 +125,7 @@ fn judge(seed: u64, index: u64) -> Verdict {
         "{seed}.{index} {kind:?} alpha {alpha:.3} mass {mass:.2} frequency {frequency:.2} tolerance {tolerance:.0e}: \
          cheapest {cheapest:?}, chosen {:?} ({:?}), error {own:.1e}, estimate {:?}, mesh {mesh:?}, runs {runs}, cost \
          {cost:.2} of {:.3} ms, three modes {:.3} ms; {}; predicted {}",
-        choice.rung,
+        choice.fidelity,
         choice.reason,
         choice.estimate,
         1e3 * spent,
@@ -170,16 +170,16 @@ fn shares(verdicts: &[Verdict]) -> Shares {
     let share = |counted: &dyn Fn(&Verdict) -> bool| {
         verdicts.iter().filter(|verdict| counted(verdict)).count() as f64 / verdicts.len() as f64
     };
-    let step = |rung: Rung| RUNGS.iter().position(|other| *other == rung);
+    let step = |rung: Fidelity| RUNGS.iter().position(|other| *other == rung);
     let skipped: Vec<bool> = verdicts
         .iter()
         .flat_map(|v| v.choice.skipped.iter().map(|&rung| step(rung) < step(v.cheapest)))
         .collect();
-    let doubted = |v: &Verdict| matches!(v.choice.reason, Reason::Top | Reason::Unchecked);
+    let doubted = |v: &Verdict| matches!(v.choice.reason, Reason::Highest | Reason::Unchecked);
     let found = Shares {
         cheapest: std::array::from_fn(|k| share(&|verdict| class(verdict.cheapest) == k)),
         within: share(&|verdict| verdict.own <= verdict.tolerance),
-        near: share(&|verdict| class(verdict.choice.rung) <= class(verdict.cheapest) + 1),
+        near: share(&|verdict| class(verdict.choice.fidelity) <= class(verdict.cheapest) + 1),
         mesh: verdicts
             .iter()
             .filter(|v| !doubted(v))
@@ -188,11 +188,12 @@ fn shares(verdicts: &[Verdict]) -> Shares {
         skipped: skipped.iter().filter(|wrong| **wrong).count() as f64 / skipped.len().max(1) as f64,
         silent: verdicts.iter().filter(|v| v.own > v.tolerance && !doubted(v)).count(),
     };
-    let finely = share(&|verdict| step(verdict.choice.rung) <= step(verdict.cheapest).map(|step| step + 1));
+    let finely =
+        share(&|verdict| step(verdict.choice.fidelity) <= step(verdict.cheapest).map(|step| step + 1));
     println!("cheapest (rows) by chosen: rigid, influence, modal, full");
     for row in 0..4 {
         let counts: [usize; 4] = std::array::from_fn(|column| {
-            let is = |v: &&Verdict| class(v.cheapest) == row && class(v.choice.rung) == column;
+            let is = |v: &&Verdict| class(v.cheapest) == row && class(v.choice.fidelity) == column;
             verdicts.iter().filter(is).count()
         });
         println!("{counts:?}");
@@ -218,7 +219,7 @@ fn shares(verdicts: &[Verdict]) -> Shares {
         median(verdicts.iter().map(|v| v.cost).collect()),
     );
     for class in 0..4 {
-        let own = verdicts.iter().filter(|v| self::class(v.choice.rung) == class);
+        let own = verdicts.iter().filter(|v| self::class(v.choice.fidelity) == class);
         println!("median cost of class {class}: {:.2}", median(own.map(|v| v.cost).collect()));
     }
     found

@@ -7,13 +7,15 @@ mod command;
 mod near;
 mod stability;
 
-use formats::scene::{Document, Reading};
+use formats::scene::{Document, TableInterpolation};
 use foundations::solve;
 use foundations::{SolvedStructure, distinct_specs};
 use near::assert_near;
 use serde_json::{Value, json};
 use sim::Method;
-use study::{Against, ErrorGroup, PointOutcome, SettingFamily, Silent, Study, StudyBudget, study};
+use study::{
+    ErrorGroup, PointOutcome, ReferenceKind, SettingFamily, SilentObserver, Study, StudyBudget, study,
+};
 
 /// The paper's girder; `mass` by length, where it has one.
 fn girder(mass: Option<f64>) -> Value {
@@ -70,7 +72,7 @@ fn conduct(scene: &Value, spec: &Value, depth: &StudyBudget) -> Study {
     };
     let known: Vec<SolvedStructure> =
         distinct_specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
-    study(document.scene(), &known, depth, &Silent).expect("a reference")
+    study(document.scene(), &known, depth, &SilentObserver).expect("a reference")
 }
 
 /// Values and errors along a family, in their order.
@@ -97,7 +99,7 @@ fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
     let depth = StudyBudget { steps: vec![6, 12, 24, 48], references: vec![(1e-10, 2)], ..nothing() };
     // between supports, where the rail's give is smooth
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
-    let known = study.reference(Against::Own).expect("the scene's own reference");
+    let known = study.reference(ReferenceKind::Own).expect("the scene's own reference");
     println!("the reference tells from {:.1e}", known.resolves(ErrorGroup::Deflection));
     for (method, wanted) in
         [(Method::Sdirk4, 4.0), (Method::Radau, 5.0), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
@@ -120,9 +122,9 @@ fn errors_of_tables_and_parts_fall_with_their_orders() {
     let study = conduct(&scene, &girder(None), &depth);
     // natural splines: 3 where loads stand between stations; Akima's bilinear row: 2
     for (family, wanted) in [
-        (SettingFamily::Table(Reading::Natural), 3.0),
-        (SettingFamily::Table(Reading::Akispl), 2.0),
-        (SettingFamily::Table(Reading::Cubspl), 2.0),
+        (SettingFamily::Table(TableInterpolation::Natural), 3.0),
+        (SettingFamily::Table(TableInterpolation::Akispl), 2.0),
+        (SettingFamily::Table(TableInterpolation::Cubspl), 2.0),
         (SettingFamily::Parts, 2.0),
     ] {
         let curve = curve(&study, family, ErrorGroup::Deflection);
@@ -136,13 +138,14 @@ fn errors_of_tables_and_parts_fall_with_their_orders() {
 
 #[test]
 fn residual_flexibility_spares_modes() {
-    let depth = StudyBudget { modes: vec![1, 2, 4], references: vec![(1e-5, 12)], fine: 1e-5, ..nothing() };
+    let depth =
+        StudyBudget { modes: vec![1, 2, 4], references: vec![(1e-5, 12)], fine_accuracy: 1e-5, ..nothing() };
     let mut scene = scene(0.0, 100.0, 0.6);
     scene["bodies"]["car"]["weight"] = json!(2e4);
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(1e5);
     let study = conduct(&scene, &girder(Some(15.2)), &depth);
-    let least = study.reference(Against::Whole).expect("a reference").resolves(ErrorGroup::Deflection);
-    let [with, without] = [SettingFamily::Modal, SettingFamily::Pure]
+    let least = study.reference(ReferenceKind::Whole).expect("a reference").resolves(ErrorGroup::Deflection);
+    let [with, without] = [SettingFamily::Modal, SettingFamily::ModalWithoutResidual]
         .map(|family| curve(&study, family, ErrorGroup::Deflection));
     println!("with {with:?}, without {without:?}, told from {least:.1e}");
     for (with, without) in with.iter().zip(&without) {
@@ -177,7 +180,7 @@ fn errors_by_modes_are_those_found_elsewhere() {
         modes: vec![1, 3, 5, 20],
         accuracies: vec![1e-6],
         references: vec![(1e-7, 40)],
-        fine: 1e-7,
+        fine_accuracy: 1e-7,
         resolution: 1e-4,
         ..nothing()
     };
@@ -185,8 +188,8 @@ fn errors_by_modes_are_those_found_elsewhere() {
     for (family, quantity, wanted) in [
         (SettingFamily::Modal, ErrorGroup::WheelForce, [8.9e-4, 3.4e-5, 4.8e-6, f64::NAN]),
         (SettingFamily::Modal, ErrorGroup::Moment, [3.4e-3, 8.9e-4, 3.6e-4, f64::NAN]),
-        (SettingFamily::Pure, ErrorGroup::WheelForce, [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6]),
-        (SettingFamily::Pure, ErrorGroup::Moment, [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2]),
+        (SettingFamily::ModalWithoutResidual, ErrorGroup::WheelForce, [2.5e-2, f64::NAN, 4.3e-4, 8.0e-6]),
+        (SettingFamily::ModalWithoutResidual, ErrorGroup::Moment, [1.6e-1, f64::NAN, 6.0e-2, 1.8e-2]),
         (SettingFamily::Influence, ErrorGroup::WheelForce, [3.3e-2, f64::NAN, f64::NAN, f64::NAN]),
         (SettingFamily::Influence, ErrorGroup::Moment, [8.4e-2, f64::NAN, f64::NAN, f64::NAN]),
     ] {
@@ -195,7 +198,7 @@ fn errors_by_modes_are_those_found_elsewhere() {
         for (own, wanted) in curve.iter().zip(wanted).filter(|(_, wanted)| wanted.is_finite()) {
             let what =
                 format!("girderway study, {} {}: error of the {}", family.name(), own[0], quantity.name());
-            if (family, quantity) != (SettingFamily::Pure, ErrorGroup::Moment) {
+            if (family, quantity) != (SettingFamily::ModalWithoutResidual, ErrorGroup::Moment) {
                 assert_near(what, "prototype", wanted, own[1], 0.2);
                 continue;
             }

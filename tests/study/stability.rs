@@ -6,7 +6,7 @@ use std::sync::Arc;
 use formats::scene::Document;
 use foundations::solve;
 use foundations::{SolvedStructure, distinct_specs};
-use study::Silent;
+use study::SilentObserver;
 use study::stability::{MapSubject, MapVerdict, StabilityMap, maps};
 
 fn found(map: &StabilityMap, what: &str) -> f64 {
@@ -28,7 +28,7 @@ fn close(map: &StabilityMap, what: &str, wanted: f64, by: f64) {
 fn count(map: &StabilityMap, method: &str, word: &str) -> usize {
     let layer = map.layers.iter().find(|layer| layer.method == method);
     let layer = layer.unwrap_or_else(|| panic!("{}: no method {method}", map.name));
-    layer.cells.iter().filter(|cell| cell.verdict.word() == word).count()
+    layer.points.iter().filter(|cell| cell.verdict.word() == word).count()
 }
 
 #[test]
@@ -43,20 +43,20 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
         })
         .collect::<Vec<_>>();
     let subject = MapSubject::of(document.scene(), &known).expect("a truck on a girder");
-    let (maps, absent) = maps(&subject, true, &Silent);
+    let (maps, absent) = maps(&subject, true, &SilentObserver);
     let names: Vec<&str> = absent.iter().map(|(name, _)| name.as_str()).collect();
     assert_eq!(names, ["ties"], "{absent:?}");
     let map =
         |name: &str| maps.iter().find(|map| map.name == name).unwrap_or_else(|| panic!("no map {name}"));
 
     let ours = || maps.iter().flat_map(|map| &map.layers).filter(|layer| layer.is_ours);
-    let points: usize = ours().map(|layer| layer.cells.len()).sum();
+    let points: usize = ours().map(|layer| layer.points.len()).sum();
     let refused =
-        ours().flat_map(|layer| &layer.cells).filter(|cell| matches!(cell.verdict, MapVerdict::Refused(_)));
+        ours().flat_map(|layer| &layer.points).filter(|cell| matches!(cell.verdict, MapVerdict::Refused(_)));
     let refused = refused.count();
     println!("{points} points of girderway, {refused} refused");
     for map in &maps {
-        assert_eq!(map.silent(), 0, "{}", map.name);
+        assert_eq!(map.silent_count(), 0, "{}", map.name);
     }
     assert!(points > 900 && refused * 10 <= points, "{refused} of {points}");
 
@@ -87,7 +87,7 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
         found(elements, "doubles: relative error at 1024")
             > 1e5 * found(elements, "doubles: relative error at 4")
     );
-    assert_eq!(count(elements, "girderway", "right"), elements.layers[1].cells.len());
+    assert_eq!(count(elements, "girderway", "right"), elements.layers[1].points.len());
     assert!(count(map("short-element"), "doubles, banded Cholesky", "silently wrong") > 5);
     assert!(count(map("penalty"), "stiff post, 16 elements", "silently wrong") > 5);
 
@@ -120,5 +120,5 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
     );
     assert!(count(steps, "midpoint", "silently wrong") > 0, "unconditional stability is lost");
     let accuracies = map("accuracies");
-    assert_eq!(count(accuracies, "girderway", "right"), accuracies.layers[0].cells.len());
+    assert_eq!(count(accuracies, "girderway", "right"), accuracies.layers[0].points.len());
 }

@@ -1,6 +1,6 @@
 //! Files with random damage: refused or taken, never a panic, never a number that is none.
 
-use formats::tables::{Format, expand, factor, read, round, write};
+use formats::tables::{TableFormat, expand, factor, read, round, write};
 use splines::Rank;
 
 use super::{Dice, ENDINGS, FT_LBF, bytes, data, random_factored, random_set};
@@ -71,7 +71,7 @@ fn tried(name: &str, bytes: &[u8]) -> bool {
     assert!(finite(&expand(&set)));
     let _ = factor(&set, Rank::Count(2));
     for ending in ENDINGS {
-        let _ = write(&set, Format::of(&format!("a.{ending}")).expect("a format"));
+        let _ = write(&set, TableFormat::of(&format!("a.{ending}")).expect("a format"));
     }
     true
 }
@@ -84,7 +84,7 @@ fn damaged_files_are_refused_or_taken() {
         let name = format!("a.{ending}");
         for _ in 0..4 {
             for set in [random_set(&mut dice), random_factored(&mut dice)] {
-                let bytes = write(&set, Format::of(&name).expect("a format")).expect("writable");
+                let bytes = write(&set, TableFormat::of(&name).expect("a format")).expect("writable");
                 for _ in 0..150 {
                     taken += usize::from(tried(&name, &damaged(&bytes, &mut dice)));
                 }

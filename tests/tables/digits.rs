@@ -1,6 +1,6 @@
 //! `--digits`: what rounding did is reported, and right.
 
-use formats::tables::{Unrounded, read, round};
+use formats::tables::{RoundError, read, round};
 use serde_json::Value;
 
 use super::{Dice, bogie_grid, bytes, folder, girderway, random_set, table, told};
@@ -77,9 +77,9 @@ fn what_cannot_be_rounded_is_refused() {
     };
     let mut set = random_set(&mut Dice(23));
     set.tables = vec![table(7, "a", None, curves([0.0, 1.0, 1.01, 2.0], 0.0))];
-    assert_eq!(round(&set, 2), Err(Unrounded::Stations { id: 7 }));
+    assert_eq!(round(&set, 2), Err(RoundError::Stations { id: 7 }));
     set.tables = vec![table(7, "a", None, curves([0.0, 1.0, 2.0, 3.0], f64::MAX))];
-    assert_eq!(round(&set, 2), Err(Unrounded::Overflow { id: 7 }));
+    assert_eq!(round(&set, 2), Err(RoundError::Overflow { id: 7 }));
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn the_program_reports_rounding_to_people_and_to_programs() {
     let at = &rounding["at"];
     let id = u32::try_from(at["id"].as_u64().expect("an id")).expect("small");
     let value = |set: &formats::tables::TableSet| {
-        let curves = &set.find(id).expect("the table").curves;
+        let curves = &set.table(id).expect("the table").curves;
         let place = |list: &[f64], x: &Value| {
             list.iter().position(|one| Some(*one) == x.as_f64()).expect("a station")
         };

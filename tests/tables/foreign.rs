@@ -1,7 +1,7 @@
 //! Files as other programs write them.
 
-use formats::diagnostic::Diagnostic;
 use formats::tables::{TableSet, read};
+use formats::text::diagnostic::Diagnostic;
 use formats::units::{Force, Length, Units};
 
 use super::{FT_LBF, bytes, data};

@@ -1,8 +1,8 @@
 //! Tables of grids: which there are, under which numbers, of one rail and of several.
 
-use formats::block::GridBlock;
-use formats::grid::{Grid, GridRail};
-use formats::tables::{Format, TableSet, data_set, expand, factor, only, read, write};
+use formats::grid::block::GridBlock;
+use formats::grid::{GridRail, StationGrid};
+use formats::tables::{TableFormat, TableSet, data_set, expand, factor, read, select, write};
 use formats::units::{Force, Length, Units};
 use nalgebra::DMatrix;
 use splines::Rank;
@@ -10,7 +10,7 @@ use splines::Rank;
 use super::ENDINGS;
 
 /// Rails side by side on springs and on each other: G = A A^T over vertical and lateral directions.
-fn grid(rails: usize) -> Grid {
+fn grid(rails: usize) -> StationGrid {
     let name = |index: usize| format!("rail {}", index + 1);
     let stations = |index: usize| [0.0, 1.0, 2.5, 4.0 + index as f64].to_vec();
     let n = 4 * rails;
@@ -19,7 +19,7 @@ fn grid(rails: usize) -> Grid {
     let all = &root * root.transpose();
     let all = 0.5 * (&all + all.transpose());
     let block = |i: usize, j: usize| all.view((i * n, j * n), (n, n)).into_owned();
-    Grid {
+    StationGrid {
         name: "two rails".to_owned(),
         units: Units { length: Length::Foot, force: Force::Kip },
         theory: None,
@@ -66,7 +66,7 @@ fn files_of_two_rails_read_back_with_their_rails() {
     let set = TableSet::of_grid(&grid(2));
     for ending in ENDINGS {
         let name = format!("two rails.{ending}");
-        let bytes = write(&set, Format::of(&name).expect("a format")).expect("writable");
+        let bytes = write(&set, TableFormat::of(&name).expect("a format")).expect("writable");
         let back = read(&name, &bytes, None).expect("our own file");
         for (back, table) in back.tables.iter().zip(&set.tables) {
             assert_eq!((back.id, back.quantity, &back.curves), (table.id, table.quantity, &table.curves));
@@ -87,11 +87,11 @@ fn coupled_directions_of_two_rails_share_their_curves() {
     assert!(found.stations.largest < 1e-13, "{:?}", found.stations);
     for ending in ["json", "npz"] {
         let name = format!("two rails.{ending}");
-        let bytes = write(&found.set, Format::of(&name).expect("a format")).expect("writable");
+        let bytes = write(&found.set, TableFormat::of(&name).expect("a format")).expect("writable");
         assert_eq!(read(&name, &bytes, None).as_ref(), Ok(&found.set), "{ending}");
     }
     // from text, which has no rails: the same numbers
-    let bytes = write(&found.set, Format::Adams).expect("writable");
+    let bytes = write(&found.set, TableFormat::Adams).expect("writable");
     let back = expand(&read("a.adm", &bytes, None).expect("our own file"));
     assert_eq!(back.tables.len(), set.tables.len());
     for (back, table) in back.tables.iter().zip(&expand(&found.set).tables) {
@@ -102,13 +102,13 @@ fn coupled_directions_of_two_rails_share_their_curves() {
 #[test]
 fn directions_choose_tables_and_the_curves_of_their_products() {
     let set = TableSet::of_grid(&grid(2));
-    let lateral = only(&set, &[GridBlock::Lateral]);
+    let lateral = select(&set, &[GridBlock::Lateral]);
     assert_eq!(ids(&lateral), [7, 13, 25]);
     let factored = factor(&set, Rank::Full).expect("one structure").set;
-    let lateral = only(&factored, &[GridBlock::Lateral]);
+    let lateral = select(&factored, &[GridBlock::Lateral]);
     assert_eq!((lateral.products.len(), lateral.tables.len()), (3, factored.tables.len() / 2));
-    assert_eq!(only(&factored, &[GridBlock::Vertical, GridBlock::Lateral]), factored);
-    assert!(only(&set, &[GridBlock::Longitudinal]).tables.is_empty());
+    assert_eq!(select(&factored, &[GridBlock::Vertical, GridBlock::Lateral]), factored);
+    assert!(select(&set, &[GridBlock::Longitudinal]).tables.is_empty());
 }
 
 /// Ranges that a file of tables alone does not tell apart.

@@ -1,7 +1,7 @@
 //! A second reader of data sets, made for these tests alone: it knows lines that begin with a comma, and
 //! nothing of the crate that writes them.
 
-use formats::tables::{Format, write};
+use formats::tables::{TableFormat, write};
 
 use super::{Dice, random_set};
 
@@ -72,7 +72,7 @@ fn an_independent_reader_finds_the_same_numbers_in_a_data_set() {
     let mut dice = Dice(31);
     for _ in 0..50 {
         let set = random_set(&mut dice);
-        let bytes = write(&set, Format::Adams).expect("writable");
+        let bytes = write(&set, TableFormat::Adams).expect("writable");
         let (found, units) = parse(std::str::from_utf8(&bytes).expect("text"));
         assert_eq!(units, "UNITS/,FORCE=POUND_FORCE,MASS=SLUG,LENGTH=FOOT,TIME=SECOND");
         assert_eq!(found.len(), set.tables.len());

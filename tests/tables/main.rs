@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use adams::SplineValues;
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use formats::tables::{Product, Table, TableSet};
 use formats::units::{Force, Length, Units};
 use tempfile::TempDir;

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use formats::tables::{Format, read, write};
+use formats::tables::{TableFormat, read, write};
 use girderway::crosscheck::Environment;
 
 use super::{Dice, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told};
@@ -51,7 +51,7 @@ fn numpy_loads_equal_bits() {
     let folder = folder();
     let mut dice = Dice(41);
     let set = random_set(&mut dice);
-    std::fs::write(folder.path().join("a.npz"), write(&set, Format::Npz).expect("writable"))
+    std::fs::write(folder.path().join("a.npz"), write(&set, TableFormat::Npz).expect("writable"))
         .expect("writable");
     let script = format!(
         "{BITS}
@@ -102,7 +102,7 @@ fn what_numpy_saves_is_read_bit_for_bit() {
     let mut dice = Dice(42);
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
         let path = folder.path().join("a.npz");
-        std::fs::write(&path, write(&set, Format::Npz).expect("writable")).expect("writable");
+        std::fs::write(&path, write(&set, TableFormat::Npz).expect("writable")).expect("writable");
         let script = "import numpy
 d = dict(numpy.load('a.npz'))
 numpy.savez('plain.npz', **d)

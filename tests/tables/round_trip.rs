@@ -1,12 +1,12 @@
 //! What is written is read back, bit for bit, in every format and through all of them.
 
-use formats::tables::{Format, TableSet, expand, read, write};
+use formats::tables::{TableFormat, TableSet, expand, read, write};
 
 use super::{Dice, ENDINGS, bits, bogie_grid, bytes, folder, girderway, random_factored, random_set, told};
 
 fn back(set: &TableSet, ending: &str) -> TableSet {
     let name = format!("bridge.{ending}");
-    let bytes = write(set, Format::of(&name).expect("a format")).expect("writable");
+    let bytes = write(set, TableFormat::of(&name).expect("a format")).expect("writable");
     read(&name, &bytes, None).unwrap_or_else(|wrong| panic!("{ending}: {wrong:?}"))
 }
 
@@ -30,8 +30,9 @@ fn a_walk_through_all_formats_changes_no_byte() {
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
         let walked = ENDINGS.into_iter().fold(set.clone(), |set, ending| back(&set, ending));
         for ending in ENDINGS {
-            let format =
-                Format::of(ending).or_else(|_| Format::of(&format!("a.{ending}"))).expect("a format");
+            let format = TableFormat::of(ending)
+                .or_else(|_| TableFormat::of(&format!("a.{ending}")))
+                .expect("a format");
             let [walked, direct] = [&walked, &set].map(|set| write(set, format).expect("tables"));
             assert_eq!(walked, direct, "{ending}");
         }
@@ -43,7 +44,7 @@ fn text_files_are_ascii_in_short_lines() {
     let mut dice = Dice(13);
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
         for name in ["a.adm", "a.cmd"] {
-            let bytes = write(&set, Format::of(name).expect("a format")).expect("writable");
+            let bytes = write(&set, TableFormat::of(name).expect("a format")).expect("writable");
             let text = String::from_utf8(bytes).expect("text");
             assert!(text.is_ascii());
             for line in text.lines() {

@@ -4,18 +4,18 @@
 
 use std::sync::Arc;
 
-use fea::{Girder, Section, Theory};
+use fea::{BeamTheory, CrossSection, Girder};
 use formats::scene::Document;
+use formats::spec::ties::{Ties, on_ground, on_structure};
 use formats::spec::{Form, Spec};
-use formats::track::{Ties, on_ground, on_structure};
 use formats::units::{Force, Length, Units};
 use foundations::solve;
 use foundations::{SolvedStructure, distinct_specs};
 use nalgebra::DMatrix;
 use results::cases::simulate;
 use results::outcome::CaseResult;
-use sim::{Reason, Rung};
-use splines::{Axis, Compliance, Influence, Probe, Surface};
+use sim::{Fidelity, Reason};
+use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 
 const E: f64 = 30e6;
 const I: f64 = 94.9;
@@ -23,11 +23,11 @@ const UNITS: Units = Units { length: Length::Inch, force: Force::Pound };
 
 /// Ties that are, on the average, a bed of the modulus `u`.
 fn ties(spacing: f64, u: f64) -> Ties {
-    let rail = Section { e: E, iz: I, ..Section::default() };
+    let rail = CrossSection { e: E, iz: I, ..CrossSection::default() };
     Ties { spacing, k: u * spacing, rail, elements: 1, ..Ties::default() }
 }
 
-fn influence(surface: &Surface, probes: &[Probe]) -> DMatrix<f64> {
+fn influence(surface: &ExactSurface, probes: &[Probe]) -> DMatrix<f64> {
     let mut out = Influence::zeros(probes.len());
     surface.fill(probes, &mut out).expect("places on the rail");
     out.value
@@ -113,14 +113,14 @@ fn rail_on_two_ties_over_a_girder_is_the_sum_of_its_parts() {
         j: Some(40.0),
         area: Some(60.0),
         rail_height: 15.0,
-        theory: Theory::EulerBernoulli,
+        theory: BeamTheory::EulerBernoulli,
         stations: vec![0.0, 300.0, 600.0],
         ..Girder::default()
     };
     let bare = Spec {
         name: "girder".to_owned(),
         units: UNITS,
-        theory: Theory::EulerBernoulli,
+        theory: BeamTheory::EulerBernoulli,
         form: Form::Girder(girder),
         effects: Vec::new(),
     };
@@ -192,10 +192,13 @@ const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "in",
 fn auto_on_ties_says_which_rung_and_why() {
     let choice = |outcome: &CaseResult| outcome.choices.first().expect("it chose").clone();
     let ground = choice(&on_ties(""));
-    assert_eq!((ground.rung, ground.reason), (Rung::Influence, Reason::NoMass), "{ground:?}");
+    assert_eq!((ground.fidelity, ground.reason), (Fidelity::Influence, Reason::NoMass), "{ground:?}");
     let girder = choice(&on_ties(r#""spec": "girder.json", "#));
     println!("{ground:?}\n{girder:?}");
-    assert!(matches!((girder.rung, girder.reason), (Rung::Modal(_), Reason::Sufficient)), "{girder:?}");
+    assert!(
+        matches!((girder.fidelity, girder.reason), (Fidelity::Modal(_), Reason::Sufficient)),
+        "{girder:?}"
+    );
 }
 
 /// The largest and smallest amplification of a load of 30,000 lb while it runs at `theta` of the critical speed.

@@ -3,10 +3,10 @@
 
 use std::ops::ControlFlow;
 
-use formats::source::Source;
 use formats::spec::Spec;
+use formats::text::source::Source;
 use foundations::{full_mesh, solve};
-use sim::{Channel, Damper, Foundation, Freedom, Gauge, Run, Scene, Status};
+use sim::{BodyDof, Channel, Damper, Foundation, Gauge, Run, Scene, Status};
 use splines::{Axis, Probe};
 
 use crate::common::bogie;
@@ -30,7 +30,7 @@ fn foundation(text: &str, elements: Option<usize>) -> Foundation {
     let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
     let solved = solve(&Spec::read(&source, None).expect("a girder")).expect("it stands");
     match elements {
-        None => Foundation::influence(Box::new(solved.surface.expect("it is small")), 1),
+        None => Foundation::massless(Box::new(solved.surface.expect("it is small")), 1),
         Some(elements) => full_mesh(&solved, elements).expect("it has mass"),
     }
 }
@@ -76,7 +76,7 @@ fn bogie_over_the_girder_without_and_with_mass_meets_the_references() {
         let peaks = |damper, elements| {
             let scene = gauged(bogie(speed, end, damper), 30.0, 1000.0, 1e-5);
             let run = run(&scene, foundation(PAPER, elements));
-            [Channel::Displacement(0, Freedom::Y), Channel::Gauge(0)]
+            [Channel::Displacement(0, BodyDof::Y), Channel::Gauge(0)]
                 .map(|channel| -extremes(&run.history.column(channel))[0])
         };
         let (massless, beam) = (peaks(Damper::Ground, None), peaks(Damper::Rail, Some(8)));
@@ -93,7 +93,7 @@ fn sprung_mass_over_yang_and_yaus_bridge_meets_the_reference() {
     let scene = bridge();
     let run = run(&scene, foundation(BRIDGE, Some(32)));
     let [time, middle, force, rate] =
-        [Channel::Time, Channel::Gauge(0), Channel::Vertical(0), Channel::Speed(0, Freedom::Y)]
+        [Channel::Time, Channel::Gauge(0), Channel::Vertical(0), Channel::Speed(0, BodyDof::Y)]
             .map(|channel| run.history.column(channel));
     let least = (0..middle.len()).min_by(|&i, &j| middle[i].total_cmp(&middle[j])).unwrap_or(0);
     let force = extremes(&force);
@@ -141,7 +141,7 @@ fn sprung_mass_over_the_bridge_without_mass_meets_its_own_equation() {
     }
     let run = run(&bridge(), foundation(BRIDGE, None));
     let [y, vertical] =
-        [Channel::Displacement(0, Freedom::Y), Channel::Vertical(0)].map(|c| run.history.column(c));
+        [Channel::Displacement(0, BodyDof::Y), Channel::Vertical(0)].map(|c| run.history.column(c));
     assert_eq!(y.len(), wanted.len());
     let (mut error, mut peaks) = ([0.0_f64; 2], [0.0_f64; 2]);
     for ((y, vertical), (z, force)) in y.iter().zip(&vertical).zip(&wanted) {

@@ -8,9 +8,9 @@ mod rails;
 use std::ops::ControlFlow;
 
 use common::bogie;
-use fea::{Girder, Theory};
+use fea::{BeamTheory, Girder};
 use foundations::rigid_parts;
-use sim::{Analysis, Channel, Damper, Foundation, Freedom};
+use sim::{Analysis, BodyDof, Channel, Damper, Foundation};
 
 fn girder() -> Girder {
     Girder {
@@ -18,7 +18,7 @@ fn girder() -> Girder {
         overhangs: [15.0, 15.0],
         e: 4.32e9,
         i_vertical: 9.528,
-        theory: Theory::EulerBernoulli,
+        theory: BeamTheory::EulerBernoulli,
         stations: vec![0.0, 60.0],
         ..Girder::default()
     }
@@ -30,14 +30,14 @@ fn crossing(foundation: Foundation) -> Vec<f64> {
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = 0.08;
     let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("the bogie stands");
-    run.history.column(Channel::Displacement(0, Freedom::Y))
+    run.history.column(Channel::Displacement(0, BodyDof::Y))
 }
 
 #[test]
 fn parts_converge_with_the_square_of_their_number() {
-    let (model, rail) = girder().frame().expect("a girder on two supports");
+    let (model, rail) = girder().model_and_rail().expect("a girder on two supports");
     let exact = fea::surface(&model, &[rail]).expect("it stands");
-    let wanted = crossing(Foundation::influence(Box::new(exact.surface), 1));
+    let wanted = crossing(Foundation::massless(Box::new(exact.surface), 1));
     let mut errors = Vec::new();
     for count in [6, 12, 24, 48, 96, 192] {
         let found = crossing(rigid_parts(&girder(), count, None).expect("parts of a girder"));

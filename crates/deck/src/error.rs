@@ -1,7 +1,7 @@
 //! Why a scene has no deck, or a deck cannot be compared with the simulator.
 
-use formats::diagnostic::Diagnostic;
-use formats::motion::UnequalShares;
+use formats::scene::motion::UnequalFractions;
+use formats::text::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// Why there is no deck, or no comparison of one with the simulator.
@@ -12,7 +12,7 @@ pub enum Error {
     Refused(Box<Diagnostic>),
     /// A truck of the scene cannot be simulated.
     #[error(transparent)]
-    Truck(#[from] UnequalShares),
+    Truck(#[from] UnequalFractions),
     /// A foundation cannot be made.
     #[error(transparent)]
     Foundation(#[from] foundations::Error),

@@ -1,6 +1,6 @@
 //! Time from a model to its influence grid.
 
-use fea::{Girder, Member, Model, Rail, Section, Segment, Support, Theory, grid, surface};
+use fea::{BeamTheory, CrossSection, Girder, Member, Model, Rail, RailSegment, Support, grid, surface};
 use splines::{Axis, Probe};
 
 fn main() {
@@ -19,7 +19,7 @@ fn girder() -> Girder {
         i_lateral: Some(0.874_97),
         j: Some(0.6552),
         rail_height: 3.6615,
-        theory: Theory::EulerBernoulli,
+        theory: BeamTheory::EulerBernoulli,
         ..Girder::default()
     }
 }
@@ -31,7 +31,7 @@ fn probes(axis: Axis, count: usize) -> Vec<Probe> {
 
 #[divan::bench(args = [7, 61, 400])]
 fn vertical_grid(bencher: divan::Bencher, loads: usize) {
-    let (model, rail) = girder().frame().expect("the numbers are sound");
+    let (model, rail) = girder().model_and_rail().expect("the numbers are sound");
     let rails = [rail];
     let at = probes(Axis::Vertical, loads);
     bencher.bench(|| grid(&model, &rails, &at));
@@ -39,21 +39,21 @@ fn vertical_grid(bencher: divan::Bencher, loads: usize) {
 
 #[divan::bench]
 fn paper_surface(bencher: divan::Bencher) {
-    let (model, rail) = girder().frame().expect("the numbers are sound");
+    let (model, rail) = girder().model_and_rail().expect("the numbers are sound");
     let rails = [rail];
     bencher.bench(|| surface(&model, &rails));
 }
 
 /// A runway with ten members in each bay, on columns of four members, all joints rigid.
 fn runway(bays: usize) -> (Model, Rail) {
-    let section = |i: f64| Section {
+    let section = |i: f64| CrossSection {
         e: 4.32e9,
         g: 1.66e9,
         area: 0.6,
         iy: 0.3 * i,
         iz: i,
         j: 0.02,
-        ..Section::default()
+        ..CrossSection::default()
     };
     let mut model =
         Model { sections: vec![section(4.0), section(1.5)], up: [0.0, 1.0, 0.0], ..Model::default() };
@@ -61,7 +61,7 @@ fn runway(bays: usize) -> (Model, Rail) {
     for k in 0..=10 * bays {
         model.points.push([4.0 * k as f64, 40.0, 0.0]);
         if k > 0 {
-            rail.segments.push(Segment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
+            rail.segments.push(RailSegment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
             model.members.push(Member::beam([k - 1, k], 0, [0.0, 1.0, 0.0]));
         }
     }
@@ -73,7 +73,7 @@ fn runway(bays: usize) -> (Model, Rail) {
             model.members.push(Member::beam([below, above], 1, [0.0, 0.0, 1.0]));
             above = below;
         }
-        model.supports.push(Support { point: above, fix: [true; 6] });
+        model.supports.push(Support { point: above, fixed: [true; 6] });
     }
     (model, rail)
 }

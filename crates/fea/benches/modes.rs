@@ -1,7 +1,7 @@
 //! Times of natural modes: runways and buildings.
 
 use divan::{Bencher, black_box};
-use fea::{Frame, Girder, Member, Model, Section, Support};
+use fea::{CrossSection, FactoredFrame, Girder, Member, Model, Support};
 
 fn main() {
     divan::main();
@@ -20,7 +20,7 @@ fn runway(bays: usize) -> Model {
         mass_per_length: Some(26.4),
         ..Girder::default()
     };
-    let (mut model, _) = girder.frame().expect("sound");
+    let (mut model, _) = girder.model_and_rail().expect("sound");
     model.supports.retain(|support| support.point % 4 == 0);
     model
 }
@@ -28,7 +28,7 @@ fn runway(bays: usize) -> Model {
 /// A building of cubes of 5 m, one member an edge.
 fn building(sides: [usize; 3]) -> Model {
     let [p, q, r] = sides;
-    let section = Section {
+    let section = CrossSection {
         e: 2.1e11,
         g: 8.1e10,
         area: 0.013,
@@ -36,7 +36,7 @@ fn building(sides: [usize; 3]) -> Model {
         iz: 8.7e-5,
         j: 2.3e-5,
         mass: 111.0,
-        ..Section::default()
+        ..CrossSection::default()
     };
     let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
     let id = |i: usize, j: usize, k: usize| (i * q + j) * r + k;
@@ -49,7 +49,7 @@ fn building(sides: [usize; 3]) -> Model {
                 let inside = next.into_iter().filter(|&(i, j, k)| i < p && j < q && k < r);
                 model.members.extend(inside.map(|(a, b, c)| member([id(i, j, k), id(a, b, c)])));
                 if j == 0 {
-                    model.supports.push(Support { point: id(i, j, k), fix: [true; 6] });
+                    model.supports.push(Support { point: id(i, j, k), fixed: [true; 6] });
                 }
             }
         }
@@ -61,7 +61,7 @@ fn building(sides: [usize; 3]) -> Model {
 #[divan::bench(args = [440, 4400], sample_count = 5)]
 fn runways(bencher: Bencher, bays: usize) {
     let model = runway(bays);
-    let frame = Frame::new(&model, &[]).expect("sound");
+    let frame = FactoredFrame::new(&model, &[]).expect("sound");
     bencher.bench_local(|| black_box(frame.modes(&model, 20).expect("sound")));
 }
 
@@ -69,6 +69,6 @@ fn runways(bencher: Bencher, bays: usize) {
 #[divan::bench(args = [[12, 12, 12]], sample_count = 5)]
 fn buildings(bencher: Bencher, sides: [usize; 3]) {
     let model = building(sides);
-    let frame = Frame::new(&model, &[]).expect("sound");
+    let frame = FactoredFrame::new(&model, &[]).expect("sound");
     bencher.bench_local(|| black_box(frame.modes(&model, 20).expect("sound")));
 }

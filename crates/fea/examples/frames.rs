@@ -20,7 +20,7 @@ use std::path::Path;
 use std::time::Instant;
 use std::{env, fs};
 
-use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
+use fea::{CrossSection, FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use splines::{Axis, Probe};
 
 /// Numbers of unit loads.
@@ -65,8 +65,8 @@ impl Case {
     }
 }
 
-fn section(i: f64) -> Section {
-    Section { e: 4.32e9, g: 1.66e9, area: 0.6, iy: 0.3 * i, iz: i, j: 0.02, ..Section::default() }
+fn section(i: f64) -> CrossSection {
+    CrossSection { e: 4.32e9, g: 1.66e9, area: 0.6, iy: 0.3 * i, iz: i, j: 0.02, ..CrossSection::default() }
 }
 
 fn member(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Member {
@@ -84,7 +84,7 @@ fn runway(bays: usize) -> Case {
     for k in 0..=10 * bays {
         model.points.push([4.0 * k as f64, 40.0, 0.0]);
         if k > 0 {
-            rail.segments.push(Segment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
+            rail.segments.push(RailSegment { member: model.members.len(), offset: [0.0, 3.0, 0.2] });
             model.members.push(member([k - 1, k], 0, [0.0, 1.0, 0.0]));
         }
     }
@@ -96,7 +96,7 @@ fn runway(bays: usize) -> Case {
             model.members.push(member([below, above], 1, [0.0, 0.0, 1.0]));
             above = below;
         }
-        model.supports.push(Support { point: above, fix: [true; 6] });
+        model.supports.push(Support { point: above, fixed: [true; 6] });
     }
     Case { model, rails: vec![rail], step: 4.0 }
 }
@@ -111,7 +111,7 @@ fn building(n: usize) -> Case {
             for i in 0..n {
                 model.points.push([20.0 * i as f64, 12.0 * level as f64, 25.0 * k as f64]);
                 if level == 0 {
-                    model.supports.push(Support { point: at(i, level, k), fix: [true; 6] });
+                    model.supports.push(Support { point: at(i, level, k), fixed: [true; 6] });
                 }
             }
         }
@@ -123,7 +123,7 @@ fn building(n: usize) -> Case {
             for i in 0..n {
                 model.members.push(member([at(i, level - 1, k), at(i, level, k)], 1, [0.0, 0.0, 1.0]));
                 if i > 0 {
-                    rail.segments.push(Segment { member: model.members.len(), offset: [0.0, 1.5, 0.1] });
+                    rail.segments.push(RailSegment { member: model.members.len(), offset: [0.0, 1.5, 0.1] });
                     model.members.push(member([at(i - 1, level, k), at(i, level, k)], 0, [0.0, 1.0, 0.0]));
                 }
                 if k > 0 {
@@ -173,7 +173,7 @@ fn write(folder: &Path, case: &Case) -> Result<(), Box<dyn Error>> {
         let mut value = None;
         for _ in 0..TIMES {
             let start = Instant::now();
-            let frame = Frame::new(m, &case.rails)?;
+            let frame = FactoredFrame::new(m, &case.rails)?;
             factor = factor.min(start.elapsed().as_secs_f64());
             let start = Instant::now();
             let grid = frame.grid(&probes)?;

@@ -21,7 +21,7 @@ fn main() -> Result<(), fea::Error> {
     let mut found = None;
     for _ in 0..REPETITIONS {
         let began = clock();
-        let (model, rail) = girder().frame()?;
+        let (model, rail) = girder().model_and_rail()?;
         let grid = grid(&model, &[rail], &at)?;
         times.push(clock() - began);
         found = Some(grid);

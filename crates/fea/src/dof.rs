@@ -6,7 +6,7 @@ use std::fmt;
 ///
 /// As an index: `Freedom::Uy as usize` is 1. Displays as `ux`, `uy`, ..., `rz`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Freedom {
+pub enum Dof {
     /// Displacement along x, length.
     Ux,
     /// Displacement along y, length.
@@ -21,17 +21,16 @@ pub enum Freedom {
     Rz,
 }
 
-impl Freedom {
+impl Dof {
     /// All six, in order.
-    pub const ALL: [Freedom; 6] =
-        [Freedom::Ux, Freedom::Uy, Freedom::Uz, Freedom::Rx, Freedom::Ry, Freedom::Rz];
+    pub const ALL: [Dof; 6] = [Dof::Ux, Dof::Uy, Dof::Uz, Dof::Rx, Dof::Ry, Dof::Rz];
 }
 
-impl fmt::Display for Freedom {
+impl fmt::Display for Dof {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(["ux", "uy", "uz", "rx", "ry", "rz"][*self as usize])
     }
 }
 
 /// A set of degrees of freedom: entry `Freedom as usize` is true if the set contains it.
-pub type Freedoms6 = [bool; 6];
+pub type DofSet = [bool; 6];

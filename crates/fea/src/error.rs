@@ -2,52 +2,52 @@
 
 use std::fmt;
 
-use crate::dof::Freedom;
+use crate::dof::Dof;
 
 /// Errors of this crate. Entries are reported by index; the caller knows their names and files.
 ///
 /// # Example
 /// ```
-/// use fea::{Error, Girder, Item};
+/// use fea::{Error, Girder, ModelEntry};
 ///
 /// let girder = Girder { spans: vec![60.0, -5.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-/// let Err(error) = girder.frame() else { panic!("a span is negative") };
-/// assert!(matches!(error, Error::Invalid { item: Item::Span(1), .. }));
+/// let Err(error) = girder.model_and_rail() else { panic!("a span is negative") };
+/// assert!(matches!(error, Error::Invalid { entry: ModelEntry::Span(1), .. }));
 /// assert_eq!(error.to_string(), "span 1: length must be positive, got -5");
 /// ```
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// An entry of the model or of a rail cannot be used.
-    #[error("{item}: {fault}")]
+    #[error("{entry}: {fault}")]
     Invalid {
         /// Which entry.
-        item: Item,
+        entry: ModelEntry,
         /// What is wrong with it.
-        fault: Fault,
+        fault: EntryFault,
     },
     /// The releases of one member let a part of it move without strain.
-    #[error("releases of member {member} leave a mechanism in it: {freedom} at its end {end}")]
+    #[error("releases of member {member} leave a mechanism in it: {dof} at its end {end}")]
     Released {
         /// Index of the member.
         member: usize,
         /// 0 at its first point, 1 at its second.
         end: usize,
         /// Local degree of freedom that has no stiffness left.
-        freedom: Freedom,
+        dof: Dof,
     },
     /// The structure can move without strain.
-    #[error("mechanism: nothing holds point {point} in {freedom}")]
+    #[error("mechanism: nothing holds point {point} in {dof}")]
     Mechanism {
         /// Point that moves most, weighted by stiffness.
         point: usize,
         /// Degree of freedom of the point that moves most.
-        freedom: Freedom,
+        dof: Dof,
     },
     /// The error bound that rounding allows is larger than the accuracy asked for.
     #[error(
-        "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {freedom}"
+        "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {dof}"
     )]
-    Ill {
+    IllConditioned {
         /// Estimate of the condition number of the scaled stiffness.
         condition: f64,
         /// Relative error bound that can be given; infinite if there is none.
@@ -57,11 +57,11 @@ pub enum Error {
         /// Point that moves most in the weakest motion.
         point: usize,
         /// Degree of freedom of the point that moves most.
-        freedom: Freedom,
+        dof: Dof,
     },
     /// The stiffness is not finite, or its factor exceeds the indices or the memory.
     #[error("the stiffness of {unknowns} degrees of freedom cannot be factored")]
-    Factor {
+    NotFactorable {
         /// Number of unknown degrees of freedom.
         unknowns: usize,
     },
@@ -69,7 +69,7 @@ pub enum Error {
     #[error("the {quantity} would take {bytes} bytes, more than {most}")]
     Memory {
         /// What the memory is for.
-        quantity: Quantity,
+        quantity: EntryAttribute,
         /// How much is needed.
         bytes: u64,
         /// How much is allowed.
@@ -104,7 +104,7 @@ pub enum Error {
 
 /// An entry, by its index in the model's or rail's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Item {
+pub enum ModelEntry {
     /// The global direction up.
     Up,
     /// A point.
@@ -149,18 +149,18 @@ pub enum Item {
 
 /// What is wrong with an entry.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Fault {
+pub enum EntryFault {
     /// The number is infinite or not a number.
     #[error("{quantity} is not finite")]
     NotFinite {
         /// Which number of the entry.
-        quantity: Quantity,
+        quantity: EntryAttribute,
     },
     /// The number must be positive.
     #[error("{quantity} must be positive, got {value}")]
     NotPositive {
         /// Which number of the entry.
-        quantity: Quantity,
+        quantity: EntryAttribute,
         /// The value given.
         value: f64,
     },
@@ -168,7 +168,7 @@ pub enum Fault {
     #[error("{quantity} must not be negative, got {value}")]
     Negative {
         /// Which number of the entry.
-        quantity: Quantity,
+        quantity: EntryAttribute,
         /// The value given.
         value: f64,
     },
@@ -200,12 +200,12 @@ pub enum Fault {
         place: f64,
     },
     /// A degree of freedom of a point without a reaction of its own.
-    #[error("point {point} has no reaction of its own in {freedom}")]
-    NoHold {
+    #[error("point {point} has no reaction of its own in {dof}")]
+    NoReaction {
         /// The point given.
         point: usize,
         /// The degree of freedom given.
-        freedom: Freedom,
+        dof: Dof,
     },
     /// The flexible part of a member has no length.
     #[error("the flexible part has no length")]
@@ -217,7 +217,7 @@ pub enum Fault {
     #[error("has no {quantity}")]
     Empty {
         /// Which list of the entry.
-        quantity: Quantity,
+        quantity: EntryAttribute,
     },
     /// A rail axis without length, or along `up`.
     #[error("the axis is zero or parallel to up")]
@@ -249,7 +249,7 @@ pub enum Fault {
 
 /// A number of an entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
+pub enum EntryAttribute {
     /// Coordinates of a point, an origin or a direction.
     Coordinate,
     /// Length.
@@ -294,69 +294,69 @@ pub enum Quantity {
     Surface,
 }
 
-impl fmt::Display for Item {
+impl fmt::Display for ModelEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Item::Up => write!(f, "up"),
-            Item::Point(k) => write!(f, "point {k}"),
-            Item::Section(k) => write!(f, "section {k}"),
-            Item::Member(k) => write!(f, "member {k}"),
-            Item::Support(k) => write!(f, "support {k}"),
-            Item::Spring(k) => write!(f, "spring {k}"),
-            Item::Link(k) => write!(f, "link {k}"),
-            Item::Mass(k) => write!(f, "mass {k}"),
-            Item::Span(k) => write!(f, "span {k}"),
-            Item::Overhang(k) => write!(f, "overhang {k}"),
-            Item::Girder => write!(f, "girder"),
-            Item::Rail(k) => write!(f, "rail {k}"),
-            Item::Effect(k) => write!(f, "effect {k}"),
-            Item::Segment { rail, segment } => write!(f, "segment {segment} of rail {rail}"),
-            Item::Station { rail, station } => write!(f, "station {station} of rail {rail}"),
+            ModelEntry::Up => write!(f, "up"),
+            ModelEntry::Point(k) => write!(f, "point {k}"),
+            ModelEntry::Section(k) => write!(f, "section {k}"),
+            ModelEntry::Member(k) => write!(f, "member {k}"),
+            ModelEntry::Support(k) => write!(f, "support {k}"),
+            ModelEntry::Spring(k) => write!(f, "spring {k}"),
+            ModelEntry::Link(k) => write!(f, "link {k}"),
+            ModelEntry::Mass(k) => write!(f, "mass {k}"),
+            ModelEntry::Span(k) => write!(f, "span {k}"),
+            ModelEntry::Overhang(k) => write!(f, "overhang {k}"),
+            ModelEntry::Girder => write!(f, "girder"),
+            ModelEntry::Rail(k) => write!(f, "rail {k}"),
+            ModelEntry::Effect(k) => write!(f, "effect {k}"),
+            ModelEntry::Segment { rail, segment } => write!(f, "segment {segment} of rail {rail}"),
+            ModelEntry::Station { rail, station } => write!(f, "station {station} of rail {rail}"),
         }
     }
 }
 
-impl fmt::Display for Quantity {
+impl fmt::Display for EntryAttribute {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Quantity::Coordinate => "coordinate",
-            Quantity::Length => "length",
-            Quantity::E => "E",
-            Quantity::G => "G",
-            Quantity::Area => "area",
-            Quantity::Iy => "Iy",
-            Quantity::Iz => "Iz",
-            Quantity::J => "J",
-            Quantity::ShearY => "shear area along y",
-            Quantity::ShearZ => "shear area along z",
-            Quantity::Mass => "mass",
-            Quantity::Inertia => "inertia",
-            Quantity::Offset => "offset",
-            Quantity::Orientation => "orientation",
-            Quantity::Stiffness => "stiffness",
-            Quantity::Spans => "spans",
-            Quantity::Segments => "segments",
-            Quantity::Station => "station",
-            Quantity::Factor => "factor",
-            Quantity::Grid => "grid",
-            Quantity::Surface => "surface",
+            EntryAttribute::Coordinate => "coordinate",
+            EntryAttribute::Length => "length",
+            EntryAttribute::E => "E",
+            EntryAttribute::G => "G",
+            EntryAttribute::Area => "area",
+            EntryAttribute::Iy => "Iy",
+            EntryAttribute::Iz => "Iz",
+            EntryAttribute::J => "J",
+            EntryAttribute::ShearY => "shear area along y",
+            EntryAttribute::ShearZ => "shear area along z",
+            EntryAttribute::Mass => "mass",
+            EntryAttribute::Inertia => "inertia",
+            EntryAttribute::Offset => "offset",
+            EntryAttribute::Orientation => "orientation",
+            EntryAttribute::Stiffness => "stiffness",
+            EntryAttribute::Spans => "spans",
+            EntryAttribute::Segments => "segments",
+            EntryAttribute::Station => "station",
+            EntryAttribute::Factor => "factor",
+            EntryAttribute::Grid => "grid",
+            EntryAttribute::Surface => "surface",
         })
     }
 }
 
 /// Checks that all numbers are finite.
-pub(crate) fn finite(quantity: Quantity, values: &[f64]) -> Result<(), Fault> {
-    if values.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(Fault::NotFinite { quantity }) }
+pub(crate) fn finite(quantity: EntryAttribute, values: &[f64]) -> Result<(), EntryFault> {
+    if values.iter().all(|x| x.is_finite()) { Ok(()) } else { Err(EntryFault::NotFinite { quantity }) }
 }
 
 /// Checks that a number is finite and positive.
-pub(crate) fn positive(quantity: Quantity, value: f64) -> Result<(), Fault> {
+pub(crate) fn positive(quantity: EntryAttribute, value: f64) -> Result<(), EntryFault> {
     finite(quantity, &[value])?;
-    if value > 0.0 { Ok(()) } else { Err(Fault::NotPositive { quantity, value }) }
+    if value > 0.0 { Ok(()) } else { Err(EntryFault::NotPositive { quantity, value }) }
 }
 
 /// Checks that a number is finite and not negative.
-pub(crate) fn not_negative(quantity: Quantity, value: f64) -> Result<(), Fault> {
+pub(crate) fn not_negative(quantity: EntryAttribute, value: f64) -> Result<(), EntryFault> {
     finite(quantity, &[value])?;
-    if value >= 0.0 { Ok(()) } else { Err(Fault::Negative { quantity, value }) }
+    if value >= 0.0 { Ok(()) } else { Err(EntryFault::Negative { quantity, value }) }
 }

@@ -1,16 +1,16 @@
 //! Frames in space, and their influence functions along rails.
 //!
 //! A [`Model`] is points, sections, members, supports, springs, links and masses; a [`Girder`] is the short
-//! form of a continuous beam. A [`Rail`] is a straight coordinate over some of the members. [`Frame::new`]
-//! assembles and factors them once. The frame then answers any number of questions: a [`Grid`] of influence
-//! coefficients between chosen places, the [`Exact::surface`] of whole rails, [`Frame::effects`] (reactions and
-//! internal forces), [`Frame::modes`]. Every grid carries a [`Certificate`]: a bound of its error.
+//! form of a continuous beam. A [`Rail`] is a straight coordinate over some of the members. [`FactoredFrame::new`]
+//! assembles and factors them once. The frame then answers any number of questions: a [`InfluenceGrid`] of influence
+//! coefficients between chosen places, the [`CertifiedSurface::surface`] of whole rails, [`FactoredFrame::effects`] (reactions and
+//! internal forces), [`FactoredFrame::modes`]. Every grid carries a [`Certificate`]: a bound of its error.
 //!
 //! Statics is linear with small displacements. Members are straight and uniform, and their stiffness is exact:
 //! one member a span suffices, and no node is needed under a load. Units are consistent; the crate knows none.
 //!
 //! ```
-//! use fea::{Frame, Girder};
+//! use fea::{FactoredFrame, Girder};
 //! use splines::{Axis, Probe};
 //!
 //! // A girder of 60 ft on two supports with overhangs of 15 ft; pounds and feet.
@@ -21,8 +21,8 @@
 //!     i_vertical: 9.528,
 //!     ..Girder::default()
 //! };
-//! let (model, rail) = girder.frame()?;
-//! let frame = Frame::new(&model, &[rail])?;
+//! let (model, rail) = girder.model_and_rail()?;
+//! let frame = FactoredFrame::new(&model, &[rail])?;
 //!
 //! // Deflections at three places per unit load at each of them: 3 x 3, ft/lb, positive up.
 //! let at = [0.0, 15.0, 30.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
@@ -55,14 +55,19 @@ mod influence;
 mod model;
 mod modes;
 
-pub use dof::{Freedom, Freedoms6};
-pub use error::{Error, Fault, Item, Quantity};
-pub use factor::{Certificate, MEMORY};
-pub use influence::{ACCURACY, Effect, Exact, Frame, Grid, Hold, Reactions, grid, nodal, surface};
+pub use dof::{Dof, DofSet};
+pub use error::{EntryAttribute, EntryFault, Error, ModelEntry};
+pub use factor::{Certificate, MEMORY_LIMIT};
+pub use influence::{
+    CertifiedSurface, DEFAULT_ACCURACY, Effect, FactoredFrame, InfluenceGrid, Reactions, Restraint, grid,
+    point_compliance, surface,
+};
 pub use model::{
-    Girder, Kind, Link, Mass, Member, Model, Rail, Section, Segment, Spring, Support, Taper, Theory,
+    BeamTheory, CrossSection, Girder, GroundSpring, Member, MemberKind, Model, PointMass, Rail, RailSegment,
+    RigidLink, Support, Taper,
 };
 pub use modes::{
-    Inertial, MOST_DENSE_UNKNOWNS, Mode, Modes, Refined, full_modes, modes, refined_modes, rigid_mass,
+    InertialEffects, MOST_DENSE_UNKNOWNS, Mode, Modes, RefinedModes, full_modes, modes, refined_modes,
+    rigid_mass,
 };
-pub use splines::Component;
+pub use splines::ForceComponent;

@@ -3,19 +3,19 @@
 mod common;
 
 use common::probes;
-use fea::{Error, Frame, Girder, Member, Model, Rail, Section, Segment, Support};
+use fea::{CrossSection, Error, FactoredFrame, Girder, Member, Model, Rail, RailSegment, Support};
 use splines::Axis;
 
 /// A simply supported beam of length 60 cut at the given places, none at midspan.
 fn chain(cuts: &[f64]) -> (Model, Rail) {
     let points = cuts.iter().map(|&x| [x, 0.0, 0.0]).collect();
-    let section = Section { e: 4.32e9, iz: 9.528, ..Section::default() };
+    let section = CrossSection { e: 4.32e9, iz: 9.528, ..CrossSection::default() };
     let members: Vec<Member> =
         (1..cuts.len()).map(|k| Member::beam([k - 1, k], 0, [0.0, 1.0, 0.0])).collect();
     let supports = [0, cuts.len() - 1]
-        .map(|point| Support { point, fix: [point == 0, true, true, true, false, false] })
+        .map(|point| Support { point, fixed: [point == 0, true, true, true, false, false] })
         .to_vec();
-    let segments = (0..members.len()).map(|member| Segment { member, offset: [0.0; 3] }).collect();
+    let segments = (0..members.len()).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
     let rail = Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() };
     (
         Model { points, sections: vec![section], members, supports, up: [0.0, 1.0, 0.0], ..Model::default() },
@@ -26,9 +26,9 @@ fn chain(cuts: &[f64]) -> (Model, Rail) {
 /// True relative error at 31 ft and its bound; `None` if the frame is refused.
 fn check(cuts: &[f64]) -> Option<(f64, f64)> {
     let (model, rail) = chain(cuts);
-    let frame = match Frame::new(&model, &[rail]) {
+    let frame = match FactoredFrame::new(&model, &[rail]) {
         Ok(frame) => frame,
-        Err(Error::Ill { .. } | Error::Mechanism { .. }) => return None,
+        Err(Error::IllConditioned { .. } | Error::Mechanism { .. }) => return None,
         Err(other) => panic!("{other}"),
     };
     let x = 31.0_f64;
@@ -64,8 +64,10 @@ fn short_elements_keep_nine_digits_down_to_a_millionth_or_are_refused() {
 fn accuracy_that_nothing_meets_is_refused_with_what_can_be_had() {
     let cuts: Vec<f64> = (0..=8192).map(|k| 60.0 * f64::from(k) / 8192.0).collect();
     let (model, rail) = chain(&cuts);
-    match Frame::accurate(&model, &[rail], 1e-14) {
-        Err(Error::Ill { bound, asked, .. }) => assert!(bound < 1e-11 && asked == 1e-14, "{bound:.1e}"),
+    match FactoredFrame::with_accuracy(&model, &[rail], 1e-14) {
+        Err(Error::IllConditioned { bound, asked, .. }) => {
+            assert!(bound < 1e-11 && asked == 1e-14, "{bound:.1e}")
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -73,8 +75,9 @@ fn accuracy_that_nothing_meets_is_refused_with_what_can_be_had() {
 #[test]
 fn grids_whose_evaluation_cannot_keep_the_digits_are_refused() {
     let (model, rail) = chain(&[0.0, 60.0]);
-    let frame = Frame::accurate(&model, &[rail], 1e-16).expect("double-doubles suffice for the factor");
-    assert!(matches!(frame.grid(&probes(Axis::Vertical, &[31.0])), Err(Error::Ill { .. })));
+    let frame =
+        FactoredFrame::with_accuracy(&model, &[rail], 1e-16).expect("double-doubles suffice for the factor");
+    assert!(matches!(frame.grid(&probes(Axis::Vertical, &[31.0])), Err(Error::IllConditioned { .. })));
 }
 
 #[test]
@@ -98,8 +101,8 @@ fn short_girders_are_certified_to_ten_digits() {
     for spans in [vec![60.0], vec![60.0, 60.0], vec![30.0, 40.0, 50.0, 60.0]] {
         let girder =
             Girder { spans, overhangs: [15.0; 2], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-        let (model, rail) = girder.frame().expect("sound");
-        let certificate = Frame::new(&model, &[rail]).expect("solvable").certificate();
+        let (model, rail) = girder.model_and_rail().expect("sound");
+        let certificate = FactoredFrame::new(&model, &[rail]).expect("solvable").certificate();
         assert!(certificate.error_bound < 1e-10, "{certificate:?}");
     }
 }

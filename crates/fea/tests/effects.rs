@@ -8,14 +8,15 @@ mod common;
 
 use common::{Stream, mill, paper, with_nodes};
 use fea::{
-    Component, Effect, Error, Fault, Frame, Freedom, Girder, Hold, Item, Member, Model, Rail, Segment, Theory,
+    BeamTheory, Dof, Effect, EntryFault, Error, FactoredFrame, ForceComponent, Girder, Member, Model,
+    ModelEntry, Rail, RailSegment, Restraint,
 };
 use splines::{Axis, Probe};
 
 const SPAN: f64 = 60.0;
 
-fn force(member: usize, place: f64, component: Component) -> Effect {
-    Effect::Force { member, place, component }
+fn force(member: usize, place: f64, component: ForceComponent) -> Effect {
+    Effect::InternalForce { member, place, component }
 }
 
 fn probe(axis: Axis, x: f64) -> Probe {
@@ -23,7 +24,7 @@ fn probe(axis: Axis, x: f64) -> Probe {
 }
 
 /// A girder of one member a span, without overhangs, and its factored frame.
-fn girder(spans: &[f64], theory: Theory) -> (Model, Frame) {
+fn girder(spans: &[f64], theory: BeamTheory) -> (Model, FactoredFrame) {
     let given = Girder {
         spans: spans.to_vec(),
         overhangs: [0.0; 2],
@@ -33,14 +34,14 @@ fn girder(spans: &[f64], theory: Theory) -> (Model, Frame) {
         stations: Vec::new(),
         ..paper()
     };
-    let (model, rail) = given.frame().expect("sound");
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
+    let (model, rail) = given.model_and_rail().expect("sound");
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
     (model, frame)
 }
 
 /// Largest difference of an influence line from its closed form, relative to `scale`.
 fn worst(
-    (model, frame): &(Model, Frame),
+    (model, frame): &(Model, FactoredFrame),
     effect: Effect,
     axis: Axis,
     x: &[f64],
@@ -61,7 +62,7 @@ fn along(length: f64) -> Vec<f64> {
 /// Source: statics of a simply supported beam (Hibbeler, Structural Analysis, chapter 6).
 #[test]
 fn simple_beam_has_triangles_of_moment_and_a_jump_of_shear() {
-    let beam = girder(&[SPAN], Theory::Timoshenko);
+    let beam = girder(&[SPAN], BeamTheory::Timoshenko);
     for s in [0.25, 0.5, 0.8] {
         let section = s * SPAN;
         let moment = |z: f64| -if z < section { z * (SPAN - section) } else { section * (SPAN - z) } / SPAN;
@@ -70,26 +71,27 @@ fn simple_beam_has_triangles_of_moment_and_a_jump_of_shear() {
             (SPAN - z) / SPAN - before
         };
         let x = [along(SPAN), vec![section]].concat();
-        let vertical = worst(&beam, force(0, s, Component::BendingZ), Axis::Vertical, &x, SPAN, moment);
+        let vertical = worst(&beam, force(0, s, ForceComponent::BendingZ), Axis::Vertical, &x, SPAN, moment);
         assert!(vertical < 1e-13, "{vertical:e}");
-        let vertical = worst(&beam, force(0, s, Component::ShearY), Axis::Vertical, &x, 1.0, shear);
+        let vertical = worst(&beam, force(0, s, ForceComponent::ShearY), Axis::Vertical, &x, 1.0, shear);
         assert!(vertical < 1e-13, "{vertical:e}");
         // In the plane x-z the moment about y has the other sign.
-        let lateral = worst(&beam, force(0, s, Component::BendingY), Axis::Lateral, &x, SPAN, |z| -moment(z));
+        let lateral =
+            worst(&beam, force(0, s, ForceComponent::BendingY), Axis::Lateral, &x, SPAN, |z| -moment(z));
         assert!(lateral < 1e-13, "{lateral:e}");
-        let lateral = worst(&beam, force(0, s, Component::ShearZ), Axis::Lateral, &x, 1.0, shear);
+        let lateral = worst(&beam, force(0, s, ForceComponent::ShearZ), Axis::Lateral, &x, 1.0, shear);
         assert!(lateral < 1e-13, "{lateral:e}");
     }
     let (model, frame) = &beam;
-    let mid = force(0, 0.5, Component::BendingZ);
+    let mid = force(0, 0.5, ForceComponent::BendingZ);
     let quarter = frame.effects(model, &[mid], &[probe(Axis::Vertical, 30.0)]).expect("on the rail")[(0, 0)];
     assert!((quarter + SPAN / 4.0).abs() < 1e-13 * SPAN, "L/4: {quarter}");
 }
 
 #[test]
 fn shear_on_both_sides_of_the_load_differs_by_the_load() {
-    let (model, frame) = girder(&[SPAN], Theory::EulerBernoulli);
-    let section = [force(0, 0.4, Component::ShearY)];
+    let (model, frame) = girder(&[SPAN], BeamTheory::EulerBernoulli);
+    let section = [force(0, 0.4, ForceComponent::ShearY)];
     let x = [24.0 - 1e-9, 24.0, 24.0 + 1e-9];
     let at = x.map(|x| probe(Axis::Vertical, x));
     let v = frame.effects(&model, &section, &at).expect("on the rail");
@@ -101,17 +103,18 @@ fn shear_on_both_sides_of_the_load_differs_by_the_load() {
 /// Continuous Beams (1956), for loads down.
 #[test]
 fn two_span_moments_are_those_of_the_influence_tables() {
-    let beam = girder(&[SPAN, SPAN], Theory::EulerBernoulli);
+    let beam = girder(&[SPAN, SPAN], BeamTheory::EulerBernoulli);
     let support = |a: f64| 0.25 * SPAN * a * (1.0 - a * a);
     let at_b = |z: f64| if z < SPAN { support(z / SPAN) } else { support(2.0 - z / SPAN) };
     let x = [along(SPAN), along(SPAN).iter().map(|x| x + SPAN).collect()].concat();
     for (member, place) in [(0, 1.0), (1, 0.0)] {
-        let error = worst(&beam, force(member, place, Component::BendingZ), Axis::Vertical, &x, SPAN, at_b);
+        let error =
+            worst(&beam, force(member, place, ForceComponent::BendingZ), Axis::Vertical, &x, SPAN, at_b);
         assert!(error < 1e-13, "{error:e}");
     }
     let (model, frame) = &beam;
     let read = |place: f64, z: f64| {
-        let section = force(0, place, Component::BendingZ);
+        let section = force(0, place, ForceComponent::BendingZ);
         -frame.effects(model, &[section], &[probe(Axis::Vertical, z * SPAN)]).expect("on the rail")[(0, 0)]
             / SPAN
     };
@@ -131,7 +134,7 @@ fn two_span_moments_are_those_of_the_influence_tables() {
 /// -P L b (1 - b) (7 - 5 b) / 15 for one in the second.
 #[test]
 fn three_span_support_moment_and_shear_follow_the_three_moment_equation() {
-    let beam = girder(&[SPAN; 3], Theory::EulerBernoulli);
+    let beam = girder(&[SPAN; 3], BeamTheory::EulerBernoulli);
     let at_b = |z: f64| {
         let (a, b, c) = (z / SPAN, z / SPAN - 1.0, 3.0 - z / SPAN);
         SPAN / 15.0
@@ -142,7 +145,7 @@ fn three_span_support_moment_and_shear_follow_the_three_moment_equation() {
             }
     };
     let x: Vec<f64> = (0..=60).map(|k| 3.0 * f64::from(k)).collect();
-    let moment = force(1, 0.0, Component::BendingZ);
+    let moment = force(1, 0.0, ForceComponent::BendingZ);
     let error = worst(&beam, moment, Axis::Vertical, &x, SPAN, at_b);
     assert!(error < 1e-13, "{error:e}");
     // In the first span the shear is that of a simple beam plus that of the end moment.
@@ -150,65 +153,67 @@ fn three_span_support_moment_and_shear_follow_the_three_moment_equation() {
         let own = if z < SPAN { (SPAN - z) / SPAN - f64::from(u8::from(z < 24.0)) } else { 0.0 };
         own - at_b(z) / SPAN + if z == 24.0 { -0.5 } else { 0.0 }
     };
-    let error = worst(&beam, force(0, 0.4, Component::ShearY), Axis::Vertical, &x, 1.0, shear);
+    let error = worst(&beam, force(0, 0.4, ForceComponent::ShearY), Axis::Vertical, &x, 1.0, shear);
     assert!(error < 1e-13, "{error:e}");
 }
 
 /// Source: statics. Overhangs of 15 ft on both sides; the lines of the span continue straight over them.
 #[test]
 fn overhangs_act_as_cantilevers_and_lift_the_span() {
-    let (model, rail) = paper().frame().expect("sound");
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
+    let (model, rail) = paper().model_and_rail().expect("sound");
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
     let beam = (model, frame);
     let x: Vec<f64> = (-15..=75).map(f64::from).collect();
     // Members: overhang, span, overhang. The section is just inside the root of the second overhang.
-    let root = force(2, 0.0, Component::BendingZ);
+    let root = force(2, 0.0, ForceComponent::BendingZ);
     let error = worst(&beam, root, Axis::Vertical, &x, SPAN, |z| (z - SPAN).max(0.0));
     assert!(error < 1e-13, "{error:e}");
-    let tip = force(0, 0.4, Component::BendingZ);
+    let tip = force(0, 0.4, ForceComponent::BendingZ);
     let error = worst(&beam, tip, Axis::Vertical, &x, SPAN, |z| (-9.0 - z).max(0.0));
     assert!(error < 1e-13, "{error:e}");
     let shear = |z: f64| if z < -9.0 { -1.0 } else { 0.0 } - if z == -9.0 { 0.5 } else { 0.0 };
-    let error = worst(&beam, force(0, 0.4, Component::ShearY), Axis::Vertical, &x, 1.0, shear);
+    let error = worst(&beam, force(0, 0.4, ForceComponent::ShearY), Axis::Vertical, &x, 1.0, shear);
     assert!(error < 1e-13, "{error:e}");
     let middle = |z: f64| -if z < 30.0 { z } else { SPAN - z } / 2.0;
-    let error = worst(&beam, force(1, 0.5, Component::BendingZ), Axis::Vertical, &x, SPAN, middle);
+    let error = worst(&beam, force(1, 0.5, ForceComponent::BendingZ), Axis::Vertical, &x, SPAN, middle);
     assert!(error < 1e-13, "{error:e}");
 }
 
 /// Source: statics; both supports fix the twist, so that they carry a torque at z by the lever rule.
 #[test]
 fn lateral_load_above_the_axis_twists_the_girder() {
-    let beam = girder(&[SPAN], Theory::Timoshenko);
+    let beam = girder(&[SPAN], BeamTheory::Timoshenko);
     let height = paper().rail_height;
     let torsion = |z: f64| {
         let before = if z == 18.0 { 0.5 } else { f64::from(u8::from(z < 18.0)) };
         height * ((SPAN - z) / SPAN - before)
     };
-    let error = worst(&beam, force(0, 0.3, Component::Torsion), Axis::Lateral, &along(SPAN), height, torsion);
+    let error =
+        worst(&beam, force(0, 0.3, ForceComponent::Torsion), Axis::Lateral, &along(SPAN), height, torsion);
     assert!(error < 1e-13, "{error:e}");
-    let error = worst(&beam, force(0, 0.3, Component::Torsion), Axis::Vertical, &along(SPAN), 1.0, |_| 0.0);
+    let error =
+        worst(&beam, force(0, 0.3, ForceComponent::Torsion), Axis::Vertical, &along(SPAN), 1.0, |_| 0.0);
     assert!(error < 1e-13, "{error:e}");
 }
 
 /// Source: statics; only the first support fixes the displacement along x; the load acts at the height of the rail.
 #[test]
 fn longitudinal_load_pulls_and_bends() {
-    let beam = girder(&[SPAN], Theory::EulerBernoulli);
+    let beam = girder(&[SPAN], BeamTheory::EulerBernoulli);
     let height = paper().rail_height;
     let before = |z: f64| if z == 18.0 { 0.5 } else { f64::from(u8::from(z < 18.0)) };
     let x = along(SPAN);
     let normal = |z: f64| 1.0 - before(z);
-    let error = worst(&beam, force(0, 0.3, Component::Axial), Axis::Longitudinal, &x, 1.0, normal);
+    let error = worst(&beam, force(0, 0.3, ForceComponent::Axial), Axis::Longitudinal, &x, 1.0, normal);
     assert!(error < 1e-12, "{error:e}");
     let moment = |z: f64| height * (before(z) - 0.3);
-    let error = worst(&beam, force(0, 0.3, Component::BendingZ), Axis::Longitudinal, &x, height, moment);
+    let error = worst(&beam, force(0, 0.3, ForceComponent::BendingZ), Axis::Longitudinal, &x, height, moment);
     assert!(error < 1e-12, "{error:e}");
 }
 
 /// Every component at several sections of a real structure, loaded everywhere.
 fn mill_cases() -> (Model, Rail, Vec<Probe>, Vec<(usize, f64)>) {
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     let x = [3.3, 18.0, 39.7, 61.0, 150.0, 169.9, 171.0, 240.0, 300.5];
     let at = Axis::ALL.iter().flat_map(|&axis| x.map(|x| probe(axis, x))).collect();
     let members = [0, 5, 28, 29, 30, 31, 32, model.members.len() - 1];
@@ -217,7 +222,7 @@ fn mill_cases() -> (Model, Rail, Vec<Probe>, Vec<(usize, f64)>) {
 }
 
 fn all_components(sections: &[(usize, f64)]) -> Vec<Effect> {
-    sections.iter().flat_map(|&(m, s)| Component::ALL.map(|c| force(m, s, c))).collect()
+    sections.iter().flat_map(|&(m, s)| ForceComponent::ALL.map(|c| force(m, s, c))).collect()
 }
 
 #[test]
@@ -233,8 +238,8 @@ fn sections_are_in_equilibrium_from_both_sides() {
     }
     let mirrored: Vec<(usize, f64)> = sections.iter().map(|&(m, s)| (m, 1.0 - s)).collect();
     let rails = [rail];
-    let one = Frame::new(&model, &rails).expect("solvable");
-    let two = Frame::new(&turned, &rails).expect("solvable");
+    let one = FactoredFrame::new(&model, &rails).expect("solvable");
+    let two = FactoredFrame::new(&turned, &rails).expect("solvable");
     let a = one.effects(&model, &all_components(&sections), &at).expect("on the rail");
     let b = two.effects(&turned, &all_components(&mirrored), &at).expect("on the rail");
     // Half a turn about local y, and the face of the other part.
@@ -250,7 +255,7 @@ fn sections_are_in_equilibrium_from_both_sides() {
 #[test]
 fn moments_are_the_integrals_of_shears() {
     let (model, rail, at, _) = mill_cases();
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
     for member in [28, 29, 30] {
         let given = &model.members[member];
         let end = |k: usize, a: usize| model.points[given.points[k]][a] + given.offsets[k][a];
@@ -259,8 +264,13 @@ fn moments_are_the_integrals_of_shears() {
         let effects: Vec<Effect> = [s - h, s, s + h]
             .iter()
             .flat_map(|&s| {
-                [Component::BendingZ, Component::BendingY, Component::ShearY, Component::ShearZ]
-                    .map(|c| force(member, s, c))
+                [
+                    ForceComponent::BendingZ,
+                    ForceComponent::BendingY,
+                    ForceComponent::ShearY,
+                    ForceComponent::ShearZ,
+                ]
+                .map(|c| force(member, s, c))
             })
             .collect();
         let value = frame.effects(&model, &effects, &at).expect("on the rail");
@@ -275,7 +285,7 @@ fn moments_are_the_integrals_of_shears() {
 #[test]
 fn forces_under_loads_inside_members_equal_those_with_nodes_there() {
     // Rigid offsets, a hinge, shear; loads before, behind and beside the section, in all three directions.
-    let (mut model, rail) = mill(Theory::Timoshenko);
+    let (mut model, rail) = mill(BeamTheory::Timoshenko);
     model.members[29].releases[0] = [false, false, false, true, true, true];
     let member = 29;
     let given = model.members[member];
@@ -288,7 +298,7 @@ fn forces_under_loads_inside_members_equal_those_with_nodes_there() {
         .collect();
     let sections = [(member, 0.0), (member, 0.4), (member, 0.7), (member, 1.0), (28, 0.5)];
     let rails = [rail.clone()];
-    let frame = Frame::new(&model, &rails).expect("solvable");
+    let frame = FactoredFrame::new(&model, &rails).expect("solvable");
     let found = frame.effects(&model, &all_components(&sections), &at).expect("on the rail");
 
     // The same with the member cut at the loads: four members in a row that all carry the rail.
@@ -303,10 +313,10 @@ fn forces_under_loads_inside_members_equal_those_with_nodes_there() {
                 k if k == member => k..k + 4,
                 k => k + 3..k + 4,
             };
-            own.map(|member| Segment { member, ..*segment })
+            own.map(|member| RailSegment { member, ..*segment })
         })
         .collect();
-    let parts = Frame::new(&cut, &[pieces]).expect("solvable");
+    let parts = FactoredFrame::new(&cut, &[pieces]).expect("solvable");
     // Section s of the member on the pieces between the cuts.
     let bounds = [0.0, 0.2, 0.55, 0.8, 1.0];
     let moved = sections.map(|(m, s)| {
@@ -328,9 +338,9 @@ fn forces_under_loads_inside_members_equal_those_with_nodes_there() {
 #[test]
 fn one_solve_an_effect_gives_what_one_solve_a_load_gives() {
     let (model, rail, at, sections) = mill_cases();
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
     let mut effects = all_components(&sections);
-    effects.extend(frame.holds(&model).into_iter().map(Effect::Reaction));
+    effects.extend(frame.restraints(&model).into_iter().map(Effect::Reaction));
     assert!(effects.len() > at.len());
     let by_loads = frame.effects(&model, &effects, &at).expect("on the rail");
     let lines = frame.influence_lines(&model, &effects).expect("sound");
@@ -346,23 +356,23 @@ fn one_solve_an_effect_gives_what_one_solve_a_load_gives() {
 
 #[test]
 fn effects_of_what_does_not_exist_are_refused() {
-    let (model, frame) = girder(&[SPAN], Theory::EulerBernoulli);
+    let (model, frame) = girder(&[SPAN], BeamTheory::EulerBernoulli);
     let refused = |effect, fault| {
-        let found = frame.influence_lines(&model, &[force(0, 0.5, Component::Axial), effect]).err();
-        assert_eq!(found, Some(Error::Invalid { item: Item::Effect(1), fault }));
+        let found = frame.influence_lines(&model, &[force(0, 0.5, ForceComponent::Axial), effect]).err();
+        assert_eq!(found, Some(Error::Invalid { entry: ModelEntry::Effect(1), fault }));
     };
-    refused(force(1, 0.5, Component::Axial), Fault::NoMember { member: 1 });
-    refused(force(0, 1.5, Component::Axial), Fault::NoPlace { place: 1.5 });
-    let restraint = |point, freedom| Effect::Reaction(Hold { point, freedom, spring: None });
-    refused(restraint(1, Freedom::Ux), Fault::NoHold { point: 1, freedom: Freedom::Ux });
-    refused(restraint(7, Freedom::Uy), Fault::NoHold { point: 7, freedom: Freedom::Uy });
+    refused(force(1, 0.5, ForceComponent::Axial), EntryFault::NoMember { member: 1 });
+    refused(force(0, 1.5, ForceComponent::Axial), EntryFault::NoPlace { place: 1.5 });
+    let restraint = |point, freedom| Effect::Reaction(Restraint { point, dof: freedom, spring: None });
+    refused(restraint(1, Dof::Ux), EntryFault::NoReaction { point: 1, dof: Dof::Ux });
+    refused(restraint(7, Dof::Uy), EntryFault::NoReaction { point: 7, dof: Dof::Uy });
 }
 
 /// Forces are differences of displacements times stiffness: short members cost them digits.
 #[test]
 fn forces_keep_ten_digits_at_300_members_a_span() {
     let (model, rail) =
-        Girder { overhangs: [0.0; 2], stations: Vec::new(), ..paper() }.frame().expect("sound");
+        Girder { overhangs: [0.0; 2], stations: Vec::new(), ..paper() }.model_and_rail().expect("sound");
     let mut stream = Stream(7);
     for members in [2, 10, 30, 100, 300] {
         let mut cuts: Vec<f64> =
@@ -370,11 +380,11 @@ fn forces_keep_ten_digits_at_300_members_a_span() {
         cuts[members / 2 - 1] = 0.5;
         let places: Vec<(usize, f64, [f64; 3])> = cuts.iter().map(|&s| (0, s, [0.0; 3])).collect();
         let (chain, _) = with_nodes(&model, &places);
-        let segments = (0..members).map(|member| Segment { member, ..rail.segments[0] }).collect();
-        let frame = Frame::new(&chain, &[Rail { segments, ..rail.clone() }]).expect("solvable");
+        let segments = (0..members).map(|member| RailSegment { member, ..rail.segments[0] }).collect();
+        let frame = FactoredFrame::new(&chain, &[Rail { segments, ..rail.clone() }]).expect("solvable");
         let x: Vec<f64> = (1..20).map(|k| 3.0 * f64::from(k)).collect();
         let beam = (chain, frame);
-        let middle = force(members / 2, 0.0, Component::BendingZ);
+        let middle = force(members / 2, 0.0, ForceComponent::BendingZ);
         let exact = |z: f64| -0.5 * f64::min(z, SPAN - z);
         let error = worst(&beam, middle, Axis::Vertical, &x, 0.25 * SPAN, exact);
         println!("{members} members a span: moment errs by {error:.1e} of L/4");

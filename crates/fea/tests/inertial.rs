@@ -3,14 +3,14 @@
 use std::f64::consts::PI;
 
 use fea::{
-    Component, Effect, Frame, Freedom, Freedoms6, Girder, Hold, Mass, Member, Model, Rail, Section, Segment,
-    Support, Theory, refined_modes,
+    BeamTheory, CrossSection, Dof, DofSet, Effect, FactoredFrame, ForceComponent, Girder, Member, Model,
+    PointMass, Rail, RailSegment, Restraint, Support, refined_modes,
 };
 
 const SPAN: f64 = 12.0;
 const LINE_MASS: f64 = 340.0;
 
-fn girder(spans: Vec<f64>, theory: Theory) -> Girder {
+fn girder(spans: Vec<f64>, theory: BeamTheory) -> Girder {
     let whole: f64 = spans.iter().sum();
     Girder {
         spans,
@@ -33,24 +33,25 @@ fn close(found: f64, expected: f64, tolerance: f64) {
 }
 
 /// Effects of the vertical reactions, supports first to last.
-fn vertical(frame: &Frame, model: &Model) -> Vec<Effect> {
-    let holds = frame.holds(model).into_iter().filter(|hold| hold.freedom == Freedom::Uy);
-    let mut holds: Vec<Hold> = holds.collect();
+fn vertical(frame: &FactoredFrame, model: &Model) -> Vec<Effect> {
+    let holds = frame.restraints(model).into_iter().filter(|hold| hold.dof == Dof::Uy);
+    let mut holds: Vec<Restraint> = holds.collect();
     holds.sort_by(|a, b| model.points[a.point][0].total_cmp(&model.points[b.point][0]));
     holds.into_iter().map(Effect::Reaction).collect()
 }
 
 #[test]
 fn weight_of_two_spans_rests_on_supports_as_the_three_moment_theorem_says() {
-    let (model, rail) = girder(vec![SPAN, SPAN], Theory::EulerBernoulli).frame().expect("a girder");
-    let frame = Frame::new(&model, &[rail]).expect("it stands");
+    let (model, rail) =
+        girder(vec![SPAN, SPAN], BeamTheory::EulerBernoulli).model_and_rail().expect("a girder");
+    let frame = FactoredFrame::new(&model, &[rail]).expect("it stands");
     let mut effects = vertical(&frame, &model);
-    let cut = |place, component| Effect::Force { member: 0, place, component };
+    let cut = |place, component| Effect::InternalForce { member: 0, place, component };
     effects.extend([
-        cut(0.375, Component::BendingZ),
-        cut(0.375, Component::ShearY),
-        cut(1.0, Component::BendingZ),
-        cut(1.0, Component::ShearY),
+        cut(0.375, ForceComponent::BendingZ),
+        cut(0.375, ForceComponent::ShearY),
+        cut(1.0, ForceComponent::BendingZ),
+        cut(1.0, ForceComponent::ShearY),
     ]);
     let found = frame.inertial(&model, &effects, &[]).expect("effects of the weight").rigid;
     // The load M a for a = 1 upwards; weight is the opposite.
@@ -71,7 +72,7 @@ fn weight_of_two_spans_rests_on_supports_as_the_three_moment_theorem_says() {
 
 #[test]
 fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
-    let section = Section {
+    let section = CrossSection {
         e: 2.1e11,
         g: 8.1e10,
         area: 0.013,
@@ -82,29 +83,29 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
         shear_z: None,
         mass: 111.0,
     };
-    let fixed: Freedoms6 = [true; 6];
+    let fixed: DofSet = [true; 6];
     let model = Model {
         points: vec![[1.0, 2.0, 3.0], [1.0 + SPAN, 2.0, 3.0]],
         sections: vec![section],
         members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0])],
-        supports: vec![Support { point: 0, fix: fixed }],
-        masses: vec![Mass { point: 1, mass: 50.0, inertia: [0.0; 3], offset: [0.0, 0.0, 0.7] }],
+        supports: vec![Support { point: 0, fixed: fixed }],
+        masses: vec![PointMass { point: 1, mass: 50.0, inertia: [0.0; 3], offset: [0.0, 0.0, 0.7] }],
         up: [0.0, 1.0, 0.0],
-        theory: Theory::Timoshenko,
+        theory: BeamTheory::Timoshenko,
         ..Model::default()
     };
     let rail = Rail {
         origin: model.points[0],
         axis: [1.0, 0.0, 0.0],
-        segments: vec![Segment { member: 0, offset: [0.0; 3] }],
+        segments: vec![RailSegment { member: 0, offset: [0.0; 3] }],
         stations: vec![0.0, SPAN],
     };
-    let frame = Frame::new(&model, &[rail]).expect("it stands");
+    let frame = FactoredFrame::new(&model, &[rail]).expect("it stands");
     let places = [0.0, 0.3, 0.8, 1.0];
-    let parts = [Component::BendingZ, Component::ShearY, Component::Torsion];
+    let parts = [ForceComponent::BendingZ, ForceComponent::ShearY, ForceComponent::Torsion];
     let mut effects: Vec<Effect> = Vec::new();
     for place in places {
-        effects.extend(parts.map(|component| Effect::Force { member: 0, place, component }));
+        effects.extend(parts.map(|component| Effect::InternalForce { member: 0, place, component }));
     }
     let all = frame.inertial(&model, &effects, &[]).expect("effects of the weight").rigid;
     for (k, place) in places.into_iter().enumerate() {
@@ -119,23 +120,23 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
 
 #[test]
 fn the_first_mode_bends_midspan_by_m_over_pi_squared() {
-    for theory in [Theory::EulerBernoulli, Theory::Timoshenko] {
+    for theory in [BeamTheory::EulerBernoulli, BeamTheory::Timoshenko] {
         let mut short = girder(vec![SPAN], theory);
         short.i_lateral = None;
         short.ka_vertical = None;
-        let (model, rail) = short.frame().expect("a girder");
+        let (model, rail) = short.model_and_rail().expect("a girder");
         let refined = refined_modes(&model, &[rail], 3, 1e-10).expect("modes");
-        let frame = Frame::new(&refined.model, &refined.rails).expect("it stands");
+        let frame = FactoredFrame::new(&refined.model, &refined.rails).expect("it stands");
         let mut effects = vertical(&frame, &refined.model);
-        for component in [Component::BendingZ, Component::ShearY] {
-            effects.push(refined.effect(Effect::Force { member: 0, place: 0.5, component }));
+        for component in [ForceComponent::BendingZ, ForceComponent::ShearY] {
+            effects.push(refined.effect(Effect::InternalForce { member: 0, place: 0.5, component }));
         }
         let found = frame.inertial(&refined.model, &effects, &refined.modes.modes).expect("effects");
         let mode = refined.modes.modes.iter().position(|mode| mode.coupling[1].abs() > 1.0);
         let mode = mode.expect("the first symmetric mode in the vertical plane");
         // Rotary inertia acts at midspan only through the size of the shape, which it changes.
         let size = refined.modes.modes[mode].coupling[1] * PI / (2.0 * LINE_MASS * SPAN);
-        let tolerance = if theory == Theory::EulerBernoulli { 1e-6 } else { 1e-2 };
+        let tolerance = if theory == BeamTheory::EulerBernoulli { 1e-6 } else { 1e-2 };
         let load = LINE_MASS * size;
         close(found.modes[(0, mode)], -load * SPAN / PI, tolerance);
         close(found.modes[(2, mode)], -load * (SPAN / PI).powi(2), tolerance);
@@ -145,18 +146,18 @@ fn the_first_mode_bends_midspan_by_m_over_pi_squared() {
 
 #[test]
 fn reactions_to_inertia_balance_the_momentum_of_every_mode() {
-    let mut short = girder(vec![9.0, SPAN, 7.0], Theory::Timoshenko);
+    let mut short = girder(vec![9.0, SPAN, 7.0], BeamTheory::Timoshenko);
     short.overhangs = [2.0, 0.0];
     short.rail_height = 0.8;
-    let (model, rail) = short.frame().expect("a girder");
+    let (model, rail) = short.model_and_rail().expect("a girder");
     let refined = refined_modes(&model, &[rail], 25, 1e-4).expect("modes");
-    let frame = Frame::new(&refined.model, &refined.rails).expect("it stands");
-    let holds = frame.holds(&refined.model);
+    let frame = FactoredFrame::new(&refined.model, &refined.rails).expect("it stands");
+    let holds = frame.restraints(&refined.model);
     let effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
     let found = frame.inertial(&refined.model, &effects, &refined.modes.modes).expect("effects");
-    for (k, freedom) in [Freedom::Ux, Freedom::Uy, Freedom::Uz].into_iter().enumerate() {
+    for (k, freedom) in [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().enumerate() {
         let own = |value: &dyn Fn(usize) -> f64| -> f64 {
-            let rows = holds.iter().enumerate().filter(|(_, hold)| hold.freedom == freedom);
+            let rows = holds.iter().enumerate().filter(|(_, hold)| hold.dof == freedom);
             rows.map(|(row, _)| value(row)).sum()
         };
         for (mode, shape) in refined.modes.modes.iter().enumerate() {
@@ -166,6 +167,6 @@ fn reactions_to_inertia_balance_the_momentum_of_every_mode() {
             assert!(apart <= 1e-9 * whole.max(1.0), "mode {mode}, axis {k}: {sum} for {}", shape.coupling[k]);
         }
         let sum = own(&|row| found.rigid[(row, k)]);
-        close(sum, -refined.modes.total[k][k], 1e-10);
+        close(sum, -refined.modes.rigid_mass[k][k], 1e-10);
     }
 }

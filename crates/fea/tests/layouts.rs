@@ -3,14 +3,14 @@
 mod common;
 
 use common::{Stream, mill, paper};
-use fea::{Girder, Theory, surface};
+use fea::{BeamTheory, Girder, surface};
 use nalgebra::{Cholesky, DMatrix};
-use splines::{Axis, Compliance, Influence, Probe, Surface};
+use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 
 /// Coordinates of the ends of one rail, and the axes in which its wheels press.
 struct Case {
     name: &'static str,
-    surface: Surface,
+    surface: ExactSurface,
     range: [f64; 2],
     axes: &'static [Axis],
     /// Softest and stiffest wheel, in the structure's units.
@@ -24,17 +24,17 @@ fn cases() -> [Case; 3] {
         overhangs: [5.0, 10.0],
         ka_vertical: Some(0.35),
         ka_lateral: Some(0.35),
-        theory: Theory::Timoshenko,
+        theory: BeamTheory::Timoshenko,
         stations: vec![0.0, 20.0, 65.0, 100.0],
         ..paper()
     };
     let straight = |girder: &Girder| {
-        let (model, rail) = girder.frame().expect("sound");
+        let (model, rail) = girder.model_and_rail().expect("sound");
         surface(&model, &[rail]).expect("solvable").surface
     };
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     let building = surface(&model, &[rail]).expect("solvable").surface;
-    let case = |name, surface: Surface, axes| {
+    let case = |name, surface: ExactSurface, axes| {
         let range = surface.range(0).expect("a rail");
         Case { name, surface, range, axes, wheels: [1e4, 1e12] }
     };

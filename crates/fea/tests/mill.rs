@@ -3,7 +3,7 @@
 mod common;
 
 use common::{mill, probes};
-use fea::{Theory, grid, surface};
+use fea::{BeamTheory, grid, surface};
 use nalgebra::DMatrix;
 use serde_json::Value;
 use splines::{Axis, Compliance, Influence, Probe};
@@ -17,7 +17,7 @@ fn block(value: &DMatrix<f64>, row: usize, column: usize) -> DMatrix<f64> {
 }
 
 /// Largest difference from the expected grids, relative to sqrt(Gii Gjj).
-fn worst(theory: Theory, expected: &str) -> f64 {
+fn worst(theory: BeamTheory, expected: &str) -> f64 {
     let (model, rail) = mill(theory);
     let at: Vec<Probe> = Axis::ALL.iter().flat_map(|&axis| probes(axis, &rail.stations)).collect();
     let value = grid(&model, &[rail], &at).expect("solvable").value;
@@ -49,17 +49,17 @@ fn worst(theory: Theory, expected: &str) -> f64 {
 
 #[test]
 fn euler_bernoulli_grids_agree_with_independent_codes() {
-    assert!(worst(Theory::EulerBernoulli, EULER) < 2e-7);
+    assert!(worst(BeamTheory::EulerBernoulli, EULER) < 2e-7);
 }
 
 #[test]
 fn timoshenko_grids_agree_with_independent_codes() {
-    assert!(worst(Theory::Timoshenko, TIMOSHENKO) < 2e-7);
+    assert!(worst(BeamTheory::Timoshenko, TIMOSHENKO) < 2e-7);
 }
 
 #[test]
 fn surface_and_grid_are_the_same_function() {
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     let rails = [rail];
     let exact = surface(&model, &rails).expect("solvable");
     // Places inside members, at their ends, and in the gaps over columns.
@@ -79,7 +79,7 @@ fn surface_and_grid_are_the_same_function() {
 
 #[test]
 fn certificate_of_a_real_structure_leaves_seven_digits() {
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     let certificate = surface(&model, &[rail]).expect("solvable").certificate;
     assert!(certificate.error_bound < 1e-7, "{certificate:?}");
 }

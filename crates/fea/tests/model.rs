@@ -4,8 +4,8 @@ mod common;
 
 use common::{mill, probes};
 use fea::{
-    Component, Effect, Frame, Freedom, Hold, Kind, Link, Mass, Member, Model, Rail, Section, Segment, Spring,
-    Support, Theory, grid, nodal,
+    BeamTheory, CrossSection, Dof, Effect, FactoredFrame, ForceComponent, GroundSpring, Member, MemberKind,
+    Model, PointMass, Rail, RailSegment, Restraint, RigidLink, Support, grid, point_compliance,
 };
 use splines::{Axis, Probe};
 
@@ -15,8 +15,8 @@ const SPAN: f64 = 12.0;
 
 const HELD: [bool; 6] = [true; 6];
 
-fn section() -> Section {
-    Section { e: 1.0, g: 1.0, area: EA, iy: EI, iz: EI, j: EI, ..Section::default() }
+fn section() -> CrossSection {
+    CrossSection { e: 1.0, g: 1.0, area: EA, iy: EI, iz: EI, j: EI, ..CrossSection::default() }
 }
 
 fn member(points: [usize; 2]) -> Member {
@@ -26,7 +26,7 @@ fn member(points: [usize; 2]) -> Member {
 /// A beam along x through `x`, and a rail over all its members.
 fn beam(x: &[f64]) -> (Model, Rail) {
     let members: Vec<Member> = (1..x.len()).map(|k| member([k - 1, k])).collect();
-    let segments = (0..members.len()).map(|member| Segment { member, offset: [0.0; 3] }).collect();
+    let segments = (0..members.len()).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
     let model = Model {
         points: x.iter().map(|&x| [x, 0.0, 0.0]).collect(),
         sections: vec![section()],
@@ -38,12 +38,12 @@ fn beam(x: &[f64]) -> (Model, Rail) {
 }
 
 fn support(point: usize, names: &str) -> Support {
-    let fix = Freedom::ALL.map(|freedom| names.split(' ').any(|name| name == freedom.to_string()));
-    Support { point, fix }
+    let fix = Dof::ALL.map(|freedom| names.split(' ').any(|name| name == freedom.to_string()));
+    Support { point, fixed: fix }
 }
 
-fn spring(point: usize, freedom: Freedom, stiffness: f64) -> Spring {
-    Spring { point, freedom, stiffness }
+fn spring(point: usize, freedom: Dof, stiffness: f64) -> GroundSpring {
+    GroundSpring { point, dof: freedom, stiffness }
 }
 
 fn vertical(model: &Model, rail: &Rail, x: f64) -> f64 {
@@ -64,14 +64,14 @@ fn simple(x: f64) -> f64 {
 fn beam_on_springs_sinks_with_them_by_the_lever_rule() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.supports = vec![support(0, "ux uz rx"), support(1, "uz rx")];
-    model.springs = vec![spring(0, Freedom::Uy, 500.0), spring(1, Freedom::Uy, 800.0)];
+    model.springs = vec![spring(0, Dof::Uy, 500.0), spring(1, Dof::Uy, 800.0)];
     for x in [0.0, 2.0, 6.0, 11.0] {
         let (a, b) = (1.0 - x / SPAN, x / SPAN);
         let exact = simple(x) + a * a / 500.0 + b * b / 800.0;
         near(vertical(&model, &rail, x) / exact, 1.0, 1e-13);
     }
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
-    let hold = Hold { point: 1, freedom: Freedom::Uy, spring: Some(1) };
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
+    let hold = Restraint { point: 1, dof: Dof::Uy, spring: Some(1) };
     let found = frame.effects(&model, &[Effect::Reaction(hold)], &probes(Axis::Vertical, &[3.0]));
     near(found.expect("on the rail")[(0, 0)], -0.25, 1e-13);
 }
@@ -81,7 +81,7 @@ fn beam_on_springs_sinks_with_them_by_the_lever_rule() {
 fn rotational_spring_holds_a_cantilever() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.supports = vec![support(0, "ux uy uz rx ry")];
-    model.springs = vec![spring(0, Freedom::Rz, 7e3)];
+    model.springs = vec![spring(0, Dof::Rz, 7e3)];
     let exact = SPAN.powi(3) / (3.0 * EI) + SPAN * SPAN / 7e3;
     near(vertical(&model, &rail, SPAN) / exact, 1.0, 1e-13);
 }
@@ -90,18 +90,18 @@ fn rotational_spring_holds_a_cantilever() {
 fn springs_are_added_to_supports_and_to_each_other() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.supports = vec![support(0, "ux uy uz rx"), support(1, "uz rx")];
-    model.springs = vec![spring(1, Freedom::Uy, 300.0), spring(1, Freedom::Uy, 500.0)];
+    model.springs = vec![spring(1, Dof::Uy, 300.0), spring(1, Dof::Uy, 500.0)];
     let two = vertical(&model, &rail, 9.0);
-    model.springs = vec![spring(1, Freedom::Uy, 800.0), spring(0, Freedom::Uy, 1e5)];
+    model.springs = vec![spring(1, Dof::Uy, 800.0), spring(0, Dof::Uy, 1e5)];
     near(vertical(&model, &rail, 9.0) / two, 1.0, 1e-13);
 }
 
 #[test]
 fn masses_do_not_change_statics_by_a_bit() {
-    let (mut model, rail) = mill(Theory::Timoshenko);
+    let (mut model, rail) = mill(BeamTheory::Timoshenko);
     let at = probes(Axis::Vertical, &[12.0, 150.0]);
     let bare = grid(&model, std::slice::from_ref(&rail), &at).expect("solvable");
-    model.masses = vec![Mass { point: 9, mass: 2e5, inertia: [1.0, 2.0, 3.0], offset: [0.0, 1.0, 0.0] }];
+    model.masses = vec![PointMass { point: 9, mass: 2e5, inertia: [1.0, 2.0, 3.0], offset: [0.0, 1.0, 0.0] }];
     assert!(grid(&model, &[rail], &at).expect("solvable").value == bare.value);
 }
 
@@ -111,12 +111,12 @@ fn two_bar_truss_sinks_as_published() {
     let mut model = Model {
         points: vec![[-3.0, 0.0, 0.0], [3.0, 0.0, 0.0], [0.0, -4.0, 0.0]],
         sections: vec![section()],
-        members: [[0, 2], [1, 2]].map(|ends| Member { kind: Kind::Truss, ..member(ends) }).to_vec(),
+        members: [[0, 2], [1, 2]].map(|ends| Member { kind: MemberKind::Truss, ..member(ends) }).to_vec(),
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
     model.supports = vec![support(0, "ux uy uz"), support(1, "ux uy uz"), support(2, "uz")];
-    let (found, _) = nodal(&model, &[2]).expect("solvable");
+    let (found, _) = point_compliance(&model, &[2]).expect("solvable");
     near(found[(1, 1)] / (5.0 / (2.0 * EA * 0.64)), 1.0, 1e-13);
     // Bars transmit no moment: nothing stiffens the rotations.
     assert!(found[(5, 5)] == f64::INFINITY);
@@ -128,7 +128,7 @@ fn two_bar_truss_sinks_as_published() {
 fn inclined_support_by_a_strut_pulls_the_beam() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.points.push([SPAN + 2.0, -2.0, 0.0]);
-    model.members.push(Member { kind: Kind::Truss, ..member([1, 2]) });
+    model.members.push(Member { kind: MemberKind::Truss, ..member([1, 2]) });
     model.supports = vec![support(0, "ux uy uz rx"), support(1, "uz rx"), support(2, "ux uy uz")];
     let strut = 8f64.sqrt();
     for x in [3.0, 9.0] {
@@ -136,8 +136,8 @@ fn inclined_support_by_a_strut_pulls_the_beam() {
         let exact = simple(x) + share * share * (SPAN / EA + 2.0 * strut / EA);
         near(vertical(&model, &rail, x) / exact, 1.0, 1e-12);
     }
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
-    let axial = |member| Effect::Force { member, place: 0.5, component: Component::Axial };
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
+    let axial = |member| Effect::InternalForce { member, place: 0.5, component: ForceComponent::Axial };
     let found = frame.effects(&model, &[axial(0), axial(1)], &probes(Axis::Vertical, &[3.0, 9.0]));
     let found = found.expect("on the rail");
     for (j, share) in [0.25, 0.75].into_iter().enumerate() {
@@ -152,14 +152,14 @@ fn inclined_support_by_a_strut_pulls_the_beam() {
 fn inclined_support_by_a_rigid_link_guides_across_the_link() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
     model.points.extend([[SPAN, 0.0, 0.0], [SPAN + 2.0, -2.0, 0.0]]);
-    model.links = vec![Link { from: 2, to: 3 }];
+    model.links = vec![RigidLink { from: 2, to: 3 }];
     // A short stiff joint with a hinge, so that the lever can rotate relative to the beam.
     model.members[0] = Member { points: [0, 2], ..model.members[0] };
     model.members[0].releases[1][5] = true;
     model.points[1] = [SPAN, 5.0, 0.0];
     model.supports = vec![support(0, "ux uy uz rx ry rz"), support(1, "ux uy uz rx ry rz")];
     model.supports.push(support(3, "ux uy uz rx ry"));
-    let (moved, _) = nodal(&model, &[2]).expect("solvable");
+    let (moved, _) = point_compliance(&model, &[2]).expect("solvable");
     // Displacements at the joint lie along (1, 1)/sqrt 2.
     for k in 0..6 {
         assert!((moved[(0, k)] - moved[(1, k)]).abs() <= 1e-12 * moved.amax(), "degree of freedom {k}");
@@ -176,7 +176,7 @@ fn inclined_support_by_a_rigid_link_guides_across_the_link() {
 #[test]
 fn hinges_at_both_clamps_make_a_simple_beam() {
     let (mut model, rail) = beam(&[0.0, SPAN]);
-    model.supports = [0, 1].map(|point| Support { point, fix: HELD }).to_vec();
+    model.supports = [0, 1].map(|point| Support { point, fixed: HELD }).to_vec();
     near(vertical(&model, &rail, 0.5 * SPAN) * 192.0 * EI / SPAN.powi(3), 1.0, 1e-13);
     model.members[0].releases = [[false, false, false, false, false, true]; 2];
     near(vertical(&model, &rail, 0.5 * SPAN) * 48.0 * EI / SPAN.powi(3), 1.0, 1e-13);
@@ -188,11 +188,11 @@ fn hinges_at_both_clamps_make_a_simple_beam() {
 fn rail_runs_across_a_hinge_and_its_influence_lines_break_there() {
     let (a, b) = (5.0, 7.0);
     let (mut model, rail) = beam(&[0.0, a, a + b]);
-    model.supports = vec![Support { point: 0, fix: HELD }, support(2, "uy uz rx")];
+    model.supports = vec![Support { point: 0, fixed: HELD }, support(2, "uy uz rx")];
     model.members[1].releases[0][5] = true;
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
-    let moment = |member, place| Effect::Force { member, place, component: Component::BendingZ };
-    let shear = Effect::Force { member: 0, place: 1.0, component: Component::ShearY };
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
+    let moment = |member, place| Effect::InternalForce { member, place, component: ForceComponent::BendingZ };
+    let shear = Effect::InternalForce { member: 0, place: 1.0, component: ForceComponent::ShearY };
     let x = [0.0, 2.0, 4.0, a, 6.0, 9.0, 12.0];
     let effects = [moment(0, 0.0), moment(0, 1.0), moment(1, 0.0), shear];
     let found = frame.effects(&model, &effects, &probes(Axis::Vertical, &x)).expect("on the rail");
@@ -216,12 +216,12 @@ fn rail_runs_across_a_hinge_and_its_influence_lines_break_there() {
 #[test]
 fn expansion_joint_passes_no_thrust() {
     let (mut model, rail) = beam(&[0.0, 6.0, SPAN]);
-    model.supports = [0, 2].map(|point| Support { point, fix: HELD }).to_vec();
+    model.supports = [0, 2].map(|point| Support { point, fixed: HELD }).to_vec();
     let whole = vertical(&model, &rail, 7.0);
     model.members[1].releases[0][0] = true;
     near(vertical(&model, &rail, 7.0) / whole, 1.0, 1e-12);
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
-    let axial = |member| Effect::Force { member, place: 0.5, component: Component::Axial };
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
+    let axial = |member| Effect::InternalForce { member, place: 0.5, component: ForceComponent::Axial };
     let at = probes(Axis::Longitudinal, &[5.0, 8.0]);
     let found = frame.effects(&model, &[axial(0), axial(1)], &at).expect("on the rail");
     let exact = [[1.0, 0.0], [0.0, -1.0]];
@@ -244,8 +244,8 @@ fn rail_over_a_bent_member_chain_follows_the_projection() {
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    model.supports = vec![Support { point: 0, fix: HELD }];
-    let segments = [0, 1].map(|member| Segment { member, offset: [0.0; 3] }).to_vec();
+    model.supports = vec![Support { point: 0, fixed: HELD }];
+    let segments = [0, 1].map(|member| RailSegment { member, offset: [0.0; 3] }).to_vec();
     let rail = Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: Vec::new() };
     // Each leg 5 long; turned by 2 x 53.13 degrees: cos = -0.28 between them (unit-load theorem).
     let (l, c, s) = (5.0_f64, -0.28_f64, 0.96_f64);
@@ -253,9 +253,9 @@ fn rail_over_a_bent_member_chain_follows_the_projection() {
     let first = l.powi(3) / (3.0 * EI) + l * (c * l).powi(2) / EI + l * l * (c * l) / EI;
     let torsion = l * (s * l).powi(2) / EI;
     near(vertical(&model, &rail, 6.0) / (second + first + torsion), 1.0, 1e-12);
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
-    let root = |component| Effect::Force { member: 0, place: 0.0, component };
-    let effects = [root(Component::BendingZ), root(Component::Torsion)];
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
+    let root = |component| Effect::InternalForce { member: 0, place: 0.0, component };
+    let effects = [root(ForceComponent::BendingZ), root(ForceComponent::Torsion)];
     let found = frame.effects(&model, &effects, &probes(Axis::Vertical, &[6.0])).expect("on the rail");
     near(found[(0, 0)], l + c * l, 1e-12);
     near(found[(1, 0)].abs(), s * l, 1e-12);

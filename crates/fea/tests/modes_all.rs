@@ -3,17 +3,17 @@
 mod common;
 
 use common::{mill, paper, probes};
-use fea::{Error, Frame, Theory, full_modes, modes};
+use fea::{BeamTheory, Error, FactoredFrame, full_modes, modes};
 use splines::Axis;
 
 /// Two algorithms that share only the matrices: dense eigenvalues, and block Lanczos with a count.
 #[test]
 fn lowest_of_all_modes_are_those_that_the_search_finds() {
-    let (mut model, rail) = mill(Theory::Timoshenko);
+    let (mut model, rail) = mill(BeamTheory::Timoshenko);
     for section in &mut model.sections {
         section.mass = 3.0;
     }
-    let all = Frame::new(&model, std::slice::from_ref(&rail))
+    let all = FactoredFrame::new(&model, std::slice::from_ref(&rail))
         .and_then(|frame| frame.all_modes(&model))
         .expect("a building of bars with mass");
     let lowest = modes(&model, &[rail], 30).expect("a building of bars with mass");
@@ -34,9 +34,9 @@ fn lowest_of_all_modes_are_those_that_the_search_finds() {
 fn all_modes_carry_every_load_at_the_nodes() {
     let mut girder = paper();
     girder.mass_per_length = Some(15.2);
-    let (model, rail) = girder.frame().expect("a girder on two supports");
+    let (model, rail) = girder.model_and_rail().expect("a girder on two supports");
     let refined = full_modes(&model, &[rail], 8).expect("it has mass");
-    let frame = Frame::new(&refined.model, &refined.rails).expect("it stands");
+    let frame = FactoredFrame::new(&refined.model, &refined.rails).expect("it stands");
     let surface = frame.surface().expect("it has a rail").surface;
     let rest = refined.modes.residual(&surface).expect("the same frame");
     let largest = surface.nodal().amax();
@@ -53,7 +53,7 @@ fn all_modes_carry_every_load_at_the_nodes() {
 fn too_many_unknowns_are_refused_before_they_are_solved() {
     let mut girder = paper();
     girder.mass_per_length = Some(15.2);
-    let (model, rail) = girder.frame().expect("a girder on two supports");
+    let (model, rail) = girder.model_and_rail().expect("a girder on two supports");
     let refused = full_modes(&model, &[rail], 400).expect_err("7,000 unknowns");
     assert!(matches!(refused, Error::TooManyModes { unknowns, most: 3000 } if unknowns > 3000), "{refused}");
 }

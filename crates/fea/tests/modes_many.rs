@@ -1,12 +1,12 @@
 //! Natural modes of frames with many equal frequencies: none is missing, none is found twice.
 
-use fea::{Mass, Member, Model, Modes, Section, Support, Theory, modes};
+use fea::{BeamTheory, CrossSection, Member, Model, Modes, PointMass, Support, modes};
 
 mod common;
 use common::Stream;
 
-fn section() -> Section {
-    Section {
+fn section() -> CrossSection {
+    CrossSection {
         e: 2.1e11,
         g: 8.1e10,
         area: 6e-3,
@@ -14,7 +14,7 @@ fn section() -> Section {
         iz: 9e-6,
         j: 1.2e-5,
         mass: 47.0,
-        ..Section::default()
+        ..CrossSection::default()
     }
 }
 
@@ -24,7 +24,7 @@ fn beam(points: [usize; 2]) -> Member {
 
 /// Towers side by side, each of two braces of four members from the ground to a mass at the top.
 fn towers(count: usize) -> Model {
-    let mut model = Model { up: [0.0, 1.0, 0.0], theory: Theory::Timoshenko, ..Model::default() };
+    let mut model = Model { up: [0.0, 1.0, 0.0], theory: BeamTheory::Timoshenko, ..Model::default() };
     model.sections.push(section());
     for tower in 0..count {
         let x = 10.0 * tower as f64;
@@ -34,8 +34,8 @@ fn towers(count: usize) -> Model {
         }
         let first = 9 * tower;
         model.members.extend((first..first + 8).map(|k| beam([k, k + 1])));
-        model.masses.push(Mass { point: first + 4, mass: 30.0, inertia: [1.0; 3], offset: [0.0; 3] });
-        model.supports.extend([first, first + 8].map(|point| Support { point, fix: [true; 6] }));
+        model.masses.push(PointMass { point: first + 4, mass: 30.0, inertia: [1.0; 3], offset: [0.0; 3] });
+        model.supports.extend([first, first + 8].map(|point| Support { point, fixed: [true; 6] }));
     }
     model
 }
@@ -43,7 +43,7 @@ fn towers(count: usize) -> Model {
 /// A frame of one bay and many storeys with identical crossed braces, of two members each.
 fn braced(storeys: usize) -> Model {
     let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
-    let stout = Section { area: 0.05, iy: 1e-3, iz: 1e-3, j: 1.5e-3, mass: 390.0, ..section() };
+    let stout = CrossSection { area: 0.05, iy: 1e-3, iz: 1e-3, j: 1.5e-3, mass: 390.0, ..section() };
     model.sections = vec![section(), stout];
     for storey in 0..=storeys {
         for x in [0.0, 6.0] {
@@ -65,7 +65,7 @@ fn braced(storeys: usize) -> Model {
             model.members.push(beam([last, to]));
         }
     }
-    model.supports.extend([0, 1].map(|point| Support { point, fix: [true; 6] }));
+    model.supports.extend([0, 1].map(|point| Support { point, fixed: [true; 6] }));
     model
 }
 
@@ -81,7 +81,7 @@ fn every_copy_of_a_multiple_frequency_is_found() {
     let one = solve(&towers(1), 6);
     for copies in [7, 40] {
         let all = solve(&towers(copies), 5 * copies);
-        assert_eq!(all.below, 5 * copies);
+        assert_eq!(all.count_below_shift, 5 * copies);
         for (k, mode) in all.modes.iter().enumerate() {
             assert!((mode.omega / one.modes[k / copies].omega - 1.0).abs() < 1e-10, "mode {k}");
         }
@@ -95,11 +95,11 @@ fn a_part_of_a_cluster_is_given_with_the_count_of_all_or_of_those_before() {
     let one = solve(&towers(1), 3);
     // A count within the first cluster, which is small enough to be found whole, and within one that is not.
     let few = solve(&towers(copies), 10);
-    assert_eq!((few.modes.len(), few.below), (10, copies));
+    assert_eq!((few.modes.len(), few.count_below_shift), (10, copies));
     let copies = 80;
     let many = solve(&towers(copies), copies + 5);
     assert_eq!(many.modes.len(), copies + 5);
-    assert!([copies, 2 * copies].contains(&many.below), "{}", many.below);
+    assert!([copies, 2 * copies].contains(&many.count_below_shift), "{}", many.count_below_shift);
     for (k, mode) in many.modes.iter().enumerate() {
         assert!((mode.omega / one.modes[k / copies].omega - 1.0).abs() < 1e-10, "mode {k}");
     }
@@ -109,7 +109,7 @@ fn a_part_of_a_cluster_is_given_with_the_count_of_all_or_of_those_before() {
 fn hundreds_of_nearly_equal_modes_of_braces_are_all_found() {
     let model = braced(40);
     let solved = solve(&model, 200);
-    assert_eq!((solved.modes.len(), solved.below), (200, 200));
+    assert_eq!((solved.modes.len(), solved.count_below_shift), (200, 200));
     let omegas: Vec<f64> = solved.modes.iter().map(|mode| mode.omega).collect();
     assert!(omegas.is_sorted());
     let near = omegas.windows(2).filter(|pair| pair[1] < 1.001 * pair[0]).count();

@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use fea::{Freedoms6, Mass, Member, Model, Modes, Section, Support, Theory, modes};
+use fea::{BeamTheory, CrossSection, DofSet, Member, Model, Modes, PointMass, Support, modes};
 
-const PLANE: Freedoms6 = [false, false, true, true, true, false];
+const PLANE: DofSet = [false, false, true, true, true, false];
 
 fn beam(points: [usize; 2], orientation: [f64; 3]) -> Member {
     Member::beam(points, 0, orientation)
@@ -13,7 +13,7 @@ fn beam(points: [usize; 2], orientation: [f64; 3]) -> Member {
 fn solve(model: &Model, count: usize) -> Modes {
     let solved = modes(model, &[], count).expect("sound");
     assert_eq!(solved.modes.len(), count);
-    assert!(solved.below >= count, "only {} counted", solved.below);
+    assert!(solved.count_below_shift >= count, "only {} counted", solved.count_below_shift);
     solved
 }
 
@@ -22,14 +22,14 @@ fn hertz(modes: &Modes) -> Vec<f64> {
 }
 
 /// A square or round steel section.
-fn section(area: f64, second: f64, j: f64, shear: Option<f64>) -> Section {
+fn section(area: f64, second: f64, j: f64, shear: Option<f64>) -> CrossSection {
     let e = 200e9;
     let (shear_y, shear_z) = (shear, shear);
-    Section { e, g: e / 2.6, area, iy: second, iz: second, j, shear_y, shear_z, mass: 8000.0 * area }
+    CrossSection { e, g: e / 2.6, area, iy: second, iz: second, j, shear_y, shear_z, mass: 8000.0 * area }
 }
 
 /// A chain of `count` members over 10 m, z lateral.
-fn chain(count: usize, section: Section, theory: Theory) -> Model {
+fn chain(count: usize, section: CrossSection, theory: BeamTheory) -> Model {
     let mut model = Model { up: [0.0, 1.0, 0.0], theory, sections: vec![section], ..Model::default() };
     model.points.extend((0..=count).map(|k| [10.0 * k as f64 / count as f64, 0.0, 0.0]));
     model.members.extend((0..count).map(|k| beam([k, k + 1], [0.0, 1.0, 0.0])));
@@ -54,9 +54,9 @@ fn double_cross(arm: usize) -> Model {
             model.members.push(beam([last, point], [0.0, 0.0, 1.0]));
             last = point;
         }
-        model.supports.push(Support { point: last, fix: [true, true, false, false, false, false] });
+        model.supports.push(Support { point: last, fixed: [true, true, false, false, false, false] });
     }
-    model.supports.extend((0..model.points.len()).map(|point| Support { point, fix: PLANE }));
+    model.supports.extend((0..model.points.len()).map(|point| Support { point, fixed: PLANE }));
     model
 }
 
@@ -84,10 +84,10 @@ fn nafems_fv2_double_cross() {
 fn nafems_fv4_cantilever_with_masses_off_its_axis() {
     let (r, count) = (0.25_f64, 5);
     let round = section(PI * r * r, PI * r.powi(4) / 4.0, PI * r.powi(4) / 2.0, None);
-    let mut model = chain(count, round, Theory::EulerBernoulli);
-    model.supports.push(Support { point: 0, fix: [true; 6] });
+    let mut model = chain(count, round, BeamTheory::EulerBernoulli);
+    model.supports.push(Support { point: 0, fixed: [true; 6] });
     for (mass, arm) in [(10_000.0, 2.0), (1000.0, -2.0)] {
-        model.masses.push(Mass { point: count, mass, inertia: [0.0; 3], offset: [0.0, arm, 0.0] });
+        model.masses.push(PointMass { point: count, mass, inertia: [0.0; 3], offset: [0.0, arm, 0.0] });
     }
     let found = hertz(&solve(&model, 6));
     println!("{found:.4?}");
@@ -108,9 +108,9 @@ fn nafems_fv5_deep_beam() {
     let j = 0.1406 * side.powi(4);
     let square = section(area, second, j, Some(area * 13.0 / 15.3));
     let held = |count: usize| {
-        let mut model = chain(count, square, Theory::Timoshenko);
-        model.supports.push(Support { point: 0, fix: [true, true, true, true, false, false] });
-        model.supports.push(Support { point: count, fix: [false, true, true, false, false, false] });
+        let mut model = chain(count, square, BeamTheory::Timoshenko);
+        model.supports.push(Support { point: 0, fixed: [true, true, true, true, false, false] });
+        model.supports.push(Support { point: count, fixed: [false, true, true, false, false, false] });
         model
     };
     let closed = [42.650, 42.650, 71.20, 125.0, 148.15, 148.15, 213.61, 283.47, 283.47];
@@ -126,14 +126,14 @@ fn nafems_fv5_deep_beam() {
 /// Ten bays of 20 ft, nine storeys of 10 ft; A = 3, I = 1, E = 432,000, mass 3 a length, one member each.
 fn bathe_and_wilson(lumped: bool) -> Modes {
     let mass = if lumped { 0.0 } else { 3.0 };
-    let section = Section { e: 432_000.0, area: 3.0, iy: 1.0, iz: 1.0, mass, ..Section::default() };
+    let section = CrossSection { e: 432_000.0, area: 3.0, iy: 1.0, iz: 1.0, mass, ..CrossSection::default() };
     let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
     for storey in 0..=9 {
         for bay in 0..=10 {
             let point = model.points.len();
             model.points.push([20.0 * f64::from(bay), 10.0 * f64::from(storey), 0.0]);
             let fix = if storey == 0 { [true; 6] } else { PLANE };
-            model.supports.push(Support { point, fix });
+            model.supports.push(Support { point, fixed: fix });
             if storey > 0 {
                 model.members.push(beam([point - 11, point], [1.0, 0.0, 0.0]));
                 if bay > 0 {
@@ -146,7 +146,7 @@ fn bathe_and_wilson(lumped: bool) -> Modes {
     if lumped {
         for member in &model.members {
             let length = if member.points[1] - member.points[0] == 1 { 20.0 } else { 10.0 };
-            model.masses.extend(member.points.map(|point| Mass {
+            model.masses.extend(member.points.map(|point| PointMass {
                 point,
                 mass: 1.5 * length,
                 inertia: [0.0; 3],

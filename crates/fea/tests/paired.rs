@@ -3,15 +3,15 @@
 mod common;
 
 use common::with_nodes;
-use fea::{Component, Effect, Frame, Model, Rail, Segment, Support, nodal};
+use fea::{Effect, FactoredFrame, ForceComponent, Model, Rail, RailSegment, Support, point_compliance};
 use nalgebra::{Matrix3, Vector3};
 use splines::{Axis, Compliance, Influence, Probe};
 
 /// Two inclined members with rigid offsets, hinges and shear; both ends clamped.
 fn model() -> Model {
-    let (mut model, _) = common::two_spans().frame().expect("sound");
+    let (mut model, _) = common::two_spans().model_and_rail().expect("sound");
     model.points = vec![[0.0, 0.0, 0.0], [18.0, 5.0, 3.0], [40.0, 1.0, -2.0]];
-    model.supports = [0, 2].map(|point| Support { point, fix: [true; 6] }).to_vec();
+    model.supports = [0, 2].map(|point| Support { point, fixed: [true; 6] }).to_vec();
     model.members[0].releases[1] = [true, false, false, false, true, true];
     model.members[0].offsets = [[0.3, 0.2, 0.1], [-0.4, 0.5, 0.0]];
     model
@@ -22,7 +22,7 @@ fn rails() -> [Rail; 3] {
     let rail = |origin, axis, offset| Rail {
         origin,
         axis,
-        segments: [0, 1].map(|member| Segment { member, offset }).to_vec(),
+        segments: [0, 1].map(|member| RailSegment { member, offset }).to_vec(),
         stations: Vec::new(),
     };
     [
@@ -64,7 +64,7 @@ fn probes(model: &Model, rails: &[Rail]) -> (Vec<Probe>, nalgebra::DMatrix<f64>)
         nodes.push((member, fraction, rails[rail].segments[member].offset));
     }
     let (cut, nodes) = with_nodes(model, &nodes);
-    let (value, _) = nodal(&cut, &nodes).expect("solvable");
+    let (value, _) = point_compliance(&cut, &nodes).expect("solvable");
     let exact = nalgebra::DMatrix::from_fn(at.len(), at.len(), |i, j| {
         let (a, b) = (frame(model, &rails[at[i].rail]), frame(model, &rails[at[j].rail]));
         let block = value.fixed_view::<3, 3>(6 * (i / 3), 6 * (j / 3));
@@ -77,7 +77,7 @@ fn probes(model: &Model, rails: &[Rail]) -> (Vec<Probe>, nalgebra::DMatrix<f64>)
 fn rails_on_one_member_equal_nodes_and_arms_at_the_loads() {
     let (model, rails) = (model(), rails());
     let (at, exact) = probes(&model, &rails);
-    let solved = Frame::new(&model, &rails).expect("solvable");
+    let solved = FactoredFrame::new(&model, &rails).expect("solvable");
     let grid = solved.grid(&at).expect("on the rails").value;
     let mut surface = Influence::zeros(at.len());
     solved.surface().expect("has rails").surface.fill(&at, &mut surface).expect("on the rails");
@@ -96,7 +96,7 @@ fn rails_on_one_member_equal_nodes_and_arms_at_the_loads() {
 fn influence_of_paired_rails_is_symmetric_to_the_last_bit_and_positive() {
     let (model, rails) = (model(), rails());
     let (at, _) = probes(&model, &rails);
-    let solved = Frame::new(&model, &rails).expect("solvable");
+    let solved = FactoredFrame::new(&model, &rails).expect("solvable");
     let grid = solved.grid(&at).expect("on the rails").value;
     let mut surface = Influence::zeros(at.len());
     solved.surface().expect("has rails").surface.fill(&at, &mut surface).expect("on the rails");
@@ -114,7 +114,7 @@ fn influence_of_paired_rails_is_symmetric_to_the_last_bit_and_positive() {
 fn slopes_between_paired_rails_are_difference_quotients() {
     let (model, rails) = (model(), rails());
     let (at, _) = probes(&model, &rails);
-    let surface = Frame::new(&model, &rails).expect("solvable").surface().expect("has rails").surface;
+    let surface = FactoredFrame::new(&model, &rails).expect("solvable").surface().expect("has rails").surface;
     let mut out = Influence::zeros(at.len());
     surface.fill(&at, &mut out).expect("on the rails");
     let mut pair = Influence::zeros(2);
@@ -146,10 +146,10 @@ fn forces_under_loads_on_paired_rails_equal_those_with_nodes_there() {
     let (cut, _) = with_nodes(&model, &places);
     let first = [0, cuts[0].len() + 1];
     let pieces = rails.clone().map(|rail| {
-        let over = |segment: &Segment| {
+        let over = |segment: &RailSegment| {
             let start = first[segment.member];
             let segment = *segment;
-            (start..=start + cuts[segment.member].len()).map(move |member| Segment { member, ..segment })
+            (start..=start + cuts[segment.member].len()).map(move |member| RailSegment { member, ..segment })
         };
         Rail { segments: rail.segments.iter().flat_map(over).collect(), ..rail }
     });
@@ -160,12 +160,13 @@ fn forces_under_loads_on_paired_rails_equal_those_with_nodes_there() {
         (first[member] + k, (s - bounds[k]) / (bounds[k + 1] - bounds[k]))
     });
     let all = |sections: [(usize, f64); 8]| -> Vec<Effect> {
-        let one =
-            |(member, place)| Component::ALL.map(|component| Effect::Force { member, place, component });
+        let one = |(member, place)| {
+            ForceComponent::ALL.map(|component| Effect::InternalForce { member, place, component })
+        };
         sections.into_iter().flat_map(one).collect()
     };
-    let whole = Frame::new(&model, &rails).expect("solvable");
-    let parts = Frame::new(&cut, &pieces).expect("solvable");
+    let whole = FactoredFrame::new(&model, &rails).expect("solvable");
+    let parts = FactoredFrame::new(&cut, &pieces).expect("solvable");
     // With one solve for each load, and with one solve for each effect.
     for count in [3, at.len()] {
         let effects = all(sections);

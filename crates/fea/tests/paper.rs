@@ -86,7 +86,7 @@ fn digit(value: f64) -> f64 {
 
 #[test]
 fn vertical_table_agrees_with_every_printed_entry() {
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let at = probes(Axis::Vertical, &rail.stations);
     let value = grid(&model, &[rail], &at).expect("solvable").value;
     for i in 0..7 {
@@ -101,7 +101,7 @@ fn vertical_table_agrees_with_every_printed_entry() {
 #[test]
 fn lateral_table_agrees_with_every_printed_entry() {
     // Rebuilt from the record of the printed digits: all are the truncated closed form with 1/EI = 2.6456e-10 and h^2/GJ = 1.2315e-8.
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let stations = rail.stations.clone();
     let value = grid(&model, &[rail], &probes(Axis::Lateral, &stations)).expect("solvable").value;
     for (i, &x) in stations.iter().enumerate() {
@@ -117,7 +117,7 @@ fn lateral_table_agrees_with_every_printed_entry() {
 
 #[test]
 fn grids_agree_with_closed_forms_to_1e_13() {
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let stations: Vec<f64> = (0..61).map(|k| -15.0 + 1.5 * f64::from(k)).collect();
     let rails = [rail];
     for (axis, exact) in [(Axis::Vertical, vertical as fn(f64, f64) -> f64), (Axis::Lateral, lateral)] {
@@ -136,7 +136,7 @@ fn grids_agree_with_closed_forms_to_1e_13() {
 /// Nodes at every station, as a mesh has them: more of them cost digits where lengths are no sums of halves.
 #[test]
 fn nodes_at_every_station_cost_no_more_digits_than_known() {
-    let (model, _) = paper().frame().expect("sound");
+    let (model, _) = paper().model_and_rail().expect("sound");
     for (count, known) in [(7, 1.8e-15), (13, 2.9e-14), (19, 2e-13), (37, 4.6e-12), (73, 6.2e-12)] {
         let stations: Vec<f64> =
             (0..count).map(|k| -15.0 + 90.0 * f64::from(k) / f64::from(count - 1)).collect();
@@ -150,7 +150,7 @@ fn nodes_at_every_station_cost_no_more_digits_than_known() {
             }
         }
         let (cut, nodes) = with_nodes(&model, &places);
-        let (c, _) = fea::nodal(&cut, &nodes).expect("it stands");
+        let (c, _) = fea::point_compliance(&cut, &nodes).expect("it stands");
         let mut worst = 0.0_f64;
         for (i, &x) in inside.iter().enumerate() {
             for (j, &z) in inside.iter().enumerate() {
@@ -165,7 +165,7 @@ fn nodes_at_every_station_cost_no_more_digits_than_known() {
 
 #[test]
 fn surface_agrees_with_closed_forms_at_ten_thousand_pairs() {
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let exact = surface(&model, &[rail]).expect("solvable");
     let mut stream = Stream(1);
     for (axis, form) in [(Axis::Vertical, vertical as fn(f64, f64) -> f64), (Axis::Lateral, lateral)] {
@@ -185,7 +185,7 @@ fn surface_agrees_with_closed_forms_at_ten_thousand_pairs() {
 #[test]
 fn grid_agrees_with_published_values_between_stations() {
     // Independently computed values of the same beam (external).
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let rails = [rail];
     for (x, z, value) in [
         (7.5, 22.5, 4.057_052_787_398_543_4e-8),
@@ -203,7 +203,7 @@ fn grid_agrees_with_published_values_between_stations() {
 fn longitudinal_load_at_the_rail_bends_the_girder() {
     // A force along the rail is a moment h about the elastic axis: u = x/EA + h^2 times the slope per
     // moment, which is d2 g/(dx dz) of the bending form (analytic: (l^2 - 3 x l + 3 x^2)/(3 l) at x = z).
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let x = 22.0;
     let found = grid(&model, &[rail], &probes(Axis::Longitudinal, &[x])).expect("solvable").value[(0, 0)];
     let slope = (SPAN * SPAN - 3.0 * x * SPAN + 3.0 * x * x) / (3.0 * SPAN * 9.528 * 4.32e9);

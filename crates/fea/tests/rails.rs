@@ -3,7 +3,7 @@
 mod common;
 
 use common::{mill, paper, probes, with_nodes};
-use fea::{Frame, Rail, Support, Theory, grid, nodal};
+use fea::{BeamTheory, FactoredFrame, Rail, Support, grid, point_compliance};
 use nalgebra::{Matrix6, SMatrix, Vector3};
 use splines::{Axis, Probe};
 
@@ -17,7 +17,7 @@ fn arm(r: Vector3<f64>) -> Matrix6<f64> {
 #[test]
 fn rail_in_a_gap_moves_rigidly_with_the_column() {
     // Over the columns at 40 (continuous) and 170 (hinged on its right); rail heights differ left and right.
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     for (x, point, member, segment) in
         [(39.6, 9, 28, 0), (40.3, 9, 29, 1), (169.6, 21, 30, 2), (170.3, 21, 31, 3)]
     {
@@ -28,7 +28,7 @@ fn rail_in_a_gap_moves_rigidly_with_the_column() {
         let place = Vector3::from(model.points[point]);
         let tip = Vector3::from(given.offsets[end]) + Vector3::from(rail.segments[segment].offset);
         let r = Vector3::new(x - place.x, tip.y, tip.z);
-        let (own, _) = nodal(&model, &[point]).expect("solvable");
+        let (own, _) = point_compliance(&model, &[point]).expect("solvable");
         let moved = arm(r) * own.fixed_view::<6, 6>(0, 0) * arm(r).transpose();
         let exact = moved.fixed_view::<3, 3>(0, 0);
         assert!((found - exact).amax() < 1e-12 * exact.amax(), "x = {x}");
@@ -38,7 +38,7 @@ fn rail_in_a_gap_moves_rigidly_with_the_column() {
 #[test]
 fn two_rails_of_one_structure_are_coupled_through_it() {
     // One rail given as two, the second with an origin of its own.
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     let part = |segments: &[usize], origin: [f64; 3]| Rail {
         origin,
         segments: segments.iter().map(|&k| rail.segments[k]).collect(),
@@ -58,9 +58,9 @@ fn two_rails_of_one_structure_are_coupled_through_it() {
 #[test]
 fn loads_inside_members_equal_loads_on_inserted_nodes() {
     // An inclined, offset, hinged two-member frame whose loads are applied once inside, once at nodes.
-    let (mut model, mut rail) = common::two_spans().frame().expect("sound");
+    let (mut model, mut rail) = common::two_spans().model_and_rail().expect("sound");
     model.points = vec![[0.0, 0.0, 0.0], [18.0, 5.0, 3.0], [40.0, 1.0, -2.0]];
-    model.supports = [0, 2].map(|point| Support { point, fix: [true; 6] }).to_vec();
+    model.supports = [0, 2].map(|point| Support { point, fixed: [true; 6] }).to_vec();
     model.members[0].releases[1] = [true, false, false, false, true, true];
     model.members[0].offsets = [[0.3, 0.2, 0.1], [-0.4, 0.5, 0.0]];
     let offset = Vector3::new(0.0, 0.7, 0.3);
@@ -78,7 +78,7 @@ fn loads_inside_members_equal_loads_on_inserted_nodes() {
         (usize::from(x > 18.0), (x - ends(0, 0)) / (ends(1, 0) - ends(0, 0)), offset.into())
     });
     let (cut, places) = with_nodes(&model, &places);
-    let (exact, _) = nodal(&cut, &places).expect("solvable");
+    let (exact, _) = point_compliance(&cut, &places).expect("solvable");
     for i in 0..9 {
         for j in 0..9 {
             let entry = exact[(6 * (i % 3) + i / 3, 6 * (j % 3) + j / 3)];
@@ -91,7 +91,7 @@ fn loads_inside_members_equal_loads_on_inserted_nodes() {
 #[test]
 fn reading_a_rail_backwards_turns_two_axes() {
     // Along the opposite direction, longitudinal and lateral change sign, vertical does not.
-    let (model, rail) = mill(Theory::Timoshenko);
+    let (model, rail) = mill(BeamTheory::Timoshenko);
     let back =
         Rail { axis: [-3.0, 0.0, 0.0], origin: [325.0, 0.0, 0.0], stations: Vec::new(), ..rail.clone() };
     let x = [3.0, 40.2, 150.0, 171.0];
@@ -106,10 +106,10 @@ fn reading_a_rail_backwards_turns_two_axes() {
 
 #[test]
 fn one_frame_answers_like_the_free_functions() {
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let rails = [rail];
     let at = probes(Axis::Lateral, &rails[0].stations);
-    let frame = Frame::new(&model, &rails).expect("solvable");
+    let frame = FactoredFrame::new(&model, &rails).expect("solvable");
     let once = grid(&model, &rails, &at).expect("solvable");
     assert!(frame.grid(&at).expect("solvable").value == once.value);
     assert_eq!(frame.certificate().condition, once.certificate.condition);

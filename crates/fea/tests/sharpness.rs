@@ -9,7 +9,7 @@ mod common;
 
 use common::{Stream, probes};
 use faer::fx128 as Wide;
-use fea::{Frame, Member, Model, Rail, Section, Segment, Support, Theory};
+use fea::{BeamTheory, CrossSection, FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use splines::Axis;
 
 /// A girder on supports, with flexibilities 1/EI and 1/kGA.
@@ -70,9 +70,9 @@ fn eliminate(rows: &mut [Vec<Wide>]) {
 /// One to six spans, cut at random places, some with a very short element; both theories.
 fn girder(stream: &mut Stream) -> (Model, Rail, Truth) {
     let pick = |stream: &mut Stream, of: &[usize]| of[(stream.next() * of.len() as f64) as usize];
-    let mut section = Section { e: 4.32e9, g: 1.66e9, ..Section::default() };
+    let mut section = CrossSection { e: 4.32e9, g: 1.66e9, ..CrossSection::default() };
     section.iz = 10f64.powf(stream.between(-2.0, 2.0));
-    let theory = if stream.next() < 0.5 { Theory::EulerBernoulli } else { Theory::Timoshenko };
+    let theory = if stream.next() < 0.5 { BeamTheory::EulerBernoulli } else { BeamTheory::Timoshenko };
     section.shear_y = Some(section.iz.sqrt() * stream.between(0.1, 1.0));
     let spans = pick(stream, &[1, 1, 2, 3, 4, 6]);
     let mut supports = vec![0.0];
@@ -106,17 +106,17 @@ fn girder(stream: &mut Stream) -> (Model, Rail, Truth) {
         sections: vec![section],
         supports: supports
             .iter()
-            .map(|&x| Support { point: held(x), fix: [x == 0.0, true, true, true, false, false] })
+            .map(|&x| Support { point: held(x), fixed: [x == 0.0, true, true, true, false, false] })
             .collect(),
         up: [0.0, 1.0, 0.0],
         theory,
         ..Model::default()
     };
-    let segments = (0..members.len()).map(|member| Segment { member, offset: [0.0; 3] }).collect();
+    let segments = (0..members.len()).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
     let rail = Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() };
     let one = Wide::from(1.0);
     let shear = match (theory, section.shear_y) {
-        (Theory::Timoshenko, Some(area)) => one / (Wide::from(section.g) * Wide::from(area)),
+        (BeamTheory::Timoshenko, Some(area)) => one / (Wide::from(section.g) * Wide::from(area)),
         _ => Wide::from(0.0),
     };
     let truth = Truth {
@@ -132,7 +132,7 @@ fn compare(stream: &mut Stream) -> Option<(f64, f64)> {
     let (model, rail, truth) = girder(stream);
     let (first, last) = (model.points[0][0], model.points[model.points.len() - 1][0]);
     let at: Vec<f64> = (0..6).map(|_| stream.between(first, last)).collect();
-    let frame = Frame::new(&model, &[rail]).ok()?;
+    let frame = FactoredFrame::new(&model, &[rail]).ok()?;
     let grid = frame.grid(&probes(Axis::Vertical, &at)).expect("on the rail");
     let exact = truth.grid(&at);
     let mut worst = 0.0_f64;

@@ -4,7 +4,7 @@
 mod common;
 
 use common::{Stream, probes};
-use fea::{Girder, Theory, grid, surface};
+use fea::{BeamTheory, Girder, grid, surface};
 use nalgebra::DMatrix;
 use splines::{Axis, Compliance, Influence};
 
@@ -69,7 +69,7 @@ const CASES: [(&[f64], [f64; 2]); 6] = [
 ];
 
 /// Largest error of grid and surface, relative to the largest entry, over all cases.
-fn worst(theory: Theory) -> f64 {
+fn worst(theory: BeamTheory) -> f64 {
     let mut worst = 0.0_f64;
     for (spans, overhangs) in CASES {
         let girder = Girder {
@@ -86,14 +86,14 @@ fn worst(theory: Theory) -> f64 {
         for span in spans {
             supports.push(supports[supports.len() - 1] + span);
         }
-        let shear = if theory == Theory::Timoshenko { 1.0 / (1.661_538e9 * 0.35) } else { 0.0 };
+        let shear = if theory == BeamTheory::Timoshenko { 1.0 / (1.661_538e9 * 0.35) } else { 0.0 };
         let primary = Primary { supports, bending: 1.0 / (4.32e9 * 9.528), shear };
         let mut stream = Stream(7);
         let mut at: Vec<f64> =
             (0..60).map(|_| stream.between(-overhangs[0], primary.length() + overhangs[1])).collect();
         at.extend(&primary.supports);
         let exact = primary.grid(&at);
-        let (model, rail) = girder.frame().expect("sound");
+        let (model, rail) = girder.model_and_rail().expect("sound");
         let rails = [rail];
         let probes = probes(Axis::Vertical, &at);
         let value = grid(&model, &rails, &probes).expect("solvable").value;
@@ -108,19 +108,19 @@ fn worst(theory: Theory) -> f64 {
 
 #[test]
 fn euler_bernoulli_girders_agree_with_the_force_method_to_1e_12() {
-    assert!(worst(Theory::EulerBernoulli) < 1e-12);
+    assert!(worst(BeamTheory::EulerBernoulli) < 1e-12);
 }
 
 #[test]
 fn timoshenko_girders_agree_with_the_force_method_to_1e_12() {
-    assert!(worst(Theory::Timoshenko) < 1e-12);
+    assert!(worst(BeamTheory::Timoshenko) < 1e-12);
 }
 
 #[test]
 fn two_equal_spans_give_23_over_1536() {
     // Midspan deflection of a two-span beam, G EI/L^3 = 23/1536 and -9/1536 (analytic).
     let girder = Girder { spans: vec![60.0, 60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-    let (model, rail) = girder.frame().expect("sound");
+    let (model, rail) = girder.model_and_rail().expect("sound");
     let value = grid(&model, &[rail], &probes(Axis::Vertical, &[30.0, 90.0])).expect("solvable").value;
     let unit = 60.0_f64.powi(3) / (4.32e9 * 9.528);
     assert!((value[(0, 0)] / unit - 23.0 / 1536.0).abs() < 1e-15);

@@ -4,8 +4,8 @@ mod common;
 
 use common::{paper, probes};
 use fea::{
-    Component, Effect, Frame, Kind, Member, Model, Rail, Section, Segment, Support, Taper, Theory, grid,
-    nodal,
+    BeamTheory, CrossSection, Effect, FactoredFrame, ForceComponent, Member, MemberKind, Model, Rail,
+    RailSegment, Support, Taper, grid, point_compliance,
 };
 use splines::Axis;
 
@@ -13,8 +13,8 @@ const LENGTH: f64 = 12.0;
 const RATIO: f64 = 0.3;
 
 /// A cantilever along x, in `parts`, all of whose stiffnesses fall linearly to `RATIO` of their value at the tip.
-fn cantilever(parts: usize, theory: Theory) -> (Model, Rail) {
-    let root = Section {
+fn cantilever(parts: usize, theory: BeamTheory) -> (Model, Rail) {
+    let root = CrossSection {
         e: 2e8,
         g: 8e7,
         area: 0.02,
@@ -25,7 +25,7 @@ fn cantilever(parts: usize, theory: Theory) -> (Model, Rail) {
         shear_z: None,
         mass: 0.3,
     };
-    let tip = Section {
+    let tip = CrossSection {
         area: RATIO * root.area,
         iy: RATIO * root.iy,
         iz: RATIO * root.iz,
@@ -36,7 +36,7 @@ fn cantilever(parts: usize, theory: Theory) -> (Model, Rail) {
     };
     let member = Member {
         points: [0, 1],
-        kind: Kind::Beam,
+        kind: MemberKind::Beam,
         section: 0,
         orientation: [0.0, 1.0, 0.0],
         offsets: [[0.0; 3], [-0.5, 0.0, 0.0]],
@@ -46,13 +46,13 @@ fn cantilever(parts: usize, theory: Theory) -> (Model, Rail) {
         points: vec![[0.0; 3], [LENGTH + 0.5, 0.0, 0.0]],
         sections: vec![root, tip],
         members: vec![member],
-        supports: vec![Support { point: 0, fix: [true; 6] }],
+        supports: vec![Support { point: 0, fixed: [true; 6] }],
         up: [0.0, 1.0, 0.0],
         theory,
         ..Model::default()
     };
     let (model, ranges) = model.tapered(&[Some(Taper { section: 1, parts })]);
-    let segments = ranges[0].clone().map(|member| Segment { member, offset: [0.0; 3] }).collect();
+    let segments = ranges[0].clone().map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
     (model, Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: Vec::new() })
 }
 
@@ -63,14 +63,14 @@ fn bending() -> f64 {
     (0.5 * (1.0 - r * r) - 2.0 * r * (1.0 - r) - r * r * r.ln()) / (1.0 - r).powi(3)
 }
 
-fn tip(parts: usize, theory: Theory, axis: Axis) -> f64 {
+fn tip(parts: usize, theory: BeamTheory, axis: Axis) -> f64 {
     let (model, rail) = cantilever(parts, theory);
     grid(&model, &[rail], &probes(axis, &[LENGTH])).expect("solvable").value[(0, 0)]
 }
 
 #[test]
 fn tapered_cantilever_converges_with_order_two() {
-    for (theory, shear) in [(Theory::EulerBernoulli, 0.0), (Theory::Timoshenko, 1.0)] {
+    for (theory, shear) in [(BeamTheory::EulerBernoulli, 0.0), (BeamTheory::Timoshenko, 1.0)] {
         let root = cantilever(1, theory).0.sections[0];
         let mean = -RATIO.ln() / (1.0 - RATIO);
         let exact =
@@ -88,9 +88,9 @@ fn tapered_cantilever_converges_with_order_two() {
 fn axial_give_and_twist_of_a_taper_are_exact_in_any_number_of_parts() {
     let mean = -RATIO.ln() / (1.0 - RATIO);
     for parts in [1, 3, 7] {
-        let (model, _) = cantilever(parts, Theory::Timoshenko);
+        let (model, _) = cantilever(parts, BeamTheory::Timoshenko);
         let root = model.sections[0];
-        let (found, _) = nodal(&model, &[1]).expect("solvable");
+        let (found, _) = point_compliance(&model, &[1]).expect("solvable");
         let axial = LENGTH * mean / (root.e * root.area);
         let twist = LENGTH * mean / (root.g * root.j);
         assert!((found[(0, 0)] / axial - 1.0).abs() < 1e-13, "{parts}");
@@ -100,28 +100,28 @@ fn axial_give_and_twist_of_a_taper_are_exact_in_any_number_of_parts() {
 
 #[test]
 fn tapered_truss_stays_one_bar_of_the_same_give() {
-    let (mut model, _) = cantilever(1, Theory::Timoshenko);
+    let (mut model, _) = cantilever(1, BeamTheory::Timoshenko);
     model.sections.truncate(2);
     model.members =
-        vec![Member { kind: Kind::Truss, section: 0, offsets: [[0.0; 3]; 2], ..model.members[0] }];
-    model.supports.push(Support { point: 1, fix: [false, true, true, true, true, true] });
+        vec![Member { kind: MemberKind::Truss, section: 0, offsets: [[0.0; 3]; 2], ..model.members[0] }];
+    model.supports.push(Support { point: 1, fixed: [false, true, true, true, true, true] });
     let (model, ranges) = model.tapered(&[Some(Taper { section: 1, parts: 5 })]);
     assert_eq!((ranges[0].clone(), model.members.len()), (0..1, 1));
-    let (found, _) = nodal(&model, &[1]).expect("solvable");
+    let (found, _) = point_compliance(&model, &[1]).expect("solvable");
     let exact = (LENGTH + 0.5) * -RATIO.ln() / (1.0 - RATIO) / (2e8 * 0.02);
     assert!((found[(0, 0)] / exact - 1.0).abs() < 1e-13);
 }
 
 #[test]
 fn parts_of_a_uniform_member_change_nothing() {
-    let (model, rail) = paper().frame().expect("sound");
+    let (model, rail) = paper().model_and_rail().expect("sound");
     let tapers: Vec<Option<Taper>> = [1, 4, 2].map(|parts| Some(Taper { section: 0, parts })).to_vec();
     let (parted, ranges) = model.tapered(&tapers);
     assert_eq!((parted.members.len(), parted.sections.len()), (7, 1));
     let segments = rail
         .segments
         .iter()
-        .flat_map(|segment| ranges[segment.member].clone().map(|member| Segment { member, ..*segment }))
+        .flat_map(|segment| ranges[segment.member].clone().map(|member| RailSegment { member, ..*segment }))
         .collect();
     let parted_rail = Rail { segments, ..rail.clone() };
     let at: Vec<_> =
@@ -134,9 +134,9 @@ fn parts_of_a_uniform_member_change_nothing() {
 #[test]
 fn forces_of_a_statically_determined_taper_do_not_depend_on_it() {
     // The moment at the root, and inside the third part, is force times distance.
-    let (model, rail) = cantilever(4, Theory::Timoshenko);
-    let frame = Frame::new(&model, &[rail]).expect("solvable");
-    let moment = |member, place| Effect::Force { member, place, component: Component::BendingZ };
+    let (model, rail) = cantilever(4, BeamTheory::Timoshenko);
+    let frame = FactoredFrame::new(&model, &[rail]).expect("solvable");
+    let moment = |member, place| Effect::InternalForce { member, place, component: ForceComponent::BendingZ };
     let found = frame
         .effects(&model, &[moment(0, 0.0), moment(2, 0.5)], &probes(Axis::Vertical, &[LENGTH, 5.0]))
         .expect("on the rail");

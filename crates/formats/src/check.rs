@@ -59,7 +59,7 @@ impl Check<'_> {
     }
 
     /// A number above zero at `key` of the object at `place`, which must be there.
-    pub fn needed(
+    pub fn required_positive(
         &mut self,
         value: Option<f64>,
         place: &Place<'_>,
@@ -67,7 +67,7 @@ impl Check<'_> {
         dimension: Dimension,
         hint: &str,
     ) -> f64 {
-        match self.faults.need(&value, place, key) {
+        match self.faults.require(&value, place, key) {
             Some(value) => self.positive(*value, &place.key(key), dimension, hint),
             None => 1.0,
         }

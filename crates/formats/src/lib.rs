@@ -5,7 +5,7 @@
 //! [`diagnostic::Diagnostic`] with its place.
 //!
 //! ```
-//! use formats::source::Source;
+//! use formats::text::source::Source;
 //! use formats::spec::Spec;
 //! use formats::units::{Force, Length, Units};
 //!
@@ -35,8 +35,3 @@ pub mod tables;
 pub mod text;
 pub mod units;
 pub mod vector;
-
-pub use grid::{block, coupling, effects as effect, file as grid_file, modes_file, surface_file};
-pub use scene::{motion, quantity};
-pub use spec::{cross_section as shape, ties as track};
-pub use text::{diagnostic, entries, fault, inputs, number, object, place, source};

@@ -8,7 +8,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
-use crate::grid_file::RawGrid;
+use crate::grid::file::RawGrid;
 use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
 use crate::spec::{Block, RawDetail, RawSpec, Reference};
 use crate::text::entries::Entries;
@@ -22,7 +22,7 @@ pub fn beam() -> Value {
 /// The schema of grids.
 #[must_use]
 pub fn grid() -> Value {
-    of::<RawGrid>(crate::grid_file::FORMAT, "Influence grid of girderway")
+    of::<RawGrid>(crate::grid::file::FORMAT, "Influence grid of girderway")
 }
 
 /// The schema of scenes.

@@ -5,10 +5,10 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::fault::{Fault, Faults};
-use crate::place::Place;
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
 
-crate::object::objects!(RawUnits);
+crate::text::object::objects!(RawUnits);
 
 /// Unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,7 +120,7 @@ impl Force {
 /// assert_eq!(to_si.factor(Dimension::LENGTH), 0.3048);
 /// assert_eq!(to_si.factor(Dimension::FORCE), 4.4482216152605);
 /// assert_eq!(imperial.label(Dimension::MASS), "lbf s^2/ft");
-/// assert_eq!(Units::of_words("ft, lbf, s"), Some(imperial));
+/// assert_eq!(Units::parse("ft, lbf, s"), Some(imperial));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Units {
@@ -152,13 +152,13 @@ impl Units {
         };
         let at = place.key("units");
         let length = faults
-            .need(&raw.length, &at, "length")
-            .and_then(|word| faults.word(word, &at.key("length"), &Length::WORDS));
+            .require(&raw.length, &at, "length")
+            .and_then(|word| faults.one_of(word, &at.key("length"), &Length::WORDS));
         let force = faults
-            .need(&raw.force, &at, "force")
-            .and_then(|word| faults.word(word, &at.key("force"), &Force::WORDS));
-        if let Some(word) = faults.need(&raw.time, &at, "time") {
-            faults.word(word, &at.key("time"), &[("s", ())]);
+            .require(&raw.force, &at, "force")
+            .and_then(|word| faults.one_of(word, &at.key("force"), &Force::WORDS));
+        if let Some(word) = faults.require(&raw.time, &at, "time") {
+            faults.one_of(word, &at.key("time"), &[("s", ())]);
         }
         Some(Units { length: length?, force: force? })
     }
@@ -237,7 +237,7 @@ impl Units {
 
     /// The units in a text whose first two words are those of length and force, such as `ft, lbf, s` or `ft/lbf`.
     #[must_use]
-    pub fn of_words(text: &str) -> Option<Units> {
+    pub fn parse(text: &str) -> Option<Units> {
         let mut words = text.split(|c: char| !c.is_alphanumeric()).filter(|word| !word.is_empty());
         let length = Length::of_word(words.next()?)?;
         let force = Force::of_word(words.next()?)?;

@@ -46,7 +46,7 @@ pub fn build(
     let is_dragged = structure.longitudinal;
     let BuiltFoundation { mut foundation, motion } = build_on_ground(cache, structure, solved, lateral)?;
     // where degrees of freedom carry the mass, their own mass matrix replaces the rigid mass of the spec
-    if let (Some(on), Some(moving)) = (&mut on, foundation.on.take()) {
+    if let (Some(on), Some(moving)) = (&mut on, foundation.carrier.take()) {
         (on.mass, on.coupling) = (moving.mass, moving.coupling);
     }
     if let (true, Some(compliance), Some(rail)) =
@@ -60,7 +60,10 @@ pub fn build(
             return Err(Error::NoLongitudinal { structure: structure.name.clone() });
         }
     }
-    Ok(BuiltFoundation { foundation: Foundation { on, irregularities, is_dragged, ..foundation }, motion })
+    Ok(BuiltFoundation {
+        foundation: Foundation { carrier: on, irregularities, is_loaded_along: is_dragged, ..foundation },
+        motion,
+    })
 }
 
 /// The same for a structure on the ground: without its rails' lines on a body, irregularities and compliance along them.
@@ -75,7 +78,7 @@ fn build_on_ground(
             |rail: &formats::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let excitation = Excitation { lateral, longitudinal: structure.longitudinal, on: structure.on };
+    let excitation = Excitation { lateral, longitudinal: structure.longitudinal, on: structure.carrier };
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
@@ -101,8 +104,8 @@ fn build_on_ground(
             Dampers::NONE,
             excitation,
         ),
-        scene::Foundation::Ties { moves: false, .. } => Ok(influence(structure, solved)?.into()),
-        scene::Foundation::Ties { moves: true, modes, damping, c } => {
+        scene::Foundation::Ties { has_mass: false, .. } => Ok(influence(structure, solved)?.into()),
+        scene::Foundation::Ties { has_mass: true, modes, damping, c } => {
             let pads = match &structure.origin {
                 Origin::Spec { spec, .. } => spec.pads(),
                 Origin::Tables { .. } => &[],

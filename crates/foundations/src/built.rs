@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use fea::Frame;
+use fea::FactoredFrame;
 use nalgebra::DMatrix;
 use sim::Foundation;
 
@@ -36,9 +36,9 @@ pub enum MotionBasis {
     /// Those natural modes of a frame with subdivided members that wheels can excite.
     Modes {
         /// The frame.
-        frame: Arc<Frame>,
+        frame: Arc<FactoredFrame>,
         /// The subdivided model and its modes.
-        refined: Box<fea::Refined>,
+        refined: Box<fea::RefinedModes>,
     },
     /// Rigid parts of a straight girder.
     Parts(RigidParts),

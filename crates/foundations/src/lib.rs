@@ -5,7 +5,7 @@
 //! [`select_and_run`] finds the lowest fidelity that suffices for structures whose foundation is "auto".
 //!
 //! ```
-//! use formats::source::Source;
+//! use formats::text::source::Source;
 //! use formats::spec::Spec;
 //! use splines::{Axis, Compliance, Influence, Probe};
 //!

@@ -22,16 +22,16 @@
 
 use std::sync::Arc;
 
-use fea::{Frame, Modes, Refined};
+use fea::{FactoredFrame, Modes, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
-use splines::{Compliance, Line, Probe, Rest, Surface};
+use splines::{Compliance, ExactSurface, Probe, Rails, ResidualFlexibility};
 
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
 use crate::mount::{self, Excitation};
 use crate::solved::SolvedModel;
-use formats::track::Pad;
+use formats::spec::ties::Pad;
 
 /// Relative error of a frequency that the subdivision of members may leave.
 const ACCURACY: f64 = 1e-6;
@@ -45,9 +45,9 @@ const EQUAL: f64 = 1e-6;
 
 /// Modes of one mesh that wheels can excite, and the static compliance from which those in use are subtracted.
 pub(super) struct MeshModes {
-    refined: Refined,
+    refined: RefinedModes,
     excited: Vec<fea::Mode>,
-    frame: Arc<Frame>,
+    frame: Arc<FactoredFrame>,
     compliance: StaticCompliance,
     /// Whether `excited` has every mode of the mesh that wheels can excite.
     is_whole: bool,
@@ -56,9 +56,9 @@ pub(super) struct MeshModes {
 /// Static compliance of the structure, before modes are subtracted.
 enum StaticCompliance {
     /// Of the members as given: used with the lowest modes, whose mesh is fine.
-    Given(Surface),
+    Given(ExactSurface),
     /// Of the members as they are subdivided: used with all modes of a mesh.
-    Cut(Surface),
+    Cut(ExactSurface),
 }
 
 impl MeshModes {
@@ -89,13 +89,13 @@ impl MeshModes {
 
     fn new(
         name: &str,
-        refined: Refined,
+        refined: RefinedModes,
         excited: Vec<fea::Mode>,
-        given: Option<Surface>,
+        given: Option<ExactSurface>,
         is_whole: bool,
     ) -> Result<MeshModes, Error> {
         let frame_error = Error::frame(name);
-        let frame = Frame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
+        let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
         let compliance = match given {
             Some(surface) => StaticCompliance::Given(surface),
             None => StaticCompliance::Cut(frame.surface().map_err(&frame_error)?.surface),
@@ -127,7 +127,7 @@ impl MeshModes {
         let residual: Box<dyn Compliance> = match &self.compliance {
             StaticCompliance::Given(exact) => {
                 let scaled = shapes(&line, &kept.modes, |mode| mode.omega).map_err(&rail_error)?;
-                Box::new(Rest::new(exact.clone(), scaled))
+                Box::new(ResidualFlexibility::new(exact.clone(), scaled))
             }
             StaticCompliance::Cut(surface) => Box::new(kept.residual(surface).map_err(&frame_error)?),
         };
@@ -145,7 +145,7 @@ impl MeshModes {
             compliance: Some(residual),
             structure: Some(sim::Structure { dynamics, shapes: Box::new(ModeShapes(own)) }),
             rails,
-            on: excitation.on.map(|on| mount::inertia(kept, on)),
+            carrier: excitation.on.map(|on| mount::inertia(kept, on)),
             ..Foundation::default()
         };
         let motion = MotionBasis::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
@@ -153,8 +153,8 @@ impl MeshModes {
     }
 }
 
-fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<Surface, Error> {
-    let found = Frame::new(model, rails).and_then(|frame| frame.surface());
+fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<ExactSurface, Error> {
+    let found = FactoredFrame::new(model, rails).and_then(|frame| frame.surface());
     Ok(found.map_err(Error::frame(name))?.surface)
 }
 
@@ -168,7 +168,7 @@ fn search(
     count: usize,
     accuracy: f64,
     excitation: Excitation,
-) -> Result<(Refined, Vec<fea::Mode>, bool), fea::Error> {
+) -> Result<(RefinedModes, Vec<fea::Mode>, bool), fea::Error> {
     let mut asked = count;
     loop {
         let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)?;
@@ -198,7 +198,7 @@ pub(super) fn coarse_modes(
     };
     excited.truncate(count);
     let frame_error = Error::frame(name);
-    let frame = Frame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
+    let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
     let own = shapes(frame.line().map_err(&frame_error)?, &excited, |_| 1.0).map_err(Error::rails(name))?;
     let shapes = Box::new(ModeShapes(own));
     let omega: Vec<f64> = excited.iter().map(|mode| mode.omega).collect();
@@ -277,7 +277,7 @@ impl ModeCache {
 fn excited_by(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> Vec<fea::Mode> {
     let motions = rail_motions(modes, solved, excitation);
     // a mode of unit modal mass in which the whole mass moves as one moves by 1/sqrt(mass)
-    let limit = STILL / modes.total[0][0].sqrt();
+    let limit = STILL / modes.rigid_mass[0][0].sqrt();
     let mut kept = Vec::new();
     let mut first = 0;
     while first < modes.modes.len() {
@@ -306,7 +306,7 @@ fn rail_motions(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> 
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
         let sampled = match &solved.surface {
-            Some(surface) => sampling_points(surface.line(), rail),
+            Some(surface) => sampling_points(surface.rails(), rail),
             None => given.stations.clone(),
         };
         for x in sampled {
@@ -342,8 +342,8 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
 }
 
 /// Rail coordinates at which the motion of modes is sampled: seventeen on each rail element.
-fn sampling_points(line: &Line, rail: usize) -> Vec<f64> {
-    let cells = line.cells().iter().filter(|cell| cell.rail == rail);
+fn sampling_points(line: &Rails, rail: usize) -> Vec<f64> {
+    let cells = line.elements().iter().filter(|cell| cell.rail == rail);
     cells
         .flat_map(|cell| (0..=16).map(|k| cell.x[0] + (cell.x[1] - cell.x[0]) * f64::from(k) / 16.0))
         .collect()
@@ -370,7 +370,7 @@ fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) 
 }
 
 /// Displacements of the rails in each mode, as shapes of the simulation.
-struct ModeShapes(splines::Shapes);
+struct ModeShapes(splines::RailShapes);
 
 impl Shapes for ModeShapes {
     fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), splines::Error> {
@@ -380,12 +380,12 @@ impl Shapes for ModeShapes {
 
 /// The modes along `line`, each divided by its `divisor`.
 fn shapes(
-    line: &Arc<Line>,
+    line: &Arc<Rails>,
     modes: &[fea::Mode],
     divisor: impl Fn(&fea::Mode) -> f64,
-) -> Result<splines::Shapes, splines::Error> {
-    let states = DMatrix::from_fn(6 * line.states(), modes.len(), |k, r| {
+) -> Result<splines::RailShapes, splines::Error> {
+    let states = DMatrix::from_fn(6 * line.state_count(), modes.len(), |k, r| {
         modes[r].states[k / 6][k % 6] / divisor(&modes[r])
     });
-    splines::Shapes::new(Arc::clone(line), states)
+    splines::RailShapes::new(Arc::clone(line), states)
 }

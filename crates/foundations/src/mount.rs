@@ -2,19 +2,21 @@
 //! mass, and the coupling of their modes with its motion.
 
 use fea::Modes;
-use sim::{Axle, Mount};
+use sim::{CarriedRail, Carrier};
 use splines::Axis;
 
 use crate::error::Error;
-use formats::scene::{On, Origin, Structure};
+use formats::scene::{CarriedBy, Origin, Structure};
 
 /// The lines of a structure's rails on the body that carries it, and its rigid mass, 6 x 6 about the body's origin;
 /// `None` for a structure on the ground.
 ///
 /// # Errors
 /// [`Error::Frame`] for a spec that no model can be made of.
-pub fn mount(structure: &Structure) -> Result<Option<Mount>, Error> {
-    let (Some(On { body, at, .. }), Origin::Spec { spec, .. }) = (structure.on, &structure.origin) else {
+pub fn mount(structure: &Structure) -> Result<Option<Carrier>, Error> {
+    let (Some(CarriedBy { body, at, .. }), Origin::Spec { spec, .. }) =
+        (structure.carrier, &structure.origin)
+    else {
         return Ok(None);
     };
     let refused = Error::frame(&structure.name);
@@ -31,10 +33,13 @@ pub fn mount(structure: &Structure) -> Result<Option<Mount>, Error> {
         });
         let across = across.unwrap_or_default();
         let ahead: f64 = across.iter().zip(along).map(|(a, e)| a * e).sum();
-        Axle { origin: [0, 1, 2].map(|k| at[k] + rail.origin[k] + across[k] - ahead * along[k]), along }
+        CarriedRail {
+            origin: [0, 1, 2].map(|k| at[k] + rail.origin[k] + across[k] - ahead * along[k]),
+            along,
+        }
     };
-    let mass = Mount::moved(&fea::rigid_mass(&model).map_err(&refused)?, at);
-    Ok(Some(Mount { body, rails: rails.iter().map(rail_line).collect(), mass, coupling: Vec::new() }))
+    let mass = Carrier::mass_about_origin(&fea::rigid_mass(&model).map_err(&refused)?, at);
+    Ok(Some(Carrier { body, rails: rails.iter().map(rail_line).collect(), mass, coupling: Vec::new() }))
 }
 
 /// What excites a structure: vertical wheel forces, lateral and longitudinal ones where wheels have them, and the motion
@@ -43,7 +48,7 @@ pub fn mount(structure: &Structure) -> Result<Option<Mount>, Error> {
 pub(super) struct Excitation {
     pub lateral: bool,
     pub longitudinal: bool,
-    pub on: Option<On>,
+    pub on: Option<CarriedBy>,
 }
 
 impl Excitation {
@@ -61,21 +66,26 @@ impl Excitation {
 /// Coupling of every mode with each free motion of its carrier, divided by sqrt(m_i m): m_i is the carried mass (or
 /// inertia) in that motion, m the whole mass. One row of modes for each motion, so scaled that it compares with the motion
 /// of a mode in which the whole mass moves as one.
-pub(super) fn coupled_momentum(modes: &Modes, on: On) -> Vec<f64> {
-    let total = Mount::moved(&modes.total, on.at);
+pub(super) fn coupled_momentum(modes: &Modes, on: CarriedBy) -> Vec<f64> {
+    let total = Carrier::mass_about_origin(&modes.rigid_mass, on.at);
     let couplings: Vec<[f64; 6]> =
-        modes.modes.iter().map(|mode| Mount::moved_load(&mode.coupling, on.at)).collect();
-    let moving = (0..6).filter(|&i| on.moves[i] && total[i][i] > 0.0);
+        modes.modes.iter().map(|mode| Carrier::load_about_origin(&mode.coupling, on.at)).collect();
+    let moving = (0..6).filter(|&i| on.may_move[i] && total[i][i] > 0.0);
     moving
         .flat_map(|i| {
-            let scale = (total[i][i] * modes.total[0][0]).sqrt();
+            let scale = (total[i][i] * modes.rigid_mass[0][0]).sqrt();
             couplings.iter().map(move |coupling| coupling[i] / scale)
         })
         .collect()
 }
 
 /// Mass of a structure in modes and the coupling of `modes` with its carrier, about the carrier's origin; without rails.
-pub(super) fn inertia(modes: &Modes, on: On) -> Mount {
-    let coupling = modes.modes.iter().map(|mode| Mount::moved_load(&mode.coupling, on.at)).collect();
-    Mount { body: on.body, rails: Vec::new(), mass: Mount::moved(&modes.total, on.at), coupling }
+pub(super) fn inertia(modes: &Modes, on: CarriedBy) -> Carrier {
+    let coupling = modes.modes.iter().map(|mode| Carrier::load_about_origin(&mode.coupling, on.at)).collect();
+    Carrier {
+        body: on.body,
+        rails: Vec::new(),
+        mass: Carrier::mass_about_origin(&modes.rigid_mass, on.at),
+        coupling,
+    }
 }

@@ -15,15 +15,15 @@
 
 use std::sync::Arc;
 
-use fea::{Girder, Link, Member, Model, Support};
+use fea::{Girder, Member, Model, RigidLink, Support};
 use nalgebra::{DMatrix, DVector};
-use sim::{BlendedParts, Dynamics, Extent, Foundation, Mount, PartChain, PartShapes, Structure};
-use splines::{Cell, Flexibility, Line, Surface};
+use sim::{BlendedParts, Carrier, Dynamics, Extent, Foundation, PartChain, PartShapes, Structure};
+use splines::{ExactSurface, Flexibility, RailElement, Rails};
 
 use crate::built::{BuiltFoundation, MotionBasis, RigidParts};
 use crate::error::Error;
 use crate::mount::Excitation;
-use formats::scene::{Handover, On};
+use formats::scene::{CarriedBy, Handover};
 
 /// Compliance of a combination of the parts' motions, relative to the largest, below which it counts as rigid.
 const RIGID: f64 = 1e-13;
@@ -60,13 +60,13 @@ pub fn foundation(
     }
     if let Some(mass) = girder.mass_per_length {
         let dynamics = PartsDynamics::new(girder, mass, &ends, &nodal, excitation.lateral);
-        foundation.on = excitation.on.map(|on| dynamics.mount(&centres, on));
+        foundation.carrier = excitation.on.map(|on| dynamics.mount(&centres, on));
         let basis = dynamics.basis.clone();
         motion = Some(MotionBasis::Parts(RigidParts { ends: ends.clone(), basis: basis.clone() }));
         let shapes = PartShapes { line, basis, chains: vec![chain], separate };
         foundation.structure = Some(dynamics.structure(shapes, damping));
     } else {
-        let surface = Surface::new(line, nodal)?;
+        let surface = ExactSurface::new(line, nodal)?;
         foundation.compliance = Some(if separate {
             Box::new(surface)
         } else {
@@ -84,7 +84,7 @@ fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
 
 /// Compliance of the parts' centres, six degrees of freedom each: 6 n x 6 n, zero in directions that nothing resists.
 fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Error> {
-    let (whole, _) = girder.frame()?;
+    let (whole, _) = girder.model_and_rail()?;
     let mut model =
         Model { up: whole.up, theory: whole.theory, sections: whole.sections.clone(), ..Model::default() };
     model.points = centres.iter().map(|&x| [x, 0.0, 0.0]).collect();
@@ -96,11 +96,11 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
         let part = ends[1..ends.len() - 1].partition_point(|&end| end < x);
         model.points.push([x, 0.0, 0.0]);
         let point = model.points.len() - 1;
-        model.links.push(Link { from: part, to: point });
-        model.supports.push(Support { point, fix: support.fix });
+        model.links.push(RigidLink { from: part, to: point });
+        model.supports.push(Support { point, fixed: support.fixed });
     }
     let points: Vec<usize> = (0..centres.len()).collect();
-    let (mut nodal, _) = fea::nodal(&model, &points)?;
+    let (mut nodal, _) = fea::point_compliance(&model, &points)?;
     // the compliance of a direction that nothing resists is infinite: parts are taken not to move there
     for i in 0..nodal.nrows() {
         if !nodal[(i, i)].is_finite() {
@@ -112,9 +112,9 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
 
 /// Every part as a rigid extension over the whole length, each on a rail of its own: the chain then selects, or blends,
 /// the rails of the parts below a wheel.
-fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Error> {
+fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Rails, Error> {
     let [from, to] = [ends[0], ends[ends.len() - 1]];
-    let cells = centres.iter().enumerate().map(|(j, centre)| Cell {
+    let cells = centres.iter().enumerate().map(|(j, centre)| RailElement {
         rail: j,
         x: [from, to],
         ends: [j, j],
@@ -122,9 +122,9 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Line, Error> {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [from - centre, girder.rail_height, 0.0],
         flexibility: Flexibility::default(),
-        carrier: None,
+        member: None,
     });
-    Ok(Line::new(cells.collect())?)
+    Ok(Rails::new(cells.collect())?)
 }
 
 /// Moment of inertia of a part of `length` about the girder's axis, divided by its mass: the squared radius of gyration
@@ -183,7 +183,7 @@ impl PartsDynamics {
 
     /// Inertia of the parts as seen by the body that carries them: mass R^T m R, and coupling basis^T m R with the
     /// degrees of freedom. m: the lumped masses; R: motion of the parts by the six motions of the body, 6 n x 6.
-    fn mount(&self, centres: &[f64], on: On) -> Mount {
+    fn mount(&self, centres: &[f64], on: CarriedBy) -> Carrier {
         let motion = DMatrix::from_fn(6 * centres.len(), 6, |i, k| {
             let (x, axis) = (centres[i / 6], i % 6);
             match (axis, k) {
@@ -196,11 +196,11 @@ impl PartsDynamics {
         let weighted = DMatrix::from_fn(motion.nrows(), 6, |i, k| self.lumped[i] * motion[(i, k)]);
         let (total, own) = (motion.transpose() * &weighted, self.basis.transpose() * &weighted);
         let total = std::array::from_fn(|i| std::array::from_fn(|j| total[(i, j)]));
-        let coupling = |k: usize| Mount::moved_load(&std::array::from_fn(|i| own[(k, i)]), on.at);
-        Mount {
+        let coupling = |k: usize| Carrier::load_about_origin(&std::array::from_fn(|i| own[(k, i)]), on.at);
+        Carrier {
             body: on.body,
             rails: Vec::new(),
-            mass: Mount::moved(&total, on.at),
+            mass: Carrier::mass_about_origin(&total, on.at),
             coupling: (0..own.nrows()).map(coupling).collect(),
         }
     }

@@ -8,7 +8,7 @@
 
 use std::ops::ControlFlow;
 
-use sim::{Choice, Ladder, Predicted, Reason, Run, Rung};
+use sim::{Choice, Fidelity, FoundationProvider, PredictedErrors, Reason, Run};
 use splines::Compliance;
 
 use crate::build::build;
@@ -43,7 +43,7 @@ pub struct AutoRun {
 /// ```
 /// use std::ops::ControlFlow;
 ///
-/// use formats::motion::cast;
+/// use formats::scene::motion::cast;
 /// use formats::scene::Document;
 /// use foundations::{distinct_specs, select_and_run, selection_reason, solve_specs};
 ///
@@ -73,14 +73,14 @@ pub fn select_and_run(
     let tolerances: Vec<Option<f64>> =
         scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
     let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
-    let lateral = scene.pushes_sideways();
+    let lateral = scene.has_flanges();
     let mut provider = SceneFoundations { scene, known, lateral, mode_caches, recorded };
     let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut provider, watch)?;
     let mut mode_caches = provider.mode_caches;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
         let solved = solution_of(known, &structure.origin);
-        structure.foundation = scene_foundation(structure, choice.rung, mesh_elements(solved));
+        structure.foundation = scene_foundation(structure, choice.fidelity, mesh_elements(solved));
     }
     // the run keeps no foundations: they are built again from the modes that are cached
     let built = scene
@@ -110,7 +110,7 @@ pub fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
 pub fn foundation_at(
     cache: &mut ModeCache,
     solved: &SolvedModel,
-    rung: Rung,
+    rung: Fidelity,
     damping: f64,
     finer: usize,
 ) -> Result<sim::Foundation, Error> {
@@ -118,20 +118,20 @@ pub fn foundation_at(
     let rails = solved.rails.iter().enumerate();
     let elements = finer * mesh_elements(Some(solved));
     match (rung, &solved.surface) {
-        (Rung::Modal(modes), _) => {
+        (Fidelity::Modal(modes), _) => {
             Ok(cache.lowest(name, solved, modes, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
         }
-        (Rung::Half, _) => Ok(cache
+        (Fidelity::Half, _) => Ok(cache
             .full(name, solved, elements / 2, damping, Dampers::NONE, Excitation::VERTICAL)?
             .foundation),
-        (Rung::Full, _) => {
+        (Fidelity::Full, _) => {
             Ok(cache.full(name, solved, elements, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
         }
-        (Rung::Influence, Some(surface)) => {
-            Ok(sim::Foundation::influence(Box::new(surface.clone()), rails.len()))
+        (Fidelity::Influence, Some(surface)) => {
+            Ok(sim::Foundation::massless(Box::new(surface.clone()), rails.len()))
         }
-        (Rung::Influence, None) => Err(Error::NoSurface { structure: name.to_owned() }),
-        (Rung::Rigid, surface) => {
+        (Fidelity::Influence, None) => Err(Error::NoSurface { structure: name.to_owned() }),
+        (Fidelity::Rigid, surface) => {
             let range = |rail| surface.as_ref().and_then(|surface| surface.range(rail));
             let extent = |(rail, _)| sim::Extent { range: range(rail), breaks: Vec::new() };
             Ok(sim::Foundation { rails: rails.map(extent).collect(), ..sim::Foundation::rigid() })
@@ -149,14 +149,14 @@ pub fn excited_modes(solved: &SolvedModel, count: usize) -> Result<Option<sim::S
 }
 
 /// The foundation of a scene that a fidelity stands for.
-fn scene_foundation(structure: &Structure, rung: Rung, elements: usize) -> Foundation {
+fn scene_foundation(structure: &Structure, rung: Fidelity, elements: usize) -> Foundation {
     let damping = structure.damping;
     match rung {
-        Rung::Rigid => Foundation::Rigid,
-        Rung::Influence => Foundation::Influence,
-        Rung::Modal(modes) => Foundation::Modal { modes, damping },
-        Rung::Half => Foundation::Full { elements: elements / 2, damping },
-        Rung::Full => Foundation::Full { elements, damping },
+        Fidelity::Rigid => Foundation::Rigid,
+        Fidelity::Influence => Foundation::Influence,
+        Fidelity::Modal(modes) => Foundation::Modal { modes, damping },
+        Fidelity::Half => Foundation::Full { elements: elements / 2, damping },
+        Fidelity::Full => Foundation::Full { elements, damping },
     }
 }
 
@@ -176,7 +176,7 @@ impl SceneFoundations<'_> {
     }
 }
 
-impl Ladder for SceneFoundations<'_> {
+impl FoundationProvider for SceneFoundations<'_> {
     type Error = Error;
 
     fn modes(&mut self, structure: usize, count: usize) -> Result<Option<sim::Structure>, Error> {
@@ -186,7 +186,7 @@ impl Ladder for SceneFoundations<'_> {
         })
     }
 
-    fn foundation(&mut self, structure: usize, rung: Rung) -> Result<sim::Foundation, Error> {
+    fn foundation(&mut self, structure: usize, rung: Fidelity) -> Result<sim::Foundation, Error> {
         let mut own = self.scene.structures[structure].clone();
         if own.auto {
             own.foundation = scene_foundation(&own, rung, mesh_elements(self.solved(structure)));
@@ -209,20 +209,20 @@ impl Ladder for SceneFoundations<'_> {
 
 /// A fidelity in words.
 #[must_use]
-pub fn fidelity_name(rung: Rung) -> String {
+pub fn fidelity_name(rung: Fidelity) -> String {
     match rung {
-        Rung::Rigid => "rigid".to_owned(),
-        Rung::Influence => "influence".to_owned(),
-        Rung::Modal(modes) => format!("modal, {modes} modes"),
-        Rung::Half => "full, half the elements".to_owned(),
-        Rung::Full => "full".to_owned(),
+        Fidelity::Rigid => "rigid".to_owned(),
+        Fidelity::Influence => "influence".to_owned(),
+        Fidelity::Modal(modes) => format!("modal, {modes} modes"),
+        Fidelity::Half => "full, half the elements".to_owned(),
+        Fidelity::Full => "full".to_owned(),
     }
 }
 
 /// Why a foundation was chosen, as a sentence without its full stop.
 #[must_use]
 pub fn selection_reason(choice: &Choice) -> String {
-    let rung = fidelity_name(choice.rung);
+    let rung = fidelity_name(choice.fidelity);
     let mut text = match (choice.reason, choice.estimate) {
         (Reason::NoMass, _) => {
             format!("auto: {rung}; no mass given: the error of leaving it out is not known")
@@ -236,11 +236,11 @@ pub fn selection_reason(choice: &Choice) -> String {
             "auto: {rung}, the lowest rung tried whose estimated error, {:.1e}, is within the tolerance",
             estimate.unwrap_or_default()
         ),
-        (Reason::Top, Some(estimate)) => format!(
+        (Reason::Highest, Some(estimate)) => format!(
             "auto: {rung}, as nothing lower was within the tolerance; half the elements differ by {estimate:.1e}, more \
              than the tolerance"
         ),
-        (Reason::Top, None) => {
+        (Reason::Highest, None) => {
             format!("auto: {rung}, as nothing lower was within the tolerance; its own error is not known")
         }
         (Reason::Unchecked, _) => {
@@ -248,7 +248,7 @@ pub fn selection_reason(choice: &Choice) -> String {
         }
     };
     if let Some(predicted) = &choice.predicted {
-        let Predicted { give, speed, ripple, step, track, .. } = predicted;
+        let PredictedErrors { deflection: give, speed, ripple, step, track, .. } = predicted;
         text += &format!(
             "; predicted without mass: give {give:.1e}, speed {speed:.1e}, ripple {ripple:.1e}, load step {step:.1e}, \
              track {track:.1e}"
@@ -260,13 +260,13 @@ pub fn selection_reason(choice: &Choice) -> String {
 /// What a user must know of a choice whose error is not known to be within `tolerance`; `None` where it is.
 #[must_use]
 pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
-    let rung = fidelity_name(choice.rung);
+    let rung = fidelity_name(choice.fidelity);
     let why = match (choice.reason, choice.estimate) {
-        (Reason::Top, Some(estimate)) => format!(
+        (Reason::Highest, Some(estimate)) => format!(
             "estimate above tolerance: {rung} is the top, and half its elements differ by {estimate:.1e}, more than \
              {tolerance}"
         ),
-        (Reason::Top, None) => {
+        (Reason::Highest, None) => {
             format!("{rung} is the top, and no coarser mesh could be run: its error is not known")
         }
         (Reason::Unchecked, _) => format!("the error of {rung} is not known: no higher rung could be run"),

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use fea::Frame;
-use formats::grid::Grid;
-use formats::inputs::Input;
+use fea::FactoredFrame;
+use formats::grid::StationGrid;
 use formats::scene::{Document, Origin};
 use formats::spec::{SolveError, Spec};
-use splines::Surface;
+use formats::text::inputs::Input;
+use splines::ExactSurface;
 
 /// The solution of a structure's FE model.
 pub struct SolvedModel {
@@ -16,9 +16,9 @@ pub struct SolvedModel {
     /// Its rails.
     pub rails: Vec<fea::Rail>,
     /// Exact influence surface; `None` where it would be larger than the limit given.
-    pub surface: Option<Surface>,
+    pub surface: Option<ExactSurface>,
     /// Grids at the stations.
-    pub grid: Grid,
+    pub grid: StationGrid,
     /// The girder, where the structure is a straight girder.
     pub girder: Option<fea::Girder>,
     /// Size of the system; `None` where the solution is that of an earlier run.
@@ -43,9 +43,9 @@ impl std::fmt::Display for SystemSize {
 /// Solves a spec: influence coefficients at its stations, and the exact surface between them.
 ///
 /// # Errors
-/// An entry that cannot be used, a mechanism, or a solution whose error bound exceeds [`fea::ACCURACY`].
+/// An entry that cannot be used, a mechanism, or a solution whose error bound exceeds [`fea::DEFAULT_ACCURACY`].
 pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
-    solve_to(spec, fea::ACCURACY, usize::MAX)
+    solve_to(spec, fea::DEFAULT_ACCURACY, usize::MAX)
 }
 
 /// The same, with compliances whose relative error bound is at most `accuracy`, and without a surface where the rail
@@ -55,9 +55,9 @@ pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
 /// As [`solve`].
 pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, fea::Error> {
     let (model, rails) = spec.model()?;
-    let frame = Frame::accurate(&model, &rails, accuracy)?;
-    let mut grid = Grid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
-    let freedoms = 6 * frame.line()?.states();
+    let frame = FactoredFrame::with_accuracy(&model, &rails, accuracy)?;
+    let mut grid = StationGrid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    let freedoms = 6 * frame.line()?.state_count();
     let surface = if freedoms <= most {
         Some(frame.surface()?.surface)
     } else {
@@ -66,7 +66,7 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, 
         ));
         None
     };
-    let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.bytes() });
+    let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.factor_bytes() });
     Ok(SolvedModel { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
@@ -121,8 +121,8 @@ pub fn solve_specs(
 ) -> Result<Vec<SolvedStructure>, SolveError> {
     let solved = specs.iter().map(|&(_, file, spec)| {
         let solution = solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
-            Some(Ok(source)) => spec.refuse(&source, &error),
-            _ => SolveError::Untrusted(error.to_string()),
+            Some(Ok(source)) => spec.locate_error(&source, &error),
+            _ => SolveError::NoSolution(error.to_string()),
         })?;
         Ok(SolvedStructure { spec: Arc::clone(spec), solution })
     });

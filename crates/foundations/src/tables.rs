@@ -1,10 +1,10 @@
 //! Foundations without mass: influence functions, either exact or interpolated in tables.
 
 use formats::grid::axes;
-use formats::scene::{Origin, Reading as Words, Structure};
+use formats::scene::{Origin, Structure, TableInterpolation as Words};
 use nalgebra::DMatrix;
 use sim::Foundation;
-use splines::{Axis, Couplings, Kind, Parted, Probe, Reading, Sheet, Table};
+use splines::{Axis, Couplings, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading, Uncoupled};
 
 use crate::error::Error;
 use crate::solved::SolvedModel;
@@ -13,23 +13,23 @@ use crate::solved::SolvedModel;
 /// the reading "exact" and the surface is known, else tables at the stations and the interpolation that the scene names.
 pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Foundation, Error> {
     let rails = structure.rails.len();
-    let exact = structure.reading == Words::Exact;
+    let exact = structure.interpolation == Words::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
         let surface = surface.clone();
         return Ok(match structure.couplings {
-            Couplings::All => Foundation::influence(Box::new(surface), rails),
-            some => Foundation::influence(Box::new(Parted::new(surface, some)), rails),
+            Couplings::All => Foundation::massless(Box::new(surface), rails),
+            some => Foundation::massless(Box::new(Uncoupled::new(surface, some)), rails),
         });
     }
     let blocks = influence_blocks(structure, solved)?;
-    let kind = match structure.reading {
+    let kind = match structure.interpolation {
         // a table of values has no exact form; natural splines are exact for loads and supports at the stations
-        Words::Exact | Words::Natural => Kind::Natural,
-        Words::Akispl => Kind::Akispl,
-        Words::Cubspl => Kind::Cubspl,
+        Words::Exact | Words::Natural => ReadingMethod::Natural,
+        Words::Akispl => ReadingMethod::Akispl,
+        Words::Cubspl => ReadingMethod::Cubspl,
     };
-    let reading = Reading::new(kind, &blocks).map_err(Error::rails(&structure.name))?;
-    Ok(Foundation::influence(Box::new(reading), rails))
+    let reading = TableReading::new(kind, &blocks).map_err(Error::rails(&structure.name))?;
+    Ok(Foundation::massless(Box::new(reading), rails))
 }
 
 /// The influence coefficients of a structure at its stations: one block for each pair of rail and direction, as far as the
@@ -37,7 +37,10 @@ pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> 
 ///
 /// # Errors
 /// [`Error::Unsolved`] for a spec without solution; [`Error::Rails`] for values or stations that are no table.
-pub fn influence_blocks(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Vec<Sheet>, Error> {
+pub fn influence_blocks(
+    structure: &Structure,
+    solved: Option<&SolvedModel>,
+) -> Result<Vec<InfluenceBlock>, Error> {
     let mut blocks = Vec::new();
     let mut add = |row: (usize, Axis), column: (usize, Axis), stations: [&[f64]; 2], values: DMatrix<f64>| {
         let probe = |(rail, axis)| Probe { rail, x: 0.0, axis };
@@ -45,8 +48,8 @@ pub fn influence_blocks(structure: &Structure, solved: Option<&SolvedModel>) -> 
             return Ok(());
         }
         let [at, loads] = stations.map(<[f64]>::to_vec);
-        let table = Table::new(loads, at, values).map_err(Error::rails(&structure.name))?;
-        blocks.push(Sheet { deflection: row, load: column, table });
+        let table = SplineTable::new(loads, at, values).map_err(Error::rails(&structure.name))?;
+        blocks.push(InfluenceBlock { deflection: row, load: column, table });
         Ok::<(), Error>(())
     };
     match (&structure.origin, solved) {

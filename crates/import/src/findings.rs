@@ -1,6 +1,6 @@
 //! Errors and warnings of readers, with their places in files.
 
-use formats::diagnostic::Diagnostic;
+use formats::text::diagnostic::Diagnostic;
 
 /// A place in one of the files of a model; `line` and `column` count from 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -37,7 +37,7 @@ impl ImportFinding {
 
     /// The same finding with what stands in the file.
     #[must_use]
-    pub fn got(mut self, found: impl ToString) -> ImportFinding {
+    pub fn with_found(mut self, found: impl ToString) -> ImportFinding {
         self.found = Some(found.to_string());
         self
     }
@@ -72,7 +72,7 @@ impl ImportFindings {
 
     /// Whether there is any error.
     #[must_use]
-    pub fn wrong(&self) -> bool {
+    pub fn has_errors(&self) -> bool {
         !self.errors.is_empty()
     }
 

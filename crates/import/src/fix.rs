@@ -30,7 +30,7 @@ impl FromStr for SupportRequest {
 ///
 /// # Errors
 /// A set that the structure does not have: message and hint.
-pub fn hold(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result<(), [String; 2]> {
+pub fn restrain(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result<(), [String; 2]> {
     let Some((_, set)) = structure.point_sets.iter().find(|(name, _)| *name == asked.set) else {
         let names: Vec<&str> = structure.point_sets.iter().take(20).map(|(name, _)| name.as_str()).collect();
         let hint = format!(

@@ -43,10 +43,10 @@ pub use write::{PARTS, write};
 
 use crate::findings::ImportFindings;
 use crate::structure::ImportedStructure;
-use formats::diagnostic::Diagnostic;
-use formats::inputs::cannot_read;
-use formats::source::Source;
 use formats::spec::{Spec, stem};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::inputs::read_error_message;
+use formats::text::source::Source;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
 /// What the user specifies about a model because its file does not.
@@ -88,7 +88,7 @@ pub struct Imported {
 /// All errors of the model, with their places; a model with errors is refused as a whole.
 pub fn import(
     path: &Path,
-    open: bdf::Open<'_>,
+    open: bdf::OpenFile<'_>,
     options: &ImportOptions,
 ) -> Result<Imported, Vec<Diagnostic>> {
     let name = path.display().to_string();
@@ -107,7 +107,7 @@ pub fn import(
     } else {
         read_deck(path, open, options, &mut findings)?
     };
-    if findings.wrong() {
+    if findings.has_errors() {
         return Err(findings.errors());
     }
     structure.up = options.up;
@@ -127,7 +127,7 @@ pub fn import(
 fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> Result<(), Vec<Diagnostic>> {
     let mut wrong = Vec::new();
     for asked in &options.fix {
-        wrong.extend(fix::hold(asked, structure).err().map(|message| refused("--fix", message)));
+        wrong.extend(fix::restrain(asked, structure).err().map(|message| refused("--fix", message)));
     }
     for asked in &options.rails {
         let Some(up) = options.up else {
@@ -138,7 +138,7 @@ fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> 
             wrong.push(refused("--rail", message));
             break;
         };
-        match rail::lay(asked, up, structure) {
+        match rail::rail_along_members(asked, up, structure) {
             Ok(rail) if structure.rails.iter().any(|other| other.name == rail.name) => {
                 wrong.push(refused(
                     "--rail",
@@ -168,13 +168,13 @@ fn check_spec(name: &str, text: &str, structure: &ImportedStructure) -> Result<(
 
 /// The error of a file that cannot be read.
 fn unreadable(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
-    vec![Diagnostic::of_file(path.display().to_string(), cannot_read(error))]
+    vec![Diagnostic::of_file(path.display().to_string(), read_error_message(error))]
 }
 
 /// Reads NASTRAN bulk data; their units come from the options.
 fn read_deck(
     path: &Path,
-    open: bdf::Open<'_>,
+    open: bdf::OpenFile<'_>,
     options: &ImportOptions,
     findings: &mut ImportFindings,
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
@@ -200,7 +200,7 @@ fn read_deck(
 /// Reads a gmsh mesh; its unit of length comes from the options, all others from the sections file.
 fn read_mesh(
     path: &Path,
-    open: bdf::Open<'_>,
+    open: bdf::OpenFile<'_>,
     options: &ImportOptions,
     findings: &mut ImportFindings,
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {

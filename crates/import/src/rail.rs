@@ -85,7 +85,7 @@ impl Item {
 ///
 /// # Errors
 /// Members that do not exist, no usable axis, or a member at right angles to the axis: message and hint.
-pub fn lay(
+pub fn rail_along_members(
     asked: &RailRequest,
     up: [f64; 3],
     structure: &ImportedStructure,

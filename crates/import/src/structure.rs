@@ -74,7 +74,7 @@ pub struct ImportedSpring {
     /// Index of the point.
     pub point: usize,
     /// Index of the global degree of freedom.
-    pub freedom: usize,
+    pub dof: usize,
     /// Stiffness.
     pub k: f64,
 }

@@ -22,7 +22,7 @@ pub fn write(structure: &ImportedStructure) -> String {
     put("format", json!(FORMAT));
     put("name", json!(structure.name));
     put("units", structure.units.json());
-    put("theory", json!(theory_word(fea::Theory::Timoshenko)));
+    put("theory", json!(theory_word(fea::BeamTheory::Timoshenko)));
     if let Some(up) = structure.up {
         put("up", json!(up));
     }
@@ -50,7 +50,7 @@ pub fn write(structure: &ImportedStructure) -> String {
     put(
         "springs",
         springs
-            .map(|spring| json!({ "point": spring.point, "dof": DOFS[spring.freedom], "k": spring.k }))
+            .map(|spring| json!({ "point": spring.point, "dof": DOFS[spring.dof], "k": spring.k }))
             .collect(),
     );
     put("links", structure.links.iter().map(|[from, to]| json!({ "from": from, "to": to })).collect());

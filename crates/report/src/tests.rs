@@ -35,13 +35,13 @@ fn report() -> Report {
         ],
     };
     let girder = ReportSection::new("Girder")
-        .say("One span of 60 ft with overhangs of 15 ft, solved as an Euler-Bernoulli beam.")
+        .paragraph("One span of 60 ft with overhangs of 15 ft, solved as an Euler-Bernoulli beam.")
         .fact("Span", 60.0, "ft")
         .fact("Bending stiffness", 9.528 * 4.32e9, "lbf ft\u{b2}")
         .fact("Influence at midspan", 1.0932689616568709e-7, "ft/lbf")
         .fact("Status", "done <b>", "");
     let crossing = ReportSection::new("Crossing & <i>forces</i>")
-        .say("The trunnion's path for every model.")
+        .paragraph("The trunnion's path for every model.")
         .fact("Load", 4.8e6, "lbf")
         .table(peaks)
         .figure(chart(), "Path of the trunnion; deflection positive downwards.")
@@ -143,7 +143,7 @@ fn text_cannot_become_markup() {
     let mut report = report();
     report.title = hostile.into();
     report.subtitle = hostile.into();
-    let mut section = ReportSection::new(hostile).say(hostile).fact(hostile, hostile, hostile);
+    let mut section = ReportSection::new(hostile).paragraph(hostile).fact(hostile, hostile, hostile);
     let mut chart = chart();
     chart.title = hostile.into();
     chart.series[0].label = hostile.into();

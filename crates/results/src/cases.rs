@@ -16,7 +16,7 @@ use crate::outcome::CaseResult;
 use crate::record::NamedColumns;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
-use formats::motion::cast;
+use formats::scene::motion::simulation_input;
 use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
@@ -73,7 +73,7 @@ pub fn records_structure(
 ) -> impl Fn(usize, &Foundation) -> bool + use<> {
     let (has_columns, rows) = (response::structures_with_columns(scene, known), scene.end / scene.dt);
     move |s, foundation| {
-        let freedoms = foundation.freedoms();
+        let freedoms = foundation.dofs();
         freedoms > 0 && (has_columns[s] || freedoms as f64 * rows < RECORDED)
     }
 }
@@ -85,7 +85,7 @@ fn run_case(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<CaseResult, Error> {
     let mut scene = case.scene.clone();
-    let cast = cast(&scene)?;
+    let cast = simulation_input(&scene)?;
     let recorded = records_structure(&scene, known);
     let chosen = foundations::select_and_run(&mut scene, &cast.scene, known, &recorded, watch);
     let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));

@@ -1,6 +1,6 @@
 //! Why a checked scene has no results.
 
-use formats::motion::UnequalShares;
+use formats::scene::motion::UnequalFractions;
 use thiserror::Error;
 
 /// Why a scene has no results.
@@ -11,7 +11,7 @@ pub enum Error {
     Foundation(#[from] foundations::Error),
     /// A truck of the scene cannot be simulated.
     #[error(transparent)]
-    Truck(#[from] UnequalShares),
+    Truck(#[from] UnequalFractions),
     /// The run of a case cannot start.
     #[error("{label}: {why}")]
     Run {

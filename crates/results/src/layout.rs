@@ -1,16 +1,16 @@
 //! Positions of bodies and wheels at one row of a record, in the frame of the tracks on the ground: x along the track, y up
 //! from the unloaded rails, z to the right.
 
-use sim::{Axle, Mount};
+use sim::{CarriedRail, Carrier};
 
 use crate::record::NamedColumns;
-use formats::scene::{Scene, Truck, seat};
+use formats::scene::{Scene, Truck, root_body};
 use foundations::Error;
 
 /// Computes the positions of a scene's bodies, with the lines of those rails that bodies carry.
 pub struct ScenePositions<'s> {
     scene: &'s Scene,
-    mounts: Vec<Option<Mount>>,
+    mounts: Vec<Option<Carrier>>,
 }
 
 impl<'s> ScenePositions<'s> {
@@ -24,13 +24,13 @@ impl<'s> ScenePositions<'s> {
     }
 
     /// The structures that `body` carries, with their mass and the lines of their rails relative to its origin.
-    pub fn carried(&self, body: usize) -> impl Iterator<Item = &Mount> {
+    pub fn carried(&self, body: usize) -> impl Iterator<Item = &Carrier> {
         self.mounts.iter().flatten().filter(move |mount| mount.body == body)
     }
 
     /// The line of a rail of the scene on the body that carries it; `None` for a rail on the ground.
     #[must_use]
-    pub fn axle(&self, rail: usize) -> Option<(usize, Axle)> {
+    pub fn axle(&self, rail: usize) -> Option<(usize, CarriedRail)> {
         let own = &self.scene.rails[rail];
         let mount = self.mounts[own.structure].as_ref()?;
         Some((mount.body, *mount.rails.get(own.rail)?))
@@ -38,12 +38,12 @@ impl<'s> ScenePositions<'s> {
 
     /// The line along which a body moves on its carrier, the mean of its rails; `None` for a body on the ground.
     #[must_use]
-    pub fn track(&self, body: usize) -> Option<(usize, Axle)> {
+    pub fn track(&self, body: usize) -> Option<(usize, CarriedRail)> {
         let rails = &self.scene.bodies[body].track;
-        let lines: Vec<(usize, Axle)> = rails.iter().filter_map(|rail| self.axle(*rail)).collect();
+        let lines: Vec<(usize, CarriedRail)> = rails.iter().filter_map(|rail| self.axle(*rail)).collect();
         let (carrier, first) = *lines.first()?;
         let mean = |k: usize| lines.iter().map(|(_, axle)| axle.origin[k] / lines.len() as f64).sum();
-        Some((carrier, Axle { origin: [mean(0), mean(1), mean(2)], along: first.along }))
+        Some((carrier, CarriedRail { origin: [mean(0), mean(1), mean(2)], along: first.along }))
     }
 
     /// Position of the origin of a body at a row of the record.
@@ -69,15 +69,15 @@ impl<'s> ScenePositions<'s> {
     /// A vector in the axes of a body as one in the axes of the tracks on the ground; small rotations are left out.
     #[must_use]
     pub fn turned(&self, body: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        match self.track(seat(self.scene, body).0) {
-            Some((_, Axle { along: [a, _, c], .. })) => [a * x - c * z, y, c * x + a * z],
+        match self.track(root_body(self.scene, body).0) {
+            Some((_, CarriedRail { along: [a, _, c], .. })) => [a * x - c * z, y, c * x + a * z],
             None => [x, y, z],
         }
     }
 
     /// Height of a body's origin over its rails where its wheels just touch them.
     fn radius(&self, body: usize) -> f64 {
-        let truck = self.scene.trucks.iter().find(|truck| seat(self.scene, truck.body).0 == body);
+        let truck = self.scene.trucks.iter().find(|truck| root_body(self.scene, truck.body).0 == body);
         truck.map_or(0.0, |truck| self.scene.wheels[truck.wheel].radius - truck.at[1])
     }
 

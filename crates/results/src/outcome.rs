@@ -1,6 +1,6 @@
 //! The result of one case of a scene.
 
-use formats::motion::Cast;
+use formats::scene::motion::SimulationInput;
 use sim::Run;
 
 use crate::codes::CodeCheck;
@@ -28,7 +28,7 @@ pub struct CaseResult {
     /// Its label; for the scene's own run, the foundations of its structures.
     pub label: String,
     /// The simulation input.
-    pub input: Cast,
+    pub input: SimulationInput,
     /// The run: status, history, counts, energy audit.
     pub run: Run,
     /// The history as named columns, with reactions, internal forces and stresses.

@@ -2,8 +2,8 @@
 
 use sim::History;
 
-use formats::quantity::{Quantity, quantities};
 use formats::scene::Scene;
+use formats::scene::quantity::{Quantity, quantities};
 use formats::units::Dimension;
 
 /// One column of a history file.

@@ -2,7 +2,7 @@
 
 use sim::{Error, Status};
 
-use formats::scene::{FREEDOMS, Scene};
+use formats::scene::{DOFS, Scene};
 
 /// The word of a run's status in summaries, and a message where the run did not reach its end.
 #[must_use]
@@ -18,7 +18,7 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
                  followed"
             )),
         ),
-        Status::Refused(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
+        Status::Failed(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
     }
 }
 
@@ -26,7 +26,7 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
 #[must_use]
 pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     match status {
-        Status::Refused(t, error) => Some(format!("at t = {t:.4} s: {}", in_scene_names(error, scene))),
+        Status::Failed(t, error) => Some(format!("at t = {t:.4} s: {}", in_scene_names(error, scene))),
         status => self::status(status).1,
     }
 }
@@ -54,14 +54,14 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             }
         }
         Error::Compliance { structure: s, source } => format!("{}: {source}", structure(*s)),
-        Error::NoInertia { body: b, freedom } => format!(
+        Error::NoInertia { body: b, dof: freedom } => format!(
             "{} is free in {}, and nothing has inertia of its own there  hint: give `inertia` [roll, yaw, pitch] about the \
              centre of mass, or take it out of `dof`",
             body(*b),
-            FREEDOMS[*freedom as usize]
+            DOFS[*freedom as usize]
         ),
         Error::NoEquilibrium { .. } => {
-            let carried = if scene.structures.iter().any(|one| one.on.is_some()) {
+            let carried = if scene.structures.iter().any(|one| one.carrier.is_some()) {
                 ", at `at` of the structures on bodies"
             } else {
                 ""

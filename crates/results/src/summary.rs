@@ -1,7 +1,7 @@
 //! `summary.json`: the results of a document's cases in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Choice, Predicted, Rung, Tried};
+use sim::{Choice, Fidelity, FidelityTrial, PredictedErrors};
 
 use crate::fatigue;
 use crate::outcome::CaseResult;
@@ -84,9 +84,9 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
                 "structure": lost.structure,
                 "switches": lost.switches,
             },
-            "put_in": lost.put_in(),
+            "put_in": lost.supplied(),
             "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
-            "steps": lost.steps,
+            "steps": lost.rail_steps,
         });
     }
     if !run.fired.is_empty() {
@@ -100,11 +100,11 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
 fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
     let mut entry = json!({
         "foundation": structure.foundation.word(),
-        "reading": structure.reading.word(),
+        "reading": structure.interpolation.word(),
         "reason": "asked for",
     });
     if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
-        entry["foundation"] = json!(fidelity_word(choice.rung));
+        entry["foundation"] = json!(fidelity_word(choice.fidelity));
         entry["reason"] = json!(foundations::selection_reason(choice));
         entry["tolerance"] = json!(structure.tolerance);
         entry["estimate"] = json!(choice.estimate);
@@ -123,23 +123,23 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
 
 /// An event that has fired.
 fn event(event: &Event, time: f64) -> Value {
-    json!({ "time": time, "name": event.name, "when": event.when, "what": event.what })
+    json!({ "time": time, "name": event.name, "when": event.when, "what": event.description })
 }
 
 /// The word of a fidelity in scenes.
-const fn fidelity_word(rung: Rung) -> &'static str {
+const fn fidelity_word(rung: Fidelity) -> &'static str {
     match rung {
-        Rung::Rigid => "rigid",
-        Rung::Influence => "influence",
-        Rung::Modal(_) => "modal",
-        Rung::Half | Rung::Full => "full",
+        Fidelity::Rigid => "rigid",
+        Fidelity::Influence => "influence",
+        Fidelity::Modal(_) => "modal",
+        Fidelity::Half | Fidelity::Full => "full",
     }
 }
 
 /// A fidelity that was run, with its estimated error.
-fn tried(tried: &Tried) -> Value {
+fn tried(tried: &FidelityTrial) -> Value {
     json!({
-        "fidelity": foundations::fidelity_name(tried.rung),
+        "fidelity": foundations::fidelity_name(tried.fidelity),
         // infinite where the runs could not be compared
         "estimate": tried.estimate.is_finite().then_some(tried.estimate),
         "against": foundations::fidelity_name(tried.against),
@@ -148,11 +148,11 @@ fn tried(tried: &Tried) -> Value {
 }
 
 /// Errors of each fidelity, predicted before any run.
-fn predicted(own: &Predicted) -> Value {
+fn predicted(own: &PredictedErrors) -> Value {
     let errors: Map<String, Value> =
         own.errors.iter().map(|(rung, error)| (foundations::fidelity_name(*rung), json!(error))).collect();
     json!({
-        "compliance": own.give,
+        "compliance": own.deflection,
         "speed": own.speed,
         "ripple": own.ripple,
         "step": own.step,

@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use common::{bogie, reference, surface};
 use divan::{Bencher, black_box};
-use sim::{Channel, Damper, Foundation, Freedom, Method, Run, Scene};
+use sim::{BodyDof, Channel, Damper, Foundation, Method, Run, Scene};
 
 const SLOW: &str = include_str!("../../../fea/reference/bogie_s1.json");
 const FAST: &str = include_str!("../../../fea/reference/bogie_s2.json");
@@ -33,7 +33,7 @@ fn fast(bencher: Bencher<'_, '_>, case: (Method, f64)) {
 }
 
 fn crossing(bencher: Bencher<'_, '_>, mut scene: Scene, text: &str, (method, error): (Method, f64)) {
-    let foundations = [Foundation::influence(Box::new(surface()), 1)];
+    let foundations = [Foundation::massless(Box::new(surface()), 1)];
     let wanted = reference(text);
     let peak = wanted.iter().fold(0.0_f64, |max, row| max.max(row[1]));
     scene.accuracy = 1e-1;
@@ -50,6 +50,6 @@ fn solve(method: Method, scene: &Scene, foundations: &[Foundation]) -> Run {
 
 /// Largest error of the deflection.
 fn error_of(run: &Run, wanted: &[[f64; 5]]) -> f64 {
-    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+    let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     wanted.iter().zip(y).fold(0.0, |max, (row, y)| max.max((y + row[1]).abs()))
 }

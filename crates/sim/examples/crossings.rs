@@ -22,7 +22,7 @@ use common::{EI, GRAVITY, SPAN, WEIGHT, bogie, surface};
 use mesh::Beam;
 use rustix::time::{ClockId, clock_gettime};
 use sim::{
-    Body, Channel, Contact, Damper, Error, Foundation, Freedom, Method, Pin, Run, Scene, Status, run_by,
+    Body, BodyDof, Channel, Contact, Damper, Error, Foundation, Method, Pin, Run, Scene, Status, run_by,
 };
 use splines::{Axis, Compliance, Influence, Probe};
 
@@ -104,7 +104,7 @@ fn train() -> Scene {
         inertia: [0.0, 0.0, inertia],
         free: [false, false, false, false, false, true],
         motion: None,
-        pinned: Some(Pin { to, at: [at, 0.0, 0.0] }),
+        pinned: Some(Pin { body: to, at: [at, 0.0, 0.0] }),
         ..scene.bodies[0].clone()
     };
     let equalisers = [-6.0, 6.0].map(|at| rider(0, at, 2700.0));
@@ -119,7 +119,7 @@ fn train() -> Scene {
 }
 
 fn crossings() -> Result<(), Error> {
-    let girder = || Foundation::influence(Box::new(surface()), 1);
+    let girder = || Foundation::massless(Box::new(surface()), 1);
     let paper = Beam { span: SPAN, overhang: 15.0, bending: EI, mass: 15.2 };
     let bridge = Beam { span: BRIDGE.0, overhang: 0.0, bending: BRIDGE.1, mass: 2303.0 };
     let none = Error::Number { what: "mass", wanted: "positive", found: 0.0 };
@@ -165,7 +165,7 @@ fn crossings() -> Result<(), Error> {
         for (scene, times) in rows {
             let run = solve(scene, foundations)?;
             assert_eq!(run.status, Status::Done, "{name}");
-            let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+            let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
             times.sort_by(f64::total_cmp);
             let (least, median, most) = (times[0], times[times.len() / 2], times[times.len() - 1]);
             print!(
@@ -183,7 +183,7 @@ fn crossings() -> Result<(), Error> {
 fn wheels() -> Result<(), Error> {
     println!("n,steps,stages,events,us a step,residual");
     for n in [1_u32, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000] {
-        let foundations = [Foundation::influence(Box::new(surface()), 1)];
+        let foundations = [Foundation::massless(Box::new(surface()), 1)];
         let mut scene = bogie(5.0, 0.2, Damper::Rail);
         scene.bodies[0].start[0] = 25.0;
         scene.accuracy = 1e-3;

@@ -15,12 +15,12 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use common::crane::{carried, crane, travelling};
-use sim::{Error, Foundation, Freedom};
+use sim::{BodyDof, Error, Foundation};
 
 const REPETITIONS: usize = 9;
 
 fn main() -> Result<(), Error> {
-    use Freedom::{Pitch, Roll, X, Y, Yaw, Z};
+    use BodyDof::{Pitch, Roll, X, Y, Yaw, Z};
     println!("scene,freedoms,steps,stages,us a stage,residual");
     for (name, bridge, trolley) in [
         ("plane", &[Y, Pitch][..], &[Y, Pitch][..]),

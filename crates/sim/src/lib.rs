@@ -11,7 +11,7 @@
 //! A bogie of 20 t on two wheels crosses a girder of 20 m span at 2 m/s.
 //! ```
 //! use std::{ops::ControlFlow, sync::Arc};
-//! use sim::{Body, Channel, Contact, Damper, Foundation, Freedom, Given, NormalLaw, Profile, Scene, Wheel};
+//! use sim::{Body, Channel, Contact, Damper, Foundation, BodyDof, MotionKind, NormalLaw, Profile, Scene, Wheel};
 //! use splines::{Cell, Flexibility, Line, Surface};
 //!
 //! // The girder: one rail element on two supports, EI = 1e9 N m^2, loaded by moments at its ends for the nodal part.
@@ -27,7 +27,7 @@
 //! }
 //! let girder = Surface::new(Arc::new(Line::new(vec![cell])?), ends)?;
 //!
-//! let motion = Some(Profile::new(Given::Speed, &[[0.0, 2.0]], 2.0, 0.0)?);
+//! let motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 2.0]], 2.0, 0.0)?);
 //! let scene = Scene {
 //!     bodies: vec![Body { motion, ..Body::new(20e3, [0.0, 0.0, 40e3]) }],
 //!     wheels: vec![Wheel::new(0.4, NormalLaw::linear(1e9, 1e6, Damper::Rail))],
@@ -35,9 +35,9 @@
 //!     end: 8.0,
 //!     ..Scene::default()
 //! };
-//! let run = sim::run(&scene, &[Foundation::influence(Box::new(girder), 1)], &mut |_| ControlFlow::Continue(()))?;
+//! let run = sim::run(&scene, &[Foundation::massless(Box::new(girder), 1)], &mut |_| ControlFlow::Continue(()))?;
 //! assert!(run.status.is_complete());
-//! let lowest = run.history.values(Channel::Displacement(0, Freedom::Y)).fold(0.0, f64::min);
+//! let lowest = run.history.values(Channel::Displacement(0, BodyDof::Y)).fold(0.0, f64::min);
 //! // About P L^3/(48 EI) where the bogie is at mid-span.
 //! assert!((-lowest / 32.7e-3 - 1.0).abs() < 0.05);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -76,26 +76,26 @@ pub use numerics::step::step;
 pub use record::energy::Audit;
 pub use record::history::History;
 pub use run::{Run, Status, run, run_by};
-pub use scene::actuators::{Actuators, Brake, Drive, Load, Turn};
+pub use scene::actuators::{Actuators, Brake, Drive, Load, PrescribedSpin};
 pub use scene::body::{Body, Contact, Pin};
-pub use scene::carrier::{Axle, Mount};
+pub use scene::carrier::{CarriedRail, Carrier};
 pub use scene::channel::Channel;
-pub use scene::dof::Freedom;
+pub use scene::dof::BodyDof;
 pub use scene::error::Error;
 pub use scene::foundation::{Extent, Foundation};
 pub use scene::irregularity::{Irregularity, Wave};
 pub use scene::method::{Method, Stepping};
 pub use scene::model::{Analysis, Gauge, Scene};
 pub use scene::parts::{BlendedParts, PartChain, PartShapes};
-pub use scene::profile::{Given, Moving, Profile};
+pub use scene::profile::{MotionKind, Profile, Travel};
 pub use scene::rope::{Rope, RopeEnd, Stop};
 pub use scene::rule::{Action, Compare, Condition, Fired, Rule};
 pub use scene::schedule::Schedule;
 pub use scene::structure::{Dynamics, Shapes, Structure};
-pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, LawPoint, NormalLaw, Wheel};
+pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, LawValue, NormalLaw, Wheel};
 pub use select::choose::choose;
 pub use select::distance::distance;
-pub use select::fidelity::{Choice, Ladder, Reason, STEPPING, Selection, Tried};
-pub use select::predict::Predicted;
-pub use select::rung::Rung;
+pub use select::fidelity::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, Selection};
+pub use select::predict::PredictedErrors;
+pub use select::rung::Fidelity;
 pub use time::counts::Counts;

@@ -35,7 +35,7 @@ pub enum Status {
     /// No step was small enough at this time.
     StepTooSmall(f64),
     /// A wheel asked for what its structure does not have, at this time.
-    Refused(f64, Error),
+    Failed(f64, Error),
 }
 
 impl Status {
@@ -225,14 +225,14 @@ fn advance(
             match done {
                 Ok(()) => {}
                 Err(Failure::TooSmall) => return Ok(Status::StepTooSmall(from)),
-                Err(Failure::Refused(error)) => return Ok(Status::Refused(from, error)),
+                Err(Failure::Refused(error)) => return Ok(Status::Failed(from, error)),
             }
             let due = stepper.due()?;
             samples.take(stepper)?;
             if !due.is_empty() {
                 let (now, ends) = match stepper.act(due) {
                     Ok(acted) => acted,
-                    Err(error) => return Ok(Status::Refused(to, error)),
+                    Err(error) => return Ok(Status::Failed(to, error)),
                 };
                 fired.extend(now);
                 if ends {
@@ -282,7 +282,7 @@ fn sweep(
             Ok(_) => {}
             Err(error) if t == 0.0 => return Err(error),
             Err(error) => {
-                status = Status::Refused(t, error);
+                status = Status::Failed(t, error);
                 break;
             }
         }

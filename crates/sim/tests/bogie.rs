@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use common::near::assert_near;
 use common::{bogie, girder, reference};
-use sim::{Analysis, Channel, Damper, Freedom, Given, Method, Profile, Run, Scene, Status, run_by};
+use sim::{Analysis, BodyDof, Channel, Damper, Method, MotionKind, Profile, Run, Scene, Status, run_by};
 
 fn run(scene: &Scene) -> Run {
     sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
@@ -16,8 +16,8 @@ fn run(scene: &Scene) -> Run {
 
 /// Largest errors of z, pitch and wheel forces over the reference's times.
 fn errors(run: &Run, reference: &[[f64; 5]]) -> [f64; 3] {
-    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
-    let pitch = run.history.column(Channel::Displacement(0, Freedom::Pitch));
+    let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
+    let pitch = run.history.column(Channel::Displacement(0, BodyDof::Pitch));
     let rear = run.history.column(Channel::Vertical(0));
     let front = run.history.column(Channel::Vertical(1));
     assert_eq!(y.len(), reference.len());
@@ -54,12 +54,12 @@ fn crossings_follow_the_scipy_reference_in_displacement_and_wheel_forces() {
         fine.output_dt = end / 2000.0;
         let deepest = self::run(&fine)
             .history
-            .column(Channel::Displacement(0, Freedom::Y))
+            .column(Channel::Displacement(0, BodyDof::Y))
             .iter()
             .fold(0.0_f64, |max, y| max.max(-y));
         if speed == 5.0 {
             let [y, pitch] =
-                [Freedom::Y, Freedom::Pitch].map(|own| run.history.column(Channel::Speed(0, own)));
+                [BodyDof::Y, BodyDof::Pitch].map(|own| run.history.column(Channel::Speed(0, own)));
             // c times the squares of both wheels' speeds, by the trapezoidal rule
             let power = |i: usize| 2.0 * 1e5 * (y[i] * y[i] + (4.0 / 3.0 * pitch[i]).powi(2));
             let past: f64 = (1..y.len()).map(|i| 0.01 * end * 0.5 * (power(i - 1) + power(i))).sum();
@@ -114,8 +114,8 @@ fn quasi_static_trunnion_meets_the_closed_form() {
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = 0.1;
     let run = run(&scene);
-    let x = run.history.column(Channel::Displacement(0, Freedom::X));
-    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+    let x = run.history.column(Channel::Displacement(0, BodyDof::X));
+    let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     // Analytic: both wheels on the closed-form influence function, and the wheels' own springs.
     for (place, wanted) in
         [(15.0, 0.316_942_453_057_280_3), (22.5, 0.482_399_599_829_367_25), (30.0, 0.545_751_499_299_156_1)]
@@ -148,9 +148,9 @@ fn error_stays_below_the_accuracy_asked_and_falls_with_it() {
 fn energy_closes_where_the_prescribed_motion_has_corners_and_jumps() {
     // A jump of speed would strike a body whose mass is off its track: that one has its mass on it.
     for (given, table, cg) in [
-        (Given::Speed, &[[0.0, 0.0], [0.5, 40.0], [1.0, 40.0], [1.2, 5.0]][..], [0.3, 2.0, 0.0]),
-        (Given::Acceleration, &[[0.0, 20.0], [0.6, -10.0]][..], [0.3, 2.0, 0.0]),
-        (Given::Position, &[[0.0, 0.0], [0.7, 30.0], [1.4, 31.0]][..], [0.0; 3]),
+        (MotionKind::Speed, &[[0.0, 0.0], [0.5, 40.0], [1.0, 40.0], [1.2, 5.0]][..], [0.3, 2.0, 0.0]),
+        (MotionKind::Acceleration, &[[0.0, 20.0], [0.6, -10.0]][..], [0.3, 2.0, 0.0]),
+        (MotionKind::Position, &[[0.0, 0.0], [0.7, 30.0], [1.4, 31.0]][..], [0.0; 3]),
     ] {
         let mut scene = bogie(1.0, 1.5, Damper::Rail);
         scene.accuracy = 1e-8;

@@ -7,7 +7,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{GRAVITY, WEIGHT, bogie, girder, single};
-use sim::{Channel, Damper, Foundation, Freedom, Run, Scene, Status, run};
+use sim::{BodyDof, Channel, Damper, Foundation, Run, Scene, Status, run};
 
 /// One wheel under a mass at `x` of the paper's girder, let go `height` above the rail, with the damping `c`.
 fn dropped(x: f64, height: f64, c: f64, end: f64) -> Scene {
@@ -38,7 +38,7 @@ fn an_undamped_wheel_bounces_for_ever_to_the_same_height() {
     let mut scene = dropped(30.0, height, 0.0, f64::from(bounces) * (flight + stay));
     scene.accuracy = 1e-7;
     let run = go(&scene, Foundation::rigid());
-    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+    let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     let last = y.last().copied().expect("samples");
     println!("after {bounces} bounces {last} ft, {:?}, energy {:e}", run.counts, run.audit.residual());
     assert_eq!(run.counts.events, 2 * bounces as usize, "{:?}", run.counts);

@@ -10,8 +10,8 @@ use std::ops::ControlFlow;
 use common::bogie;
 use common::crane::body;
 use sim::{
-    Axle, Channel, Contact, Damper, Dynamics, Error, Foundation, Freedom, Method, Mount, Scene, Shapes,
-    Status, Structure,
+    BodyDof, CarriedRail, Carrier, Channel, Contact, Damper, Dynamics, Error, Foundation, Method, Scene,
+    Shapes, Status, Structure,
 };
 use splines::Probe;
 
@@ -55,23 +55,23 @@ fn beam() -> Foundation {
     let coupling = |n: usize| {
         let size = (2.0 / whole).sqrt() * whole / (n as f64 * PI);
         let sign = if n.is_multiple_of(2) { 1.0 } else { -1.0 };
-        Mount::moved_load(&[0.0, size * (1.0 - sign), 0.0, 0.0, 0.0, -size * SPAN * sign], at)
+        Carrier::load_about_origin(&[0.0, size * (1.0 - sign), 0.0, 0.0, 0.0, -size * SPAN * sign], at)
     };
-    let mount = Mount {
+    let mount = Carrier {
         body: 0,
-        rails: vec![Axle { origin: at, along: [1.0, 0.0, 0.0] }],
-        mass: Mount::moved(&mass, at),
+        rails: vec![CarriedRail { origin: at, along: [1.0, 0.0, 0.0] }],
+        mass: Carrier::mass_about_origin(&mass, at),
         coupling: (1..=MODES).map(coupling).collect(),
     };
     Foundation {
         structure: Some(Structure { dynamics, shapes: Box::new(Sines) }),
-        on: Some(mount),
+        carrier: Some(mount),
         ..Foundation::rigid()
     }
 }
 
 /// The carrier on two sprung wheels below the beam's ends.
-fn scene(free: &[Freedom], end: f64) -> Scene {
+fn scene(free: &[BodyDof], end: f64) -> Scene {
     let mut scene = bogie(0.0, end, Damper::Rail);
     scene.gravity = 0.0;
     let law = &mut scene.wheels[0].normal;
@@ -114,7 +114,7 @@ fn series(
 /// inertia m L^3 (coth a - cot a) / 8a where they move against each other; the release follows from the modes' masses.
 #[test]
 fn a_beam_on_a_sprung_carrier_swings_as_its_transcendental_equations_say() {
-    let mut scene = scene(&[Freedom::Y, Freedom::Pitch], 0.8);
+    let mut scene = scene(&[BodyDof::Y, BodyDof::Pitch], 0.8);
     (scene.bodies[0].start[1], scene.bodies[0].start[5]) = (0.01, 0.001);
     let run = sim::run(&scene, &[Foundation::rigid(), beam()], &mut |_| ControlFlow::Continue(()))
         .expect("a valid scene");
@@ -138,7 +138,7 @@ fn a_beam_on_a_sprung_carrier_swings_as_its_transcendental_equations_say() {
         [PI, PI],
     );
     let time = run.history.column(Channel::Time);
-    for (freedom, series, start) in [(Freedom::Y, level, 0.01), (Freedom::Pitch, nods, 0.001)] {
+    for (freedom, series, start) in [(BodyDof::Y, level, 0.01), (BodyDof::Pitch, nods, 0.001)] {
         let sum: f64 = series.iter().map(|[_, share]| share).sum();
         let found = run.history.column(Channel::Displacement(0, freedom));
         let mut worst = 0.0_f64;
@@ -156,15 +156,15 @@ fn a_beam_on_a_sprung_carrier_swings_as_its_transcendental_equations_say() {
 
 #[test]
 fn collocation_and_wrong_couplings_are_refused() {
-    let scene = scene(&[Freedom::Y], 1.0);
+    let scene = scene(&[BodyDof::Y], 1.0);
     let refused = |girder: Foundation, method| {
         sim::run_by(method, &scene, &[Foundation::rigid(), girder], &mut |_| ControlFlow::Continue(())).err()
     };
     assert!(matches!(refused(beam(), Method::Radau), Some(Error::Method { .. })));
     let mut short = beam();
-    short.on.iter_mut().for_each(|mount| mount.coupling.truncate(3));
+    short.carrier.iter_mut().for_each(|mount| mount.coupling.truncate(3));
     assert!(matches!(refused(short, Method::Sdirk4), Some(Error::NoSuch { .. })));
     let mut heavy = beam();
-    heavy.on.iter_mut().flat_map(|mount| &mut mount.coupling).for_each(|line| line[1] *= 3.0);
+    heavy.carrier.iter_mut().flat_map(|mount| &mut mount.coupling).for_each(|line| line[1] *= 3.0);
     assert!(matches!(refused(heavy, Method::Sdirk4), Some(Error::Number { .. })), "more momentum than mass");
 }

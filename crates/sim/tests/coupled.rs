@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use common::kutta::{Kernel, rk4};
 use common::{GRAVITY, bogie};
 use nalgebra::{DMatrix, DVector};
-use sim::{Analysis, Channel, Damper, Flange, Foundation, Freedom, Given, Profile, Run, Scene, Status};
+use sim::{Analysis, BodyDof, Channel, Damper, Flange, Foundation, MotionKind, Profile, Run, Scene, Status};
 use splines::{Axis, Probe};
 
 const MASS: f64 = 4.0;
@@ -19,8 +19,8 @@ const K: f64 = 6000.0;
 const FLANGE: f64 = 5000.0;
 /// Give up by a force up, to the right by one to the right, up by one to the right.
 const G: [f64; 3] = [2e-4, 5e-4, 2e-4];
-const Y: Channel = Channel::Displacement(0, Freedom::Y);
-const Z: Channel = Channel::Displacement(0, Freedom::Z);
+const Y: Channel = Channel::Displacement(0, BodyDof::Y);
+const Z: Channel = Channel::Displacement(0, BodyDof::Z);
 
 /// G at two places: what it is at zero, and more with both.
 fn give(which: usize, x: f64, z: f64) -> f64 {
@@ -38,7 +38,7 @@ fn rail() -> Foundation {
         };
         [give(which, p.x, q.x), 0.3 * G[which] * q.x]
     });
-    Foundation::influence(Box::new(kernel), 1)
+    Foundation::massless(Box::new(kernel), 1)
 }
 
 /// One contact of these wheels under a body free in y and z, with a flange.
@@ -47,7 +47,7 @@ fn scene(offsets: &[f64], clearance: f64, speed: f64, end: f64) -> Scene {
     let body = &mut scene.bodies[0];
     (body.mass, body.inertia) = (MASS, [MASS; 3]);
     body.free = [false, true, true, false, false, false];
-    body.motion = Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a row"));
+    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a row"));
     scene.contacts.truncate(1);
     scene.contacts[0].offsets = offsets.to_vec();
     let wheel = &mut scene.wheels[0];

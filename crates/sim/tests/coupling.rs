@@ -9,7 +9,8 @@ use std::ops::ControlFlow;
 use common::parts::{inertia, massive};
 use common::{EI, GRAVITY, WEIGHT, bogie, girder};
 use sim::{
-    Analysis, Channel, Damper, Foundation, Freedom, Friction, FrictionLaw, Given, Profile, Run, Scene, Status,
+    Analysis, BodyDof, Channel, Damper, Foundation, Friction, FrictionLaw, MotionKind, Profile, Run, Scene,
+    Status,
 };
 
 fn run(scene: &Scene, foundations: &[Foundation]) -> Run {
@@ -23,7 +24,7 @@ fn light() -> Scene {
     let mut scene = bogie(30.0, 1.0, Damper::Ground);
     let body = &mut scene.bodies[0];
     body.mass *= 0.5;
-    body.motion = Some(Profile::new(Given::Speed, &[[0.0, 30.0]], 0.0, 10.0).expect("a valid table"));
+    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 30.0]], 0.0, 10.0).expect("a valid table"));
     scene.wheels[0].normal.stiffness = 3e7;
     scene
 }
@@ -56,7 +57,7 @@ fn difference(ours: (&Run, &[Channel]), theirs: (&Run, &[Channel])) -> f64 {
 
 #[test]
 fn bodies_on_two_structures_do_not_feel_each_other() {
-    let displacements = |b| [Freedom::Y, Freedom::Pitch].map(|freedom| Channel::Displacement(b, freedom));
+    let displacements = |b| [BodyDof::Y, BodyDof::Pitch].map(|freedom| Channel::Displacement(b, freedom));
     let forces = |b| [0, 1].map(|w| Channel::Vertical(2 * b + w));
     let (mut heavy, mut light) = (bogie(50.0, 1.0, Damper::Rail), light());
     // Forces between the ends of steps are those of the interpolant, whose penetrations are cubic.
@@ -115,7 +116,7 @@ fn energy_of_a_sliding_wheel_on_a_rail_that_gives_closes_with_the_accuracy() {
         let friction = run.audit.exchanged.friction;
         println!("asked {accuracy:.0e}: residual {residual:.1e}, friction {friction:.6e}, {:?}", run.counts);
         let spin = run.history.column(Channel::SpinSpeed(0));
-        let speed = run.history.column(Channel::Speed(0, Freedom::X));
+        let speed = run.history.column(Channel::Speed(0, BodyDof::X));
         let end = spin.len() - 1;
         assert!((speed[end] + 1.25 * spin[end]).abs() < 0.1 * speed[end], "the wheel rolls at the end");
         // A disc that begins to roll loses a third of its energy, here more or less by what the sag does to it.
@@ -172,7 +173,7 @@ fn body_on_a_girder_with_mass_swings_at_the_natural_frequencies_of_the_pair() {
         scene.output_dt = 1.0 / wanted[1];
         let run = run(&scene, &[massive(factor)]);
         let rest = -WEIGHT * (1.0 / stiffness + 900.0 / held);
-        let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+        let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
         assert!((y[0] / rest - 1.0).abs() < 1e-12, "it starts at rest: {} for {rest}", y[0]);
         let swing: Vec<f64> = y.iter().map(|y| y - rest).collect();
         let found = frequencies(&swing, scene.output_dt);

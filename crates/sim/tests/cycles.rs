@@ -7,7 +7,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{GRAVITY, bogie};
-use sim::{Channel, Damper, Foundation, Freedom, Method, Status, Stepping, run_by};
+use sim::{BodyDof, Channel, Damper, Foundation, Method, Status, Stepping, run_by};
 
 const CYCLES: f64 = 1e4;
 const STEPS: f64 = 16.0;
@@ -28,8 +28,8 @@ fn drift(method: Method) -> [f64; 2] {
     let run = run.expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     // Energy about the place at rest, by that at the start.
-    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
-    let v = run.history.column(Channel::Speed(0, Freedom::Y));
+    let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
+    let v = run.history.column(Channel::Speed(0, BodyDof::Y));
     let size = (0.5 * depth * omega).powi(2);
     let energy: Vec<f64> =
         y.iter().zip(&v).map(|(y, v)| (v * v + (omega * (y + depth)).powi(2)) / size).collect();

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::kutta::rk4;
 use common::near::assert_near;
 use common::{EI, GRAVITY, SPAN, bogie, girder, single};
-use sim::{Channel, Damper, Given, Profile, Scene, Status};
+use sim::{Channel, Damper, MotionKind, Profile, Scene, Status};
 
 /// Stiffness and damping of the wheel, lb/ft and lb s/ft; its load, lb.
 const K: f64 = 1e8;
@@ -91,7 +91,7 @@ fn scene() -> Scene {
     body.mass = LOAD / GRAVITY;
     body.free = [false, true, false, false, false, false];
     body.motion =
-        Some(Profile::new(Given::Speed, &[[0.0, SPEED]], place(0.0), SPEED).expect("a valid table"));
+        Some(Profile::new(MotionKind::Speed, &[[0.0, SPEED]], place(0.0), SPEED).expect("a valid table"));
     scene.contacts = vec![single()];
     scene.output_dt = 1e-3;
     scene

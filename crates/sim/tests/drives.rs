@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, WEIGHT, bogie, girder};
 use sim::{
-    Brake, Channel, Damper, Drive, Error, Foundation, Freedom, Friction, FrictionLaw, Load, Run, Scene,
+    BodyDof, Brake, Channel, Damper, Drive, Error, Foundation, Friction, FrictionLaw, Load, Run, Scene,
     Schedule, Status,
 };
 
@@ -62,8 +62,8 @@ fn error(run: &Run, channel: Channel, wanted: impl Fn(f64) -> f64) -> f64 {
     t.iter().zip(&values).fold(0.0, |max, (&t, value)| max.max((value - wanted(t)).abs()))
 }
 
-const X: Channel = Channel::Displacement(0, Freedom::X);
-const SPEED: Channel = Channel::Speed(0, Freedom::X);
+const X: Channel = Channel::Displacement(0, BodyDof::X);
+const SPEED: Channel = Channel::Speed(0, BodyDof::X);
 
 #[test]
 fn load_along_the_rail_moves_a_free_body_as_newton_says() {
@@ -71,7 +71,7 @@ fn load_along_the_rail_moves_a_free_body_as_newton_says() {
     let mut scene = free(0.0, 4.0);
     // Constant, then falling to zero from t = 1 to 3.
     let table = [[1.0, force], [3.0, 0.0]];
-    scene.actuators.loads = vec![Load { body: 0, freedom: Freedom::X, value: schedule(&table) }];
+    scene.actuators.loads = vec![Load { body: 0, dof: BodyDof::X, value: schedule(&table) }];
     let run = run(&scene, rigid());
     // Analytic: v = F t / m; then F (1 + s - s^2/4) / m with s = t - 1; then 2 F / m.
     let speed = |t: f64| {
@@ -91,13 +91,13 @@ fn growing_moment_pitches_the_bogie_as_its_oscillator_does() {
     let (rate, arm) = (1e6, 4.0 / 3.0);
     let mut scene = free(0.0, 1.0);
     let value = schedule(&[[0.0, 0.0], [1.0, rate]]);
-    scene.actuators.loads = vec![Load { body: 0, freedom: Freedom::Pitch, value }];
+    scene.actuators.loads = vec![Load { body: 0, dof: BodyDof::Pitch, value }];
     let run = run(&scene, rigid());
     // Analytic: I p'' + K p = r t from rest: p = r/K (t - sin(w t)/w), K = 2 k a^2, w = sqrt(K/I).
     let stiffness = 2.0 * 1e8 * arm * arm;
     let w = (stiffness / (MASS * 2.25)).sqrt();
     let pitch = |t: f64| rate / stiffness * (t - (w * t).sin() / w);
-    let err = error(&run, Channel::Displacement(0, Freedom::Pitch), pitch);
+    let err = error(&run, Channel::Displacement(0, BodyDof::Pitch), pitch);
     println!("pitch errs by {err:.1e} of {:.1e}, residual {:.1e}", pitch(1.0), run.audit.residual());
     assert!(err < 1e-6 * pitch(1.0));
     assert!(run.audit.exchanged.loads > 0.0);
@@ -107,15 +107,15 @@ fn growing_moment_pitches_the_bogie_as_its_oscillator_does() {
 #[test]
 fn run_starts_at_rest_under_the_loads_of_its_start() {
     let mut scene = free(0.0, 0.5);
-    for (freedom, value) in [(Freedom::Y, -6e5), (Freedom::Pitch, 4e5)] {
-        scene.actuators.loads.push(Load { body: 0, freedom, value: schedule(&[[0.0, value]]) });
+    for (freedom, value) in [(BodyDof::Y, -6e5), (BodyDof::Pitch, 4e5)] {
+        scene.actuators.loads.push(Load { body: 0, dof: freedom, value: schedule(&[[0.0, value]]) });
     }
     let run = run(&scene, rigid());
     // Analytic: both springs and the lever of 4/3 ft.
     let sink = (WEIGHT + 6e5) / 2e8;
-    assert!(error(&run, Channel::Displacement(0, Freedom::Y), |_| -sink) < 1e-12);
+    assert!(error(&run, Channel::Displacement(0, BodyDof::Y), |_| -sink) < 1e-12);
     let tilt = 4e5 / (2e8 * 16.0 / 9.0);
-    assert!(error(&run, Channel::Displacement(0, Freedom::Pitch), |_| tilt) < 1e-12);
+    assert!(error(&run, Channel::Displacement(0, BodyDof::Pitch), |_| tilt) < 1e-12);
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn driven_bogie_crosses_the_girder_as_the_prescribed_one_within_its_slip() {
     println!("behind by {behind:.1e} ft");
     assert!(behind < peak.abs() / gain * end);
     let deepest = |run: &Run| {
-        run.history.column(Channel::Displacement(0, Freedom::Y)).iter().fold(0.0_f64, |max, y| max.max(-y))
+        run.history.column(Channel::Displacement(0, BodyDof::Y)).iter().fold(0.0_f64, |max, y| max.max(-y))
     };
     assert!((deepest(&driven) - deepest(&prescribed)).abs() < 1e-5);
     assert!(driven.audit.residual() < 1e-5, "{}", driven.audit.residual());
@@ -294,14 +294,14 @@ fn actuators_that_cannot_act_are_refused() {
         change(&mut scene);
         sim::run(&scene, &[rigid()], &mut |_| ControlFlow::Continue(())).err()
     };
-    let load = |freedom| Load { body: 0, freedom, value: schedule(&[[0.0, 1.0]]) };
-    let held = refused(&|scene| scene.actuators.loads = vec![load(Freedom::Z)]);
-    assert_eq!(held, Some(Error::NotFree { body: 0, freedom: Freedom::Z }));
+    let load = |freedom| Load { body: 0, dof: freedom, value: schedule(&[[0.0, 1.0]]) };
+    let held = refused(&|scene| scene.actuators.loads = vec![load(BodyDof::Z)]);
+    assert_eq!(held, Some(Error::NotFree { body: 0, dof: BodyDof::Z }));
     let prescribed = refused(&|scene| {
         scene.bodies[0].motion = bogie(5.0, 1.0, Damper::Rail).bodies[0].motion.clone();
         scene.actuators.drives = vec![drive(&[[0.0, 1.0]], 1.0, 1.0, &[])];
     });
-    assert_eq!(prescribed, Some(Error::NotFree { body: 0, freedom: Freedom::X }));
+    assert_eq!(prescribed, Some(Error::NotFree { body: 0, dof: BodyDof::X }));
     let backwards = refused(&|scene| scene.actuators.drives = vec![drive(&[[0.0, 1.0]], -1.0, 1.0, &[])]);
     assert!(matches!(backwards, Some(Error::Number { what: "gain of a drive", .. })));
     let missing = refused(&|scene| scene.actuators.drives = vec![drive(&[[0.0, 1.0]], 1.0, 1.0, &[7])]);

@@ -12,7 +12,7 @@ use common::near::{assert_at_most, assert_near};
 use nalgebra::DMatrix;
 use serde_json::Value;
 use sim::{
-    Actuators, Analysis, Brake, Channel, Contact, Damper, Drive, Extent, Flange, Foundation, Freedom,
+    Actuators, Analysis, BodyDof, Brake, Channel, Contact, Damper, Drive, Extent, Flange, Foundation,
     Friction, FrictionLaw, NormalLaw, Rope, RopeEnd, Run, Scene, Schedule, Status, Wheel,
 };
 use splines::{Axis, Probe};
@@ -130,7 +130,7 @@ fn aisle() -> Foundation {
         _ => [0.0; 2],
     };
     let rail = || Extent { range: Some([0.0, 240.0]), breaks: COLUMNS.to_vec() };
-    Foundation { rails: vec![rail(), rail()], ..Foundation::influence(Box::new(Kernel(give)), 2) }
+    Foundation { rails: vec![rail(), rail()], ..Foundation::massless(Box::new(Kernel(give)), 2) }
 }
 
 /// Both girders of the bridge, on body 0: simply supported, x from midspan.
@@ -143,9 +143,9 @@ fn girders() -> Foundation {
         }
     };
     let rail = || Extent { range: Some([-0.5 * SPAN, 0.5 * SPAN]), breaks: Vec::new() };
-    let foundation = Foundation::influence(Box::new(Kernel(give)), 2);
+    let foundation = Foundation::massless(Box::new(Kernel(give)), 2);
     let on = mount([0.0, 0.0, 1.0], [0.0, 5.0, 0.0]);
-    Foundation { rails: vec![rail(), rail()], on: Some(on), ..foundation }
+    Foundation { rails: vec![rail(), rail()], carrier: Some(on), ..foundation }
 }
 
 fn wheel(damping: f64, is_guided: bool) -> Wheel {
@@ -161,7 +161,7 @@ fn wheel(damping: f64, is_guided: bool) -> Wheel {
 
 fn scene(accuracy: f64) -> Scene {
     let [bridge, trolley, ladle] = [750e3, 450e3, 1020e3].map(|weight| weight / G);
-    use Freedom::{Pitch, Roll, X, Y, Z};
+    use BodyDof::{Pitch, Roll, X, Y, Z};
     let about = [bridge * SPAN * SPAN / 12.0, 1.0, bridge * 1600.0 / 12.0];
     let own = [trolley * 400.0 / 12.0, 1.0, trolley * 144.0 / 12.0];
     let mut bodies = vec![
@@ -228,7 +228,7 @@ fn scene(accuracy: f64) -> Scene {
                 length: 40.0,
                 speed: schedule(&[[0.0, 0.0]]),
             }],
-            hung: vec![2],
+            hanging: vec![2],
             ..Actuators::default()
         },
         analysis: Analysis::Dynamic,
@@ -276,17 +276,17 @@ fn the_crane_moves_as_one_written_out_by_hand() {
         println!("accuracy {accuracy:e}: {error:.1e}, {:?}, {:?}", run.counts, run.audit.residual());
         assert!(error < 0.5 * accuracy, "{accuracy:e}: {error:e}");
         let columns = [
-            ("X", 0, Freedom::X),
-            ("Y", 0, Freedom::Y),
-            ("Z", 0, Freedom::Z),
-            ("roll", 0, Freedom::Roll),
-            ("pitch", 0, Freedom::Pitch),
-            ("s", 1, Freedom::X),
-            ("y", 1, Freedom::Y),
-            ("nod", 1, Freedom::Pitch),
-            ("x_ladle", 2, Freedom::X),
-            ("y_ladle", 2, Freedom::Y),
-            ("z_ladle", 2, Freedom::Z),
+            ("X", 0, BodyDof::X),
+            ("Y", 0, BodyDof::Y),
+            ("Z", 0, BodyDof::Z),
+            ("roll", 0, BodyDof::Roll),
+            ("pitch", 0, BodyDof::Pitch),
+            ("s", 1, BodyDof::X),
+            ("y", 1, BodyDof::Y),
+            ("nod", 1, BodyDof::Pitch),
+            ("x_ladle", 2, BodyDof::X),
+            ("y_ladle", 2, BodyDof::Y),
+            ("z_ladle", 2, BodyDof::Z),
         ];
         for (name, body, freedom) in columns {
             let own = apart(&run.history.column(Channel::Displacement(body, freedom)), &column(&json, name));

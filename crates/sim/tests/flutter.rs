@@ -10,8 +10,8 @@ use common::near::{assert_at_most, assert_near};
 use common::random::Random;
 use common::{GRAVITY, WEIGHT, bogie, surface};
 use nalgebra::{DMatrix, Matrix2, Matrix4};
-use sim::{Channel, Damper, Foundation, Freedom, Given, Profile, Run};
-use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet};
+use sim::{BodyDof, Channel, Damper, Foundation, MotionKind, Profile, Run};
+use splines::{Axis, Compliance, Influence, InfluenceBlock, Probe, ReadingMethod, TableReading};
 
 const K: f64 = 1e8;
 
@@ -20,10 +20,10 @@ type Bogie = [f64; 4];
 
 const PUBLISHED: Bogie = [43.5, 4.0 / 3.0, 0.69, 4.95];
 
-fn akispl() -> Reading {
+fn akispl() -> TableReading {
     let way = (0, Axis::Vertical);
-    let sheet = Sheet { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
-    Reading::new(Kind::Akispl, &[sheet]).expect("a table")
+    let sheet = InfluenceBlock { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
+    TableReading::new(ReadingMethod::Akispl, &[sheet]).expect("a table")
 }
 
 fn block(of: &dyn Compliance, at: &[f64]) -> DMatrix<f64> {
@@ -68,7 +68,7 @@ fn run(foundation: Foundation, [x, half, offset, gyration]: Bogie, end: f64) -> 
     body.inertia = [0.0, 0.0, WEIGHT / GRAVITY * gyration * gyration];
     body.start[0] = x;
     body.start_speed[1] = 1e-3;
-    body.motion = Some(Profile::new(Given::Speed, &[[0.0, 0.0]], x, 0.0).expect("a valid table"));
+    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 0.0]], x, 0.0).expect("a valid table"));
     (scene.accuracy, scene.output_dt) = (1e-8, 0.002);
     sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("it stands")
 }
@@ -76,7 +76,7 @@ fn run(foundation: Foundation, [x, half, offset, gyration]: Bogie, end: f64) -> 
 /// Growth of the pitching between two thirds of a run's ends, by the largest speeds there.
 fn grown(run: &Run, omega: f64) -> f64 {
     let [t, v] =
-        [Channel::Time, Channel::Speed(0, Freedom::Pitch)].map(|channel| run.history.column(channel));
+        [Channel::Time, Channel::Speed(0, BodyDof::Pitch)].map(|channel| run.history.column(channel));
     let end = t[t.len() - 1];
     let wave = 2.0 * std::f64::consts::PI / omega;
     let largest = |from: f64| {
@@ -115,7 +115,7 @@ fn akispl_shakes_an_uneven_bogie_and_the_exact_surface_does_not() {
     }
     assert_near("damper of each wheel to the ground that stops it, lb s/ft", "prototype", 1.8e5, high, 0.06);
     // a run against its eigenvalue: 0.4251 and 0.4254 for a bogie of 10 ft base
-    let own = run(Foundation::influence(Box::new(akispl()), 1), PUBLISHED, 14.0);
+    let own = run(Foundation::massless(Box::new(akispl()), 1), PUBLISHED, 14.0);
     assert_near(
         "growth seen in a run by that of the eigenvalue (bogie of 10 ft base there)",
         "prototype",
@@ -125,7 +125,7 @@ fn akispl_shakes_an_uneven_bogie_and_the_exact_surface_does_not() {
     );
     let exact = worst(&surface(), PUBLISHED, 0.0)[0];
     assert_at_most("exact surface: growth, 1/s", "symmetry", 1e-10, exact);
-    let still = run(Foundation::influence(Box::new(surface()), 1), PUBLISHED, 14.0);
+    let still = run(Foundation::massless(Box::new(surface()), 1), PUBLISHED, 14.0);
     assert_at_most("exact surface: growth seen in a run, 1/s", "symmetry", 1e-3, grown(&still, omega));
 }
 

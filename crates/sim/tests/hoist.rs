@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use common::GRAVITY;
 use common::crane::{BASE, BRIDGE, TROLLEY, body, carried, crane_of, travelling};
-use sim::{Channel, Freedom, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop};
+use sim::{BodyDof, Channel, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop};
 
 const LADLE: f64 = 31_700.0;
 const EA: f64 = 2.8e8;
@@ -30,11 +30,11 @@ fn run(scene: &Scene) -> Run {
 }
 
 /// The crane with a ladle on its trolley; all hang at rest at the start.
-fn scene(bridge: &[Freedom], trolley: &[Freedom], end: f64) -> Scene {
+fn scene(bridge: &[BodyDof], trolley: &[BodyDof], end: f64) -> Scene {
     let mut scene =
         crane_of(body(BRIDGE, [1e6, 4e6, 4e6], bridge), body(TROLLEY, [9e4, 2e5, 2e5], trolley), end);
-    scene.bodies.push(body(LADLE, [0.0; 3], &[Freedom::X, Freedom::Y, Freedom::Z]));
-    scene.actuators.hung = vec![2];
+    scene.bodies.push(body(LADLE, [0.0; 3], &[BodyDof::X, BodyDof::Y, BodyDof::Z]));
+    scene.actuators.hanging = vec![2];
     scene.actuators.ropes = vec![Rope {
         from: RopeEnd { body: Some(1), at: BLOCK },
         to: RopeEnd { body: Some(2), at: [0.0; 3] },
@@ -47,7 +47,7 @@ fn scene(bridge: &[Freedom], trolley: &[Freedom], end: f64) -> Scene {
     scene
 }
 
-const SITS: [Freedom; 3] = [Freedom::Y, Freedom::Roll, Freedom::Pitch];
+const SITS: [BodyDof; 3] = [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch];
 
 #[test]
 fn rope_and_wheels_carry_what_hangs_and_rides() {
@@ -70,7 +70,7 @@ fn rope_and_wheels_carry_what_hangs_and_rides() {
         let wanted = 0.25 * (all + about[0] * wx / BASE[0].powi(2) + about[1] * wz / BASE[1].powi(2));
         worst = worst.max((first(Channel::Vertical(w)) - wanted).abs() / all);
     }
-    let y = run.history.column(Channel::Displacement(2, Freedom::Y));
+    let y = run.history.column(Channel::Displacement(2, BodyDof::Y));
     let still = y.iter().fold(0.0_f64, |max, now| max.max((now - y[0]).abs()));
     println!("tension {tension:.1e}, trolley {upper:.1e}, bridge {worst:.1e}, moves {still:.1e}");
     assert!(tension.abs() < 1e-9 && upper.abs() < 1e-9, "{tension} {upper}");
@@ -81,12 +81,12 @@ fn rope_and_wheels_carry_what_hangs_and_rides() {
 #[test]
 fn a_swing_below_a_free_crane_has_the_period_of_both_masses() {
     // Bridge and trolley roll as one along X, the ladle swings by 1e-4 rad.
-    let mut scene = scene(&[Freedom::X], &[], 20.0);
+    let mut scene = scene(&[BodyDof::X], &[], 20.0);
     scene.bodies[1].start[0] = 4.0;
     scene.actuators.ropes[0].stiffness = 1e12;
     let from = [AT[0] - BLOCK[2], AT[1] + BLOCK[1] + scene.wheels[0].radius, AT[2] + 4.0 + BLOCK[0]];
     let stretched = LENGTH * (1.0 + LADLE * GRAVITY / 1e12);
-    scene.actuators.hung.clear();
+    scene.actuators.hanging.clear();
     let swing = 1e-4 * stretched;
     let drop = (stretched * stretched - swing * swing).sqrt();
     let height = from[1] - drop - bridge_lift(&scene);
@@ -94,8 +94,8 @@ fn a_swing_below_a_free_crane_has_the_period_of_both_masses() {
     scene.accuracy = 1e-8;
     let run = run(&scene);
     let (time, x) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(2, Freedom::X)));
-    let above = run.history.column(Channel::Displacement(0, Freedom::X));
+        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(2, BodyDof::X)));
+    let above = run.history.column(Channel::Displacement(0, BodyDof::X));
     // Analytic: l a'' = -g a (1 + m/M), the common centre of mass stays.
     let share = LADLE / (BRIDGE + TROLLEY);
     let omega = (GRAVITY / stretched * (1.0 + share)).sqrt();
@@ -114,7 +114,7 @@ fn bridge_lift(scene: &Scene) -> f64 {
 
 #[test]
 fn a_crossing_with_a_ladle_keeps_momentum_and_energy() {
-    let bridge = [Freedom::X, Freedom::Y, Freedom::Roll, Freedom::Yaw, Freedom::Pitch];
+    let bridge = [BodyDof::X, BodyDof::Y, BodyDof::Roll, BodyDof::Yaw, BodyDof::Pitch];
     let mut scene = scene(&bridge, &SITS, 6.0);
     scene.bodies[0].start_speed[0] = 2.0;
     scene.bodies[2].start_speed[0] = -1.0;
@@ -122,9 +122,9 @@ fn a_crossing_with_a_ladle_keeps_momentum_and_energy() {
     scene.actuators.ropes[0].speed = Schedule::new(&[[0.0, 0.0], [1.0, 1.5]]).expect("a valid table");
     let run = run(&scene);
     let speed = |b, freedom| run.history.column(Channel::Speed(b, freedom));
-    let [x, yaw, pitch] = [Freedom::X, Freedom::Yaw, Freedom::Pitch].map(|f| speed(0, f));
-    let turned = run.history.column(Channel::Displacement(0, Freedom::Yaw));
-    let (travel, ladle) = (run.history.column(Channel::Displacement(1, Freedom::X)), speed(2, Freedom::X));
+    let [x, yaw, pitch] = [BodyDof::X, BodyDof::Yaw, BodyDof::Pitch].map(|f| speed(0, f));
+    let turned = run.history.column(Channel::Displacement(0, BodyDof::Yaw));
+    let (travel, ladle) = (run.history.column(Channel::Displacement(1, BodyDof::X)), speed(2, BodyDof::X));
     let start = (BRIDGE + TROLLEY) * 2.0 - LADLE;
     let mut worst = 0.0_f64;
     for k in 0..x.len() {
@@ -143,12 +143,12 @@ fn a_crossing_with_a_ladle_keeps_momentum_and_energy() {
 #[test]
 fn ladle_and_free_bridge_follow_their_own_equations() {
     let speed = 3.0;
-    let mut scene = scene(&[Freedom::X], &[], 5.0);
+    let mut scene = scene(&[BodyDof::X], &[], 5.0);
     scene.bodies[1].motion = travelling(speed, -6.0);
     scene.bodies[2].start_speed = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
     scene.accuracy = 1e-8;
     let run = run(&scene);
-    let columns = [(0, Freedom::X), (2, Freedom::X), (2, Freedom::Y), (2, Freedom::Z)]
+    let columns = [(0, BodyDof::X), (2, BodyDof::X), (2, BodyDof::Y), (2, BodyDof::Z)]
         .map(|(b, freedom)| run.history.column(Channel::Displacement(b, freedom)));
     let starts = columns.each_ref().map(|column| column[0]);
     // s: x of the bridge, ladle's X, Y, Z, and their speeds; the block from the bridge's origin at x = 0.
@@ -186,8 +186,8 @@ fn ladle_and_free_bridge_follow_their_own_equations() {
 #[test]
 fn a_trolley_that_meets_the_end_of_its_rails_pushes_the_bridge() {
     let mut scene = crane_of(
-        body(BRIDGE, [1e6, 4e6, 4e6], &[Freedom::X]),
-        body(TROLLEY, [9e4, 2e5, 2e5], &[Freedom::X]),
+        body(BRIDGE, [1e6, 4e6, 4e6], &[BodyDof::X]),
+        body(TROLLEY, [9e4, 2e5, 2e5], &[BodyDof::X]),
         3.0,
     );
     (scene.bodies[1].start[0], scene.bodies[1].start_speed[0]) = (2.0, 5.0);
@@ -204,7 +204,7 @@ fn a_trolley_that_meets_the_end_of_its_rails_pushes_the_bridge() {
     (scene.accuracy, scene.output_dt) = (1e-9, 0.01);
     let foundations = [sim::Foundation::rigid(), carried([1.0, 0.0, 0.0], AT)];
     let run = sim::run(&scene, &foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
-    let speed = |b| *run.history.column(Channel::Speed(b, Freedom::X)).last().expect("samples");
+    let speed = |b| *run.history.column(Channel::Speed(b, BodyDof::X)).last().expect("samples");
     let whole = BRIDGE + TROLLEY;
     let wanted = 2.0 * TROLLEY * 5.0 / whole;
     let errors = [(speed(0) - wanted) / wanted, (speed(1) + 5.0) / 5.0];

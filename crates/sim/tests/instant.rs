@@ -34,7 +34,7 @@ fn planted_forces_come_back_from_their_penetrations() {
             assert!((found.vertical[i] / planted[i] - 1.0).abs() < 1e-11, "{:?}", found.vertical);
             assert!((found.approach[i] - approach[i]).abs() < 1e-15);
             let slope: f64 = (0..2).map(|j| give(places[i], places[j]).1 * planted[j]).sum();
-            assert!((found.slope[i] - slope * planted[i]).abs() < 1e-9 * WEIGHT);
+            assert!((found.slope_force[i] - slope * planted[i]).abs() < 1e-9 * WEIGHT);
             for (j, place) in places.iter().enumerate() {
                 assert!((found.compliance[(i, j)] - give(places[i], *place).0).abs() < 1e-20);
             }

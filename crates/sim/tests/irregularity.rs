@@ -9,8 +9,8 @@ use std::ops::ControlFlow;
 use common::kutta::Kernel;
 use common::{GRAVITY, bogie};
 use sim::{
-    Channel, Damper, Error, Flange, Foundation, Freedom, Given, Irregularity, Method, Profile, Run, Scene,
-    Status, Wave,
+    BodyDof, Channel, Damper, Error, Flange, Foundation, Irregularity, Method, MotionKind, Profile, Run,
+    Scene, Status, Wave,
 };
 use splines::Axis;
 
@@ -26,7 +26,7 @@ fn mass(damping: f64, end: f64) -> Scene {
     let body = &mut scene.bodies[0];
     (body.mass, body.inertia) = (MASS, [MASS; 3]);
     body.free = [false, true, false, false, false, false];
-    body.motion = Some(Profile::new(Given::Speed, &[[0.0, SPEED]], 0.0, 0.0).expect("a row"));
+    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, SPEED]], 0.0, 0.0).expect("a row"));
     scene.contacts.truncate(1);
     scene.contacts[0].offsets = vec![0.0];
     scene.wheels[0].normal.stiffness = K;
@@ -49,7 +49,7 @@ fn run(scene: &Scene, foundation: Foundation) -> Run {
 }
 
 /// Largest |found - expected| after the rise begins, `expected` of the time since then, about the place at rest.
-fn error(run: &Run, freedom: Freedom, expected: impl Fn(f64) -> f64) -> f64 {
+fn error(run: &Run, freedom: BodyDof, expected: impl Fn(f64) -> f64) -> f64 {
     let (t, y) = (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, freedom)));
     let rest = y.first().copied().unwrap_or(0.0);
     let pairs = t.iter().zip(&y).map(|(t, y)| {
@@ -64,13 +64,13 @@ fn step_sets_a_sprung_mass_swinging_about_its_new_height() {
     // Analytic: m y'' = k (h - y).
     let (h, omega) = (0.01, (K / MASS).sqrt());
     let found = run(&mass(0.0, 2.0), uneven(&[[START, 0.0], [START, h]], &[]));
-    let off = error(&found, Freedom::Y, |t| h * (1.0 - (omega * t).cos()));
+    let off = error(&found, BodyDof::Y, |t| h * (1.0 - (omega * t).cos()));
     println!("step: {off:.2e} of {h}, audit {:.2e}", found.audit.residual());
     assert!(off < 1e-7 * h, "{off:e}");
     assert!(found.audit.residual() < 1e-8);
     // The spring is pressed by h more: m g h + k h^2/2.
     let work = MASS * GRAVITY * h + 0.5 * K * h * h;
-    assert!((found.audit.exchanged.steps - work).abs() < 1e-9 * work);
+    assert!((found.audit.exchanged.rail_steps - work).abs() < 1e-9 * work);
 }
 
 #[test]
@@ -84,7 +84,7 @@ fn damper_on_a_rigid_rail_answers_a_step_with_an_impulse() {
         let (sin, cos) = (damped * t).sin_cos();
         h + h * (-zeta * omega * t).exp() * (zeta * omega / damped * sin - cos)
     };
-    let off = error(&found, Freedom::Y, closed);
+    let off = error(&found, BodyDof::Y, closed);
     println!("damped step: {off:.2e} of {h}, audit {:.2e}", found.audit.residual());
     assert!(off < 1e-6 * h, "{off:e}");
     assert!(found.audit.residual() < 1e-8);
@@ -96,7 +96,7 @@ fn ramp_lifts_a_sprung_mass_with_a_lag() {
     let (slope, omega) = (0.004, (K / MASS).sqrt());
     let end = START + 9.0;
     let found = run(&mass(0.0, 3.0), uneven(&[[START, 0.0], [end, slope * 9.0]], &[]));
-    let off = error(&found, Freedom::Y, |t| slope * SPEED * (t - (omega * t).sin() / omega));
+    let off = error(&found, BodyDof::Y, |t| slope * SPEED * (t - (omega * t).sin() / omega));
     println!("ramp: {off:.2e}, audit {:.2e}", found.audit.residual());
     assert!(off < 1e-9, "{off:e}");
     assert!(found.audit.residual() < 1e-8);
@@ -109,7 +109,7 @@ fn sideways_step_of_the_rail_moves_a_wheel_between_flanges_without_play() {
     scene.bodies[0].free[2] = true;
     scene.wheels[0].flange = Some(Flange { stiffness: K, clearance: 0.0, release: None });
     let found = run(&scene, uneven(&[], &[[START, 0.0], [START, h]]));
-    let off = error(&found, Freedom::Z, |t| h * (1.0 - (omega * t).cos()));
+    let off = error(&found, BodyDof::Z, |t| h * (1.0 - (omega * t).cos()));
     println!("lateral step: {off:.2e}, audit {:.2e}", found.audit.residual());
     assert!(off < 1e-7 * h, "{off:e}");
     assert!(found.audit.residual() < 1e-8);
@@ -125,7 +125,7 @@ fn sinusoid_drives_a_linear_oscillator() {
     let found = run(&mass(0.0, 4.0), Foundation { irregularities: vec![shape], ..Foundation::rigid() });
     let closed =
         |t: f64| a * omega * (omega * (w * t).sin() - w * (omega * t).sin()) / (omega * omega - w * w);
-    let off = error(&found, Freedom::Y, closed);
+    let off = error(&found, BodyDof::Y, closed);
     println!("sinusoid: {:.2e} of its amplitude, audit {:.2e}", off / a, found.audit.residual());
     assert!(off < 1e-6 * a, "{off:e}");
     assert!(found.audit.residual() < 1e-8);
@@ -140,7 +140,7 @@ fn steady_swing_over_a_sinusoid_has_the_amplitude_of_base_excitation() {
     let mut scene = mass(2.0 * zeta * omega * MASS, 10.0);
     scene.output_dt = 1e-3;
     let found = run(&scene, Foundation { irregularities: vec![shape], ..Foundation::rigid() });
-    let y = found.history.column(Channel::Displacement(0, Freedom::Y));
+    let y = found.history.column(Channel::Displacement(0, BodyDof::Y));
     // Ten wavelengths at the end, 400 rows each; the start is e^-36 away.
     let last = &y[y.len() - 4000..];
     let mean = last.iter().sum::<f64>() / 4000.0;
@@ -196,7 +196,8 @@ fn wheel_falls_off_a_step_and_lands() {
 fn drive_lifts_the_weight_slowly_over_a_profile() {
     // Analytic: carried up h without swing, the drive does the work m g h; the spring holds what it held.
     let h = 0.2;
-    let ends = |v: f64| Profile::new(Given::Speed, &[[0.0, 0.0], [1.0, v], [11.0, v], [12.0, 0.0]], 0.0, 0.0);
+    let ends =
+        |v: f64| Profile::new(MotionKind::Speed, &[[0.0, 0.0], [1.0, v], [11.0, v], [12.0, 0.0]], 0.0, 0.0);
     let mut scene = mass(2.0 * (K * MASS).sqrt(), 14.0);
     scene.bodies[0].motion = Some(ends(1.0).expect("rows"));
     let rows: Vec<[f64; 2]> = (0..=64_i32)
@@ -270,12 +271,12 @@ fn bump_and_step_on_a_rail_that_gives_follow_an_independent_integration() {
     scene.accuracy = 1e-8;
     let foundation = Foundation {
         irregularities: vec![Irregularity::new(&rows, &[]).expect("rows")],
-        ..Foundation::influence(Box::new(Kernel(move |_, _| [give, 0.0])), 1)
+        ..Foundation::massless(Box::new(Kernel(move |_, _| [give, 0.0])), 1)
     };
     let found = run(&scene, foundation);
     let (coarse, fine) = (independent(c, give, &rows, end, 400), independent(c, give, &rows, end, 800));
     let last = |channel| found.history.column(channel).last().copied().unwrap_or(0.0);
-    let (y, p) = (last(Channel::Displacement(0, Freedom::Y)), last(Channel::Penetration(0)));
+    let (y, p) = (last(Channel::Displacement(0, BodyDof::Y)), last(Channel::Penetration(0)));
     println!("bump: y {y} {:?} {:?} p {p}, audit {:.2e}", fine, coarse, found.audit.residual());
     assert!((coarse[0] - fine[0]).abs() < 1e-10, "the reference has converged");
     assert!((y - fine[0]).abs() < 2e-7 && (p - fine[2]).abs() < 2e-7);
@@ -291,7 +292,7 @@ fn steps_between_corners_keep_order_four() {
             let mut scene = mass(0.0, 5.0);
             scene.accuracy = accuracy;
             let found = run(&scene, uneven(&rows, &[]));
-            let last = found.history.column(Channel::Displacement(0, Freedom::Y));
+            let last = found.history.column(Channel::Displacement(0, BodyDof::Y));
             let t = 5.0 - START / SPEED;
             let exact = slope * SPEED * (t - (omega * t).sin() / omega) - MASS * GRAVITY / K;
             [found.counts.steps as f64, (last.last().copied().unwrap_or(0.0) - exact).abs()]
@@ -316,8 +317,8 @@ fn wheel_that_rolls_up_a_ramp_pays_for_it_with_its_speed() {
     scene.wheels[0].normal.stiffness = 1e5;
     let found = run(&scene, uneven(&[[2.0, 0.0], [8.0, height], [9.0, height], [12.0, 0.0]], &[]));
     let (x, v) = (
-        found.history.column(Channel::Displacement(0, Freedom::X)),
-        found.history.column(Channel::Speed(0, Freedom::X)),
+        found.history.column(Channel::Displacement(0, BodyDof::X)),
+        found.history.column(Channel::Speed(0, BodyDof::X)),
     );
     let top = x.iter().zip(&v).find(|(x, _)| **x > 8.5).map_or(0.0, |(_, v)| *v);
     println!("free: top {top}, end {:?}, audit {:.2e}", v.last(), found.audit.residual());

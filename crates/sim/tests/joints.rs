@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use common::bogie;
 use common::hinged::Hinged;
-use sim::{Channel, Damper, Drive, Foundation, Freedom, Scene, Schedule, Status};
+use sim::{BodyDof, Channel, Damper, Drive, Foundation, Scene, Schedule, Status};
 
 /// The paper's bogie on hinged lengths, driven at `speed` from 5 ft/s.
 fn driven(end: f64, speed: &[[f64; 2]], gain: f64, max_force: f64) -> (Scene, Foundation) {
@@ -21,8 +21,8 @@ fn driven(end: f64, speed: &[[f64; 2]], gain: f64, max_force: f64) -> (Scene, Fo
     let speed = Schedule::new(speed).expect("a valid table");
     let contacts = vec![0, 1];
     scene.actuators.drives = vec![Drive { body: 0, speed, gain, max_force, contacts, until: f64::INFINITY }];
-    let mut foundation = Foundation::influence(Box::new(Hinged), 1);
-    foundation.is_dragged = true;
+    let mut foundation = Foundation::massless(Box::new(Hinged), 1);
+    foundation.is_loaded_along = true;
     (scene, foundation)
 }
 
@@ -35,7 +35,7 @@ fn stiff_limited_drives_come_to_their_speed() {
         let (scene, foundation) = driven(end, &[[0.0, speed]], gain, 1e6);
         let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
         assert_eq!(run.status, Status::Done, "gain {gain}");
-        let v = run.history.column(Channel::Speed(0, Freedom::X));
+        let v = run.history.column(Channel::Speed(0, BodyDof::X));
         let (end, residual) = (v[v.len() - 1], run.audit.residual());
         println!("gain {gain:e} to {speed}: ends at {end}, residual {residual:.1e}, {:?}", run.counts);
         assert!(residual < 1e-3, "{residual}");
@@ -53,7 +53,7 @@ fn driven_wheels_keep_their_energy_over_joints_that_step_along_the_rail() {
         scene.accuracy = accuracy;
         let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
         assert_eq!(run.status, Status::Done);
-        let x = run.history.column(Channel::Displacement(0, Freedom::X));
+        let x = run.history.column(Channel::Displacement(0, BodyDof::X));
         assert!(x[x.len() - 1] > 40.0, "both wheels have passed four joints");
         let residual = run.audit.residual();
         println!("asked {accuracy:.0e}: residual {residual:.1e}, {:?}", run.counts);

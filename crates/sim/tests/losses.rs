@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::dormand::dormand;
 use common::near::{assert_at_most, assert_near};
 use common::{GRAVITY, bogie, single};
-use sim::{Channel, Damper, Foundation, Freedom, Method, Scene, Status, Stepping};
+use sim::{BodyDof, Channel, Damper, Foundation, Method, Scene, Status, Stepping};
 
 /// A wheel let go `height` above the rail, by its sag at rest, with the damping ratio `zeta`.
 #[derive(Clone, Copy)]
@@ -198,7 +198,7 @@ impl Judge {
         let run = sim::run_by(stepping, &scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()))
             .expect("a valid scene");
         assert_eq!(run.status, Status::Done);
-        let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+        let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
         (self.error(-y.last().copied().unwrap_or(f64::NAN) / foot), run)
     }
 

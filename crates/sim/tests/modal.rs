@@ -28,7 +28,7 @@ fn cross(scene: &Scene, foundation: Foundation) -> Crossing {
     Crossing {
         middle: scaled(Channel::Gauge(0), -static_sag),
         force: scaled(Channel::Vertical(0), weight),
-        under: scaled(Channel::Give(0), static_sag),
+        under: scaled(Channel::Deflection(0), static_sag),
     }
 }
 

@@ -7,18 +7,18 @@ use common::crane::{BRIDGE, TROLLEY, body, carried, crane_of};
 use common::near::assert_near;
 use common::space::{self, G};
 use nalgebra::{Matrix3, SymmetricEigen};
-use sim::{Actuators, Body, Freedom, NaturalMode, Rope, RopeEnd, Scene, Schedule, natural_modes};
+use sim::{Actuators, Body, BodyDof, NaturalMode, Rope, RopeEnd, Scene, Schedule, natural_modes};
 
 const LADLE: f64 = 31_700.0;
 const EA: f64 = 2.8e8;
 const LENGTH: f64 = 40.0;
 
 /// Bridge and trolley with the freedoms given, and a ladle at rest below the middle of the trolley.
-fn crane(bridge: &[Freedom], trolley: &[Freedom]) -> Scene {
+fn crane(bridge: &[BodyDof], trolley: &[BodyDof]) -> Scene {
     let mut scene =
         crane_of(body(BRIDGE, [1e6, 4e6, 4e6], bridge), body(TROLLEY, [9e4, 2e5, 2e5], trolley), 1.0);
-    scene.bodies.push(body(LADLE, [0.0; 3], &[Freedom::X, Freedom::Y, Freedom::Z]));
-    scene.actuators.hung = vec![2];
+    scene.bodies.push(body(LADLE, [0.0; 3], &[BodyDof::X, BodyDof::Y, BodyDof::Z]));
+    scene.actuators.hanging = vec![2];
     scene.actuators.ropes = vec![Rope {
         from: RopeEnd { body: Some(1), at: [0.0; 3] },
         to: RopeEnd { body: Some(2), at: [0.0; 3] },
@@ -43,7 +43,7 @@ fn a_hung_mass_swings_and_bounces() {
     let stretched = l0 * (1.0 + m * G / ea);
     let actuators = Actuators {
         ropes: vec![space::rope(ea, l0, [None, Some(0)])],
-        hung: vec![0],
+        hanging: vec![0],
         ..Actuators::default()
     };
     let scene = space::scene(vec![space::body(m, [true; 3], [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6);
@@ -54,7 +54,7 @@ fn a_hung_mass_swings_and_bounces() {
     for (mode, wanted) in modes.iter().zip(wanted) {
         assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
     }
-    assert!(modes[2].share[0][1] > 1.0 - 1e-9, "{:?}", modes[2]);
+    assert!(modes[2].fraction[0][1] > 1.0 - 1e-9, "{:?}", modes[2]);
 }
 
 /// A ladle of 1,020 kip on elastic ropes, feet and pounds.
@@ -65,7 +65,7 @@ fn a_ladle_on_its_ropes_bounces_at_a_few_hertz() {
         let mass = weight / GRAVITY;
         let actuators = Actuators {
             ropes: vec![space::rope(stiffness * 40.0, 40.0, [None, Some(0)])],
-            hung: vec![0],
+            hanging: vec![0],
             ..Actuators::default()
         };
         let mut scene =
@@ -82,7 +82,7 @@ fn a_ladle_on_its_ropes_bounces_at_a_few_hertz() {
 /// Independent: three masses on springs in a row, the bridge's wheels, the trolley's wheels and the rope; dampers do not count.
 #[test]
 fn a_crane_bounces_as_three_masses_in_a_row() {
-    let scene = crane(&[Freedom::Y], &[Freedom::Y]);
+    let scene = crane(&[BodyDof::Y], &[BodyDof::Y]);
     let wheels = 4.0 * scene.wheels[0].normal.stiffness;
     let rope = EA / LENGTH;
     let stiffness = Matrix3::new(
@@ -102,21 +102,21 @@ fn a_crane_bounces_as_three_masses_in_a_row() {
     wanted.sort_by(f64::total_cmp);
     let modes = found(&scene);
     let upright: Vec<&NaturalMode> =
-        modes.iter().filter(|mode| mode.share[2][0] + mode.share[2][2] < 0.5).collect();
+        modes.iter().filter(|mode| mode.fraction[2][0] + mode.fraction[2][2] < 0.5).collect();
     assert_eq!(upright.len(), 3, "{modes:?}");
     for (mode, wanted) in upright.iter().zip(wanted) {
         assert!((mode.omega / wanted - 1.0).abs() < 1e-6, "{} {wanted}", mode.omega);
-        let sum: f64 = mode.share.iter().flatten().sum();
+        let sum: f64 = mode.fraction.iter().flatten().sum();
         assert!((sum + mode.structures - 1.0).abs() < 1e-9, "{sum}");
     }
-    assert!(upright[0].share[2][1] > 0.9, "{:?}", upright[0]);
+    assert!(upright[0].fraction[2][1] > 0.9, "{:?}", upright[0]);
 }
 
 /// Analytic: a ladle below a crane that rolls freely swings with g (1 + m/M)/l along the runway, and with g/l across; the
 /// crane's own way along x is held by nothing and is no mode.
 #[test]
 fn a_ladle_swings_faster_below_a_crane_that_rolls() {
-    let modes = found(&crane(&[Freedom::X], &[]));
+    let modes = found(&crane(&[BodyDof::X], &[]));
     let length = LENGTH * (1.0 + LADLE * GRAVITY / EA);
     let across = (GRAVITY / length).sqrt();
     let along = across * (1.0 + LADLE / (BRIDGE + TROLLEY)).sqrt();

@@ -9,10 +9,10 @@ use std::ops::ControlFlow;
 use common::parts::{CENTRES, STATES, arms, basis, beam, chain, massive, stiffness};
 use common::{EI, WEIGHT, bogie};
 use nalgebra::DMatrix;
-use sim::{Analysis, BlendedParts, Channel, Damper, Extent, Foundation, Freedom, PartChain, Scene, Status};
-use splines::{Axis, Compliance, Influence, Probe, Surface};
+use sim::{Analysis, BlendedParts, BodyDof, Channel, Damper, Extent, Foundation, PartChain, Scene, Status};
+use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 
-fn parts() -> Surface {
+fn parts() -> ExactSurface {
     let flexible = stiffness().try_inverse().expect("the beam holds the parts");
     let states = basis() * flexible * basis().transpose();
     let mut nodal = DMatrix::zeros(12, 12);
@@ -21,7 +21,7 @@ fn parts() -> Surface {
             nodal[(row, column)] = states[(i, j)];
         }
     }
-    Surface::new(arms(&CENTRES), nodal).expect("two states")
+    ExactSurface::new(arms(&CENTRES), nodal).expect("two states")
 }
 
 fn blended(window: Option<f64>) -> BlendedParts {
@@ -46,7 +46,7 @@ fn sweep(mut scene: Scene, foundation: Foundation) -> Vec<f64> {
     scene.output_dt = scene.end / 100.0;
     let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
-    run.history.column(Channel::Displacement(0, Freedom::Y)).iter().map(|y| -y).collect()
+    run.history.column(Channel::Displacement(0, BodyDof::Y)).iter().map(|y| -y).collect()
 }
 
 fn crossing() -> Scene {
@@ -71,7 +71,7 @@ fn central_load_on_two_halves_meets_the_closed_form() {
 #[test]
 fn bogie_at_midspan_depends_on_the_hand_over_as_an_independent_script_says() {
     // External: scipy script with its own chain of parts; the five digits it printed.
-    let datum = |window| Foundation::influence(Box::new(blended(window)), 1);
+    let datum = |window| Foundation::massless(Box::new(blended(window)), 1);
     let mut impact = crossing();
     impact.wheels[0].normal.exponent = 1.1;
     for (name, scene, foundation, wanted) in [
@@ -88,7 +88,7 @@ fn bogie_at_midspan_depends_on_the_hand_over_as_an_independent_script_says() {
 
 #[test]
 fn parts_with_mass_stand_where_massless_parts_stand() {
-    let massless = sweep(crossing(), Foundation::influence(Box::new(blended(Some(60.0))), 1));
+    let massless = sweep(crossing(), Foundation::massless(Box::new(blended(Some(60.0))), 1));
     for (with, without) in sweep(crossing(), massive(1.0)).iter().zip(&massless) {
         assert!((with - without).abs() < 1e-10, "{with} for {without}");
     }
@@ -136,7 +136,7 @@ fn many(count: usize) -> BlendedParts {
         }
     }
     BlendedParts {
-        surface: Surface::new(arms(&centres), nodal).expect("six freedoms a part"),
+        surface: ExactSurface::new(arms(&centres), nodal).expect("six freedoms a part"),
         chains: vec![PartChain::new(ends, 0, None).expect("windows meet")],
     }
 }
@@ -146,7 +146,7 @@ fn largest_error_over_the_crossing_falls_with_the_square_of_the_number_of_parts(
     let exact = sweep(crossing(), common::girder());
     let points: Vec<[f64; 2]> = [6, 12, 24, 48, 96, 192]
         .map(|count| {
-            let found = sweep(crossing(), Foundation::influence(Box::new(many(count)), 1));
+            let found = sweep(crossing(), Foundation::massless(Box::new(many(count)), 1));
             let error = found.iter().zip(&exact).fold(0.0_f64, |max, (f, e)| max.max((f - e).abs()));
             println!("{count} parts: {error:.3e} ft");
             [f64::from(u32::try_from(count).expect("small")).ln(), error.ln()]

@@ -5,7 +5,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::{WEIGHT, bogie, girder, reference, surface};
-use sim::{Channel, Contact, Damper, Error, Foundation, Freedom, Method, Run, Scene, Status, run_by};
+use sim::{BodyDof, Channel, Contact, Damper, Error, Foundation, Method, Run, Scene, Status, run_by};
 
 fn solved(method: Method, scene: &Scene, foundation: Foundation) -> Run {
     let run = run_by(method, scene, &[foundation], &mut |_| ControlFlow::Continue(()));
@@ -38,7 +38,7 @@ fn on_wheels(count: u32, mut scene: Scene) -> Scene {
 /// Independent: the same scenes by Radau at accuracy 1e-10.
 #[test]
 fn every_column_and_energy_is_that_of_the_general_stepper() {
-    let exact = || Foundation::influence(Box::new(surface()), 1);
+    let exact = || Foundation::massless(Box::new(surface()), 1);
     let scenes = [
         (bogie(100.0, 0.55, Damper::Ground), exact as fn() -> Foundation),
         (bogie(20.0, 0.5, Damper::Ground), girder),
@@ -52,7 +52,7 @@ fn every_column_and_energy_is_that_of_the_general_stepper() {
         scene.bodies[0].start_speed[1] = -0.5;
         if scene.bodies[0].motion.as_ref().is_some_and(|motion| motion.at(1.0).x <= 0.0) {
             scene.bodies[0].motion = Some(
-                sim::Profile::new(sim::Given::Speed, &[[0.0, -20.0]], 40.0, 0.0).expect("a valid table"),
+                sim::Profile::new(sim::MotionKind::Speed, &[[0.0, -20.0]], 40.0, 0.0).expect("a valid table"),
             );
         }
         scene.accuracy = 1e-10;
@@ -61,13 +61,13 @@ fn every_column_and_energy_is_that_of_the_general_stepper() {
         assert_eq!(found.method, Some(Method::Series), "{index}");
         for channel in [
             Channel::Time,
-            Channel::Displacement(0, Freedom::X),
-            Channel::Displacement(0, Freedom::Y),
-            Channel::Speed(0, Freedom::Y),
-            Channel::Place(0),
+            Channel::Displacement(0, BodyDof::X),
+            Channel::Displacement(0, BodyDof::Y),
+            Channel::Speed(0, BodyDof::Y),
+            Channel::Position(0),
             Channel::Vertical(0),
             Channel::Penetration(0),
-            Channel::Give(0),
+            Channel::Deflection(0),
         ] {
             let off = apart(&found, &wanted, channel);
             assert!(off < 1e-8, "{index} {channel:?}: {off:.1e}");
@@ -104,9 +104,9 @@ fn errors_stay_below_the_accuracy_asked() {
         for power in 2..=8 {
             let mut scene = bogie(speed, end, Damper::Ground);
             scene.accuracy = 10_f64.powi(-power);
-            let run = solved(Method::Series, &scene, Foundation::influence(Box::new(surface()), 1));
+            let run = solved(Method::Series, &scene, Foundation::massless(Box::new(surface()), 1));
             assert_eq!(run.method, Some(Method::Series));
-            let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+            let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
             let error =
                 wanted.iter().zip(y).fold(0.0_f64, |max, (row, y)| max.max((y + row[1]).abs())) / peak;
             assert!(error < 1.0 * scene.accuracy, "{speed} ft/s: {error:.1e} at {:.0e}", scene.accuracy);
@@ -139,7 +139,7 @@ fn series_refuse_what_they_cannot_take() {
     let mut scene = bogie(20.0, 1.0, Damper::Ground);
     let table = [[0.0, 5.0], [1.0, 6.0]];
     scene.bodies[0].motion =
-        Some(sim::Profile::new(sim::Given::Speed, &table, 0.0, 0.0).expect("a valid table"));
+        Some(sim::Profile::new(sim::MotionKind::Speed, &table, 0.0, 0.0).expect("a valid table"));
     assert!(refused(&scene));
 }
 

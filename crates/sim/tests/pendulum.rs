@@ -10,7 +10,7 @@ use common::dormand::dormand;
 use common::kutta::rk4;
 use common::near::{assert_at_most, assert_near};
 use common::space;
-use sim::{Actuators, Channel, Freedom, Status};
+use sim::{Actuators, BodyDof, Channel, Status};
 
 const LENGTH: f64 = 40.0;
 const GRAVITY: f64 = 32.174;
@@ -129,7 +129,7 @@ fn a_pendulum_on_its_rope_has_no_constraint_to_drift_from() {
         scene.gravity = GRAVITY;
         let run = sim::run(&scene, &[], &mut |_| ControlFlow::Continue(())).expect("a scene that runs");
         assert_eq!(run.status, Status::Done);
-        let [x, y] = [Freedom::X, Freedom::Y].map(|freedom| {
+        let [x, y] = [BodyDof::X, BodyDof::Y].map(|freedom| {
             run.history.column(Channel::Displacement(0, freedom)).last().copied().unwrap_or(f64::NAN)
         });
         let error = (x.atan2(-y) - wanted[0].atan2(wanted[1])).abs();

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::bogie;
 use common::kutta::Kernel;
 use nalgebra::{DMatrix, DVector};
-use sim::{Analysis, Channel, Contact, Damper, Foundation, Freedom, Given, Profile, Scene, Status};
+use sim::{Analysis, BodyDof, Channel, Contact, Damper, Foundation, MotionKind, Profile, Scene, Status};
 use splines::{Axis, Probe};
 
 const GAUGE: f64 = 12.0;
@@ -37,7 +37,7 @@ fn crane() -> Scene {
     let body = &mut scene.bodies[0];
     (body.mass, body.inertia, body.cg) = (4e4, [1e6; 3], CG);
     body.free = [false, true, false, true, false, true];
-    body.motion = Some(Profile::new(Given::Speed, &[[0.0, SPEED]], 8.0, 0.0).expect("a row"));
+    body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, SPEED]], 8.0, 0.0).expect("a row"));
     (scene.wheels[0].normal.stiffness, scene.wheels[0].normal.damping) = (2e7, 0.0);
     scene.contacts = (0..4)
         .map(|w| Contact {
@@ -61,7 +61,7 @@ fn crane_on_two_rails_that_one_structure_couples_stands_as_the_dense_solution() 
         let vertical = p.axis == Axis::Vertical && q.axis == Axis::Vertical;
         if vertical { give([p.rail, q.rail], p.x, q.x) } else { [0.0; 2] }
     });
-    let foundation = Foundation::influence(Box::new(kernel), 2);
+    let foundation = Foundation::massless(Box::new(kernel), 2);
     let found = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(found.status, Status::Done);
     let column = |channel| found.history.column(channel);
@@ -96,7 +96,7 @@ fn crane_on_two_rails_that_one_structure_couples_stands_as_the_dense_solution() 
             // Slope of the deflected rail: towards larger give the wheel is pushed, and its drive holds it.
             drive -= solved[i] * (0..4).map(|j| give([i / 2, j / 2], x(i), x(j))[1] * solved[j]).sum::<f64>();
         }
-        for (k, freedom) in [Freedom::Y, Freedom::Roll, Freedom::Pitch].into_iter().enumerate() {
+        for (k, freedom) in [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch].into_iter().enumerate() {
             let value = column(Channel::Displacement(0, freedom))[row];
             let scale = solved[4].abs() / [1.0, GAUGE, BASE][k];
             moved = moved.max((value - solved[4 + k]).abs() / scale);

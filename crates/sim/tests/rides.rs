@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::GRAVITY;
 use common::crane::{BASE, BRIDGE, TROLLEY, body, carried, crane_of, mount, travelling};
 use sim::{
-    Analysis, Brake, Channel, Contact, Error, Foundation, Freedom, Friction, FrictionLaw, Load, Mount, Run,
+    Analysis, BodyDof, Brake, Carrier, Channel, Contact, Error, Foundation, Friction, FrictionLaw, Load, Run,
     Scene, Schedule, Status,
 };
 
@@ -22,14 +22,14 @@ fn run(scene: &Scene, girders: Foundation) -> Run {
     run
 }
 
-const SITS: [Freedom; 3] = [Freedom::Y, Freedom::Roll, Freedom::Pitch];
+const SITS: [BodyDof; 3] = [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch];
 
 #[test]
 fn wheels_of_the_bridge_carry_the_trolley_by_its_levers_at_every_place() {
     for along in [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0], [0.6, 0.0, -0.8]] {
         let mut scene = crane_of(
             body(BRIDGE, [1e6, 4e6, 4e6], &SITS),
-            body(TROLLEY, [9e4, 2e5, 2e5], &[Freedom::Y, Freedom::Roll, Freedom::Pitch]),
+            body(TROLLEY, [9e4, 2e5, 2e5], &[BodyDof::Y, BodyDof::Roll, BodyDof::Pitch]),
             10.0,
         );
         (scene.analysis, scene.output_dt) = (Analysis::QuasiStatic, 0.5);
@@ -59,8 +59,8 @@ fn wheels_of_the_bridge_carry_the_trolley_by_its_levers_at_every_place() {
 #[test]
 fn a_braking_trolley_gives_its_momentum_to_the_bridge() {
     let mut scene = crane_of(
-        body(BRIDGE, [1e6, 4e6, 4e6], &[Freedom::X, Freedom::Y, Freedom::Pitch]),
-        body(TROLLEY, [9e4, 2e5, 2e5], &[Freedom::X, Freedom::Y, Freedom::Pitch]),
+        body(BRIDGE, [1e6, 4e6, 4e6], &[BodyDof::X, BodyDof::Y, BodyDof::Pitch]),
+        body(TROLLEY, [9e4, 2e5, 2e5], &[BodyDof::X, BodyDof::Y, BodyDof::Pitch]),
         4.0,
     );
     (scene.bodies[0].cg, scene.bodies[1].cg) = ([0.0, 6.0, 0.0], [0.0, 5.0, 0.0]);
@@ -74,7 +74,7 @@ fn a_braking_trolley_gives_its_momentum_to_the_bridge() {
     let at = [0.0, HEIGHT, 0.0];
     let run = run(&scene, carried([1.0, 0.0, 0.0], at));
     let column = |b, freedom| run.history.column(Channel::Speed(b, freedom));
-    let speeds = [Freedom::X, Freedom::Pitch].map(|freedom| [0, 1].map(|b| column(b, freedom)));
+    let speeds = [BodyDof::X, BodyDof::Pitch].map(|freedom| [0, 1].map(|b| column(b, freedom)));
     let total = TROLLEY * 5.0;
     let mut worst = 0.0_f64;
     let [[bridge, trolley], [turns, nods]] = &speeds;
@@ -98,7 +98,7 @@ fn a_braking_trolley_gives_its_momentum_to_the_bridge() {
 
 #[test]
 fn a_trolley_held_on_its_rails_is_part_of_the_bridge() {
-    let free = [Freedom::X, Freedom::Y, Freedom::Pitch];
+    let free = [BodyDof::X, BodyDof::Y, BodyDof::Pitch];
     let mut scene = crane_of(body(BRIDGE, [1e6, 4e6, 4e6], &free), body(TROLLEY, [9e4, 2e5, 3e5], &[]), 3.0);
     (scene.bodies[0].start[1], scene.bodies[0].start_speed) = (-0.01, [1.0, 0.0, 0.0, 0.0, 0.0, 0.02]);
     scene.bodies[1].start[0] = 10.0;
@@ -128,7 +128,7 @@ fn a_trolley_held_on_its_rails_is_part_of_the_bridge() {
 #[test]
 fn a_trolley_that_rolls_out_slows_the_slewing_bridge() {
     let mut scene =
-        crane_of(body(BRIDGE, [1e6, 4e6, 4e6], &[Freedom::Yaw]), body(TROLLEY, [0.0, 2e5, 0.0], &[]), 5.0);
+        crane_of(body(BRIDGE, [1e6, 4e6, 4e6], &[BodyDof::Yaw]), body(TROLLEY, [0.0, 2e5, 0.0], &[]), 5.0);
     scene.contacts.drain(..4);
     scene.gravity = 0.0;
     scene.bodies[0].start_speed[4] = 1e-3;
@@ -136,7 +136,7 @@ fn a_trolley_that_rolls_out_slows_the_slewing_bridge() {
     scene.output_dt = 0.1;
     let run = run(&scene, carried([0.0, 0.0, -1.0], [0.0, HEIGHT, 0.0]));
     let (time, yaw) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Speed(0, Freedom::Yaw)));
+        (run.history.column(Channel::Time), run.history.column(Channel::Speed(0, BodyDof::Yaw)));
     let mut worst = 0.0_f64;
     let about = |t: f64| 4e6 + 2e5 + TROLLEY * (4.0 + 6.0 * t).powi(2);
     for (t, yaw) in time.iter().zip(&yaw) {
@@ -152,7 +152,7 @@ fn a_trolley_that_rolls_out_slows_the_slewing_bridge() {
 fn a_trolley_that_runs_along_a_sprung_bridge_follows_its_own_equations() {
     let (speed, x0) = (8.0, -16.0);
     let mut scene = crane_of(
-        body(BRIDGE, [1e6, 4e6, 4e6], &[Freedom::Y, Freedom::Pitch]),
+        body(BRIDGE, [1e6, 4e6, 4e6], &[BodyDof::Y, BodyDof::Pitch]),
         body(TROLLEY, [9e4, 2e5, 2e5], &[]),
         4.0,
     );
@@ -172,7 +172,7 @@ fn a_trolley_that_runs_along_a_sprung_bridge_follows_its_own_equations() {
         [s[2], s[3], (j * load[0] - c * load[1]) / d, (m * load[1] - c * load[0]) / d]
     };
     let (mut s, h) = ([-0.5, 0.01, 0.0, 0.0], 1e-3);
-    let ys = [Freedom::Y, Freedom::Pitch].map(|f| run.history.column(Channel::Displacement(0, f)));
+    let ys = [BodyDof::Y, BodyDof::Pitch].map(|f| run.history.column(Channel::Displacement(0, f)));
     let mut worst = [0.0_f64; 2];
     for step in 0..4000 {
         if step % 100 == 0 {
@@ -199,26 +199,26 @@ fn a_trolley_that_runs_along_a_sprung_bridge_follows_its_own_equations() {
 
 #[test]
 fn ways_to_ride_that_are_not_known_are_refused() {
-    let free = [Freedom::Y];
+    let free = [BodyDof::Y];
     let scene = crane_of(body(BRIDGE, [1e6; 3], &free), body(TROLLEY, [1e6; 3], &free), 1.0);
     let refused = |scene: &Scene, girders: Foundation| {
         sim::run(scene, &[Foundation::rigid(), girders], &mut |_| ControlFlow::Continue(())).err()
     };
     let along = |x: f64, y: f64| carried([x, y, 0.0], [0.0; 3]);
-    assert_eq!(refused(&scene, along(0.8, 0.6)), Some(Error::Mounted { body: 1 }), "not level");
-    assert_eq!(refused(&scene, along(2.0, 0.0)), Some(Error::Mounted { body: 1 }), "not of length 1");
+    assert_eq!(refused(&scene, along(0.8, 0.6)), Some(Error::Carried { body: 1 }), "not level");
+    assert_eq!(refused(&scene, along(2.0, 0.0)), Some(Error::Carried { body: 1 }), "not of length 1");
     let mut both = scene.clone();
     both.contacts[4].structure = 0;
-    assert_eq!(refused(&both, along(1.0, 0.0)), Some(Error::Mounted { body: 1 }), "on two carriers");
+    assert_eq!(refused(&both, along(1.0, 0.0)), Some(Error::Carried { body: 1 }), "on two carriers");
     let mut own = along(1.0, 0.0);
-    own.on = Some(Mount { body: 1, ..mount([1.0, 0.0, 0.0], [0.0; 3]) });
-    assert_eq!(refused(&scene, own), Some(Error::Mounted { body: 1 }), "on itself");
+    own.carrier = Some(Carrier { body: 1, ..mount([1.0, 0.0, 0.0], [0.0; 3]) });
+    assert_eq!(refused(&scene, own), Some(Error::Carried { body: 1 }), "on itself");
     let mut loaded = scene.clone();
     let value = Schedule::new(&[[0.0, 1.0]]).expect("a valid table");
-    loaded.actuators.loads = vec![Load { body: 1, freedom: Freedom::Y, value }];
-    assert_eq!(refused(&loaded, along(1.0, 0.0)), Some(Error::Mounted { body: 1 }), "loaded");
+    loaded.actuators.loads = vec![Load { body: 1, dof: BodyDof::Y, value }];
+    assert_eq!(refused(&loaded, along(1.0, 0.0)), Some(Error::Carried { body: 1 }), "loaded");
     let mut short = along(1.0, 0.0);
-    short.on.iter_mut().for_each(|mount| mount.rails.truncate(1));
+    short.carrier.iter_mut().for_each(|mount| mount.rails.truncate(1));
     assert_eq!(refused(&scene, short), Some(Error::NoSuch { what: "rail", index: 1 }));
     let mut upper = scene.clone();
     upper.bodies.push(body(1.0, [1.0; 3], &free));
@@ -230,8 +230,11 @@ fn ways_to_ride_that_are_not_known_are_refused() {
     let floors = [
         Foundation::rigid(),
         along(1.0, 0.0),
-        Foundation { on: Some(Mount { body: 1, ..mount([1.0, 0.0, 0.0], [0.0; 3]) }), ..Foundation::rigid() },
+        Foundation {
+            carrier: Some(Carrier { body: 1, ..mount([1.0, 0.0, 0.0], [0.0; 3]) }),
+            ..Foundation::rigid()
+        },
     ];
     let third = sim::run(&upper, &floors, &mut |_| ControlFlow::Continue(())).err();
-    assert_eq!(third, Some(Error::Mounted { body: 1 }), "three floors");
+    assert_eq!(third, Some(Error::Carried { body: 1 }), "three floors");
 }

@@ -11,9 +11,9 @@ use common::near::assert_near;
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{
-    Analysis, Channel, Damper, Error, Flange, Foundation, Freedom, Friction, FrictionLaw, Run, Scene, Status,
+    Analysis, BodyDof, Channel, Damper, Error, Flange, Foundation, Friction, FrictionLaw, Run, Scene, Status,
 };
-use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet, Table};
+use splines::{Axis, Compliance, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading};
 
 fn run(scene: &Scene, foundation: Foundation) -> Result<Run, Error> {
     sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(()))
@@ -35,18 +35,19 @@ fn rolling(end: f64) -> Scene {
 fn freely_rolling_bogie_keeps_its_energy_on_the_exact_surface_and_not_on_akispl() {
     let stations: Vec<f64> = (0..7).map(|i| 15.0 * f64::from(i) - 15.0).collect();
     let values = DMatrix::from_fn(7, 7, |i, j| give(stations[i], stations[j]).0);
-    let table = Table::new(stations.clone(), stations, values).expect("stations increase");
+    let table = SplineTable::new(stations.clone(), stations, values).expect("stations increase");
     let way = (0, Axis::Vertical);
     let reading =
-        Reading::new(Kind::Akispl, &[Sheet { deflection: way, load: way, table }]).expect("a table");
+        TableReading::new(ReadingMethod::Akispl, &[InfluenceBlock { deflection: way, load: way, table }])
+            .expect("a table");
     let exact = run(&rolling(20.0), girder()).expect("valid");
     let mut coarse = rolling(20.0);
     coarse.accuracy = 1e-6;
-    let akispl = run(&coarse, Foundation::influence(Box::new(reading), 1)).expect("valid");
+    let akispl = run(&coarse, Foundation::massless(Box::new(reading), 1)).expect("valid");
     println!("imbalance: exact {:.3e} of {:.3e}", exact.audit.imbalance, exact.audit.peak_stored);
     println!("imbalance: AKISPL {:.3e}, {:?}", akispl.audit.imbalance, akispl.status);
     assert_eq!(exact.status, Status::Done);
-    let x = exact.history.column(Channel::Displacement(0, Freedom::X));
+    let x = exact.history.column(Channel::Displacement(0, BodyDof::X));
     assert!(x.iter().any(|&x| x > 0.5 * SPAN), "it rolls through the sag");
     assert!(exact.audit.residual() < 1e-6, "{}", exact.audit.residual());
     assert!(akispl.audit.imbalance > 1e3 * exact.audit.imbalance);
@@ -58,9 +59,9 @@ fn freely_rolling_bogie_crosses_hinges_at_order_four_and_keeps_its_energy() {
         let mut scene = rolling(6.0);
         scene.bodies[0].start_speed[0] = 5.0;
         scene.accuracy = accuracy;
-        let run = run(&scene, Foundation::influence(Box::new(Hinged), 1)).expect("valid");
+        let run = run(&scene, Foundation::massless(Box::new(Hinged), 1)).expect("valid");
         assert_eq!(run.status, Status::Done);
-        let end = [Freedom::X, Freedom::Y, Freedom::Pitch].map(|freedom| {
+        let end = [BodyDof::X, BodyDof::Y, BodyDof::Pitch].map(|freedom| {
             let column = run.history.column(Channel::Displacement(0, freedom));
             column[column.len() - 1]
         });
@@ -118,7 +119,7 @@ fn forces_on_a_table_that_is_not_symmetric_use_all_of_it() {
     let wanted = [(d * e[0] - b * e[1]) / (a * d - b * c), (a * e[1] - c * e[0]) / (a * d - b * c)];
     for analysis in [Analysis::Dynamic, Analysis::QuasiStatic] {
         scene.analysis = analysis;
-        let run = run(&scene, Foundation::influence(Box::new(Skew), 1)).expect("valid");
+        let run = run(&scene, Foundation::massless(Box::new(Skew), 1)).expect("valid");
         for (wheel, wanted) in wanted.into_iter().enumerate() {
             let force = run.history.column(Channel::Vertical(wheel));
             let last = force[force.len() - 1];
@@ -135,7 +136,7 @@ fn force_along_the_rail_is_the_slope_of_the_potential() {
     scene.output_dt = 2e-3;
     let run = run(&scene, girder()).expect("valid");
     let [x, y, drive] =
-        [Channel::Displacement(0, Freedom::X), Channel::Displacement(0, Freedom::Y), Channel::Drive(0)]
+        [Channel::Displacement(0, BodyDof::X), Channel::Displacement(0, BodyDof::Y), Channel::Drive(0)]
             .map(|channel| run.history.column(channel));
     // Identity: V = W y / 2 at rest for linear springs, hence drive = dV/dx.
     for i in (500..5500).step_by(250) {
@@ -154,7 +155,7 @@ fn largest_force_along_the_rail_of_one_wheel_meets_its_closed_form() {
     scene.output_dt = 1e-3;
     let run = run(&scene, girder()).expect("valid");
     let [x, drive] =
-        [Channel::Displacement(0, Freedom::X), Channel::Drive(0)].map(|channel| run.history.column(channel));
+        [Channel::Displacement(0, BodyDof::X), Channel::Drive(0)].map(|channel| run.history.column(channel));
     let downhill = (0..x.len()).min_by(|&i, &j| drive[i].total_cmp(&drive[j])).expect("samples");
     println!("{:.1} lb at {:.3} ft", drive[downhill], x[downhill]);
     // Analytic: G(x, x) = x^2 (L - x)^2 / (3 EI L), H = P^2/2 dG/dx, largest at L (1/2 - 1/sqrt(12)).
@@ -213,12 +214,12 @@ fn freedoms_that_move_nothing_of_their_own_are_refused_by_name() {
     let mut scene = rolling(1.0);
     scene.bodies[0].inertia = [0.0; 3];
     scene.bodies[0].cg = [0.0, 4.0, 0.0];
-    let refused = |freedom| Some(Error::NoInertia { body: 0, freedom });
-    assert_eq!(run(&scene, girder()).err(), refused(Freedom::Pitch));
+    let refused = |freedom| Some(Error::NoInertia { body: 0, dof: freedom });
+    assert_eq!(run(&scene, girder()).err(), refused(BodyDof::Pitch));
     scene.bodies[0].free[0] = false;
     assert_eq!(run(&scene, girder()).map(|run| run.status), Ok(Status::Done));
     scene.bodies[0].cg = [0.0; 3];
-    assert_eq!(run(&scene, girder()).err(), refused(Freedom::Pitch));
+    assert_eq!(run(&scene, girder()).err(), refused(BodyDof::Pitch));
 }
 
 #[test]
@@ -233,7 +234,7 @@ fn middle_wheel_hangs_free_over_a_sag_and_the_others_carry() {
     scene.output_dt = 0.06;
     let mut standing = scene.clone();
     standing.bodies[0].motion =
-        Some(sim::Profile::new(sim::Given::Position, &[[0.0, 30.0]], 0.0, 0.0).expect("a table"));
+        Some(sim::Profile::new(sim::MotionKind::Position, &[[0.0, 30.0]], 0.0, 0.0).expect("a table"));
     let run = run(&standing, girder()).expect("valid");
     let [rear, middle, front] = [0, 1, 2].map(|w| run.history.column(Channel::Vertical(w))[0]);
     assert_eq!(middle, 0.0);
@@ -247,7 +248,7 @@ fn wheel_that_runs_off_the_rail_ends_the_run_and_leaves_its_history() {
     for analysis in [Analysis::Dynamic, Analysis::QuasiStatic] {
         scene.analysis = analysis;
         let run = run(&scene, girder_with_ends()).expect("valid at its start");
-        let Status::Refused(time, _) = run.status else { panic!("{:?}", run.status) };
+        let Status::Failed(time, _) = run.status else { panic!("{:?}", run.status) };
         // The front wheel, 4/3 ft ahead, meets the end at 75 ft after 1.4733 s; the sweep stops at its next sample.
         println!("refused at {time}");
         assert!(time > 1.3 && time <= 1.4801, "{time}");
@@ -257,7 +258,7 @@ fn wheel_that_runs_off_the_rail_ends_the_run_and_leaves_its_history() {
 }
 
 fn girder_with_ends() -> Foundation {
-    Foundation::influence(Box::new(common::surface()), 1)
+    Foundation::massless(Box::new(common::surface()), 1)
 }
 
 #[test]
@@ -301,7 +302,7 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
         ended[match run.status {
             Status::Done | Status::Ended(_) | Status::Stopped => 0,
             Status::StepTooSmall(_) => 1,
-            Status::Refused(..) => 2,
+            Status::Failed(..) => 2,
         }] += 1;
         let all = (0..run.history.len()).flat_map(|i| run.history.sample(i).iter());
         assert!(all.into_iter().all(|value| value.is_finite()), "{scene:?}");

@@ -5,7 +5,7 @@ mod common;
 use std::ops::ControlFlow;
 
 use common::space::{self, G, floor, scene};
-use sim::{Actuators, Body, Channel, Freedom, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run};
+use sim::{Actuators, Body, BodyDof, Channel, Rope, RopeEnd, Run, Scene, Schedule, Status, Stop, run};
 
 /// A point mass that is free in space.
 fn body(mass: f64, start: [f64; 3], speed: [f64; 3]) -> Body {
@@ -24,7 +24,7 @@ fn go(scene: &Scene) -> Run {
 }
 
 /// Last sample of a displacement.
-fn last(run: &Run, freedom: Freedom) -> f64 {
+fn last(run: &Run, freedom: BodyDof) -> f64 {
     *run.history.column(Channel::Displacement(0, freedom)).last().expect("samples")
 }
 
@@ -43,9 +43,9 @@ fn a_swing_of_sixty_degrees_takes_the_elliptic_period() {
     let start = [stretched * angle.sin(), -stretched * angle.cos(), 0.0];
     let actuators = Actuators { ropes: vec![rope(ea, l, 0)], ..Actuators::default() };
     let run = go(&scene(vec![body(1000.0, start, [0.0; 3])], actuators, 0.5 * period, 1e-7));
-    assert!((last(&run, Freedom::X) + start[0]).abs() < 2e-6, "{} {:?}", last(&run, Freedom::X), run.counts);
+    assert!((last(&run, BodyDof::X) + start[0]).abs() < 2e-6, "{} {:?}", last(&run, BodyDof::X), run.counts);
     // m g (3 cos - 2 cos a0), at every sample
-    let y = run.history.column(Channel::Displacement(0, Freedom::Y));
+    let y = run.history.column(Channel::Displacement(0, BodyDof::Y));
     for (y, tension) in y.iter().zip(run.history.column(Channel::Tension(0))) {
         let wanted = 1000.0 * G * (-3.0 * y / l - 2.0 * angle.cos());
         assert!((tension / wanted - 1.0).abs() < 1e-4, "{tension} {wanted}");
@@ -65,7 +65,7 @@ fn a_small_swing_of_an_elastic_rope_has_the_period_of_its_stretched_length() {
     let start = [x, -(l * l - x * x).sqrt(), 0.0];
     let actuators = Actuators { ropes: vec![rope(ea, l0, 0)], ..Actuators::default() };
     let run = go(&scene(vec![body(m, start, [0.0; 3])], actuators, period, 1e-6));
-    assert!((last(&run, Freedom::X) / x - 1.0).abs() < 1e-5, "{}", last(&run, Freedom::X) / x - 1.0);
+    assert!((last(&run, BodyDof::X) / x - 1.0).abs() < 1e-5, "{}", last(&run, BodyDof::X) / x - 1.0);
     println!("small: {:?} {:e}", run.counts, run.audit.residual());
 }
 
@@ -76,7 +76,7 @@ fn a_load_thrown_upwards_flies_until_the_rope_catches_it() {
     let actuators = Actuators { ropes: vec![rope(1e7, l, 0)], ..Actuators::default() };
     let run = go(&scene(vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])], actuators, 2.0, 1e-7));
     let (t, y) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, Freedom::Y)));
+        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, BodyDof::Y)));
     let tension = run.history.column(Channel::Tension(0));
     let catch = 2.0 * v / G;
     for ((t, y), tension) in t.iter().zip(&y).zip(&tension) {
@@ -98,12 +98,12 @@ fn a_load_thrown_upwards_flies_until_the_rope_catches_it() {
 #[test]
 fn a_hung_load_starts_at_rest_stretched_by_its_weight() {
     let (m, l, ea) = (2000.0, 6.0, 5e6);
-    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], hung: vec![0], ..Actuators::default() };
+    let actuators = Actuators { ropes: vec![rope(ea, l, 0)], hanging: vec![0], ..Actuators::default() };
     let run = go(&scene(vec![body(m, [0.0; 3], [0.0; 3])], actuators, 1.0, 1e-6));
     for tension in run.history.column(Channel::Tension(0)) {
         assert!((tension / (m * G) - 1.0).abs() < 1e-9, "{tension}");
     }
-    assert!((last(&run, Freedom::Y) + l * (1.0 + m * G / ea)).abs() < 1e-10);
+    assert!((last(&run, BodyDof::Y) + l * (1.0 + m * G / ea)).abs() < 1e-10);
 }
 
 /// Analytic: hoisted at speed v from slack on a floor, the rope tightens until it lifts the load off at
@@ -143,7 +143,7 @@ fn a_buffer_peaks_at_v_root_m_k_and_gives_the_speed_back() {
     let actuators = Actuators { stops: vec![stop], ..Actuators::default() };
     let run = go(&scene(vec![free], actuators, 2.5, 1e-8));
     let most = run.history.column(Channel::Stop(0)).into_iter().fold(0.0, f64::max);
-    let back = *run.history.column(Channel::Speed(0, Freedom::X)).last().expect("samples");
+    let back = *run.history.column(Channel::Speed(0, BodyDof::X)).last().expect("samples");
     assert!((most / (v * (m * k).sqrt()) - 1.0).abs() < 1e-3, "{most}");
     assert!((back / v + 1.0).abs() < 1e-7, "{back}");
     println!("buffer: {:?} {:e}", run.counts, run.audit.residual());
@@ -162,7 +162,7 @@ fn a_conical_pendulum_goes_round_on_a_stiff_rope() {
     let speed = [0.0, 0.0, omega * radius];
     let end = 2.0 * std::f64::consts::PI / omega;
     let run = go(&scene(vec![body(m, start, speed)], actuators, end, 1e-7));
-    for (freedom, place) in [Freedom::X, Freedom::Y, Freedom::Z].into_iter().zip(start) {
+    for (freedom, place) in [BodyDof::X, BodyDof::Y, BodyDof::Z].into_iter().zip(start) {
         assert!((last(&run, freedom) - place).abs() < 1e-5, "{freedom:?} {}", last(&run, freedom) - place);
     }
     for tension in run.history.column(Channel::Tension(0)) {
@@ -189,8 +189,8 @@ fn a_load_below_a_load_swings_in_the_slow_mode_of_the_double_pendulum() {
     ];
     let period = 2.0 * std::f64::consts::PI / ((2.0 - 2.0_f64.sqrt()) * G / l).sqrt();
     let run = go(&scene(bodies, actuators, period, 1e-7));
-    let x = run.history.column(Channel::Displacement(0, Freedom::X));
-    assert!((last(&run, Freedom::X) / upper[0] - 1.0).abs() < 1e-4, "{}", last(&run, Freedom::X) / upper[0]);
+    let x = run.history.column(Channel::Displacement(0, BodyDof::X));
+    assert!((last(&run, BodyDof::X) / upper[0] - 1.0).abs() < 1e-4, "{}", last(&run, BodyDof::X) / upper[0]);
     // halfway, at the other side
     assert!((x[x.len() / 2] / upper[0] + 1.0).abs() < 1e-4, "{}", x[x.len() / 2]);
     println!("double: {:?} {:e}", run.counts, run.audit.residual());
@@ -204,15 +204,16 @@ fn a_hoisted_swing_below_a_moving_point_closes_its_energy_at_the_pace_of_the_swi
         let mut crab = body(3000.0, [0.0; 3], [0.0; 3]);
         crab.free = [true, false, false, false, false, false];
         let table = [[0.0, 0.0], [2.0, 1.5], [4.0, 1.5], [5.0, 0.0]];
-        crab.motion = Some(sim::Profile::new(sim::Given::Speed, &table, 0.0, 0.0).expect("a valid table"));
+        crab.motion =
+            Some(sim::Profile::new(sim::MotionKind::Speed, &table, 0.0, 0.0).expect("a valid table"));
         let mut line = Rope { from: RopeEnd { body: Some(0), at: [0.0; 3] }, ..rope(1e10, 12.0, 1) };
         line.speed = Schedule::new(&[[1.0, 0.0], [2.0, 0.5], [6.0, 0.5], [7.0, 0.0]]).expect("rows");
         line.damping = 2e5;
-        let actuators = Actuators { ropes: vec![line], hung: vec![1], ..Actuators::default() };
+        let actuators = Actuators { ropes: vec![line], hanging: vec![1], ..Actuators::default() };
         go(&scene(vec![crab, body(1000.0, [0.0; 3], [0.0; 3])], actuators, 8.0, accuracy))
     };
     let (run, fine) = (solved(1e-7), solved(1e-9));
-    let column = |run: &Run| run.history.column(Channel::Displacement(1, Freedom::X));
+    let column = |run: &Run| run.history.column(Channel::Displacement(1, BodyDof::X));
     let apart = column(&run).iter().zip(column(&fine)).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
     println!("moving: {:?} {:e} {apart:e}", run.counts, run.audit.residual());
     println!("moving: {:?} {:e}", fine.counts, fine.audit.residual());
@@ -245,7 +246,7 @@ fn a_buffer_between_two_bodies_peaks_with_their_reduced_mass() {
     // the gap is 3 - 1 - 0.5
     let first = force.iter().position(|force| *force > 0.0).expect("a meeting");
     assert!((run.history.column(Channel::Time)[first] - 1.0).abs() < 3e-3, "{first}");
-    let after = |b: usize| *run.history.column(Channel::Speed(b, Freedom::X)).last().expect("samples");
+    let after = |b: usize| *run.history.column(Channel::Speed(b, BodyDof::X)).last().expect("samples");
     assert!((after(0) - v * (m1 - m2) / (m1 + m2)).abs() < 1e-7, "{}", after(0));
     assert!((after(1) - 2.0 * v * m1 / (m1 + m2)).abs() < 1e-7, "{}", after(1));
     assert!(run.audit.residual() < 1e-8);

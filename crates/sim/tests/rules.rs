@@ -10,12 +10,12 @@ use std::ops::ControlFlow;
 use common::single;
 use common::space::{G, body, floor, rope, scene as space};
 use sim::{
-    Action, Actuators, Body, Brake, Channel, Compare, Condition, Damper, Drive, Error, Fired, Foundation,
-    Freedom, Friction, FrictionLaw, NormalLaw, Rule, Run, Scene, Schedule, Status, Wheel, run,
+    Action, Actuators, Body, BodyDof, Brake, Channel, Compare, Condition, Damper, Drive, Error, Fired,
+    Foundation, Friction, FrictionLaw, NormalLaw, Rule, Run, Scene, Schedule, Status, Wheel, run,
 };
 
-const X: Channel = Channel::Displacement(0, Freedom::X);
-const SPEED: Channel = Channel::Speed(0, Freedom::X);
+const X: Channel = Channel::Displacement(0, BodyDof::X);
+const SPEED: Channel = Channel::Speed(0, BodyDof::X);
 
 fn schedule(table: &[[f64; 2]]) -> Schedule {
     Schedule::new(table).expect("a valid table")
@@ -83,7 +83,7 @@ fn a_load_let_go_leaves_its_carrier_at_its_own_frequency() {
     let (carrier, load, k, ea, l) = (4000.0, 1500.0, 4e6, 1e8, 5.0);
     let rules = vec![rule(Channel::Time, Compare::AtLeast, 0.25, &[Action::Release { rope: 0 }])];
     let ropes = vec![rope(ea, l, [Some(0), Some(1)])];
-    let actuators = Actuators { ropes, rules, hung: vec![1], ..Actuators::default() };
+    let actuators = Actuators { ropes, rules, hanging: vec![1], ..Actuators::default() };
     let bodies = vec![
         body(carrier, [false, true, false], [0.0; 3], [0.0; 3]),
         body(load, [true; 3], [0.0; 3], [0.0; 3]),
@@ -92,8 +92,8 @@ fn a_load_let_go_leaves_its_carrier_at_its_own_frequency() {
     assert_eq!(run.fired, [Fired { time: 0.25, rule: 0 }]);
     let omega = (k / carrier).sqrt();
     let (t, y) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, Freedom::Y)));
-    let fall = run.history.column(Channel::Displacement(1, Freedom::Y));
+        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, BodyDof::Y)));
+    let fall = run.history.column(Channel::Displacement(1, BodyDof::Y));
     let tension = run.history.column(Channel::Tension(0));
     for i in 0..t.len() {
         let since = (t[i] - 0.25).max(0.0);
@@ -154,7 +154,7 @@ fn a_sudden_stop_swings_the_load_by_v_over_root_g_l() {
     let brakes = vec![Brake { body: 0, from: f64::INFINITY, speed: 1e-6, contacts: vec![0] }];
     let rules = vec![rule(X, Compare::AtLeast, 0.25, &[Action::Brake { body: 0, on: true }])];
     let ropes = vec![rope(ea, l, [Some(0), Some(1)])];
-    let actuators = Actuators { brakes, ropes, rules, hung: vec![1], ..Actuators::default() };
+    let actuators = Actuators { brakes, ropes, rules, hanging: vec![1], ..Actuators::default() };
     let bodies = vec![
         body(carrier, [true, true, false], [0.0; 3], [v, 0.0, 0.0]),
         body(load, [true; 3], [0.0; 3], [v, 0.0, 0.0]),
@@ -162,7 +162,7 @@ fn a_sudden_stop_swings_the_load_by_v_over_root_g_l() {
     let mut scene = trolley(bodies, [1e9, mu], actuators, 4.0, 1e-6);
     scene.output_dt = 2e-3;
     let run = go(&scene);
-    let (x, hung) = (run.history.column(X), run.history.column(Channel::Displacement(1, Freedom::X)));
+    let (x, hung) = (run.history.column(X), run.history.column(Channel::Displacement(1, BodyDof::X)));
     let swing = x.iter().zip(&hung).fold(0.0_f64, |max, (a, b)| max.max((b - a).abs()));
     let angle = (swing / (l * (1.0 + load * G / ea))).asin();
     let wanted = (1.0 - v * v / (2.0 * G * l)).acos();
@@ -208,7 +208,7 @@ fn rules_act_at_the_root_of_their_condition() {
     for accuracy in [1e-3, 1e-6] {
         let mut actuators = Actuators::default();
         let value = schedule(&[[0.0, 0.0], [10.0, 10.0]]);
-        actuators.loads = vec![sim::Load { body: 0, freedom: Freedom::X, value }];
+        actuators.loads = vec![sim::Load { body: 0, dof: BodyDof::X, value }];
         let (sum, compare) = (vec![(X, 6.0), (Channel::Time, 1.0)], Compare::AtLeast);
         // t^3 + t = 2
         actuators.rules = vec![
@@ -246,7 +246,7 @@ fn rules_of_what_is_not_there_are_refused() {
 fn hoisting_the_whole_rope_in_ends_the_run() {
     let rules = vec![rule(Channel::Time, Compare::AtLeast, 0.5, &[Action::Hoist { rope: 0, speed: 3.0 }])];
     let ropes = vec![rope(1e6, 5.0, [None, Some(0)])];
-    let actuators = Actuators { ropes, rules, hung: vec![0], ..Actuators::default() };
+    let actuators = Actuators { ropes, rules, hanging: vec![0], ..Actuators::default() };
     let run = go(&space(vec![body(10.0, [true; 3], [0.0; 3], [0.0; 3])], actuators, 4.0, 1e-6));
-    assert!(matches!(run.status, Status::Refused(0.5, Error::Number { .. })), "{:?}", run.status);
+    assert!(matches!(run.status, Status::Failed(0.5, Error::Number { .. })), "{:?}", run.status);
 }

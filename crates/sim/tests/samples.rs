@@ -26,7 +26,7 @@ fn give_of_the_rail_inside_long_steps_errs_by_a_thirtieth_of_the_accuracy() {
         let size = b.iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         a.iter().zip(&b).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / size
     };
-    let [force, give] = [Channel::Vertical(0), Channel::Give(0)].map(apart);
+    let [force, give] = [Channel::Vertical(0), Channel::Deflection(0)].map(apart);
     let (samples, steps) = (fine.history.column(Channel::Time).len(), coarse.counts.steps);
     println!("{samples} samples in {steps} steps: force {force:.1e}, give {give:.1e}");
     assert!(samples > 2 * steps && give < accuracy / 30.0 && force < 2.0 * accuracy, "{force} {give}");

@@ -9,8 +9,8 @@ use std::ops::ControlFlow;
 use common::modes::{beam, oscillator};
 use common::{EI, SPAN};
 use sim::{
-    Choice, Contact, Error, Foundation, Ladder, Reason, Run, Rung, Scene, Selection, Status, Structure,
-    choose, distance,
+    Choice, Contact, Error, Fidelity, Foundation, FoundationProvider, Reason, Run, Scene, Selection, Status,
+    Structure, choose, distance,
 };
 
 /// The beam at every rung.
@@ -19,35 +19,35 @@ struct Beam {
     /// Without mass.
     light: bool,
     /// What cannot be built.
-    refused: Option<fn(Rung) -> bool>,
+    refused: Option<fn(Fidelity) -> bool>,
     /// Half the mesh has one mode.
     poor: bool,
     runs: usize,
 }
 
-fn at(rung: Rung) -> Foundation {
+fn at(rung: Fidelity) -> Foundation {
     match rung {
-        Rung::Rigid => Foundation { rails: beam(0, true).rails, ..Foundation::rigid() },
-        Rung::Influence => beam(0, true),
-        Rung::Modal(modes) => beam(modes, true),
-        Rung::Half => beam(20, true),
-        Rung::Full => beam(24, true),
+        Fidelity::Rigid => Foundation { rails: beam(0, true).rails, ..Foundation::rigid() },
+        Fidelity::Influence => beam(0, true),
+        Fidelity::Modal(modes) => beam(modes, true),
+        Fidelity::Half => beam(20, true),
+        Fidelity::Full => beam(24, true),
     }
 }
 
-impl Ladder for Beam {
+impl FoundationProvider for Beam {
     type Error = Error;
 
     fn modes(&mut self, _: usize, count: usize) -> Result<Option<Structure>, Error> {
         Ok(if self.light { None } else { beam(count, true).structure })
     }
 
-    fn foundation(&mut self, structure: usize, rung: Rung) -> Result<Foundation, Error> {
+    fn foundation(&mut self, structure: usize, rung: Fidelity) -> Result<Foundation, Error> {
         if self.refused.is_some_and(|refused| refused(rung)) {
             return Err(Error::NoSuch { what: "structure", index: structure });
         }
         Ok(match rung {
-            Rung::Half if self.poor => beam(1, false),
+            Fidelity::Half if self.poor => beam(1, false),
             rung => at(rung),
         })
     }
@@ -80,7 +80,7 @@ fn chosen(scene: &Scene, tolerance: f64) -> Choice {
     selected(scene, tolerance, &mut Beam::default()).0
 }
 
-fn ran(scene: &Scene, rung: Rung) -> Run {
+fn ran(scene: &Scene, rung: Fidelity) -> Run {
     sim::run(scene, &[at(rung)], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
 }
 
@@ -92,8 +92,8 @@ fn a_sufficient_rung_is_within_the_tolerance_of_the_full_beam() {
     {
         let scene = scene(mass, frequency, alpha);
         let choice = chosen(&scene, tolerance);
-        let error = distance(&ran(&scene, choice.rung), &ran(&scene, Rung::Full), &scene);
-        println!("alpha {alpha}: {:?}, estimate {:?}, error {error:.1e}", choice.rung, choice.estimate);
+        let error = distance(&ran(&scene, choice.fidelity), &ran(&scene, Fidelity::Full), &scene);
+        println!("alpha {alpha}: {:?}, estimate {:?}, error {error:.1e}", choice.fidelity, choice.estimate);
         assert!(matches!(choice.reason, Reason::Sufficient | Reason::Predicted), "{choice:?}");
         assert!(error <= tolerance, "{choice:?}: {error}");
     }
@@ -102,21 +102,24 @@ fn a_sufficient_rung_is_within_the_tolerance_of_the_full_beam() {
 #[test]
 fn speed_climbs_above_influence() {
     let choice = chosen(&scene(0.5, 0.5, 0.25), 1e-2);
-    assert!(matches!(choice.rung, Rung::Modal(_)), "{choice:?}");
-    assert_eq!(choice.skipped, [Rung::Rigid, Rung::Influence]);
-    let expected = choice.predicted.and_then(|predicted| predicted.of(Rung::Influence));
+    assert!(matches!(choice.fidelity, Fidelity::Modal(_)), "{choice:?}");
+    assert_eq!(choice.skipped, [Fidelity::Rigid, Fidelity::Influence]);
+    let expected = choice.predicted.and_then(|predicted| predicted.of(Fidelity::Influence));
     assert!(expected.is_some_and(|error| error > 1e-2), "{expected:?}");
 }
 
 #[test]
 fn a_soft_spring_needs_no_rail_that_gives() {
-    assert_eq!(chosen(&scene(1.0, 0.02, 0.1), 1e-2).rung, Rung::Rigid);
+    assert_eq!(chosen(&scene(1.0, 0.02, 0.1), 1e-2).fidelity, Fidelity::Rigid);
 }
 
 #[test]
 fn without_mass_no_estimate_is_claimed() {
     let choice = selected(&scene(0.5, 0.5, 0.25), 1e-2, &mut Beam { light: true, ..Beam::default() }).0;
-    assert_eq!((choice.rung, choice.reason, choice.estimate), (Rung::Influence, Reason::NoMass, None));
+    assert_eq!(
+        (choice.fidelity, choice.reason, choice.estimate),
+        (Fidelity::Influence, Reason::NoMass, None)
+    );
 }
 
 /// Analytic: alpha / (1 - alpha), Fryba's speed parameter; 1 - sqrt(1 - alpha^2); the mass and its spring as one body on
@@ -132,7 +135,7 @@ fn predictors_of_a_crossing_are_those_of_the_beam() {
     let stiffness = scene.wheels[0].normal.stiffness;
     let give = SPAN.powi(3) / (48.0 * EI) * stiffness;
     // heights: give / (1 + give)
-    assert!((predicted.give - give / (1.0 + give)).abs() < 1e-3, "{predicted:?}, {give}");
+    assert!((predicted.deflection - give / (1.0 + give)).abs() < 1e-3, "{predicted:?}, {give}");
     assert_eq!([predicted.step], [0.0]);
     assert!(predicted.is_complete);
 }
@@ -141,38 +144,42 @@ fn predictors_of_a_crossing_are_those_of_the_beam() {
 fn the_run_of_the_choice_is_kept() {
     let scene = scene(0.5, 0.5, 0.003);
     let (choice, run) = selected(&scene, 1e-2, &mut Beam::default());
-    let again = ran(&scene, choice.rung);
+    let again = ran(&scene, choice.fidelity);
     let apart = distance(&run, &again, &scene);
     assert!(apart < 1e-4, "{apart}: {choice:?}");
 }
 
 #[test]
 fn what_cannot_be_checked_is_said_to_be_unknown() {
-    let mut ladder = Beam { refused: Some(|rung| rung > Rung::Influence), ..Beam::default() };
+    let mut ladder = Beam { refused: Some(|rung| rung > Fidelity::Influence), ..Beam::default() };
     let (choice, run) = selected(&scene(0.5, 0.5, 0.25), 1e-2, &mut ladder);
-    assert_eq!((choice.rung, choice.reason, choice.estimate), (Rung::Influence, Reason::Unchecked, None));
-    assert!(choice.failed.contains(&Rung::Full), "{choice:?}");
+    assert_eq!(
+        (choice.fidelity, choice.reason, choice.estimate),
+        (Fidelity::Influence, Reason::Unchecked, None)
+    );
+    assert!(choice.failed.contains(&Fidelity::Full), "{choice:?}");
     assert_eq!(run.status, Status::Done);
 }
 
 #[test]
 fn a_rung_that_cannot_be_built_is_left_out() {
-    let mut ladder = Beam { refused: Some(|rung| rung == Rung::Modal(2)), ..Beam::default() };
+    let mut ladder = Beam { refused: Some(|rung| rung == Fidelity::Modal(2)), ..Beam::default() };
     let (choice, _) = selected(&scene(0.5, 0.5, 0.25), 1e-2, &mut ladder);
-    assert_eq!((choice.rung, choice.reason), (Rung::Modal(4), Reason::Sufficient));
-    assert_eq!(choice.failed, [Rung::Modal(2)]);
+    assert_eq!((choice.fidelity, choice.reason), (Fidelity::Modal(4), Reason::Sufficient));
+    assert_eq!(choice.failed, [Fidelity::Modal(2)]);
 }
 
 #[test]
 fn a_top_that_half_its_mesh_does_not_confirm_is_doubted() {
     let scene = scene(0.5, 0.5, 0.25);
-    let refused: Option<fn(Rung) -> bool> = Some(|rung| matches!(rung, Rung::Modal(_)));
+    let refused: Option<fn(Fidelity) -> bool> = Some(|rung| matches!(rung, Fidelity::Modal(_)));
     let (choice, _) = selected(&scene, 1e-3, &mut Beam { poor: true, refused, ..Beam::default() });
-    assert_eq!((choice.rung, choice.reason), (Rung::Full, Reason::Top));
+    assert_eq!((choice.fidelity, choice.reason), (Fidelity::Full, Reason::Highest));
     assert!(choice.estimate.is_some_and(|estimate| estimate > 1e-3), "{choice:?}");
-    let refused: Option<fn(Rung) -> bool> = Some(|rung| matches!(rung, Rung::Modal(_) | Rung::Half));
+    let refused: Option<fn(Fidelity) -> bool> =
+        Some(|rung| matches!(rung, Fidelity::Modal(_) | Fidelity::Half));
     let (choice, _) = selected(&scene, 1e-3, &mut Beam { refused, ..Beam::default() });
-    assert_eq!((choice.rung, choice.reason, choice.estimate), (Rung::Full, Reason::Top, None));
+    assert_eq!((choice.fidelity, choice.reason, choice.estimate), (Fidelity::Full, Reason::Highest, None));
 }
 
 #[test]
@@ -202,13 +209,14 @@ fn every_structure_has_a_choice_of_its_own_and_all_together_keep_their_tolerance
         let found =
             choose(&scene, &[Some(1e-2), Some(1e-2)], &mut ladder, &mut |_| ControlFlow::Continue(()))
                 .expect("a valid scene");
-        let whole = sim::run(&scene, &[at(Rung::Full), at(Rung::Full)], &mut |_| ControlFlow::Continue(()))
-            .expect("a valid scene");
+        let whole =
+            sim::run(&scene, &[at(Fidelity::Full), at(Fidelity::Full)], &mut |_| ControlFlow::Continue(()))
+                .expect("a valid scene");
         let error = distance(&found.run, &whole, &scene);
-        let rungs: Vec<Rung> = found.choices.iter().map(|choice| choice.rung).collect();
+        let rungs: Vec<Fidelity> = found.choices.iter().map(|choice| choice.fidelity).collect();
         println!("{alpha:?}: {rungs:?}, error {error:.1e}");
         for (choice, alpha) in found.choices.iter().zip(alpha) {
-            assert_eq!(choice.rung > Rung::Influence, alpha > 0.05, "{choice:?}");
+            assert_eq!(choice.fidelity > Fidelity::Influence, alpha > 0.05, "{choice:?}");
         }
         assert!(error <= 2e-2, "{error}");
         assert_eq!(found.runs, ladder.runs);

@@ -33,7 +33,7 @@ fn places(stepping: Stepping, accuracy: f64) -> ([f64; 2], usize) {
     let run = run_by(stepping, &scene, &[beam(0, true)], &mut |_| ControlFlow::Continue(()))
         .expect("a valid scene");
     assert_eq!(run.status, Status::Done);
-    let [gap, place, force] = [Channel::Penetration(0), Channel::Place(0), Channel::Vertical(0)]
+    let [gap, place, force] = [Channel::Penetration(0), Channel::Position(0), Channel::Vertical(0)]
         .map(|channel| run.history.column(channel));
     assert!(force.iter().all(|f| *f >= 0.0), "a one-sided wheel never pulls");
     let off = (2..gap.len()).find(|&i| gap[i - 1] >= 0.0 && gap[i] < 0.0).expect("it leaves");

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use common::kutta::{Kernel, rk4, sled};
 use common::{GRAVITY, bogie};
 use sim::{
-    Brake, Channel, Damper, Drive, Foundation, Freedom, Friction, FrictionLaw, Gauge, Run, Scene, Schedule,
+    BodyDof, Brake, Channel, Damper, Drive, Foundation, Friction, FrictionLaw, Gauge, Run, Scene, Schedule,
     Status,
 };
 use splines::{Axis, Probe};
@@ -54,8 +54,8 @@ fn last(run: &Run, channel: Channel) -> f64 {
     run.history.column(channel).last().copied().expect("a run has rows")
 }
 
-const X: Channel = Channel::Displacement(0, Freedom::X);
-const V: Channel = Channel::Speed(0, Freedom::X);
+const X: Channel = Channel::Displacement(0, BodyDof::X);
+const V: Channel = Channel::Speed(0, BodyDof::X);
 
 fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
     println!("{what}: {found} of {expected}, {:.1e}", (found - expected).abs());
@@ -110,7 +110,7 @@ fn braked_wheel_on_a_massless_rail_slides_on_what_the_rail_moves() {
         (Axis::Vertical, Axis::Longitudinal) | (Axis::Longitudinal, Axis::Vertical) => [gxy, 0.0],
         _ => [0.0; 2],
     });
-    let foundation = Foundation { is_dragged: true, ..Foundation::influence(Box::new(kernel), 1) };
+    let foundation = Foundation { is_loaded_along: true, ..Foundation::massless(Box::new(kernel), 1) };
     let (mut scene, speed, slip) = (braked(end), 1.0, 0.5);
     scene.bodies[0].start_speed[0] = speed;
     scene.actuators.brakes[0].speed = slip;
@@ -126,7 +126,7 @@ fn braked_wheel_on_a_massless_rail_slides_on_what_the_rail_moves() {
     });
     close("speed", last(&found, V), v, 1e-6);
     close("rail", last(&found, Channel::Gauge(0)), u, 1e-7);
-    close("height", last(&found, Channel::Displacement(0, Freedom::Y)), y, 1e-7);
+    close("height", last(&found, Channel::Displacement(0, BodyDof::Y)), y, 1e-7);
     assert!(found.audit.residual() < 1e-6, "{:e}", found.audit.residual());
 }
 
@@ -139,7 +139,7 @@ fn heavy_brake_grips_a_rail_that_hardly_gives_and_comes_to_a_stand() {
         (Axis::Longitudinal, Axis::Longitudinal) => [gxx, 0.0],
         _ => [0.0; 2],
     });
-    let foundation = Foundation { is_dragged: true, ..Foundation::influence(Box::new(kernel), 1) };
+    let foundation = Foundation { is_loaded_along: true, ..Foundation::massless(Box::new(kernel), 1) };
     let mut scene = braked(end);
     (scene.bodies[0].mass, scene.bodies[0].inertia) = (mass, [mass; 3]);
     scene.wheels[0].normal.stiffness = 1e8;
@@ -163,7 +163,7 @@ fn slip_is_measured_against_the_rail_and_not_along_the_path_of_the_wheel() {
         (Axis::Longitudinal, Axis::Longitudinal) => [a + b * p.x * q.x, b * q.x],
         _ => [0.0; 2],
     });
-    let foundation = Foundation { is_dragged: true, ..Foundation::influence(Box::new(kernel), 1) };
+    let foundation = Foundation { is_loaded_along: true, ..Foundation::massless(Box::new(kernel), 1) };
     let mut scene = braked(end);
     scene.bodies[0].start_speed[0] = speed;
     scene.actuators.brakes[0].speed = slip;
@@ -216,7 +216,7 @@ fn drive_pushes_its_rail_backwards_and_follows_the_speed_against_it() {
         let both = p.axis == Axis::Longitudinal && q.axis == Axis::Longitudinal;
         [if both { 1.0 / K } else { 0.0 }, 0.0]
     });
-    let massless = Foundation { is_dragged: true, ..Foundation::influence(Box::new(kernel), 1) };
+    let massless = Foundation { is_loaded_along: true, ..Foundation::massless(Box::new(kernel), 1) };
     let found = run(&scene, massless);
     // External: u = -D/k, D = gain (v_ref - v + u').
     let [v, u] = rk4([0.0, 0.0], end, 100_000, |_, [v, u]| [-K * u / MASS, v - SPEED - K * u / gain]);

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, WEIGHT, bogie, girder, give};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
-use sim::{Analysis, Body, Channel, Contact, Damper, Error, Freedom, Pin, Run, Scene, Status};
+use sim::{Analysis, Body, BodyDof, Channel, Contact, Damper, Error, Pin, Run, Scene, Status};
 
 const WHEEL: f64 = 4.0 / 3.0;
 /// Body, pin on it, mass and inertia of every body after the carriage.
@@ -42,7 +42,7 @@ fn carriage(end: f64) -> Scene {
             start: [0.0; 6],
             start_speed: [0.0; 6],
             motion: None,
-            pinned: Some(Pin { to, at: [at, 0.0, 0.0] }),
+            pinned: Some(Pin { body: to, at: [at, 0.0, 0.0] }),
         });
     }
     let contact = |body, offset| Contact { body, offsets: vec![offset], ..scene.contacts[0].clone() };
@@ -146,7 +146,7 @@ impl Reference {
 fn errors(run: &Run, h: f64) -> [f64; 2] {
     let reference = Reference::new();
     let (time, y) =
-        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, Freedom::Y)));
+        (run.history.column(Channel::Time), run.history.column(Channel::Displacement(0, BodyDof::Y)));
     let wheels: Vec<Vec<f64>> = (0..8).map(|w| run.history.column(Channel::Vertical(w))).collect();
     let (mut state, mut peak, mut worst) = (reference.start(), [0.0_f64; 2], [0.0_f64; 2]);
     let (mut t, mut done) = (0.0, 0);
@@ -200,14 +200,14 @@ fn a_tree_at_rest_is_the_carriage_on_massless_equalisers() {
     nested.contacts =
         [-6.0, 6.0].map(|side| Contact { offsets: offsets(side), ..nested.contacts[0].clone() }).to_vec();
     let (tree, nested) = (run(&tree), run(&nested));
-    for freedom in [Freedom::X, Freedom::Y, Freedom::Pitch] {
+    for freedom in [BodyDof::X, BodyDof::Y, BodyDof::Pitch] {
         let [a, b] = [&tree, &nested].map(|run| run.history.column(Channel::Displacement(0, freedom)));
         for (a, b) in a.iter().zip(&b) {
             assert!((a - b).abs() < 1e-10 * (1.0 + b.abs()), "{freedom:?}: {a} and {b}");
         }
     }
     for w in 0..8 {
-        let [places, others] = [&tree, &nested].map(|run| run.history.column(Channel::Place(w)));
+        let [places, others] = [&tree, &nested].map(|run| run.history.column(Channel::Position(w)));
         for (x, other) in places.iter().zip(&others) {
             assert!((x - other).abs() < 1e-12 * 100.0, "wheel {w} at {x} and {other}");
         }
@@ -221,12 +221,12 @@ fn a_tree_at_rest_is_the_carriage_on_massless_equalisers() {
 fn pins_in_a_circle_and_translations_of_pinned_bodies_are_refused() {
     let refused = |scene: &Scene| sim::run(scene, &[girder()], &mut |_| ControlFlow::Continue(())).err();
     let mut circle = carriage(0.5);
-    circle.bodies[1].pinned = Some(Pin { to: 3, at: [0.0; 3] });
+    circle.bodies[1].pinned = Some(Pin { body: 3, at: [0.0; 3] });
     assert!(matches!(refused(&circle), Some(Error::Pinned { .. })));
     let mut sliding = carriage(0.5);
     sliding.bodies[2].free[0] = true;
     assert_eq!(refused(&sliding), Some(Error::Pinned { body: 2 }));
     let mut nowhere = carriage(0.5);
-    nowhere.bodies[2].pinned = Some(Pin { to: 9, at: [0.0; 3] });
+    nowhere.bodies[2].pinned = Some(Pin { body: 9, at: [0.0; 3] });
     assert_eq!(refused(&nowhere), Some(Error::NoSuch { what: "body", index: 9 }));
 }

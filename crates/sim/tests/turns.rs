@@ -9,8 +9,8 @@ use std::ops::ControlFlow;
 use common::kutta::rk4;
 use common::{GRAVITY, bogie};
 use sim::{
-    Channel, Damper, Error, Foundation, Freedom, Friction, FrictionLaw, Given, Load, Profile, Run, Scene,
-    Schedule, Status, Turn,
+    BodyDof, Channel, Damper, Error, Foundation, Friction, FrictionLaw, Load, MotionKind, PrescribedSpin,
+    Profile, Run, Scene, Schedule, Status,
 };
 
 const MASS: f64 = 5.0;
@@ -18,11 +18,11 @@ const WEIGHT: f64 = MASS * GRAVITY;
 const MU: f64 = 0.3;
 const INERTIA: f64 = 2.0;
 const K: f64 = 1e5;
-const X: Channel = Channel::Displacement(0, Freedom::X);
-const V: Channel = Channel::Speed(0, Freedom::X);
+const X: Channel = Channel::Displacement(0, BodyDof::X);
+const V: Channel = Channel::Speed(0, BodyDof::X);
 
 /// A body on one wheel (and `others` with a spin of their own) of friction STEP, whose spin follows `table`.
-fn turned(given: Given, table: &[[f64; 2]], slip: f64, others: usize, end: f64) -> Scene {
+fn turned(given: MotionKind, table: &[[f64; 2]], slip: f64, others: usize, end: f64) -> Scene {
     let mut scene = bogie(0.0, end, Damper::Rail);
     let body = &mut scene.bodies[0];
     (body.mass, body.inertia, body.motion) = (MASS, [MASS; 3], None);
@@ -32,7 +32,7 @@ fn turned(given: Given, table: &[[f64; 2]], slip: f64, others: usize, end: f64) 
     (wheel.normal.stiffness, wheel.normal.damping, wheel.spin_inertia) = (K, 0.0, Some(INERTIA));
     wheel.friction = Some(Friction { law: FrictionLaw::Step, coefficient: MU, slip });
     let motion = Profile::new(given, table, 0.0, 0.0).expect("rows");
-    scene.actuators.turns = vec![Turn { contact: 0, wheel: 0, motion }];
+    scene.actuators.spins = vec![PrescribedSpin { contact: 0, wheel: 0, motion }];
     scene.accuracy = 1e-8;
     scene
 }
@@ -67,10 +67,10 @@ fn close(what: &str, found: f64, expected: f64, tolerance: f64) {
 fn wheel_slides_steadily_where_friction_balances_a_load() {
     // Analytic: mu N S(s) = P; the moment holds h P against the load.
     let (slip, spin, share) = (0.2, -4.0, 0.5);
-    let mut scene = turned(Given::Speed, &[[0.0, spin]], slip, 0, 3.0);
+    let mut scene = turned(MotionKind::Speed, &[[0.0, spin]], slip, 0, 3.0);
     let pushed = share * MU * WEIGHT;
     let value = Schedule::new(&[[0.0, pushed]]).expect("a row");
-    scene.actuators.loads = vec![Load { body: 0, freedom: Freedom::X, value }];
+    scene.actuators.loads = vec![Load { body: 0, dof: BodyDof::X, value }];
     let found = run(&scene);
     close("speed", last(&found, V), -spin * arm() + slide(slip, share), 1e-8);
     close("friction", last(&found, Channel::Traction(0)), pushed, 1e-6 * pushed);
@@ -85,7 +85,7 @@ fn body_follows_the_rim_of_its_wheel_where_hardly_any_slip_is_needed() {
     let (alpha, end) = (-3.0, 2.0);
     let share = MASS * 3.0 * arm() / (MU * WEIGHT);
     for slip in [1e-2, 1e-4] {
-        let found = run(&turned(Given::Acceleration, &[[0.0, alpha]], slip, 0, end));
+        let found = run(&turned(MotionKind::Acceleration, &[[0.0, alpha]], slip, 0, end));
         let rim = -alpha * end * arm();
         close("speed", last(&found, V), rim - slide(slip, share), 1e-7);
         close(
@@ -109,7 +109,7 @@ fn body_follows_the_rim_of_its_wheel_where_hardly_any_slip_is_needed() {
 fn spinning_wheel_pulls_with_all_its_friction_until_it_rolls() {
     // Analytic: v = mu g t while it slides; the moment is -h mu N, its power splits evenly into speed and heat.
     let (slip, spin, end) = (0.05, -40.0, 1.0);
-    let found = run(&turned(Given::Position, &[[0.0, 0.0], [1.0, spin]], slip, 0, end));
+    let found = run(&turned(MotionKind::Position, &[[0.0, 0.0], [1.0, spin]], slip, 0, end));
     close("speed", last(&found, V), MU * GRAVITY * end, 1e-7);
     let history = found.history.column(Channel::SpinMoment(0));
     close("moment", history[50], -arm() * MU * WEIGHT, 1e-7);
@@ -122,7 +122,7 @@ fn spinning_wheel_pulls_with_all_its_friction_until_it_rolls() {
 #[test]
 fn driven_wheel_takes_its_body_and_the_other_wheel_along() {
     let (slip, end) = (0.3, 1.5);
-    let found = run(&turned(Given::Speed, &[[0.0, 0.0], [1.0, -6.0]], slip, 1, end));
+    let found = run(&turned(MotionKind::Speed, &[[0.0, 0.0], [1.0, -6.0]], slip, 1, end));
     // External: v and the other spin by Runge-Kutta; both wheels carry half of the weight.
     let arm = 1.25 - 0.5 * WEIGHT / K;
     let friction = |s: f64| {
@@ -143,13 +143,13 @@ fn spins_that_cannot_be_prescribed_are_refused() {
     let table = [[0.0, 1.0]];
     let refused =
         |scene: &Scene| sim::run(scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(())).err();
-    let mut scene = turned(Given::Speed, &table, 0.1, 0, 1.0);
-    scene.actuators.turns[0].wheel = 1;
+    let mut scene = turned(MotionKind::Speed, &table, 0.1, 0, 1.0);
+    scene.actuators.spins[0].wheel = 1;
     assert!(matches!(refused(&scene), Some(Error::NoSuch { .. })));
-    let mut scene = turned(Given::Speed, &table, 0.1, 0, 1.0);
-    scene.actuators.turns.push(scene.actuators.turns[0].clone());
+    let mut scene = turned(MotionKind::Speed, &table, 0.1, 0, 1.0);
+    scene.actuators.spins.push(scene.actuators.spins[0].clone());
     assert!(matches!(refused(&scene), Some(Error::Number { .. })));
-    let mut scene = turned(Given::Speed, &table, 0.1, 0, 1.0);
+    let mut scene = turned(MotionKind::Speed, &table, 0.1, 0, 1.0);
     scene.wheels[0].friction = None;
     assert!(matches!(refused(&scene), Some(Error::NoSuch { .. })));
 }

@@ -10,8 +10,10 @@ use std::ops::ControlFlow;
 
 use common::near::{assert_at_most, assert_near};
 use common::{GRAVITY, WEIGHT, bogie, surface};
-use sim::{Channel, Damper, Foundation, Freedom, Run, Status};
-use splines::{Axis, Compliance, Error, Influence, Jets, Kind, Probe, Reading, Sheet};
+use sim::{BodyDof, Channel, Damper, Foundation, Run, Status};
+use splines::{
+    Axis, Compliance, Differentiable, Error, Influence, InfluenceBlock, Probe, ReadingMethod, TableReading,
+};
 
 /// Where the bogie is let go, ft; two turns end one cycle.
 const START: f64 = 12.0;
@@ -31,24 +33,24 @@ fn rolling(foundation: Foundation, end: f64, accuracy: f64) -> Run {
     run
 }
 
-fn reading(kind: Kind) -> Reading {
+fn reading(kind: ReadingMethod) -> TableReading {
     let way = (0, Axis::Vertical);
-    let sheet = Sheet { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
-    Reading::new(kind, &[sheet]).expect("a table")
+    let sheet = InfluenceBlock { deflection: way, load: way, table: printed::table(&printed::VERTICAL) };
+    TableReading::new(kind, &[sheet]).expect("a table")
 }
 
-fn printed_table(kind: Kind) -> Foundation {
-    Foundation::influence(Box::new(reading(kind)), 1)
+fn printed_table(kind: ReadingMethod) -> Foundation {
+    Foundation::massless(Box::new(reading(kind)), 1)
 }
 
 /// AKISPL read the other way round: cubic along the wheel that moves, straight along the one that loads it.
-struct Turned(Reading);
+struct Turned(TableReading);
 
 impl Compliance for Turned {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         for (i, p) in at.iter().enumerate() {
             for (j, q) in at.iter().enumerate() {
-                let jet = self.0.jet(*q, *p)?;
+                let jet = self.0.partials(*q, *p)?;
                 (out.value[(i, j)], out.slope[(i, j)]) = (jet.value, jet.q);
             }
         }
@@ -70,20 +72,20 @@ impl Compliance for Turned {
 
 /// Time of the `count`-th turn.
 fn turn(run: &Run, count: usize) -> f64 {
-    let [t, v] = [Channel::Time, Channel::Speed(0, Freedom::X)].map(|channel| run.history.column(channel));
+    let [t, v] = [Channel::Time, Channel::Speed(0, BodyDof::X)].map(|channel| run.history.column(channel));
     // Released at rest, it heads for midspan: the first turn is that at the far side.
     let turns = (1..v.len()).filter(|&i| t[i] > 1.0 && v[i - 1] * v[i] <= 0.0);
     turns.map(|i| t[i]).nth(count - 1).expect("it turns that often")
 }
 
 fn largest_kinetic(run: &Run) -> f64 {
-    let v = run.history.column(Channel::Speed(0, Freedom::X));
+    let v = run.history.column(Channel::Speed(0, BodyDof::X));
     v.iter().fold(0.0_f64, |max, v| max.max(0.5 * WEIGHT / GRAVITY * v * v))
 }
 
 #[test]
 fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
-    let exact = || Foundation::influence(Box::new(surface()), 1);
+    let exact = || Foundation::massless(Box::new(surface()), 1);
     let end = turn(&rolling(exact(), 160.0, 1e-4), 7);
     let run = rolling(exact(), end, 1e-8);
     let drift = run.audit.end.total() - run.audit.start.total();
@@ -103,7 +105,7 @@ fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
         run.audit.imbalance / kinetic,
     );
 
-    let natural = rolling(printed_table(Kind::Natural), end, 1e-6);
+    let natural = rolling(printed_table(ReadingMethod::Natural), end, 1e-6);
     println!("printed table, natural: {:.2e} ft lb", natural.audit.end.total() - natural.audit.start.total());
     assert!(natural.audit.imbalance < 1e-7 * largest_kinetic(&natural));
 }
@@ -114,9 +116,9 @@ fn bogie_in_its_own_well_keeps_its_energy_for_three_cycles_and_a_half() {
 /// without motion.
 #[test]
 fn akispl_errs_by_a_tenth_of_the_well_on_the_way_either_way_round() {
-    let turned = Foundation::influence(Box::new(Turned(reading(Kind::Akispl))), 1);
+    let turned = Foundation::massless(Box::new(Turned(reading(ReadingMethod::Akispl))), 1);
     for (what, foundation, wanted) in
-        [("as in decks", printed_table(Kind::Akispl), 83_589.0), ("turned", turned, 76_304.0)]
+        [("as in decks", printed_table(ReadingMethod::Akispl), 83_589.0), ("turned", turned, 76_304.0)]
     {
         let run = rolling(foundation, 133.6, 1e-6);
         let change = run.audit.end.total() - run.audit.start.total();

@@ -8,7 +8,7 @@ use std::ops::ControlFlow;
 
 use common::{GRAVITY, bogie, girder};
 use sim::{
-    Analysis, Body, Channel, Contact, Damper, Flange, Foundation, Freedom, Friction, FrictionLaw, NormalLaw,
+    Analysis, Body, BodyDof, Channel, Contact, Damper, Flange, Foundation, Friction, FrictionLaw, NormalLaw,
     Run, Scene, Status, Wheel,
 };
 
@@ -72,7 +72,7 @@ fn run(scene: &Scene, foundation: Foundation) -> Run {
 
 /// Slip velocity of the contact point over time.
 fn slips(run: &Run) -> Vec<f64> {
-    let speed = run.history.column(Channel::Speed(0, Freedom::X));
+    let speed = run.history.column(Channel::Speed(0, BodyDof::X));
     let spin = run.history.column(Channel::SpinSpeed(0));
     let depth = run.history.column(Channel::Penetration(0));
     (0..speed.len()).map(|i| speed[i] + spin[i] * (1.25 - depth[i])).collect()
@@ -96,7 +96,7 @@ fn sliding_wheel_needs_the_closed_form_time_until_it_almost_rolls() {
     assert!((closed - 0.550_366).abs() < 1e-6);
     assert!((found - closed).abs() < 1e-5 * closed);
     assert!(run.audit.residual() < 1e-6);
-    let (last, speed) = (slip.len() - 1, run.history.column(Channel::Speed(0, Freedom::X)));
+    let (last, speed) = (slip.len() - 1, run.history.column(Channel::Speed(0, BodyDof::X)));
     assert!(slip[last].abs() < 1e-3 && speed[last] > 5.0, "the wheel rolls on");
 }
 
@@ -117,7 +117,7 @@ fn wheel_under_coulomb_friction_slides_by_its_closed_form() {
         let closed = slip * ((10.0 / slip).sinh() * (-mu * LOAD * compliance * t / slip).exp()).asinh();
         worst = worst.max((s - closed).abs());
     }
-    let speed = run.history.column(Channel::Speed(0, Freedom::X));
+    let speed = run.history.column(Channel::Speed(0, BodyDof::X));
     let last = slips(&run)[speed.len() - 1];
     // Momentum about the contact: the speed lost is the share 1/(m A) of the sliding lost.
     let closed = 10.0 - (10.0 - last) / (mass * compliance);
@@ -202,8 +202,8 @@ fn flange_force_tips_the_body_with_the_moment_of_its_lever() {
     let height = 1.25 - run.history.column(Channel::Penetration(0))[0];
     // Analytic: L = k (z - clearance); z'' = -L/m, roll'' = TX/Ixx with TX = FZ x DY = L height.
     assert!((lateral[0] - 1e6 * 0.01).abs() < 1e-6);
-    let roll = run.history.column(Channel::Speed(0, Freedom::Roll));
-    let slide = run.history.column(Channel::Speed(0, Freedom::Z));
+    let roll = run.history.column(Channel::Speed(0, BodyDof::Roll));
+    let slide = run.history.column(Channel::Speed(0, BodyDof::Z));
     let (mass, t) = (LOAD / GRAVITY, 1e-4);
     assert!((roll[10] / (lateral[0] * height / 3e4 * t) - 1.0).abs() < 1e-4, "{}", roll[10]);
     assert!((slide[10] / (-lateral[0] / mass * t) - 1.0).abs() < 1e-4, "{}", slide[10]);

@@ -44,7 +44,7 @@ fn mass_on_a_beam_without_mass_meets_the_reference() {
         let weight = scene.bodies[0].mass * scene.gravity;
         let sag = weight * SPAN.powi(3) / (48.0 * EI);
         let force = run.history.column(Channel::Vertical(0));
-        let place = run.history.column(Channel::Place(0));
+        let place = run.history.column(Channel::Position(0));
         // In the last 0.2 % of the span the spring gives as much as the beam.
         let first = force.iter().position(|f| *f < 0.0).map(|i| place[i] / SPAN).filter(|x| *x < 0.998);
         // Beyond, towards the support, the wheel is pulled down and thrown up in turns.
@@ -69,7 +69,7 @@ fn one_sided_wheel_leaves_where_the_other_would_pull() {
         scene.wheels[0].normal.bilateral = false;
         let run = run(&scene);
         let (force, place) =
-            (run.history.column(Channel::Vertical(0)), run.history.column(Channel::Place(0)));
+            (run.history.column(Channel::Vertical(0)), run.history.column(Channel::Position(0)));
         let gap = run.history.column(Channel::Penetration(0));
         let off = force.iter().zip(&place).position(|(f, x)| *f == 0.0 && *x > 0.0).expect("it leaves");
         println!("beta {beta}: leaves at {:.4}, {} events", place[off] / SPAN, run.counts.events);

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use common::single;
 use sim::{
-    Actuators, Analysis, Body, Channel, Damper, Dynamics, Extent, Foundation, Gauge, Given, NormalLaw,
+    Actuators, Analysis, Body, Channel, Damper, Dynamics, Extent, Foundation, Gauge, MotionKind, NormalLaw,
     Profile, Scene, Shapes, Status, Structure, Wheel, run,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
@@ -124,7 +124,7 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
             free: [false, true, false, false, false, false],
             start: [start, 0.0, 0.0, 0.0, 0.0, 0.0],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(Given::Speed, &table, start, 0.0).expect("a valid table")),
+            motion: Some(Profile::new(MotionKind::Speed, &table, start, 0.0).expect("a valid table")),
             pinned: None,
         }],
         wheels: vec![Wheel {
@@ -163,7 +163,7 @@ fn amplification(theta: f64, rise: f64) -> [f64; 2] {
     let run = run(&scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(run.status, Status::Done);
     let [time, give, gauge] =
-        [Channel::Time, Channel::Give(0), Channel::Gauge(0)].map(|channel| run.history.column(channel));
+        [Channel::Time, Channel::Deflection(0), Channel::Gauge(0)].map(|channel| run.history.column(channel));
     // At rest: u w'' ... = 1/2 under the load, and the endless beam's curve beside it.
     let beside = 0.5 * (-1.0_f64).exp() * (1.0_f64.cos() + 1.0_f64.sin());
     println!("static: {:.1e} {:.1e}", give[0] / 0.5 - 1.0, -gauge[0] / beside - 1.0);

@@ -7,7 +7,7 @@ mod beam;
 use beam::printed::STATIONS;
 use beam::{Beam, probe, read, tabulate};
 use divan::{Bencher, black_box};
-use splines::{Axis, Factored, Influence, Jets, Kind, Probe, Rank, Sheet};
+use splines::{Axis, Differentiable, FactoredTable, Influence, InfluenceBlock, Probe, Rank, ReadingMethod};
 
 fn main() {
     divan::main();
@@ -31,20 +31,20 @@ const ALL: [Of; 7] =
     [Of::Exact, Of::Coupled, Of::Natural, Of::Factored, Of::Akispl, Of::Symmetrised, Of::Cubspl];
 
 impl Of {
-    fn ready(self) -> Box<dyn Jets> {
+    fn ready(self) -> Box<dyn Differentiable> {
         let table = tabulate(&Beam::paper(), &STATIONS);
         let way = (0, Axis::Vertical);
         match self {
             Of::Exact => Box::new(Beam::paper().surface(&STATIONS)),
             Of::Coupled => Box::new(beam::coupled()),
-            Of::Natural => Box::new(read(Kind::Natural, table)),
+            Of::Natural => Box::new(read(ReadingMethod::Natural, table)),
             Of::Factored => {
-                let sheet = Sheet { deflection: way, load: way, table };
-                Box::new(Factored::new(&[sheet], Rank::Full).expect("one table"))
+                let sheet = InfluenceBlock { deflection: way, load: way, table };
+                Box::new(FactoredTable::new(&[sheet], Rank::Full).expect("one table"))
             }
-            Of::Akispl => Box::new(read(Kind::Akispl, table)),
-            Of::Symmetrised => Box::new(read(Kind::Symmetrised, table)),
-            Of::Cubspl => Box::new(read(Kind::Cubspl, table)),
+            Of::Akispl => Box::new(read(ReadingMethod::Akispl, table)),
+            Of::Symmetrised => Box::new(read(ReadingMethod::Symmetrised, table)),
+            Of::Cubspl => Box::new(read(ReadingMethod::Cubspl, table)),
         }
     }
 }
@@ -54,7 +54,7 @@ impl Of {
 fn jet(bencher: Bencher<'_, '_>, of: Of) {
     let ready = of.ready();
     let [p, q] = [11.0, 41.0].map(|x| probe(Axis::Vertical, x));
-    bencher.bench_local(|| ready.jet(black_box(p), black_box(q)));
+    bencher.bench_local(|| ready.partials(black_box(p), black_box(q)));
 }
 
 /// Values and slopes of n vertical probes, 32 in apart, or closer where the span requires it.

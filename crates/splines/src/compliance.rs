@@ -45,8 +45,8 @@ impl Influence {
 
 /// Compliance of a structure at its rails: displacements per unit force between any set of probes.
 ///
-/// Implementations are [`crate::Surface`] (exact), [`crate::Reading`] and [`crate::Factored`] (tables of
-/// values), [`crate::Parted`] and [`crate::Rest`] (another compliance with something left out). A caller may
+/// Implementations are [`crate::ExactSurface`] (exact), [`crate::TableReading`] and [`crate::FactoredTable`] (tables of
+/// values), [`crate::Uncoupled`] and [`crate::ResidualFlexibility`] (another compliance with something left out). A caller may
 /// write its own:
 ///
 /// ```
@@ -107,7 +107,7 @@ pub trait Compliance: Send + Sync {
 
 /// Value and partial derivatives of G(p, q), up to the second order, for one pair of probes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Jet2 {
+pub struct Partials {
     /// G(p, q): displacement at p along its axis per unit force at q along its axis, length/force.
     pub value: f64,
     /// dG/dp, by the coordinate of p, 1/force.
@@ -122,16 +122,16 @@ pub struct Jet2 {
     pub qq: f64,
 }
 
-impl Jet2 {
+impl Partials {
     /// The derivatives of G(q, p) from those of G(p, q).
     #[inline]
-    pub(crate) fn swapped(self) -> Jet2 {
-        Jet2 { value: self.value, p: self.q, q: self.p, pp: self.qq, pq: self.pq, qq: self.pp }
+    pub(crate) fn swapped(self) -> Partials {
+        Partials { value: self.value, p: self.q, q: self.p, pp: self.qq, pq: self.pq, qq: self.pp }
     }
 
     #[inline]
-    pub(crate) fn mean(self, other: Jet2) -> Jet2 {
-        Jet2 {
+    pub(crate) fn mean(self, other: Partials) -> Partials {
+        Partials {
             value: 0.5 * (self.value + other.value),
             p: 0.5 * (self.p + other.p),
             q: 0.5 * (self.q + other.q),
@@ -142,8 +142,8 @@ impl Jet2 {
     }
 
     #[inline]
-    pub(crate) fn scaled(self, factor: f64) -> Jet2 {
-        Jet2 {
+    pub(crate) fn scaled(self, factor: f64) -> Partials {
+        Partials {
             value: factor * self.value,
             p: factor * self.p,
             q: factor * self.q,
@@ -154,7 +154,7 @@ impl Jet2 {
     }
 
     #[inline]
-    pub(crate) fn add(&mut self, other: Jet2) {
+    pub(crate) fn add(&mut self, other: Partials) {
         self.value += other.value;
         self.p += other.p;
         self.q += other.q;
@@ -165,7 +165,7 @@ impl Jet2 {
 }
 
 /// A compliance that can be differentiated twice, one pair of probes at a time.
-pub trait Jets: Compliance {
+pub trait Differentiable: Compliance {
     /// Value and partial derivatives up to the second order.
     ///
     /// `value` and `p` are those of [`Compliance::fill`]. Where a derivative does not exist, the convention
@@ -175,5 +175,5 @@ pub trait Jets: Compliance {
     ///
     /// # Errors
     /// As [`Compliance::fill`].
-    fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error>;
+    fn partials(&self, p: Probe, q: Probe) -> Result<Partials, Error>;
 }

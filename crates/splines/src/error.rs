@@ -29,7 +29,7 @@ pub enum Error {
     },
     /// A direction in which the structure has no stiffness at the probe.
     #[error("the structure has no {axis:?} stiffness on rail {rail} at x = {x}")]
-    Unstiffened {
+    NoStiffness {
         /// Which rail.
         rail: usize,
         /// The coordinate asked for.
@@ -39,16 +39,16 @@ pub enum Error {
     },
     /// Rails without any element.
     #[error("rails need at least one element")]
-    NoCells,
+    NoElements,
     /// A coordinate or offset that is not finite, or a node state index above `u32::MAX`.
     #[error("rail element {cell} has a coordinate, an offset or a state index that cannot be used")]
-    CellNumber {
+    ElementNumber {
         /// Index of the element.
         cell: usize,
     },
     /// Coordinates of an element that do not increase.
     #[error("rail element {cell} runs from x = {} to {}", x[0], x[1])]
-    CellExtent {
+    ElementExtent {
         /// Index of the element.
         cell: usize,
         /// Its first and last coordinate.
@@ -56,7 +56,7 @@ pub enum Error {
     },
     /// A length that is not positive.
     #[error("rail element {cell} has length {length}")]
-    CellLength {
+    ElementLength {
         /// Index of the element.
         cell: usize,
         /// Its length.
@@ -64,19 +64,19 @@ pub enum Error {
     },
     /// A frame that is not a rotation.
     #[error("the frame of rail element {cell} is not a rotation")]
-    CellFrame {
+    ElementFrame {
         /// Index of the element.
         cell: usize,
     },
     /// A flexibility that is negative or not a number.
     #[error("rail element {cell} has a flexibility that is negative or not a number")]
-    CellFlexibility {
+    ElementFlexibility {
         /// Index of the element.
         cell: usize,
     },
     /// Elements of one member that differ in length or flexibility.
     #[error("rail elements {first} and {second} of one member differ in length or flexibility")]
-    CellCarrier {
+    ElementMember {
         /// Index of the first element of the member.
         first: usize,
         /// Index of the element that differs.
@@ -148,7 +148,7 @@ pub enum Error {
     },
     /// Too few points.
     #[error("{found} points, at least {least} needed")]
-    Points {
+    TooFewPoints {
         /// Points given.
         found: usize,
         /// Fewest allowed.
@@ -186,22 +186,22 @@ pub enum Error {
     },
     /// A table reading without tables.
     #[error("a reading needs at least one table")]
-    NoSheets,
+    NoBlocks,
     /// A coupling between directions of which one has no table of its own.
     #[error("table {sheet} couples a direction that has no table of its own")]
-    SheetAlone {
+    BlockAlone {
         /// Which table, from 0.
         sheet: usize,
     },
     /// A second table for the same pair of directions, or for the opposite pair.
     #[error("table {sheet} repeats the directions of another")]
-    SheetTwice {
+    BlockTwice {
         /// Which table, from 0.
         sheet: usize,
     },
     /// Stations that differ from those of the direction's own table.
     #[error("the stations of table {sheet} differ between its directions' tables")]
-    SheetStations {
+    BlockStations {
         /// Which table, from 0.
         sheet: usize,
     },
@@ -215,7 +215,7 @@ pub enum Error {
     },
     /// The tolerance is not reached with the largest number of stations allowed.
     #[error("{most} stations give an error of {error:e}, which exceeds the tolerance")]
-    Stations {
+    TooFewStations {
         /// Largest number of stations allowed.
         most: usize,
         /// Relative error with that many.
@@ -229,5 +229,5 @@ pub enum Error {
     },
     /// A table that no uniform beam with supports at its stations can have.
     #[error("the table fits no uniform beam with supports at its stations")]
-    Unliftable,
+    NoBeamFit,
 }

@@ -1,14 +1,14 @@
 //! Functions along a rail: how far it deflects at one place under a force at another.
 //!
 //! The central object is a [`Compliance`]: influence coefficients G(p, q) between any [`Probe`]s, with their
-//! slopes. A [`Surface`] gives them exactly from rail elements and the compliance of their node states; a
-//! [`Reading`] or a [`Factored`] table interpolates tables of values, as ADAMS does or better; [`quality`]
+//! slopes. A [`ExactSurface`] gives them exactly from rail elements and the compliance of their node states; a
+//! [`TableReading`] or a [`FactoredTable`] table interpolates tables of values, as ADAMS does or better; [`quality`]
 //! measures what a reading of a table costs. Displacements and forces are positive along +x, up and +z of the
 //! rail; units are those of the caller.
 //!
 //! ```
 //! use nalgebra::DMatrix;
-//! use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet, Table, lift};
+//! use splines::{Axis, Compliance, Influence, ReadingMethod, Probe, TableReading, InfluenceBlock, SplineTable, fit_beam};
 //!
 //! // Deflections of a simply supported beam of length 4 with 1/EI = 1, tabulated at five stations.
 //! let x: Vec<f64> = (0..5).map(f64::from).collect();
@@ -16,15 +16,15 @@
 //!     let (a, b) = (z.min(x), 4.0 - z.max(x));
 //!     a * b * (16.0 - a * a - b * b) / 24.0
 //! };
-//! let table = Table::new(x.clone(), x.clone(), DMatrix::from_fn(5, 5, |i, j| exact(x[i], x[j])))?;
+//! let table = SplineTable::new(x.clone(), x.clone(), DMatrix::from_fn(5, 5, |i, j| exact(x[i], x[j])))?;
 //!
 //! // Two wheels between the stations, read as ADAMS would, and exactly by fitting the beam behind the table.
 //! let wheels = [1.3, 1.8].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
 //! let vertical = (0, Axis::Vertical);
-//! let block = Sheet { deflection: vertical, load: vertical, table: table.clone() };
+//! let block = InfluenceBlock { deflection: vertical, load: vertical, table: table.clone() };
 //! let (mut adams, mut beam) = (Influence::zeros(2), Influence::zeros(2));
-//! Reading::new(Kind::Akispl, &[block])?.fill(&wheels, &mut adams)?;
-//! lift(0, &table)?.surface.fill(&wheels, &mut beam)?;
+//! TableReading::new(ReadingMethod::Akispl, &[block])?.fill(&wheels, &mut adams)?;
+//! fit_beam(0, &table)?.surface.fill(&wheels, &mut beam)?;
 //! assert!((beam.value[(0, 1)] - exact(1.3, 1.8)).abs() < 1e-13);
 //! assert!((adams.value[(0, 1)] - exact(1.3, 1.8)).abs() > 1e-2);
 //! assert_eq!(beam.value[(0, 1)], beam.value[(1, 0)]);
@@ -57,12 +57,17 @@ mod surface;
 mod table;
 mod vector;
 
-pub use compliance::{Compliance, Influence, Jet2, Jets};
-pub use curve::{Curve, Jet, akima, natural};
+pub use compliance::{Compliance, Differentiable, Influence, Partials};
+pub use curve::{CurveValue, PiecewiseCubic, akima, natural_spline};
 pub use error::Error;
 pub use probe::{Axis, Probe};
-pub use quality as check;
-pub use quality::{Search, Stations, stations};
-pub use rail::{Carrier, Cell, Flexibility, Line, Row};
-pub use surface::{Component, Couplings, Effects, Parted, Rest, Section, Shapes, Surface};
-pub use table::{Curves, Factor, Factored, Kind, Lift, Rank, Reading, Sheet, Table, lift};
+pub use quality::{StationSearch, StationSet, fewest_stations};
+pub use rail::{ElementMember, Flexibility, RailElement, Rails, ShapeRow};
+pub use surface::{
+    Couplings, ExactSurface, ForceComponent, InfluenceLines, InternalForce, RailShapes, ResidualFlexibility,
+    Uncoupled,
+};
+pub use table::{
+    BeamFit, FactorCurves, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable, TableFactor,
+    TableReading, fit_beam,
+};

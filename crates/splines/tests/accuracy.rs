@@ -8,8 +8,8 @@ use beam::near::{assert_at_most, assert_near};
 use beam::{Beam, EI, chain, probe, read, tabulate};
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, Factored, Flexibility, Influence, Kind, Line, Probe, Rank, Sheet, Surface, Table,
-    akima, lift,
+    Axis, Compliance, ExactSurface, FactoredTable, Flexibility, Influence, InfluenceBlock, Probe, Rails,
+    Rank, ReadingMethod, SplineTable, akima, fit_beam,
 };
 
 const UP: (usize, Axis) = (0, Axis::Vertical);
@@ -33,7 +33,7 @@ fn grid(of: &dyn Compliance, places: &[f64]) -> DMatrix<f64> {
 }
 
 /// Akima's curves along both directions, x first.
-fn both_akima(table: &Table, places: &[f64]) -> DMatrix<f64> {
+fn both_akima(table: &SplineTable, places: &[f64]) -> DMatrix<f64> {
     let n = table.z().len();
     let along: Vec<_> = (0..n)
         .map(|i| {
@@ -52,16 +52,16 @@ fn both_akima(table: &Table, places: &[f64]) -> DMatrix<f64> {
 }
 
 /// Values and slopes of the node states by cubic shapes, without Green's function of the loaded element.
-fn hermite(beam: &Beam, stations: &[f64]) -> Surface {
+fn hermite(beam: &Beam, stations: &[f64]) -> ExactSurface {
     let exact = beam.surface(stations);
-    let line = Line::new(chain(stations, [0.0; 3], Flexibility::default())).expect("valid cells");
-    Surface::new(Arc::new(line), exact.nodal().clone()).expect("fits")
+    let line = Rails::new(chain(stations, [0.0; 3], Flexibility::default())).expect("valid cells");
+    ExactSurface::new(Arc::new(line), exact.nodal().clone()).expect("fits")
 }
 
 /// Stations of the study, and the largest errors of a reading with them, relative to the largest entry.
 const NUMBERS: [usize; 5] = [7, 13, 19, 37, 73];
 
-fn errors(at: impl Fn(&Table, &[f64], usize) -> DMatrix<f64>) -> [f64; 5] {
+fn errors(at: impl Fn(&SplineTable, &[f64], usize) -> DMatrix<f64>) -> [f64; 5] {
     let beam = Beam::paper();
     let truth = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
     NUMBERS.map(|n| {
@@ -86,9 +86,9 @@ fn order(errors: &[f64; 5]) -> f64 {
 /// External: measured on an independent prototype, two digits.
 #[test]
 fn akispl_and_its_mean_err_by_the_square_of_the_distance() {
-    let plain = errors(|table, places, _| grid(&read(Kind::Akispl, table.clone()), places));
+    let plain = errors(|table, places, _| grid(&read(ReadingMethod::Akispl, table.clone()), places));
     agree("AKISPL", &plain, &[6.6e-2, 1.8e-2, 8.0e-3, 2.0e-3, 5.2e-4]);
-    let mean = errors(|table, places, _| grid(&read(Kind::Symmetrised, table.clone()), places));
+    let mean = errors(|table, places, _| grid(&read(ReadingMethod::Symmetrised, table.clone()), places));
     agree("AKISPL symmetrised", &mean, &[5.3e-2, 1.6e-2, 7.7e-3, 2.0e-3, 5.1e-4]);
     assert!((order(&plain) - 2.0).abs() < 0.05 && (order(&mean) - 2.0).abs() < 0.05);
 }
@@ -127,12 +127,12 @@ fn akima_along_both_directions_errs_less_but_is_not_symmetric() {
 /// External, as above; the factored reading is the natural one (identity).
 #[test]
 fn natural_and_factored_readings_err_by_the_cube_of_the_distance() {
-    let found = errors(|table, places, _| grid(&read(Kind::Natural, table.clone()), places));
+    let found = errors(|table, places, _| grid(&read(ReadingMethod::Natural, table.clone()), places));
     agree("natural splines both ways", &found, &[8.8e-3, 1.1e-3, 3.2e-4, 4.0e-5, 5.1e-6]);
     assert!((order(&found) - 3.0).abs() < 0.05);
     let factored = errors(|table, places, _| {
-        let sheet = Sheet { deflection: UP, load: UP, table: table.clone() };
-        grid(&Factored::new(&[sheet], Rank::Full).expect("one table"), places)
+        let sheet = InfluenceBlock { deflection: UP, load: UP, table: table.clone() };
+        grid(&FactoredTable::new(&[sheet], Rank::Full).expect("one table"), places)
     });
     for (natural, factored) in found.iter().zip(factored) {
         assert!((natural - factored).abs() < 1e-13, "{natural:e} {factored:e}");
@@ -142,7 +142,7 @@ fn natural_and_factored_readings_err_by_the_cube_of_the_distance() {
 /// Regression: along x the order of the natural spline, along z that of AKISPL.
 #[test]
 fn cubspl_errs_as_much_as_akispl() {
-    let found = errors(|table, places, _| grid(&read(Kind::Cubspl, table.clone()), places));
+    let found = errors(|table, places, _| grid(&read(ReadingMethod::Cubspl, table.clone()), places));
     for (found, own) in found.iter().zip([6.6e-2, 1.8e-2, 8.0e-3, 2.1e-3, 5.2e-4]) {
         assert!((found / own - 1.0).abs() < 0.05, "{found:e} {own:e}");
     }
@@ -178,7 +178,7 @@ fn exact_surfaces_err_by_rounding_alone() {
     let exact = DMatrix::from_fn(n, n, |i, j| beam.deflection(places[i], places[j]));
     let mut worst = 0.0_f64;
     for n in NUMBERS {
-        let raised = lift(0, &tabulate(&beam, &stations(n))).expect("a beam on knife edges");
+        let raised = fit_beam(0, &tabulate(&beam, &stations(n))).expect("a beam on knife edges");
         for surface in [beam.surface(&stations(n)), raised.surface] {
             let error = (grid(&surface, &places) - &exact).amax() / exact.amax();
             assert!(error < 1e-13, "{n}: {error:e}");

@@ -4,11 +4,11 @@ mod beam;
 
 use beam::printed::{VERTICAL, table};
 use beam::{Random, probe, read};
-use splines::{Axis, Compliance, Influence, Kind, Probe};
+use splines::{Axis, Compliance, Influence, Probe, ReadingMethod};
 
 /// Fraction of random sets of n wheels, overhangs included, whose symmetric part is indefinite; smallest
 /// eigenvalue.
-fn indefinite(kind: Kind, n: usize, sets: usize) -> (f64, f64) {
+fn indefinite(kind: ReadingMethod, n: usize, sets: usize) -> (f64, f64) {
     let reading = read(kind, table(&VERTICAL));
     let mut random = Random::new(61);
     let mut out = Influence::zeros(n);
@@ -29,9 +29,9 @@ fn indefinite(kind: Kind, n: usize, sets: usize) -> (f64, f64) {
 #[test]
 fn akispl_of_the_printed_table_is_mostly_indefinite() {
     for (n, expected) in [(2, 0.12), (4, 0.72), (8, 1.0), (16, 1.0)] {
-        let (plain, worst) = indefinite(Kind::Akispl, n, 4000);
+        let (plain, worst) = indefinite(ReadingMethod::Akispl, n, 4000);
         assert!((plain - expected).abs() < 0.02, "{n} wheels: {plain}");
-        assert_eq!(plain, indefinite(Kind::Symmetrised, n, 4000).0);
+        assert_eq!(plain, indefinite(ReadingMethod::Symmetrised, n, 4000).0);
         assert!(n < 16 || (worst / -1.2e-9 - 1.0).abs() < 0.15, "{worst:e}");
     }
 }
@@ -40,7 +40,7 @@ fn akispl_of_the_printed_table_is_mostly_indefinite() {
 #[test]
 fn natural_reading_of_the_printed_table_is_never_indefinite() {
     for n in [2, 4, 8, 16] {
-        assert_eq!(indefinite(Kind::Natural, n, 1000).0, 0.0);
+        assert_eq!(indefinite(ReadingMethod::Natural, n, 1000).0, 0.0);
     }
 }
 
@@ -48,7 +48,7 @@ fn natural_reading_of_the_printed_table_is_never_indefinite() {
 /// on 43 % of the span (37 % were counted elsewhere, with a threshold that is not known).
 #[test]
 fn a_bogie_meets_indefinite_matrices_on_much_of_the_span() {
-    let reading = read(Kind::Akispl, table(&VERTICAL));
+    let reading = read(ReadingMethod::Akispl, table(&VERTICAL));
     let pitch = 32.0 / 12.0;
     let mut out = Influence::zeros(2);
     let (mut found, mut worst) = (0, 0.0_f64);

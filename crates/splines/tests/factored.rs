@@ -6,7 +6,8 @@ use beam::printed::{LATERAL, STATIONS, VERTICAL, table};
 use beam::{Beam, Random, probe, read, tabulate};
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, Curves, Error, Factor, Factored, Influence, Kind, Probe, Rank, Sheet, Table,
+    Axis, Compliance, Error, FactorCurves, FactoredTable, Influence, InfluenceBlock, Probe, Rank,
+    ReadingMethod, SplineTable, TableFactor,
 };
 
 fn fill(reading: &dyn Compliance, at: &[Probe]) -> Influence {
@@ -18,19 +19,19 @@ fn fill(reading: &dyn Compliance, at: &[Probe]) -> Influence {
 const UP: (usize, Axis) = (0, Axis::Vertical);
 const SIDE: (usize, Axis) = (0, Axis::Lateral);
 
-fn own(way: (usize, Axis), table: Table) -> Sheet {
-    Sheet { deflection: way, load: way, table }
+fn own(way: (usize, Axis), table: SplineTable) -> InfluenceBlock {
+    InfluenceBlock { deflection: way, load: way, table }
 }
 
-fn factored(table: Table, rank: Rank) -> Factored {
-    Factored::new(&[own(UP, table)], rank).expect("one table")
+fn factored(table: SplineTable, rank: Rank) -> FactoredTable {
+    FactoredTable::new(&[own(UP, table)], rank).expect("one table")
 }
 
 /// Identity: W Phi Phi^T W^T = W T W^T.
 #[test]
 fn all_products_make_the_natural_reading() {
     let table = tabulate(&Beam::paper(), &STATIONS);
-    let (natural, factored) = (read(Kind::Natural, table.clone()), factored(table, Rank::Full));
+    let (natural, factored) = (read(ReadingMethod::Natural, table.clone()), factored(table, Rank::Full));
     assert_eq!(factored.factors()[0].rank(), 5);
     let mut random = Random::new(5);
     for _ in 0..200 {
@@ -57,7 +58,7 @@ fn a_tolerance_keeps_every_station_within_it() {
         assert!(factor.error_bound() <= tolerance * largest + 1e-15 * largest);
         assert_eq!(factor.kept.len() + factor.dropped.len(), 7);
     }
-    let bad = Factored::new(&[own(UP, given)], Rank::Tolerance(f64::NAN)).map(|_| ());
+    let bad = FactoredTable::new(&[own(UP, given)], Rank::Tolerance(f64::NAN)).map(|_| ());
     assert!(matches!(bad, Err(Error::Tolerance { .. })));
 }
 
@@ -66,7 +67,7 @@ fn a_tolerance_keeps_every_station_within_it() {
 fn negative_eigenvalues_are_dropped_and_reported() {
     let mut values = tabulate(&Beam::paper(), &STATIONS).values().clone();
     values[(1, 1)] = -1e-8;
-    let table = Table::new(STATIONS.to_vec(), STATIONS.to_vec(), values).expect("a table");
+    let table = SplineTable::new(STATIONS.to_vec(), STATIONS.to_vec(), values).expect("a table");
     let factored = factored(table, Rank::Full);
     let factor = &factored.factors()[0];
     assert!(factor.kept.iter().all(|&value| value > 0.0));
@@ -79,16 +80,16 @@ fn negative_eigenvalues_are_dropped_and_reported() {
 fn couplings_share_their_curves() {
     let other = (1, Axis::Vertical);
     let couple = DMatrix::from_fn(7, 7, |i, j| 0.2 * (VERTICAL[i][j] * LATERAL[i][j]).abs().sqrt());
-    let couple = Table::new(STATIONS.to_vec(), STATIONS.to_vec(), couple).expect("a table");
+    let couple = SplineTable::new(STATIONS.to_vec(), STATIONS.to_vec(), couple).expect("a table");
     let sheets = [
         own(UP, table(&VERTICAL)),
-        Sheet { deflection: UP, load: SIDE, table: couple.clone() },
+        InfluenceBlock { deflection: UP, load: SIDE, table: couple.clone() },
         own(other, table(&VERTICAL)),
         own(SIDE, table(&LATERAL)),
     ];
-    let factored = Factored::new(&sheets, Rank::Full).expect("consistent");
+    let factored = FactoredTable::new(&sheets, Rank::Full).expect("consistent");
     let ways: Vec<Vec<_>> =
-        factored.factors().iter().map(|factor| factor.curves.iter().map(|c| c.way).collect()).collect();
+        factored.factors().iter().map(|factor| factor.curves.iter().map(|c| c.direction).collect()).collect();
     assert_eq!(ways, [vec![UP, SIDE], vec![other]]);
     let bound = factored.factors()[0].error_bound();
     let at = [
@@ -105,23 +106,23 @@ fn couplings_share_their_curves() {
 #[test]
 fn curves_are_taken_back_to_the_last_bit_and_unfit_ones_refused() {
     let first = factored(table(&VERTICAL), Rank::Count(3));
-    let again = Factored::of(first.factors().to_vec()).expect("the same curves");
+    let again = FactoredTable::from_factors(first.factors().to_vec()).expect("the same curves");
     let at = [probe(Axis::Vertical, 11.0), probe(Axis::Vertical, 52.5)];
     assert_eq!(fill(&first, &at).value, fill(&again, &at).value);
     let tables = first.factors()[0].curves[0].tables().expect("seven stations");
     assert_eq!((tables.len(), tables[0].x(), tables[0].z().len()), (3, &STATIONS[..], 0));
     let factor = first.factors()[0].clone();
-    let with = |change: &dyn Fn(&mut Curves)| {
+    let with = |change: &dyn Fn(&mut FactorCurves)| {
         let mut factor = factor.clone();
         change(&mut factor.curves[0]);
-        Factored::of(vec![factor]).map(|_| ()).expect_err("refused")
+        FactoredTable::from_factors(vec![factor]).map(|_| ()).expect_err("refused")
     };
     assert_eq!(with(&|c| c.stations[2] = 40.0), Error::PointOrder { index: 3 });
     assert!(matches!(with(&|c| c.values[(1, 1)] = f64::NAN), Error::PointNumber { .. }));
     assert!(matches!(with(&|c| c.values = DMatrix::zeros(7, 2)), Error::TableShape { .. }));
-    assert_eq!(Factored::of(vec![]).map(|_| ()), Err(Error::NoSheets));
-    let twice: Vec<Factor> = vec![factor.clone(), factor];
-    assert!(matches!(Factored::of(twice), Err(Error::SheetTwice { .. })));
+    assert_eq!(FactoredTable::from_factors(vec![]).map(|_| ()), Err(Error::NoBlocks));
+    let twice: Vec<TableFactor> = vec![factor.clone(), factor];
+    assert!(matches!(FactoredTable::from_factors(twice), Err(Error::BlockTwice { .. })));
     let off = first.fill(&[probe(Axis::Vertical, 76.0)], &mut Influence::zeros(1));
     assert_eq!(off, Err(Error::OffRail { rail: 0, x: 76.0 }));
 }

@@ -4,14 +4,18 @@ mod beam;
 
 use beam::printed::{LATERAL, STATIONS, VERTICAL, table};
 use beam::{Beam, EI, Random, probe, read, tabulate};
-use splines::{Axis, Error, Factored, Influence, Jet2, Jets, Kind, Probe, Rank, Reading, Sheet, Table};
+use splines::{
+    Axis, Differentiable, Error, FactoredTable, Influence, InfluenceBlock, Partials, Probe, Rank,
+    ReadingMethod, SplineTable, TableReading,
+};
 
-const KINDS: [Kind; 4] = [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural];
+const KINDS: [ReadingMethod; 4] =
+    [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural];
 const UP: (usize, Axis) = (0, Axis::Vertical);
 const SIDE: (usize, Axis) = (0, Axis::Lateral);
 
-fn jet(of: &dyn Jets, p: Probe, q: Probe) -> Jet2 {
-    of.jet(p, q).expect("on the rail")
+fn jet(of: &dyn Differentiable, p: Probe, q: Probe) -> Partials {
+    of.partials(p, q).expect("on the rail")
 }
 
 fn along(p: Probe, step: f64) -> Probe {
@@ -20,12 +24,12 @@ fn along(p: Probe, step: f64) -> Probe {
 
 /// Largest difference of each derivative from the central difference of the next lower one, relative to
 /// `scale` over powers of a foot; and of value and slope from those of `fill`.
-fn defects(of: &dyn Jets, p: Probe, q: Probe) -> [f64; 7] {
+fn defects(of: &dyn Differentiable, p: Probe, q: Probe) -> [f64; 7] {
     let h = 1e-3;
     let got = jet(of, p, q);
     let by_p = [jet(of, along(p, -h), q), jet(of, along(p, h), q)];
     let by_q = [jet(of, p, along(q, -h)), jet(of, p, along(q, h))];
-    let quotient = |pair: &[Jet2; 2], of: fn(&Jet2) -> f64| (of(&pair[1]) - of(&pair[0])) / (2.0 * h);
+    let quotient = |pair: &[Partials; 2], of: fn(&Partials) -> f64| (of(&pair[1]) - of(&pair[0])) / (2.0 * h);
     let mut filled = Influence::zeros(2);
     of.fill(&[p, q], &mut filled).expect("on the rail");
     [
@@ -41,11 +45,11 @@ fn defects(of: &dyn Jets, p: Probe, q: Probe) -> [f64; 7] {
 }
 
 /// Simply supported beam of 60 ft: value, p, q, pp, pq, qq in closed form, p <= q.
-fn closed(p: f64, q: f64) -> Jet2 {
+fn closed(p: f64, q: f64) -> Partials {
     let l = 60.0;
     let (b, k) = (l - q, 1.0 / (6.0 * EI * l));
     let sum = l * l - b * b - p * p;
-    Jet2 {
+    Partials {
         value: k * p * b * sum,
         p: k * b * (sum - 2.0 * p * p),
         q: -k * p * (sum - 2.0 * b * b),
@@ -55,7 +59,7 @@ fn closed(p: f64, q: f64) -> Jet2 {
     }
 }
 
-fn close(a: Jet2, b: Jet2, share: f64) -> bool {
+fn close(a: Partials, b: Partials, share: f64) -> bool {
     // G ~ 1e-7 ft/lb over lengths of ~ 10 ft.
     let pairs = [
         (a.value, b.value, 1e-7),
@@ -68,8 +72,8 @@ fn close(a: Jet2, b: Jet2, share: f64) -> bool {
     pairs.iter().all(|(a, b, size)| (a - b).abs() <= share * size)
 }
 
-fn swapped(j: Jet2) -> Jet2 {
-    Jet2 { value: j.value, p: j.q, q: j.p, pp: j.qq, pq: j.pq, qq: j.pp }
+fn swapped(j: Partials) -> Partials {
+    Partials { value: j.value, p: j.q, q: j.p, pp: j.qq, pq: j.pq, qq: j.pp }
 }
 
 /// Analytic: within an element, across elements, at stations, on the diagonal.
@@ -102,7 +106,7 @@ fn slope_in_shear_jumps_under_its_own_load() {
             let sides = [-2e-9 * other / 60.0, 2e-9 * (60.0 - other) / 60.0];
             if own == other { 0.5 * (sides[0] + sides[1]) } else { sides[usize::from(own < other)] }
         };
-        let expected = Jet2 {
+        let expected = Partials {
             value: 2e-9 * f64::min(p, q) * (60.0 - f64::max(p, q)) / 60.0,
             p: slope(p, q),
             q: slope(q, p),
@@ -127,7 +131,7 @@ fn surfaces_have_the_derivatives_of_their_values() {
             [(&spans, -4.9, 109.9, &Axis::ALL[1..2]), (&coupled, -14.9, 74.9, &Axis::ALL[..])]
         {
             let (x, z) = (random.between(low, high), random.between(low, high));
-            let far = |x: f64| surface.line().breaks(0).iter().all(|b| (b - x).abs() > 2e-3);
+            let far = |x: f64| surface.rails().breaks(0).iter().all(|b| (b - x).abs() > 2e-3);
             if (x - z).abs() < 2e-3 || !far(x) || !far(z) {
                 continue;
             }
@@ -145,24 +149,24 @@ fn surfaces_have_the_derivatives_of_their_values() {
 }
 
 /// Tables of two coupled directions.
-fn sheets() -> Vec<Sheet> {
+fn sheets() -> Vec<InfluenceBlock> {
     let couple = table(&VERTICAL).values() * 0.7;
-    let couple = Table::new(STATIONS.to_vec(), STATIONS.to_vec(), couple).expect("a table");
+    let couple = SplineTable::new(STATIONS.to_vec(), STATIONS.to_vec(), couple).expect("a table");
     vec![
-        Sheet { deflection: UP, load: UP, table: table(&VERTICAL) },
-        Sheet { deflection: SIDE, load: UP, table: couple },
-        Sheet { deflection: SIDE, load: SIDE, table: table(&LATERAL) },
+        InfluenceBlock { deflection: UP, load: UP, table: table(&VERTICAL) },
+        InfluenceBlock { deflection: SIDE, load: UP, table: couple },
+        InfluenceBlock { deflection: SIDE, load: SIDE, table: table(&LATERAL) },
     ]
 }
 
 /// Differences, between stations: every reading of tables, coupled directions too.
 #[test]
 fn readings_have_the_derivatives_of_their_values() {
-    let mut readings: Vec<Box<dyn Jets>> = Vec::new();
+    let mut readings: Vec<Box<dyn Differentiable>> = Vec::new();
     for kind in KINDS {
-        readings.push(Box::new(Reading::new(kind, &sheets()).expect("consistent")));
+        readings.push(Box::new(TableReading::new(kind, &sheets()).expect("consistent")));
     }
-    readings.push(Box::new(Factored::new(&sheets(), Rank::Full).expect("consistent")));
+    readings.push(Box::new(FactoredTable::new(&sheets(), Rank::Full).expect("consistent")));
     let mut random = Random::new(47);
     for _ in 0..200 {
         let (x, z) = (random.between(-14.9, 74.9), random.between(-14.9, 74.9));
@@ -194,8 +198,8 @@ fn derivatives_at_stations_are_the_mean_of_both_sides() {
             let got = at(x, z);
             let sides = [[-1.0, -1.0], [-1.0, 1.0], [1.0, -1.0], [1.0, 1.0]];
             let sides = sides.map(|[a, b]| at(x + a * near, z + b * near));
-            let mean = |of: fn(&Jet2) -> f64| sides.iter().map(of).sum::<f64>() / 4.0;
-            let expected = Jet2 {
+            let mean = |of: fn(&Partials) -> f64| sides.iter().map(of).sum::<f64>() / 4.0;
+            let expected = Partials {
                 value: mean(|j| j.value),
                 p: mean(|j| j.p),
                 q: mean(|j| j.q),
@@ -214,11 +218,12 @@ fn derivatives_at_stations_are_the_mean_of_both_sides() {
 fn smooth_evaluators_have_no_kinks() {
     let beam = Beam::paper();
     let given = tabulate(&beam, &STATIONS);
-    let natural = read(Kind::Natural, given.clone());
-    let factored = Factored::new(&[Sheet { deflection: UP, load: UP, table: given }], Rank::Full);
+    let natural = read(ReadingMethod::Natural, given.clone());
+    let factored =
+        FactoredTable::new(&[InfluenceBlock { deflection: UP, load: UP, table: given }], Rank::Full);
     let factored = factored.expect("one table");
     let surface = beam.surface(&STATIONS);
-    for of in [&natural as &dyn Jets, &factored, &surface] {
+    for of in [&natural as &dyn Differentiable, &factored, &surface] {
         for (p, q) in [(15.0, 15.0), (30.0, 50.0), (22.0, 22.0), (-7.0, 45.0)] {
             let at = |p: f64, q: f64| jet(of, probe(Axis::Vertical, p), probe(Axis::Vertical, q));
             for (a, b) in [(1e-8, 0.0), (-1e-8, 0.0), (0.0, 1e-8), (0.0, -1e-8)] {
@@ -231,14 +236,14 @@ fn smooth_evaluators_have_no_kinks() {
 #[test]
 fn derivatives_refuse_what_filling_refuses() {
     let surface = Beam::paper().surface(&STATIONS);
-    let reading = read(Kind::Symmetrised, table(&VERTICAL));
+    let reading = read(ReadingMethod::Symmetrised, table(&VERTICAL));
     let good = probe(Axis::Vertical, 3.0);
-    for of in [&surface as &dyn Jets, &reading] {
+    for of in [&surface as &dyn Differentiable, &reading] {
         for bad in [probe(Axis::Vertical, 75.1), probe(Axis::Vertical, f64::NAN)] {
-            assert!(matches!(of.jet(good, bad), Err(Error::OffRail { .. })));
-            assert!(matches!(of.jet(bad, good), Err(Error::OffRail { .. })));
+            assert!(matches!(of.partials(good, bad), Err(Error::OffRail { .. })));
+            assert!(matches!(of.partials(bad, good), Err(Error::OffRail { .. })));
         }
-        assert!(matches!(of.jet(good, Probe { rail: 4, ..good }), Err(Error::NoRail { rail: 4 })));
+        assert!(matches!(of.partials(good, Probe { rail: 4, ..good }), Err(Error::NoRail { rail: 4 })));
     }
-    assert!(matches!(reading.jet(good, probe(Axis::Lateral, 3.0)), Err(Error::Unstiffened { .. })));
+    assert!(matches!(reading.partials(good, probe(Axis::Lateral, 3.0)), Err(Error::NoStiffness { .. })));
 }

@@ -1,7 +1,7 @@
 //! A compliance without some of its couplings: which coefficients remain, and that they stay positive.
 
 use nalgebra::DMatrix;
-use splines::{Axis, Compliance, Couplings, Error, Influence, Parted, Probe};
+use splines::{Axis, Compliance, Couplings, Error, Influence, Probe, Uncoupled};
 
 /// Number of terms of the compliance.
 const TERMS: usize = 4;
@@ -64,7 +64,7 @@ fn filled(of: &dyn Compliance) -> Influence {
 fn coefficients_kept_equal_those_of_the_whole_to_the_last_bit() {
     let (whole, at) = (filled(&Sums), probes());
     for (couplings, kept) in [(Couplings::All, 144), (Couplings::WithinRails, 72), (Couplings::None, 24)] {
-        let left = filled(&Parted::new(Sums, couplings));
+        let left = filled(&Uncoupled::new(Sums, couplings));
         let mut count = 0;
         for (j, q) in at.iter().enumerate() {
             for (i, p) in at.iter().enumerate() {
@@ -87,7 +87,7 @@ fn coefficients_kept_equal_those_of_the_whole_to_the_last_bit() {
 #[test]
 fn coefficients_kept_are_symmetric_and_positive() {
     for couplings in [Couplings::WithinRails, Couplings::None] {
-        let parted = Parted::new(Sums, couplings);
+        let parted = Uncoupled::new(Sums, couplings);
         let left = filled(&parted).value;
         let size = left.norm();
         assert_eq!(left, left.transpose());

@@ -5,7 +5,10 @@ mod beam;
 use beam::printed::{LATERAL, STATIONS, VERTICAL, table};
 use beam::{Beam, Random, probe, read, tabulate};
 use nalgebra::DMatrix;
-use splines::{Axis, Compliance, Error, Influence, Kind, Probe, Reading, Sheet, Table, akima, natural};
+use splines::{
+    Axis, Compliance, Error, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading,
+    akima, natural_spline,
+};
 
 fn fill(reading: &dyn Compliance, at: &[Probe]) -> Influence {
     let mut out = Influence::zeros(at.len());
@@ -24,7 +27,7 @@ fn curves_give_the_values_published_for_adams() {
     let (x, y) = ([1.0, 2.0, 3.0, 4.0], [0.0, 2.0, 1.0, 3.0]);
     let published = [
         (akima(&x, &y), [0.0, 1.0, 1.667, 2.0, 1.778, 1.222, 1.0, 1.333, 2.0, 3.0]),
-        (natural(&x, &y), [0.0, 0.963, 1.704, 2.0, 1.741, 1.259, 1.0, 1.296, 2.037, 3.0]),
+        (natural_spline(&x, &y), [0.0, 0.963, 1.704, 2.0, 1.741, 1.259, 1.0, 1.296, 2.037, 3.0]),
     ];
     for (curve, expected) in published {
         let curve = curve.expect("points increase");
@@ -40,7 +43,7 @@ fn curves_give_the_values_published_for_adams() {
 #[test]
 fn natural_spline_is_twice_smooth_and_ends_straight() {
     let x = [0.0, 1.0, 2.5, 4.0, 4.5, 7.0];
-    let curve = natural(&x, &[1.0, -2.0, 0.5, 3.0, 2.0, -1.0]).expect("increase");
+    let curve = natural_spline(&x, &[1.0, -2.0, 0.5, 3.0, 2.0, -1.0]).expect("increase");
     assert!(curve.at(0.0).curvature.abs() < 1e-13 && curve.at(7.0).curvature.abs() < 1e-13);
     for &p in &x[1..5] {
         let (left, right) = (curve.at(p - 1e-9), curve.at(p));
@@ -48,7 +51,7 @@ fn natural_spline_is_twice_smooth_and_ends_straight() {
         assert!((left.slope - right.slope).abs() < 1e-7);
     }
     let line: Vec<f64> = x.iter().map(|x| 3.0 - 2.0 * x).collect();
-    for through in [akima, natural] {
+    for through in [akima, natural_spline] {
         let curve = through(&x, &line).expect("increase");
         for p in [-1.0, 0.3, 3.0, 6.9, 9.0] {
             let jet = curve.at(p);
@@ -62,7 +65,7 @@ fn natural_spline_is_twice_smooth_and_ends_straight() {
 #[test]
 fn slopes_and_curvatures_are_derivatives() {
     let x = [0.0, 1.0, 2.5, 4.0, 4.5, 7.0];
-    for through in [akima, natural] {
+    for through in [akima, natural_spline] {
         let curve = through(&x, &[1.0, -2.0, 0.5, 3.0, 2.0, -1.0]).expect("increase");
         for p in [0.4, 1.7, 3.1, 4.2, 5.0, 6.5, 8.0] {
             let (low, high, jet) = (curve.at(p - 1e-5), curve.at(p + 1e-5), curve.at(p));
@@ -85,7 +88,7 @@ fn akima_follows_its_rules_at_ends_and_where_it_is_degenerate() {
 /// External: an independent AKISPL of the printed vertical table.
 #[test]
 fn akispl_reads_the_printed_table_as_computed_independently() {
-    let reading = read(Kind::Akispl, table(&VERTICAL));
+    let reading = read(ReadingMethod::Akispl, table(&VERTICAL));
     let expected = [
         (7.5, 22.5, 3.5872669338221285e-08),
         (23.5, 23.5, 9.185757027896275e-08),
@@ -136,7 +139,7 @@ fn printed_tables_follow_from_the_girder() {
 #[test]
 fn cubspl_errs_as_measured() {
     let beam = Beam::paper();
-    let reading = read(Kind::Cubspl, tabulate(&beam, &STATIONS));
+    let reading = read(ReadingMethod::Cubspl, tabulate(&beam, &STATIONS));
     let error = (0..=120)
         .flat_map(|i| (0..=120).map(move |j| (0.5 * f64::from(i), 0.5 * f64::from(j))))
         .map(|(x, z)| (value(&reading, x, z) - beam.deflection(x, z)).abs())
@@ -148,7 +151,7 @@ fn cubspl_errs_as_measured() {
 #[test]
 fn natural_reading_is_positive_symmetric_and_passes_through_the_table() {
     let table = tabulate(&Beam::paper(), &STATIONS);
-    let reading = read(Kind::Natural, table.clone());
+    let reading = read(ReadingMethod::Natural, table.clone());
     for (i, &z) in STATIONS.iter().enumerate() {
         for (j, &x) in STATIONS.iter().enumerate() {
             assert!((value(&reading, x, z) - table.values()[(i, j)]).abs() < 1e-21);
@@ -169,7 +172,9 @@ fn natural_reading_is_positive_symmetric_and_passes_through_the_table() {
 /// Analytic: central differences; at a station the mean of both one-sided slopes.
 #[test]
 fn slope_is_the_derivative_of_the_reading() {
-    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
+    for kind in
+        [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural]
+    {
         let reading = read(kind, table(&VERTICAL));
         for (z, x) in [(7.0, 22.0), (31.0, 31.0), (30.0, 40.0), (-8.0, 70.0), (15.0, 15.0)] {
             let slope = fill(&reading, &[probe(Axis::Vertical, z), probe(Axis::Vertical, x)]).slope[(0, 1)];
@@ -177,7 +182,7 @@ fn slope_is_the_derivative_of_the_reading() {
             let exact = (value(&reading, x, z + step) - value(&reading, x, z - step)) / (2.0 * step);
             // Akima's curvature jumps at a station: a central difference there has an error of a quarter of
             // jump times step.
-            let allowed = if kind == Kind::Symmetrised { 1e-14 } else { 1e-16 };
+            let allowed = if kind == ReadingMethod::Symmetrised { 1e-14 } else { 1e-16 };
             assert!((slope - exact).abs() < allowed, "{kind:?} {z} {x}: {slope:e} {exact:e}");
         }
     }
@@ -185,17 +190,19 @@ fn slope_is_the_derivative_of_the_reading() {
 
 #[test]
 fn reading_refuses_places_and_directions_it_has_no_table_for() {
-    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
+    for kind in
+        [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural]
+    {
         let reading = read(kind, table(&VERTICAL));
         let refuse = |p: Probe| reading.fill(&[p], &mut Influence::zeros(1)).expect_err("refused");
         assert_eq!(refuse(probe(Axis::Vertical, 75.1)), Error::OffRail { rail: 0, x: 75.1 });
         assert!(matches!(refuse(probe(Axis::Vertical, f64::NAN)), Error::OffRail { rail: 0, .. }));
-        let lateral = Error::Unstiffened { rail: 0, x: 3.0, axis: Axis::Lateral };
+        let lateral = Error::NoStiffness { rail: 0, x: 3.0, axis: Axis::Lateral };
         assert_eq!(refuse(probe(Axis::Lateral, 3.0)), lateral);
         assert_eq!(refuse(Probe { rail: 2, x: 3.0, axis: Axis::Vertical }), Error::NoRail { rail: 2 });
         assert_eq!((reading.range(0), reading.range(1)), (Some([-15.0, 75.0]), None));
         assert_eq!(reading.breaks(0), STATIONS);
-        assert_eq!(reading.kind(), kind);
+        assert_eq!(reading.method(), kind);
     }
 }
 
@@ -210,13 +217,15 @@ fn couplings_are_read_both_ways() {
         }
     }
     let sheets = [
-        Sheet { deflection: up, load: up, table: table(&VERTICAL) },
-        Sheet { deflection: up, load: side, table: table(&couple) },
-        Sheet { deflection: side, load: side, table: table(&LATERAL) },
-        Sheet { deflection: other, load: other, table: table(&VERTICAL) },
+        InfluenceBlock { deflection: up, load: up, table: table(&VERTICAL) },
+        InfluenceBlock { deflection: up, load: side, table: table(&couple) },
+        InfluenceBlock { deflection: side, load: side, table: table(&LATERAL) },
+        InfluenceBlock { deflection: other, load: other, table: table(&VERTICAL) },
     ];
-    for kind in [Kind::Akispl, Kind::Symmetrised, Kind::Cubspl, Kind::Natural] {
-        let reading = Reading::new(kind, &sheets).expect("consistent");
+    for kind in
+        [ReadingMethod::Akispl, ReadingMethod::Symmetrised, ReadingMethod::Cubspl, ReadingMethod::Natural]
+    {
+        let reading = TableReading::new(kind, &sheets).expect("consistent");
         let at = [
             probe(Axis::Vertical, 15.0),
             probe(Axis::Lateral, 45.0),
@@ -229,20 +238,23 @@ fn couplings_are_read_both_ways() {
         assert_eq!((value[(0, 2)], value[(2, 1)]), (0.0, 0.0));
     }
     let both = [sheets[0].clone(), sheets[0].clone()];
-    assert_eq!(Reading::new(Kind::Natural, &both).map(|_| ()), Err(Error::SheetTwice { sheet: 1 }));
-    let alone = Reading::new(Kind::Natural, &sheets[..2]).map(|_| ());
-    assert_eq!(alone, Err(Error::SheetAlone { sheet: 1 }));
-    assert_eq!(Reading::new(Kind::Natural, &[]).map(|_| ()), Err(Error::NoSheets));
+    assert_eq!(
+        TableReading::new(ReadingMethod::Natural, &both).map(|_| ()),
+        Err(Error::BlockTwice { sheet: 1 })
+    );
+    let alone = TableReading::new(ReadingMethod::Natural, &sheets[..2]).map(|_| ());
+    assert_eq!(alone, Err(Error::BlockAlone { sheet: 1 }));
+    assert_eq!(TableReading::new(ReadingMethod::Natural, &[]).map(|_| ()), Err(Error::NoBlocks));
 }
 
 #[test]
 fn unusable_tables_are_refused() {
     let x = || vec![0.0, 1.0, 2.0, 3.0];
     let values = || DMatrix::zeros(2, 4);
-    let refuse = |x, z, values| Table::new(x, z, values).expect_err("refused");
+    let refuse = |x, z, values| SplineTable::new(x, z, values).expect_err("refused");
     assert_eq!(
         refuse(vec![0.0, 1.0, 2.0], vec![0.0, 1.0], DMatrix::zeros(2, 3)),
-        Error::Points { found: 3, least: 4 }
+        Error::TooFewPoints { found: 3, least: 4 }
     );
     assert_eq!(refuse(vec![0.0, 1.0, 1.0, 2.0], vec![0.0, 1.0], values()), Error::PointOrder { index: 2 });
     assert_eq!(refuse(x(), vec![1.0, 0.0], values()), Error::PointOrder { index: 1 });

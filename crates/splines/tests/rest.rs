@@ -6,17 +6,17 @@ use std::sync::Arc;
 
 use beam::{Beam, Random, probe};
 use nalgebra::DMatrix;
-use splines::{Axis, Compliance, Error, Influence, Rest, Shapes};
+use splines::{Axis, Compliance, Error, Influence, RailShapes, ResidualFlexibility};
 
 const STATIONS: [f64; 4] = [-15.0, 0.0, 60.0, 75.0];
 
 /// Shapes of the paper's beam by arbitrary motions of its node states, on the elements of its surface or on
 /// finer ones.
-fn shapes(stations: &[f64], count: usize) -> Shapes {
-    let line = Arc::clone(Beam::paper().surface(stations).line());
+fn shapes(stations: &[f64], count: usize) -> RailShapes {
+    let line = Arc::clone(Beam::paper().surface(stations).rails());
     let mut random = Random::new(3);
-    let states = DMatrix::from_fn(6 * line.states(), count, |_, _| random.between(-1e-5, 1e-5));
-    Shapes::new(line, states).expect("six freedoms a state")
+    let states = DMatrix::from_fn(6 * line.state_count(), count, |_, _| random.between(-1e-5, 1e-5));
+    RailShapes::new(line, states).expect("six freedoms a state")
 }
 
 /// Identity: the coefficient of every pair of probes decreases by the product of the shapes there, its slope
@@ -36,7 +36,7 @@ fn shapes_lower_the_surface_by_their_products() {
             [value, slope]
         });
         let mut left = Influence::zeros(at.len());
-        Rest::new(surface.clone(), taken).fill(&at, &mut left).expect("on the rail");
+        ResidualFlexibility::new(surface.clone(), taken).fill(&at, &mut left).expect("on the rail");
         for (i, [value, slope]) in rows.iter().enumerate() {
             for (j, [other, _]) in rows.iter().enumerate() {
                 let sum = |a: &[f64]| a.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
@@ -51,10 +51,10 @@ fn shapes_lower_the_surface_by_their_products() {
 /// Identity: along every element, at both ends and between, a shape is the shape row times the motions.
 #[test]
 fn shapes_are_shape_rows_times_their_motions() {
-    let line = Arc::clone(Beam::paper().surface(&STATIONS).line());
+    let line = Arc::clone(Beam::paper().surface(&STATIONS).rails());
     let mut random = Random::new(7);
-    let states = DMatrix::from_fn(6 * line.states(), 5, |_, _| random.between(-1.0, 1.0));
-    let shapes = Shapes::new(Arc::clone(&line), states.clone()).expect("six freedoms a state");
+    let states = DMatrix::from_fn(6 * line.state_count(), 5, |_, _| random.between(-1.0, 1.0));
+    let shapes = RailShapes::new(Arc::clone(&line), states.clone()).expect("six freedoms a state");
     let (mut value, mut slope) = ([0.0; 5], [0.0; 5]);
     for (axis, x) in [Axis::Vertical, Axis::Lateral]
         .into_iter()
@@ -78,8 +78,8 @@ fn shapes_are_shape_rows_times_their_motions() {
 
 #[test]
 fn shapes_of_other_rails_are_refused() {
-    let line = Arc::clone(Beam::paper().surface(&STATIONS).line());
-    let rows = 6 * line.states();
-    let wrong = Shapes::new(line, DMatrix::zeros(rows + 1, 2));
+    let line = Arc::clone(Beam::paper().surface(&STATIONS).rails());
+    let rows = 6 * line.state_count();
+    let wrong = RailShapes::new(line, DMatrix::zeros(rows + 1, 2));
     assert_eq!(wrong.err(), Some(Error::NodalShape { rows: rows + 1, columns: 2, expected: rows }));
 }

@@ -3,21 +3,22 @@
 mod beam;
 
 use beam::{Beam, EI, Random, coupled};
-use splines::quality::{Strip, error_of, places};
+use splines::quality::{CouplingBlock, sample_places, station_error};
 use splines::{
-    Axis, Compliance, Error, Factored, Kind, Rank, Reading, Search, Sheet, Stations, lift, stations,
+    Axis, Compliance, Error, FactoredTable, InfluenceBlock, Rank, ReadingMethod, StationSearch, StationSet,
+    TableReading, fewest_stations, fit_beam,
 };
 
-type Read = Box<splines::quality::Read<'static>>;
+type Read = Box<splines::quality::MakeReading<'static>>;
 
 const VERTICAL: &[Axis] = &[Axis::Vertical];
 
-fn kind(kind: Kind) -> Read {
-    Box::new(move |sheets| Ok(Box::new(Reading::new(kind, sheets)?)))
+fn kind(kind: ReadingMethod) -> Read {
+    Box::new(move |sheets| Ok(Box::new(TableReading::new(kind, sheets)?)))
 }
 
 fn raised() -> Read {
-    Box::new(|sheets| Ok(Box::new(lift(0, &sheets[0].table)?.surface)))
+    Box::new(|sheets| Ok(Box::new(fit_beam(0, &sheets[0].table)?.surface)))
 }
 
 fn search<'a>(
@@ -26,19 +27,30 @@ fn search<'a>(
     range: [f64; 2],
     read: &'a Read,
     order: f64,
-) -> Search<'a> {
-    Search { exact, rail: 0, axes: VERTICAL, range, fixed, read, order, tolerance: 1e-2, most: 400 }
+) -> StationSearch<'a> {
+    StationSearch {
+        exact,
+        rail: 0,
+        axes: VERTICAL,
+        range,
+        fixed,
+        read,
+        order,
+        tolerance: 1e-2,
+        max_stations: 400,
+    }
 }
 
 /// The paper's girder with equal distances: -15 + 90 k/(6 m), so that both supports are stations.
-fn equal(search: &Search<'_>) -> usize {
+fn equal(search: &StationSearch<'_>) -> usize {
     let at =
         |m: u32| -> Vec<f64> { (0..=6 * m).map(|k| -15.0 + 15.0 * f64::from(k) / f64::from(m)).collect() };
-    let found = (1..80).map(at).find(|at| error_of(search, at).is_ok_and(|e| e.error <= search.tolerance));
+    let found =
+        (1..80).map(at).find(|at| station_error(search, at).is_ok_and(|e| e.error <= search.tolerance));
     found.map_or(usize::MAX, |at| at.len())
 }
 
-fn holds(found: &Stations, fixed: &[f64], range: [f64; 2]) {
+fn holds(found: &StationSet, fixed: &[f64], range: [f64; 2]) {
     assert!(found.at.windows(2).all(|pair| pair[0] < pair[1]));
     assert_eq!([found.at[0], found.at[found.at.len() - 1]], range);
     assert!(fixed.iter().all(|x| found.at.contains(x)), "{:?}", found.at);
@@ -51,16 +63,18 @@ fn error_found_is_never_exceeded_and_supports_are_stations() {
     let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
     let exact = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
     let scale = beam.deflection(75.0, 75.0);
-    for (how, order) in [(Kind::Akispl, 2.0), (Kind::Cubspl, 2.0), (Kind::Natural, 3.0)] {
+    for (how, order) in
+        [(ReadingMethod::Akispl, 2.0), (ReadingMethod::Cubspl, 2.0), (ReadingMethod::Natural, 3.0)]
+    {
         let read = kind(how);
         for tolerance in [1e-2, 1e-3] {
-            let search = Search { tolerance, ..search(&exact, &fixed, range, &read, order) };
-            let found = stations(&search).expect("some number is enough");
+            let search = StationSearch { tolerance, ..search(&exact, &fixed, range, &read, order) };
+            let found = fewest_stations(&search).expect("some number is enough");
             holds(&found, &fixed, range);
             assert!(found.error <= tolerance && found.error > 0.5 * tolerance, "{how:?} {found:?}");
             let table = beam::tabulate(&beam, &found.at);
             let reading = beam::read(how, table);
-            let strip = Strip::direct(&reading, (0, Axis::Vertical));
+            let strip = CouplingBlock::direct(&reading, (0, Axis::Vertical));
             let mut random = Random::new(3);
             for k in 0..20_000 {
                 let mut at = [random.between(-15.0, 75.0), random.between(-15.0, 75.0)];
@@ -90,21 +104,29 @@ fn error_found_is_never_exceeded_and_supports_are_stations() {
 fn one_station_fewer_fails() {
     let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
     let exact = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
-    for (how, order, asked) in [(Kind::Akispl, 2.0, [16, 46]), (Kind::Natural, 3.0, [7, 13])] {
+    for (how, order, asked) in
+        [(ReadingMethod::Akispl, 2.0, [16, 46]), (ReadingMethod::Natural, 3.0, [7, 13])]
+    {
         let read = kind(how);
         for (tolerance, asked) in [1e-2, 1e-3].into_iter().zip(asked) {
-            let search = Search { tolerance, ..search(&exact, &fixed, range, &read, order) };
-            let found = stations(&search).expect("some number is enough");
+            let search = StationSearch { tolerance, ..search(&exact, &fixed, range, &read, order) };
+            let found = fewest_stations(&search).expect("some number is enough");
             // Regression: the numbers that the book states.
             assert_eq!(found.at.len(), asked, "{how:?} {tolerance}");
             assert!(equal(&search) >= found.at.len());
             for k in (1..found.at.len() - 1).filter(|&k| !fixed.contains(&found.at[k])) {
                 let mut fewer = found.at.clone();
                 fewer.remove(k);
-                assert!(error_of(&search, &fewer).expect("on it").error > tolerance, "{how:?} without {k}");
+                assert!(
+                    station_error(&search, &fewer).expect("on it").error > tolerance,
+                    "{how:?} without {k}"
+                );
             }
-            let short = stations(&Search { most: found.at.len() - 1, ..search });
-            assert!(matches!(short, Err(Error::Stations { error, .. }) if error > tolerance), "{how:?}");
+            let short = fewest_stations(&StationSearch { max_stations: found.at.len() - 1, ..search });
+            assert!(
+                matches!(short, Err(Error::TooFewStations { error, .. }) if error > tolerance),
+                "{how:?}"
+            );
         }
     }
 }
@@ -115,15 +137,15 @@ fn unequal_spans_and_stiffness_get_stations_where_they_need_them() {
     let beam = Beam { c: 1.0 / EI, g: 0.0, supports: vec![0.0, 20.0, 80.0, 90.0] };
     let (range, fixed) = ([0.0, 90.0], [20.0, 80.0]);
     let exact = beam.surface(&[0.0, 20.0, 80.0, 90.0]);
-    let read = kind(Kind::Akispl);
+    let read = kind(ReadingMethod::Akispl);
     let search = search(&exact, &fixed, range, &read, 2.0);
-    let found = stations(&search).expect("some number is enough");
+    let found = fewest_stations(&search).expect("some number is enough");
     holds(&found, &fixed, range);
     let within = |a: f64, b: f64| found.at.iter().filter(|x| **x > a && **x < b).count();
     assert!(within(20.0, 80.0) >= 12 && within(0.0, 20.0) <= 3 && within(80.0, 90.0) <= 1, "{:?}", found.at);
     let equal = (9..200).step_by(9).find(|&n| {
         let at: Vec<f64> = (0..=n).map(|k| 90.0 * f64::from(k) / f64::from(n)).collect();
-        error_of(&search, &at).is_ok_and(|e| e.error <= 1e-2)
+        station_error(&search, &at).is_ok_and(|e| e.error <= 1e-2)
     });
     assert!(equal.is_some_and(|n| n as usize + 1 > found.at.len() + 3), "{equal:?} {}", found.at.len());
 }
@@ -134,8 +156,9 @@ fn exact_reading_needs_breaks_alone() {
     let beam = Beam::paper();
     let exact = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
     let read = raised();
-    let search = Search { tolerance: 1e-12, ..search(&exact, &[0.0, 60.0], [-15.0, 75.0], &read, 3.0) };
-    let found = stations(&search).expect("the exact form");
+    let search =
+        StationSearch { tolerance: 1e-12, ..search(&exact, &[0.0, 60.0], [-15.0, 75.0], &read, 3.0) };
+    let found = fewest_stations(&search).expect("the exact form");
     assert_eq!(found.at, [-15.0, 0.0, 60.0, 75.0]);
     assert!(found.error < 1e-13, "{:e}", found.error);
 }
@@ -144,29 +167,34 @@ fn exact_reading_needs_breaks_alone() {
 #[test]
 fn couplings_keep_the_tolerance_too() {
     let exact = coupled();
-    let read = kind(Kind::Cubspl);
+    let read = kind(ReadingMethod::Cubspl);
     let fixed = exact.breaks(0);
-    let all =
-        Search { tolerance: 0.05, axes: &Axis::ALL, ..search(&exact, &fixed, [-15.0, 75.0], &read, 2.0) };
-    let found = stations(&all).expect("some number is enough");
+    let all = StationSearch {
+        tolerance: 0.05,
+        axes: &Axis::ALL,
+        ..search(&exact, &fixed, [-15.0, 75.0], &read, 2.0)
+    };
+    let found = fewest_stations(&all).expect("some number is enough");
     holds(&found, &fixed, [-15.0, 75.0]);
-    let table = |deflection, load| Strip { compliance: &exact, deflection: (0, deflection), load: (0, load) };
-    let dense = places(&fixed, [-15.0, 75.0], 90);
-    let largest = |axis| table(axis, axis).block(&dense, &dense).expect("on the rail").amax();
+    let table =
+        |deflection, load| CouplingBlock { compliance: &exact, deflection: (0, deflection), load: (0, load) };
+    let dense = sample_places(&fixed, [-15.0, 75.0], 90);
+    let largest = |axis| table(axis, axis).matrix(&dense, &dense).expect("on the rail").amax();
     let mut sheets = Vec::new();
     for (a, &deflection) in Axis::ALL.iter().enumerate() {
         for &load in &Axis::ALL[a..] {
-            let values = table(deflection, load).block(&found.at, &found.at).expect("on the rail");
-            let table = splines::Table::new(found.at.clone(), found.at.clone(), values).expect("stations");
-            sheets.push(Sheet { deflection: (0, deflection), load: (0, load), table });
+            let values = table(deflection, load).matrix(&found.at, &found.at).expect("on the rail");
+            let table =
+                splines::SplineTable::new(found.at.clone(), found.at.clone(), values).expect("stations");
+            sheets.push(InfluenceBlock { deflection: (0, deflection), load: (0, load), table });
         }
     }
-    let reading = Reading::new(Kind::Cubspl, &sheets).expect("consistent");
+    let reading = TableReading::new(ReadingMethod::Cubspl, &sheets).expect("consistent");
     for deflection in Axis::ALL {
         for load in Axis::ALL {
-            let own = Strip { compliance: &reading, ..table(deflection, load) };
-            let error = own.block(&dense, &dense).expect("on it")
-                - table(deflection, load).block(&dense, &dense).expect("on it");
+            let own = CouplingBlock { compliance: &reading, ..table(deflection, load) };
+            let error = own.matrix(&dense, &dense).expect("on it")
+                - table(deflection, load).matrix(&dense, &dense).expect("on it");
             let scale = (largest(deflection) * largest(load)).sqrt();
             assert!(error.amax() <= found.error * scale * 1.001, "{deflection:?} {load:?}");
         }
@@ -180,19 +208,19 @@ fn couplings_keep_the_tolerance_too() {
 fn stations_of_every_reading_are_those_of_the_book() {
     let (beam, range, fixed) = (Beam::paper(), [-15.0, 75.0], [0.0, 60.0]);
     let exact = beam.surface(&[-15.0, 0.0, 60.0, 75.0]);
-    let factored: Read = Box::new(|sheets| Ok(Box::new(Factored::new(sheets, Rank::Full)?)));
+    let factored: Read = Box::new(|sheets| Ok(Box::new(FactoredTable::new(sheets, Rank::Full)?)));
     let readings: [(&str, Read, f64, [[usize; 2]; 3]); 6] = [
-        ("akispl", kind(Kind::Akispl), 2.0, [[16, 19], [46, 55], [143, 169]]),
-        ("symmetrised", kind(Kind::Symmetrised), 2.0, [[14, 19], [40, 55], [122, 169]]),
-        ("cubspl", kind(Kind::Cubspl), 2.0, [[16, 19], [46, 55], [143, 169]]),
-        ("natural", kind(Kind::Natural), 3.0, [[7, 7], [13, 19], [28, 31]]),
+        ("akispl", kind(ReadingMethod::Akispl), 2.0, [[16, 19], [46, 55], [143, 169]]),
+        ("symmetrised", kind(ReadingMethod::Symmetrised), 2.0, [[14, 19], [40, 55], [122, 169]]),
+        ("cubspl", kind(ReadingMethod::Cubspl), 2.0, [[16, 19], [46, 55], [143, 169]]),
+        ("natural", kind(ReadingMethod::Natural), 3.0, [[7, 7], [13, 19], [28, 31]]),
         ("factored", factored, 3.0, [[7, 7], [13, 19], [28, 31]]),
         ("exact", raised(), 3.0, [[4, 7], [4, 7], [4, 7]]),
     ];
     for (name, read, order, asked) in &readings {
         for (tolerance, asked) in [1e-2, 1e-3, 1e-4].into_iter().zip(asked) {
-            let search = Search { tolerance, ..search(&exact, &fixed, range, read, *order) };
-            let found = stations(&search).expect("some number is enough");
+            let search = StationSearch { tolerance, ..search(&exact, &fixed, range, read, *order) };
+            let found = fewest_stations(&search).expect("some number is enough");
             assert_eq!([found.at.len(), equal(&search)], *asked, "{name} {tolerance}");
         }
     }
@@ -205,16 +233,18 @@ fn stations_of_every_reading_are_those_of_the_book() {
 fn random_search_finds_no_set_with_one_station_fewer() {
     let fixed = [0.0, 60.0];
     let exact = Beam::paper().surface(&[-15.0, 0.0, 60.0, 75.0]);
-    for (how, order, tolerance, steps) in
-        [(Kind::Akispl, 2.0, 1e-2, 2000), (Kind::Natural, 3.0, 1e-2, 1000), (Kind::Natural, 3.0, 1e-3, 2000)]
-    {
+    for (how, order, tolerance, steps) in [
+        (ReadingMethod::Akispl, 2.0, 1e-2, 2000),
+        (ReadingMethod::Natural, 3.0, 1e-2, 1000),
+        (ReadingMethod::Natural, 3.0, 1e-3, 2000),
+    ] {
         let read = kind(how);
-        let search = Search { tolerance, ..search(&exact, &fixed, [-15.0, 75.0], &read, order) };
-        let found = stations(&search).expect("some number is enough");
+        let search = StationSearch { tolerance, ..search(&exact, &fixed, [-15.0, 75.0], &read, order) };
+        let found = fewest_stations(&search).expect("some number is enough");
         for k in (1..found.at.len() - 1).filter(|&k| !fixed.contains(&found.at[k])) {
             let mut at = found.at.clone();
             at.remove(k);
-            let mut now = error_of(&search, &at).expect("on the rail");
+            let mut now = station_error(&search, &at).expect("on the rail");
             let (mut random, mut step) = (Random::new(7 + k as u64), 2.0_f64);
             for _ in 0..steps {
                 let mut at = now.at.clone();
@@ -225,7 +255,7 @@ fn random_search_finds_no_set_with_one_station_fewer() {
                 if at.windows(2).any(|pair| pair[1] - pair[0] < 0.2) {
                     continue;
                 }
-                let moved = error_of(&search, &at).expect("on the rail");
+                let moved = station_error(&search, &at).expect("on the rail");
                 step = if moved.error < now.error { (1.5 * step).min(3.0) } else { (0.98 * step).max(0.02) };
                 if moved.error < now.error {
                     now = moved;

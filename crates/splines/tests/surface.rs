@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use beam::{Beam, EI, Effect, Random, STRAIGHT, chain, probe};
 use nalgebra::DMatrix;
-use splines::{Axis, Cell, Compliance, Error, Flexibility, Influence, Line, Probe, Surface};
+use splines::{Axis, Compliance, Error, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
 
 fn fill(surface: &dyn Compliance, at: &[Probe]) -> Influence {
     let mut out = Influence::zeros(at.len());
@@ -119,9 +119,9 @@ fn clamped_element_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
     let (l, c, g) = (20.0, 1.0 / EI, 4e-10);
     let flexibility =
         Flexibility { bending_z: c, shear_y: g, bending_y: 3.0 * c, torsion: 2e-10, axial: 1e-9, shear_z: g };
-    let line = Line::new(chain(&[5.0, 25.0], [0.3, 3.0, -1.0], flexibility)).expect("valid");
-    let straight = Line::new(chain(&[5.0, 25.0], [0.0; 3], flexibility)).expect("valid");
-    let middle = straight.kernel(0, 15.0, 15.0);
+    let line = Rails::new(chain(&[5.0, 25.0], [0.3, 3.0, -1.0], flexibility)).expect("valid");
+    let straight = Rails::new(chain(&[5.0, 25.0], [0.0; 3], flexibility)).expect("valid");
+    let middle = straight.clamped_green(0, 15.0, 15.0);
     let bending = l * l * l / 192.0;
     assert!((middle[1][1] / (c * bending + g * l / 4.0) - 1.0).abs() < 1e-14);
     assert!((middle[2][2] / (3.0 * c * bending + g * l / 4.0) - 1.0).abs() < 1e-14);
@@ -130,7 +130,7 @@ fn clamped_element_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
     for k in 0..2000 {
         let x = random.between(5.0, 25.0);
         let z = if k % 5 == 0 { x } else { random.between(5.0, 25.0) };
-        let (there, back) = (line.kernel(0, x, z), line.kernel(0, z, x));
+        let (there, back) = (line.clamped_green(0, x, z), line.clamped_green(0, z, x));
         for a in 0..3 {
             for b in 0..3 {
                 assert_eq!(there[a][b].to_bits(), back[b][a].to_bits());
@@ -167,7 +167,7 @@ fn dividing_an_element_changes_nothing() {
         let cells = make(stations);
         let arms: Vec<f64> = stations.iter().map(|x| x / frame[0][0]).collect();
         let nodal = cantilever(&arms, &flexibility, frame);
-        Surface::new(Arc::new(Line::new(cells).expect("valid")), nodal).expect("fits")
+        ExactSurface::new(Arc::new(Rails::new(cells).expect("valid")), nodal).expect("fits")
     };
     let (whole, cut) = (cantilever(&[0.0, 14.0]), cantilever(&places));
     let mut random = Random::new(5);
@@ -239,8 +239,8 @@ fn rail_above_the_axis_couples_vertical_and_longitudinal() {
     let plain = beam.surface(&[0.0, 60.0]);
     let h = 3.5;
     let flexibility = Flexibility { bending_z: beam.c, ..Flexibility::default() };
-    let line = Line::new(chain(&[0.0, 60.0], [0.0, h, 0.0], flexibility)).expect("valid");
-    let surface = Surface::new(Arc::new(line), plain.nodal().clone()).expect("fits");
+    let line = Rails::new(chain(&[0.0, 60.0], [0.0, h, 0.0], flexibility)).expect("valid");
+    let surface = ExactSurface::new(Arc::new(line), plain.nodal().clone()).expect("fits");
     let mut random = Random::new(9);
     for _ in 0..200 {
         let (x, z) = (random.between(0.0, 60.0), random.between(0.0, 60.0));
@@ -259,8 +259,8 @@ fn rail_above_the_axis_couples_vertical_and_longitudinal() {
 fn rail_above_the_axis_moves_sideways_by_twist() {
     let (h, t, l) = (3.0, 2e-10, 40.0);
     let flexibility = Flexibility { torsion: t, ..Flexibility::default() };
-    let line = Line::new(chain(&[0.0, l], [0.0, h, 0.0], flexibility)).expect("valid");
-    let surface = Surface::new(Arc::new(line), DMatrix::zeros(12, 12)).expect("fits");
+    let line = Rails::new(chain(&[0.0, l], [0.0, h, 0.0], flexibility)).expect("valid");
+    let surface = ExactSurface::new(Arc::new(line), DMatrix::zeros(12, 12)).expect("fits");
     let got = fill(&surface, &[probe(Axis::Lateral, 10.0), probe(Axis::Lateral, 25.0)]);
     let expected = h * h * t * 10.0 * 15.0 / l;
     assert!((got.value[(0, 1)] / expected - 1.0).abs() < 1e-14);
@@ -286,9 +286,9 @@ fn surface_is_positive_and_symmetric_to_the_last_bit() {
     }
 }
 
-fn arm(rail: usize, x: [f64; 2], end: usize) -> Cell {
+fn arm(rail: usize, x: [f64; 2], end: usize) -> RailElement {
     let frame = STRAIGHT;
-    Cell {
+    RailElement {
         rail,
         x,
         ends: [end, end],
@@ -296,16 +296,16 @@ fn arm(rail: usize, x: [f64; 2], end: usize) -> Cell {
         frame,
         offset: [-0.5, 2.0, 0.0],
         flexibility: Flexibility::default(),
-        carrier: None,
+        member: None,
     }
 }
 
 /// Analytic: rigid motion of a node state.
 #[test]
 fn rigid_arm_moves_with_its_state() {
-    let line = Line::new(vec![arm(0, [10.0, 11.0], 0)]).expect("valid");
+    let line = Rails::new(vec![arm(0, [10.0, 11.0], 0)]).expect("valid");
     let nodal = DMatrix::from_diagonal(&nalgebra::DVector::from_vec(vec![1.0, 2.0, 3.0, 4.0, 5.0, 6.0]));
-    let surface = Surface::new(Arc::new(line), nodal).expect("fits");
+    let surface = ExactSurface::new(Arc::new(line), nodal).expect("fits");
     let at = [probe(Axis::Vertical, 10.75), probe(Axis::Longitudinal, 10.0), probe(Axis::Lateral, 11.0)];
     let got = fill(&surface, &at);
     // theta x (r, 2, 0), r = x - 10.5: (-2 tz, r tz, 2 tx - r ty).
@@ -319,13 +319,13 @@ fn rigid_arm_moves_with_its_state() {
 
 #[test]
 fn first_listed_element_carries_the_place_where_two_meet() {
-    let earlier = Line::new(vec![arm(0, [0.0, 1.0], 0), arm(0, [1.0, 2.0], 1)]).expect("valid");
-    let later = Line::new(vec![arm(0, [1.0, 2.0], 1), arm(0, [0.0, 1.0], 0)]).expect("valid");
+    let earlier = Rails::new(vec![arm(0, [0.0, 1.0], 0), arm(0, [1.0, 2.0], 1)]).expect("valid");
+    let later = Rails::new(vec![arm(0, [1.0, 2.0], 1), arm(0, [0.0, 1.0], 0)]).expect("valid");
     let at = probe(Axis::Vertical, 1.0);
-    assert_eq!(earlier.row(at).map(|row| row.cell), Ok(0));
-    assert_eq!(later.row(at).map(|row| row.cell), Ok(0));
+    assert_eq!(earlier.row(at).map(|row| row.element), Ok(0));
+    assert_eq!(later.row(at).map(|row| row.element), Ok(0));
     assert_eq!(later.row(at).expect("on the rail").indices(), &[7, 11]);
-    assert_eq!(later.row(probe(Axis::Vertical, 0.5)).map(|row| row.cell), Ok(1));
+    assert_eq!(later.row(probe(Axis::Vertical, 0.5)).map(|row| row.element), Ok(1));
     assert_eq!(later.breaks(0), vec![0.0, 1.0, 2.0]);
     assert_eq!(later.range(0), Some([0.0, 2.0]));
     assert_eq!(later.range(1), None);
@@ -334,8 +334,8 @@ fn first_listed_element_carries_the_place_where_two_meet() {
 #[test]
 fn probes_off_the_rail_are_refused() {
     let line =
-        Line::new(vec![arm(3, [0.0, 1.0], 0), arm(3, [2.0, 3.0], 1), arm(7, [2.0, 3.0], 1)]).expect("valid");
-    let row = |rail, x| line.row(Probe { rail, x, axis: Axis::Vertical }).map(|row| row.cell);
+        Rails::new(vec![arm(3, [0.0, 1.0], 0), arm(3, [2.0, 3.0], 1), arm(7, [2.0, 3.0], 1)]).expect("valid");
+    let row = |rail, x| line.row(Probe { rail, x, axis: Axis::Vertical }).map(|row| row.element);
     assert_eq!(row(0, 0.5), Err(Error::NoRail { rail: 0 }));
     assert_eq!(row(3, -0.1), Err(Error::OffRail { rail: 3, x: -0.1 }));
     assert_eq!(row(3, 1.5), Err(Error::OffRail { rail: 3, x: 1.5 }));
@@ -349,34 +349,34 @@ fn probes_off_the_rail_are_refused() {
 fn missing_stiffness_is_refused_only_where_it_is_needed() {
     let loose = Flexibility { axial: f64::INFINITY, torsion: f64::INFINITY, ..Flexibility::default() };
     let row = |offset, axis| {
-        let line = Line::new(chain(&[0.0, 10.0], offset, loose)).expect("valid");
+        let line = Rails::new(chain(&[0.0, 10.0], offset, loose)).expect("valid");
         line.row(probe(axis, 4.0)).map(|_| ())
     };
-    let refused = |axis| Err(Error::Unstiffened { rail: 0, x: 4.0, axis });
+    let refused = |axis| Err(Error::NoStiffness { rail: 0, x: 4.0, axis });
     assert_eq!(row([0.0; 3], Axis::Vertical), Ok(()));
     assert_eq!(row([0.0; 3], Axis::Lateral), Ok(()));
     assert_eq!(row([0.0; 3], Axis::Longitudinal), refused(Axis::Longitudinal));
     assert_eq!(row([0.0, 2.0, 0.0], Axis::Vertical), Ok(()));
     assert_eq!(row([0.0, 2.0, 0.0], Axis::Lateral), refused(Axis::Lateral));
     assert_eq!(row([0.0, 0.0, 2.0], Axis::Vertical), refused(Axis::Vertical));
-    let line = Line::new(chain(&[0.0, 10.0], [0.0, 2.0, 0.0], loose)).expect("valid");
-    let kernel = line.kernel(0, 4.0, 5.0);
+    let line = Rails::new(chain(&[0.0, 10.0], [0.0, 2.0, 0.0], loose)).expect("valid");
+    let kernel = line.clamped_green(0, 4.0, 5.0);
     assert_eq!((kernel[0][0], kernel[2][2], kernel[1][1]), (f64::INFINITY, f64::INFINITY, 0.0));
 }
 
 #[test]
 fn infinite_nodal_compliance_refuses_the_probes_that_need_it() {
-    let line = Arc::new(Line::new(chain(&[0.0, 10.0], [0.0; 3], Flexibility::default())).expect("valid"));
+    let line = Arc::new(Rails::new(chain(&[0.0, 10.0], [0.0; 3], Flexibility::default())).expect("valid"));
     let mut nodal = DMatrix::identity(12, 12);
     nodal[(2, 2)] = f64::INFINITY;
-    let surface = Surface::new(line.clone(), nodal.clone()).expect("fits");
+    let surface = ExactSurface::new(line.clone(), nodal.clone()).expect("fits");
     let mut out = Influence::zeros(1);
     assert_eq!(surface.fill(&[probe(Axis::Vertical, 4.0)], &mut out), Ok(()));
-    let refused = Error::Unstiffened { rail: 0, x: 4.0, axis: Axis::Lateral };
+    let refused = Error::NoStiffness { rail: 0, x: 4.0, axis: Axis::Lateral };
     assert_eq!(surface.fill(&[probe(Axis::Lateral, 4.0)], &mut out), Err(refused));
     nodal[(2, 2)] = f64::NAN;
-    assert!(matches!(Surface::new(line.clone(), nodal), Err(Error::NodalNumber { row: 2, column: 2 })));
-    let small = Surface::new(line, DMatrix::zeros(6, 6));
+    assert!(matches!(ExactSurface::new(line.clone(), nodal), Err(Error::NodalNumber { row: 2, column: 2 })));
+    let small = ExactSurface::new(line, DMatrix::zeros(6, 6));
     assert!(matches!(small, Err(Error::NodalShape { rows: 6, columns: 6, expected: 12 })));
     let mut wrong = Influence::zeros(3);
     let refused = Error::OutputShape { rows: 3, columns: 3, expected: 1 };
@@ -386,28 +386,34 @@ fn infinite_nodal_compliance_refuses_the_probes_that_need_it() {
 #[test]
 fn unusable_elements_are_refused() {
     let good = chain(&[0.0, 10.0], [0.0; 3], Flexibility::default()).remove(0);
-    let refuse = |cells: Vec<Cell>| Line::new(cells).map(|_| ()).expect_err("refused");
-    assert_eq!(refuse(vec![]), Error::NoCells);
+    let refuse = |cells: Vec<RailElement>| Rails::new(cells).map(|_| ()).expect_err("refused");
+    assert_eq!(refuse(vec![]), Error::NoElements);
     assert_eq!(
-        refuse(vec![Cell { x: [2.0, 2.0], ..good.clone() }]),
-        Error::CellExtent { cell: 0, x: [2.0, 2.0] }
-    );
-    assert_eq!(refuse(vec![Cell { x: [0.0, f64::INFINITY], ..good.clone() }]), Error::CellNumber { cell: 0 });
-    assert_eq!(
-        refuse(vec![Cell { offset: [f64::NAN, 0.0, 0.0], ..good.clone() }]),
-        Error::CellNumber { cell: 0 }
+        refuse(vec![RailElement { x: [2.0, 2.0], ..good.clone() }]),
+        Error::ElementExtent { cell: 0, x: [2.0, 2.0] }
     );
     assert_eq!(
-        refuse(vec![Cell { length: 0.0, ..good.clone() }]),
-        Error::CellLength { cell: 0, length: 0.0 }
+        refuse(vec![RailElement { x: [0.0, f64::INFINITY], ..good.clone() }]),
+        Error::ElementNumber { cell: 0 }
+    );
+    assert_eq!(
+        refuse(vec![RailElement { offset: [f64::NAN, 0.0, 0.0], ..good.clone() }]),
+        Error::ElementNumber { cell: 0 }
+    );
+    assert_eq!(
+        refuse(vec![RailElement { length: 0.0, ..good.clone() }]),
+        Error::ElementLength { cell: 0, length: 0.0 }
     );
     let left_handed = [STRAIGHT[0], STRAIGHT[2], STRAIGHT[1]];
-    assert_eq!(refuse(vec![Cell { frame: left_handed, ..good.clone() }]), Error::CellFrame { cell: 0 });
+    assert_eq!(
+        refuse(vec![RailElement { frame: left_handed, ..good.clone() }]),
+        Error::ElementFrame { cell: 0 }
+    );
     let negative = Flexibility { shear_y: -1.0, ..Flexibility::default() };
     assert_eq!(
-        refuse(vec![good.clone(), Cell { rail: 1, flexibility: negative, ..good.clone() }]),
-        Error::CellFlexibility { cell: 1 }
+        refuse(vec![good.clone(), RailElement { rail: 1, flexibility: negative, ..good.clone() }]),
+        Error::ElementFlexibility { cell: 1 }
     );
-    let over = Cell { x: [9.0, 12.0], ..good.clone() };
+    let over = RailElement { x: [9.0, 12.0], ..good.clone() };
     assert_eq!(refuse(vec![over, good]), Error::Overlap { rail: 0, first: 1, second: 0, x: 9.0 });
 }

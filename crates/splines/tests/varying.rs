@@ -8,7 +8,10 @@ use beam::near::{assert_at_most, assert_near};
 use beam::printed::{STATIONS, VERTICAL, table};
 use beam::{Beam, EI, chain, probe, read, tabulate};
 use nalgebra::DMatrix;
-use splines::{Axis, Compliance, Flexibility, Influence, Kind, Line, Probe, Surface, Table, lift};
+use splines::{
+    Axis, Compliance, ExactSurface, Flexibility, Influence, Probe, Rails, ReadingMethod, SplineTable,
+    fit_beam,
+};
 
 fn grid(of: &dyn Compliance, places: &[f64]) -> DMatrix<f64> {
     let at: Vec<Probe> = places.iter().map(|&x| probe(Axis::Vertical, x)).collect();
@@ -22,9 +25,9 @@ fn even(from: f64, to: f64, count: usize) -> Vec<f64> {
 }
 
 /// The surface without Green's function of the loaded element.
-fn stiff(nodal: &DMatrix<f64>, stations: &[f64]) -> Surface {
-    let line = Line::new(chain(stations, [0.0; 3], Flexibility::default())).expect("valid cells");
-    Surface::new(Arc::new(line), nodal.clone()).expect("fits")
+fn stiff(nodal: &DMatrix<f64>, stations: &[f64]) -> ExactSurface {
+    let line = Rails::new(chain(stations, [0.0; 3], Flexibility::default())).expect("valid cells");
+    ExactSurface::new(Arc::new(line), nodal.clone()).expect("fits")
 }
 
 /// The printed table within the span, relative to the largest value there, at midspan.
@@ -38,9 +41,9 @@ fn printed_table_errs_by_its_reading_and_by_its_digits() {
     let printed = table(&VERTICAL);
     let error = |of: &dyn Compliance| (grid(of, &places) - &exact).amax() / mid;
     let of = |what: &str| format!("printed table, {what}: largest error in the span / midspan's value");
-    let akispl = read(Kind::Akispl, printed.clone());
+    let akispl = read(ReadingMethod::Akispl, printed.clone());
     assert_near(of("AKISPL"), "prototype", 7.3e-2, error(&akispl), 0.02);
-    let raised = lift(0, &printed).expect("a beam on knife edges");
+    let raised = fit_beam(0, &printed).expect("a beam on knife edges");
     assert_near(of("values and kernel"), "prototype", 3.0e-3, error(&raised.surface), 0.05);
     let shapes = stiff(beam.surface(&STATIONS).nodal(), &STATIONS);
     assert_near(of("cubic shapes without kernel"), "prototype", 3.9e-3, error(&shapes), 0.02);
@@ -88,10 +91,10 @@ fn several_spans_are_exact_with_the_kernel_and_far_off_by_akispl() {
         let surface = beam.surface(&stations);
         let mut found = error(&surface);
         if g == 0.0 {
-            let raised = lift(0, &tabulate(&beam, &stations)).expect("a beam on knife edges");
+            let raised = fit_beam(0, &tabulate(&beam, &stations)).expect("a beam on knife edges");
             found = found.max(error(&raised.surface));
             let [plain, cubic] = [
-                error(&read(Kind::Akispl, tabulate(&beam, &stations))),
+                error(&read(ReadingMethod::Akispl, tabulate(&beam, &stations))),
                 error(&stiff(surface.nodal(), &stations)),
             ];
             println!("{name}, {}: AKISPL {plain:.3}, shapes {cubic:.2e}", stations.len());
@@ -173,14 +176,15 @@ impl Span<'_> {
 
     /// Exact node states, and on each element Green's function of its mean flexibility, which is that of the
     /// harmonic mean of EI.
-    fn mean(&self, stations: &[f64]) -> Surface {
+    fn mean(&self, stations: &[f64]) -> ExactSurface {
         let mut cells = chain(stations, [0.0; 3], Flexibility::default());
         for cell in &mut cells {
             let [a, b] = cell.x;
             let inside = |s: f64| if a < s && s < b { (self.give)(s) } else { 0.0 };
             cell.flexibility.bending_z = self.integral(inside, &[a, b]) / (b - a);
         }
-        Surface::new(Arc::new(Line::new(cells).expect("valid cells")), self.nodal(stations)).expect("fits")
+        ExactSurface::new(Arc::new(Rails::new(cells).expect("valid cells")), self.nodal(stations))
+            .expect("fits")
     }
 }
 
@@ -196,7 +200,7 @@ fn tapers_and_steps_err_by_what_is_left_of_them_within_a_cell() {
     let exact = taper.grid(&places);
     let error = |of: &dyn Compliance, exact: &DMatrix<f64>| (grid(of, &places) - exact).amax() / exact.amax();
     let table = |of: &Span<'_>, stations: &[f64]| {
-        Table::new(stations.to_vec(), stations.to_vec(), of.grid(stations)).expect("stations increase")
+        SplineTable::new(stations.to_vec(), stations.to_vec(), of.grid(stations)).expect("stations increase")
     };
     let of = |what: &str, n: usize| {
         format!("EI doubled linearly to midspan, {what}, {n} stations: largest error / largest value")
@@ -209,10 +213,10 @@ fn tapers_and_steps_err_by_what_is_left_of_them_within_a_cell() {
         let stations = even(0.0, L, n);
         let own = table(&taper, &stations);
         let found = [
-            error(&read(Kind::Akispl, own.clone()), &exact),
+            error(&read(ReadingMethod::Akispl, own.clone()), &exact),
             error(&stiff(&taper.nodal(&stations), &stations), &exact),
             error(&taper.mean(&stations), &exact),
-            lift(0, &own).map_or(f64::NAN, |lift| error(&lift.surface, &exact)),
+            fit_beam(0, &own).map_or(f64::NAN, |lift| error(&lift.surface, &exact)),
         ];
         println!("taper {n}: {found:?}");
         assert_near(of("AKISPL", n), "prototype", akispl, found[0], 0.05);

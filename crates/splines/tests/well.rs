@@ -7,7 +7,7 @@ mod beam;
 use beam::near::assert_near;
 use beam::printed::{STATIONS, VERTICAL, table};
 use beam::{Beam, read};
-use splines::{Axis, Jets, Kind, Probe};
+use splines::{Axis, Differentiable, Probe, ReadingMethod};
 
 /// Half of the bogie's base, ft; load of one of its wheels, lb; where it is released, ft.
 const ARM: f64 = 4.0 / 3.0;
@@ -17,12 +17,12 @@ const START: f64 = 12.0;
 /// 1/2 sum of F_i F_j (dG_ij/dx_i - dG_ij/dx_j) for two equal forces F at a distance: the work per length of
 /// the forces along the rail, F_i sum of dG_ij/dx_i F_j, less the change of the energy stored. It is zero
 /// where G is symmetric.
-fn excess(give: &dyn Jets, x: f64) -> f64 {
+fn excess(give: &dyn Differentiable, x: f64) -> f64 {
     let at = [x - ARM, x + ARM].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
     let mut sum = 0.0;
     for p in at {
         for q in at {
-            let jet = give.jet(p, q).expect("on the rail");
+            let jet = give.partials(p, q).expect("on the rail");
             sum += 0.5 * LOAD * LOAD * (jet.p - jet.q);
         }
     }
@@ -30,7 +30,7 @@ fn excess(give: &dyn Jets, x: f64) -> f64 {
 }
 
 /// Its integral from the start along the path `way`, after each step of 0.001 ft, by the midpoint rule.
-fn lost(give: &dyn Jets, way: &[f64]) -> Vec<f64> {
+fn lost(give: &dyn Differentiable, way: &[f64]) -> Vec<f64> {
     let pieces = way.windows(2).scan(0.0, |sum, ends| {
         *sum += excess(give, 0.5 * (ends[0] + ends[1])) * (ends[1] - ends[0]);
         Some(*sum)
@@ -49,7 +49,7 @@ fn forth() -> Vec<f64> {
 /// Independent: the same integral by Akima's curves of scipy.
 #[test]
 fn akispl_loses_a_tenth_of_the_well_on_the_way_across_and_nothing_in_a_slow_cycle() {
-    let akispl = read(Kind::Akispl, table(&VERTICAL));
+    let akispl = read(ReadingMethod::Akispl, table(&VERTICAL));
     let mut way = forth();
     let across = lost(&akispl, &way);
     let worst = (0..across.len()).min_by(|&i, &j| across[i].total_cmp(&across[j])).unwrap_or(0);
@@ -78,8 +78,8 @@ fn akispl_loses_a_tenth_of_the_well_on_the_way_across_and_nothing_in_a_slow_cycl
 
 #[test]
 fn symmetric_readings_lose_nothing_anywhere() {
-    let natural = read(Kind::Natural, table(&VERTICAL));
-    for give in [&natural as &dyn Jets, &Beam::paper().surface(&STATIONS)] {
+    let natural = read(ReadingMethod::Natural, table(&VERTICAL));
+    for give in [&natural as &dyn Differentiable, &Beam::paper().surface(&STATIONS)] {
         assert!(lost(give, &forth()).iter().all(|lost| lost.abs() < 1e-6));
     }
 }

@@ -1,7 +1,7 @@
 //! Errors of studies and of the evaluation of tables.
 
-use formats::diagnostic::Diagnostic;
-use formats::motion::UnequalShares;
+use formats::scene::motion::UnequalFractions;
+use formats::text::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// Why a study or an evaluation of tables has no result.
@@ -12,7 +12,7 @@ pub enum Error {
     Input(Vec<Diagnostic>),
     /// A truck of the scene cannot be simulated.
     #[error(transparent)]
-    Truck(#[from] UnequalShares),
+    Truck(#[from] UnequalFractions),
     /// A foundation cannot be built.
     #[error(transparent)]
     Foundation(#[from] foundations::Error),
@@ -33,7 +33,7 @@ pub enum Error {
     NoReference(String),
     /// None of the references could be run; the reason of the first.
     #[error("{0}")]
-    Lost(String),
+    NoReferences(String),
 }
 
 fn lines(diagnostics: &[Diagnostic]) -> String {

@@ -1,17 +1,17 @@
 //! Tables of a grid at the fewest stations that keep a tolerance.
 //!
-//! Stations of each rail are searched by [`splines::stations()`], which considers the direct blocks of this rail.
+//! Stations of each rail are searched by [`splines::fewest_stations()`], which considers the direct blocks of this rail.
 //! Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them exceeds
 //! the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
 
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
-use splines::check::{Extreme, Strip, Way, deviation, places};
-use splines::{Axis, Compliance, Error, Search, Sheet, Surface, Table};
+use splines::quality::{BlockExtreme, CouplingBlock, RailDirection, reading_error, sample_places};
+use splines::{Axis, Compliance, Error, ExactSurface, InfluenceBlock, SplineTable, StationSearch};
 
 use crate::table_quality::TableReadingMethod;
-use formats::block::GridBlock;
-use formats::grid::{Grid, GridRail, axes};
+use formats::grid::block::GridBlock;
+use formats::grid::{GridRail, StationGrid, axes};
 
 /// Largest number of stations of a rail.
 pub const MOST: usize = 400;
@@ -25,7 +25,7 @@ const TIGHTER: f64 = 0.7;
 #[derive(Clone, Debug)]
 pub struct StationGoal {
     /// The method by which the tables will be read.
-    pub manner: TableReadingMethod,
+    pub method: TableReadingMethod,
     /// Tolerance, relative to the largest coefficient.
     pub tolerance: f64,
     /// Directions that must keep the tolerance.
@@ -38,7 +38,7 @@ pub struct ChosenStations {
     /// The name of the rail.
     pub rail: String,
     /// Its stations and the error of the reading at them.
-    pub stations: splines::Stations,
+    pub stations: splines::StationSet,
 }
 
 /// Error of the reading of one block, relative to the geometric mean of the largest coefficients of its two direct
@@ -46,17 +46,17 @@ pub struct ChosenStations {
 #[derive(Clone, Copy, Debug)]
 pub struct BlockError {
     /// Paths of deflection and load.
-    pub ways: [Way; 2],
+    pub paths: [RailDirection; 2],
     /// Relative error.
     pub error: f64,
     /// The error itself and its place.
-    pub worst: Extreme,
+    pub worst: BlockExtreme,
 }
 
 /// A grid at chosen stations.
 pub struct StationChoice {
     /// The grid.
-    pub grid: Grid,
+    pub grid: StationGrid,
     /// The stations of its rails.
     pub rails: Vec<ChosenStations>,
     /// Errors of blocks between two rails or directions, and of directions that the goal does not cover.
@@ -66,41 +66,45 @@ pub struct StationChoice {
 /// The grid at the fewest stations for the goal, with values from its exact surface.
 ///
 /// # Errors
-/// As [`splines::stations()`]; [`Error::Stations`] where blocks between rails do not keep the tolerance.
-pub fn choose(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<StationChoice, Error> {
+/// As [`splines::fewest_stations()`]; [`Error::Stations`] where blocks between rails do not keep the tolerance.
+pub fn choose(
+    grid: &StationGrid,
+    surface: &ExactSurface,
+    goal: &StationGoal,
+) -> Result<StationChoice, Error> {
     let mut tolerance = goal.tolerance;
     for round in 0.. {
         let choice = attempt(grid, surface, &StationGoal { tolerance, ..goal.clone() })?;
-        let wanted = |block: &&BlockError| block.ways.iter().all(|way| goal.axes.contains(&way.1));
+        let wanted = |block: &&BlockError| block.paths.iter().all(|way| goal.axes.contains(&way.1));
         let worst = choice.others.iter().filter(wanted).map(|block| block.error).fold(0.0, f64::max);
         if worst <= goal.tolerance {
             return Ok(choice);
         }
         if round == ROUNDS {
-            return Err(Error::Stations { most: choice.grid.size(), error: worst });
+            return Err(Error::TooFewStations { most: choice.grid.size(), error: worst });
         }
         tolerance *= TIGHTER;
     }
-    Err(Error::NoSheets)
+    Err(Error::NoBlocks)
 }
 
 /// One search of all rails.
-fn attempt(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<StationChoice, Error> {
+fn attempt(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Result<StationChoice, Error> {
     let mut rails = Vec::new();
     for (rail, given) in grid.rails.iter().enumerate() {
         let range = surface.range(rail).ok_or(Error::NoRail { rail })?;
-        let search = Search {
+        let search = StationSearch {
             exact: surface,
             rail,
             axes: &goal.axes,
             range,
             fixed: &surface.breaks(rail),
-            read: &|sheets: &[Sheet]| goal.manner.read(sheets),
-            order: goal.manner.order(),
+            read: &|sheets: &[InfluenceBlock]| goal.method.read(sheets),
+            order: goal.method.order(),
             tolerance: goal.tolerance,
-            most: MOST,
+            max_stations: MOST,
         };
-        rails.push(ChosenStations { rail: given.name.clone(), stations: splines::stations(&search)? });
+        rails.push(ChosenStations { rail: given.name.clone(), stations: splines::fewest_stations(&search)? });
     }
     let named =
         |rail: &ChosenStations| GridRail { name: rail.rail.clone(), stations: rail.stations.at.clone() };
@@ -113,14 +117,15 @@ fn attempt(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Station
 ///
 /// # Errors
 /// A station beyond its rail.
-pub fn at(grid: &Grid, surface: &Surface, rails: Vec<GridRail>) -> Result<Grid, Error> {
-    let mut out = Grid { rails, effects: None, ..grid.clone() };
+pub fn at(grid: &StationGrid, surface: &ExactSurface, rails: Vec<GridRail>) -> Result<StationGrid, Error> {
+    let mut out = StationGrid { rails, effects: None, ..grid.clone() };
     for (quantity, block) in &mut out.blocks {
         let (deflection, load) = axes(*quantity);
         let parts = out.rails.iter().enumerate().map(|(r, row)| {
             let parts = out.rails.iter().enumerate().map(|(c, column)| {
-                let strip = Strip { compliance: surface, deflection: (r, deflection), load: (c, load) };
-                strip.block(&row.stations, &column.stations)
+                let strip =
+                    CouplingBlock { compliance: surface, deflection: (r, deflection), load: (c, load) };
+                strip.matrix(&row.stations, &column.stations)
             });
             parts.collect::<Result<Vec<_>, _>>()
         });
@@ -148,45 +153,46 @@ fn assemble(parts: &[Vec<DMatrix<f64>>]) -> DMatrix<f64> {
 }
 
 /// Errors of the blocks that the searches of single rails do not consider.
-fn others(grid: &Grid, surface: &Surface, goal: &StationGoal) -> Result<Vec<BlockError>, Error> {
-    if goal.manner == TableReadingMethod::Exact {
+fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Result<Vec<BlockError>, Error> {
+    if goal.method == TableReadingMethod::Exact {
         return Ok(Vec::new());
     }
     let sheets = sheets(grid)?;
-    let reading = goal.manner.read(&sheets)?;
+    let reading = goal.method.read(&sheets)?;
     let at_rails: Vec<Vec<f64>> = grid
         .rails
         .iter()
         .map(|rail| {
             let range = [rail.stations[0], rail.stations[rail.stations.len() - 1]];
-            places(&rail.stations, range, PLACES.max(3 * rail.stations.len()))
+            sample_places(&rail.stations, range, PLACES.max(3 * rail.stations.len()))
         })
         .collect();
-    let largest = |(rail, axis): Way| {
+    let largest = |(rail, axis): RailDirection| {
         let at = &at_rails[rail];
-        Ok::<f64, Error>(Strip::direct(surface, (rail, axis)).block(at, at)?.amax())
+        Ok::<f64, Error>(CouplingBlock::direct(surface, (rail, axis)).matrix(at, at)?.amax())
     };
     let mut out = Vec::new();
-    for Sheet { deflection, load, .. } in &sheets {
+    for InfluenceBlock { deflection, load, .. } in &sheets {
         let own = deflection.0 == load.0;
         if own && goal.axes.contains(&deflection.1) && goal.axes.contains(&load.1) {
             continue;
         }
-        let strips = [reading.as_ref(), surface as &dyn Compliance].map(|compliance| Strip {
+        let strips = [reading.as_ref(), surface as &dyn Compliance].map(|compliance| CouplingBlock {
             compliance,
             deflection: *deflection,
             load: *load,
         });
-        let error_of_block = deviation(&strips[0], &strips[1], &at_rails[load.0], &at_rails[deflection.0])?;
+        let error_of_block =
+            reading_error(&strips[0], &strips[1], &at_rails[load.0], &at_rails[deflection.0])?;
         let scale = (largest(*deflection)? * largest(*load)?).sqrt();
         let error = if scale > 0.0 { error_of_block.largest.value.abs() / scale } else { 0.0 };
-        out.push(BlockError { ways: [*deflection, *load], error, worst: error_of_block.largest });
+        out.push(BlockError { paths: [*deflection, *load], error, worst: error_of_block.largest });
     }
     Ok(out)
 }
 
 /// All blocks as tables: a direct block between two rails once, couplings in both orders.
-fn sheets(grid: &Grid) -> Result<Vec<Sheet>, Error> {
+fn sheets(grid: &StationGrid) -> Result<Vec<InfluenceBlock>, Error> {
     let mut out = Vec::new();
     let mut top = 0;
     for (r, row) in grid.rails.iter().enumerate() {
@@ -197,8 +203,8 @@ fn sheets(grid: &Grid) -> Result<Vec<Sheet>, Error> {
                 if r <= c || deflection != load {
                     let values = block.view((top, left), (row.stations.len(), column.stations.len()));
                     let table =
-                        Table::new(column.stations.clone(), row.stations.clone(), values.into_owned())?;
-                    out.push(Sheet { deflection: (r, deflection), load: (c, load), table });
+                        SplineTable::new(column.stations.clone(), row.stations.clone(), values.into_owned())?;
+                    out.push(InfluenceBlock { deflection: (r, deflection), load: (c, load), table });
                 }
             }
             left += column.stations.len();
@@ -212,8 +218,8 @@ impl StationChoice {
     /// The stations and their errors as JSON.
     #[must_use]
     pub fn json(&self, goal: &StationGoal) -> Value {
-        let name = |way: Way| json!({ "rail": self.grid.rails[way.0].name, "axis": word(way.1) });
-        let error = |ways: [Way; 2], relative: f64, worst: Extreme| {
+        let name = |way: RailDirection| json!({ "rail": self.grid.rails[way.0].name, "axis": word(way.1) });
+        let error = |ways: [RailDirection; 2], relative: f64, worst: BlockExtreme| {
             json!({
                 "relative": relative, "value": worst.value, "x": worst.x, "z": worst.z,
                 "deflection": name(ways[0]), "load": name(ways[1]),
@@ -223,13 +229,13 @@ impl StationChoice {
             let found = &rail.stations;
             json!({
                 "name": rail.rail, "count": found.at.len(), "stations": found.at,
-                "error": error(found.ways, found.error, found.worst),
+                "error": error(found.directions, found.error, found.worst),
             })
         });
-        let others = self.others.iter().map(|block| error(block.ways, block.error, block.worst));
+        let others = self.others.iter().map(|block| error(block.paths, block.error, block.worst));
         json!({
             "format": "girderway-stations/1",
-            "reading": goal.manner.word(),
+            "reading": goal.method.word(),
             "tolerance": goal.tolerance,
             "rails": rails.collect::<Vec<_>>(),
             "others": others.collect::<Vec<_>>(),
@@ -248,22 +254,22 @@ impl StationChoice {
                     "rail {}: {} stations, {} errs by {:.2e} at most ({} of {}, x = {:.4}, z = {:.4})",
                     rail.rail,
                     found.at.len(),
-                    goal.manner.word(),
+                    goal.method.word(),
                     found.error,
-                    word(found.ways[0].1),
-                    word(found.ways[1].1),
+                    word(found.directions[0].1),
+                    word(found.directions[1].1),
                     found.worst.x,
                     found.worst.z,
                 )
             })
             .collect();
-        let wanted = |block: &BlockError| block.ways.iter().all(|way| goal.axes.contains(&way.1));
+        let wanted = |block: &BlockError| block.paths.iter().all(|way| goal.axes.contains(&way.1));
         let worst = |within: bool| {
             let blocks = self.others.iter().filter(|block| wanted(block) == within);
             blocks.max_by(|a, b| a.error.total_cmp(&b.error))
         };
         let describe = |block: &BlockError| {
-            let [(r, deflection), (c, load)] = block.ways;
+            let [(r, deflection), (c, load)] = block.paths;
             let [row, column] = [r, c].map(|rail| self.grid.rails[rail].name.as_str());
             format!(
                 "{:.2e} ({} of rail {row} from {} of rail {column})",
@@ -284,7 +290,7 @@ impl StationChoice {
 
 /// Directions that a goal covers by default: vertical and lateral, as far as the grid has them.
 #[must_use]
-pub fn usual(grid: &Grid) -> Vec<Axis> {
+pub fn usual(grid: &StationGrid) -> Vec<Axis> {
     let both = [(GridBlock::Vertical, Axis::Vertical), (GridBlock::Lateral, Axis::Lateral)];
     let known: Vec<Axis> = both
         .into_iter()

@@ -6,9 +6,11 @@ use crate::cli::{Global, SplinesArgs};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
+use formats::text::diagnostic::Diagnostic;
 use report::chart::stack;
-use study::table_quality::{Settings, TableQuality, TableReadingMethod, TableSource, json, picture, text};
+use study::table_quality::{
+    TableQuality, TableQualitySettings, TableReadingMethod, TableSource, json, picture, text,
+};
 
 /// Reads the grid or the tables, writes the findings to standard output, and draws them where a file is named.
 ///
@@ -21,7 +23,7 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     let form = args.output.as_deref().map(form).transpose()?;
     let subject = TableSource::open(&args.grid)?;
     let progress = Progress::new(global);
-    let settings = Settings {
+    let settings = TableQualitySettings {
         load: args.load,
         spacing: args.spacing,
         beyond: args.beyond,
@@ -76,7 +78,7 @@ fn form(path: &Path) -> Result<Form, Failure> {
 fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failure> {
     let mut pictures = Vec::new();
     for found in all {
-        for figure in picture::plates(subject, found).map_err(Failure::untrusted)? {
+        for figure in picture::figures(subject, found).map_err(Failure::untrusted)? {
             pictures.push(figure.svg().map_err(Failure::untrusted)?);
         }
     }

@@ -1,6 +1,6 @@
 //! `girderway crosscheck`: the same structure in independent FE codes.
 
-use fea::{Girder, Theory};
+use fea::{BeamTheory, Girder};
 use serde_json::{Value, json};
 
 use crate::cli::{CrosscheckArgs, Global};
@@ -11,11 +11,11 @@ use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
 use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
-use formats::block::GridBlock;
-use formats::diagnostic::Diagnostic;
-use formats::inputs::Inputs;
-use formats::source::Source;
+use formats::grid::block::GridBlock;
 use formats::spec::{Form, Spec, theory_word};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::inputs::Inputs;
+use formats::text::source::Source;
 use formats::units::Dimension;
 
 /// Effective shear area of a solid rectangle by its area.
@@ -90,7 +90,7 @@ impl<'a> Check<'a> {
     }
 
     fn solve(&self, spec: &Spec) -> Result<Grids, Failure> {
-        let solved = foundations::solve(spec).map_err(|error| spec.refuse(self.source, &error))?;
+        let solved = foundations::solve(spec).map_err(|error| spec.locate_error(self.source, &error))?;
         let block = |block: &nalgebra::DMatrix<f64>| {
             block.row_iter().map(|row| row.iter().copied().collect()).collect::<PlainGrid>()
         };
@@ -132,7 +132,7 @@ impl<'a> Check<'a> {
             outcome.notes.push(format!("both under {}; the spec says {word}", theory_word(theory)));
         }
         if peer == Peer::Solid {
-            let plain = self.solve(&self.spec.clone().with_theory(Theory::EulerBernoulli))?;
+            let plain = self.solve(&self.spec.clone().with_theory(BeamTheory::EulerBernoulli))?;
             let list: Vec<String> = crosscheck::again(&outcome, &plain)
                 .iter()
                 .filter(|d| d.quantity.direct() == [d.quantity; 2])
@@ -187,7 +187,7 @@ fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Resu
 
 /// A girder as plain stiffnesses.
 fn stiffnesses(girder: &Girder) -> crosscheck::PlainGirder {
-    let sheared = girder.theory == Theory::Timoshenko;
+    let sheared = girder.theory == BeamTheory::Timoshenko;
     let shear = |area: Option<f64>| area.zip(girder.g).filter(|_| sheared).map(|(area, g)| g * area);
     crosscheck::PlainGirder {
         spans: girder.spans.clone(),

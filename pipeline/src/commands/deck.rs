@@ -7,8 +7,8 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use deck::{self, DeckForm, check};
-use formats::diagnostic::Diagnostic;
 use formats::scene::Document;
+use formats::text::diagnostic::Diagnostic;
 use foundations::{distinct_specs, solve_specs};
 
 /// Writes the data set to the file named, with its command file beside it, or to standard output.
@@ -30,10 +30,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         let _stage = progress.stage("solving the structures");
         solve_specs(&document, &distinct_specs(&only))?
     };
-    let form = args
-        .form
-        .map(DeckForm::from)
-        .unwrap_or_else(|| DeckForm::of_readings(scene.structures.iter().map(|structure| structure.reading)));
+    let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
+        DeckForm::of_readings(scene.structures.iter().map(|structure| structure.interpolation))
+    });
     let file = args.scene.display().to_string();
     let plan = deck::plan(scene, &known, form, &file)?;
     let model = args.output.as_deref().map_or_else(|| scene.name.clone(), stem);

@@ -1,15 +1,15 @@
 //! `girderway splines --form factored`: curves whose products make G.
 
 use serde_json::{Map, Value, json};
-use splines::{Rank, Surface};
+use splines::{ExactSurface, Rank};
 
 use crate::cli::SplinesArgs;
 use crate::exit::Failure;
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
 use formats::grid::GridRail;
-use formats::inputs::Input;
 use formats::tables::{self, TableSet};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::inputs::Input;
 
 /// The tables in factored form; their error is written to standard error and added to `summary`.
 ///
@@ -18,7 +18,7 @@ use formats::tables::{self, TableSet};
 pub(super) fn factored(
     args: &SplinesArgs,
     set: &TableSet,
-    exact: Option<&(Surface, Vec<GridRail>)>,
+    exact: Option<&(ExactSurface, Vec<GridRail>)>,
     input: &Input,
     progress: &Progress,
     summary: &mut Map<String, Value>,
@@ -28,8 +28,8 @@ pub(super) fn factored(
         (None, Some(tolerance)) => Rank::Tolerance(tolerance),
         (None, None) => Rank::Full,
     };
-    let refused = |why: tables::Unfactored| {
-        Failure::from(Diagnostic::of_file(&input.shown, format!("has no factored form: {why}")))
+    let refused = |why: tables::FactorError| {
+        Failure::from(Diagnostic::of_file(&input.display_name, format!("has no factored form: {why}")))
     };
     let factoring = tables::factor(&tables::expand(set), rank).map_err(refused)?;
     for id in &factoring.skipped {
@@ -38,7 +38,7 @@ pub(super) fn factored(
     let ranks: Vec<String> = factoring.ranks.iter().map(|[kept, of]| format!("{kept} of {of}")).collect();
     progress.say(&format!("factored form: {} products", ranks.join(", ")));
     progress.say(&format!("  error at the stations: {}", factoring.stations.message()));
-    let between = exact.and_then(|(surface, rails)| factoring.against(surface, rails));
+    let between = exact.and_then(|(surface, rails)| factoring.deviation_from(surface, rails));
     match &between {
         Some(found) => progress.say(&format!("  error against the exact surface: {}", found.message())),
         None => {

@@ -4,14 +4,14 @@ use crate::cli::{FeaArgs, Global};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::coupling::Coupling;
-use formats::fault::{Fault, Faults};
-use formats::grid_file::{self, LARGEST};
-use formats::inputs::Inputs;
-use formats::modes_file::{self, ACCURACY};
-use formats::place::Place;
-use formats::source::Source;
+use formats::grid::coupling::Coupling;
+use formats::grid::file::{self, MAX_DOFS};
+use formats::grid::modes_file::{self, MESH_TOLERANCE};
 use formats::spec::Spec;
+use formats::text::fault::{Fault, Faults};
+use formats::text::inputs::Inputs;
+use formats::text::place::Place;
+use formats::text::source::Source;
 use results::warning;
 
 /// Unknowns from which the size of a system is worth a line.
@@ -29,9 +29,9 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = foundations::solve_to(&spec, args.accuracy, LARGEST);
+    let solved = foundations::solve_to(&spec, args.accuracy, MAX_DOFS);
     drop(stage);
-    let solved = solved.map_err(|error| spec.refuse(&source, &error))?;
+    let solved = solved.map_err(|error| spec.locate_error(&source, &error))?;
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
     }
@@ -41,20 +41,20 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     for note in &solved.grid.notes {
         progress.say(&format!("note: {note}"));
     }
-    if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
+    if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.summary()) {
         progress.say(&line);
     }
-    let mut text = grid_file::write(&solved.grid, solved.surface.as_ref());
+    let mut text = file::write(&solved.grid, solved.surface.as_ref());
     if let Some(count) = args.modes {
         let stage = progress.stage("modes");
-        let found = fea::refined_modes(&solved.model, &solved.rails, count as usize, ACCURACY);
+        let found = fea::refined_modes(&solved.model, &solved.rails, count as usize, MESH_TOLERANCE);
         drop(stage);
         let refined = found.map_err(|error| refuse(&spec, &source, &error))?;
-        progress.say(&modes_file::line(&refined.modes));
-        if let Some(error) = refined.error.filter(|error| *error > ACCURACY) {
+        progress.say(&modes_file::summary(&refined.modes));
+        if let Some(error) = refined.error.filter(|error| *error > MESH_TOLERANCE) {
             progress.say(&format!("note: the mesh shows in the modes by {error:.1e}"));
         }
-        text = modes_file::insert(&text, &modes_file::write(&refined, &solved.grid.stations()));
+        text = modes_file::append(&text, &modes_file::write(&refined, &solved.grid.stations()));
     }
     output::deliver(args.output.as_deref(), &text, &progress)?;
     Ok(Exit::Done)
@@ -63,7 +63,7 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
 /// Errors of natural modes: a spec without mass by the missing key, all others as errors of the solver.
 fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
     if *error != fea::Error::NoMass {
-        return spec.refuse(source, error).into();
+        return spec.locate_error(source, error).into();
     }
     let root = Place::root();
     let fault = if spec.girder().is_some() {

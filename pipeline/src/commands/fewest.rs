@@ -1,16 +1,16 @@
 //! `girderway splines --reading --tolerance`: tables at the fewest stations that keep the tolerance.
 
 use serde_json::{Map, Value};
-use splines::{Axis, Surface};
+use splines::{Axis, ExactSurface};
 
 use crate::cli::SplinesArgs;
 use crate::exit::Failure;
 use crate::progress::Progress;
-use formats::block::GridBlock;
-use formats::fault::{Fault, Faults};
-use formats::grid::{self, Grid};
-use formats::place::Place;
-use formats::source::Source;
+use formats::grid::block::GridBlock;
+use formats::grid::{self, StationGrid};
+use formats::text::fault::{Fault, Faults};
+use formats::text::place::Place;
+use formats::text::source::Source;
 use study::stations::{self, StationGoal};
 use study::table_quality::TableReadingMethod;
 
@@ -23,10 +23,10 @@ pub(super) fn chosen(
     args: &SplinesArgs,
     (manner, tolerance): (TableReadingMethod, f64),
     source: &Source,
-    (grid, surface): (&Grid, Option<&Surface>),
+    (grid, surface): (&StationGrid, Option<&ExactSurface>),
     progress: &Progress,
     summary: &mut Map<String, Value>,
-) -> Result<Grid, Failure> {
+) -> Result<StationGrid, Failure> {
     let root = Place::root();
     let refuse = |fault: Fault| Failure::Input(source.diagnose(&Faults(vec![fault])));
     let Some(surface) = surface else {
@@ -46,18 +46,18 @@ pub(super) fn chosen(
             return Err(refuse(Fault::new(&root.key("influence"), wrong)));
         }
     }
-    let goal = StationGoal { manner, tolerance, axes };
+    let goal = StationGoal { method: manner, tolerance, axes };
     let stage = progress.stage("stations");
     let found = stations::choose(grid, surface, &goal);
     drop(stage);
     let choice = found.map_err(|error| match error {
-        splines::Error::Stations { most, error } => Failure::Differs(format!(
+        splines::Error::TooFewStations { most, error } => Failure::Differs(format!(
             "{} errs by {error:.2e} with {most} stations, the most: where shear, torsion or axial force give, every \
              reading of values alone errs in proportion to the distance of stations; allow more, take another reading, or \
              name the directions that matter with --directions",
             manner.word()
         )),
-        splines::Error::Unliftable => refuse(
+        splines::Error::NoBeamFit => refuse(
             Fault::new(&root.key("influence"), "is not that of a uniform beam in bending on rigid supports")
                 .hint("the values alone do not say what is exact between them; this file does, use it in place of tables"),
         ),

@@ -4,7 +4,7 @@ use crate::cli::{Global, ImportArgs};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::inputs::Inputs;
+use formats::text::inputs::Inputs;
 use import::{ImportOptions, import};
 
 /// Reads the model, writes the beam spec to the file named or to standard output; what was left out is said on

@@ -8,7 +8,7 @@ use crate::cli::{Global, InitArgs, Starter};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
+use formats::text::diagnostic::Diagnostic;
 
 /// Files by their names, the scene first.
 type Files = &'static [(&'static str, &'static str)];

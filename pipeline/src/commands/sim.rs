@@ -10,11 +10,11 @@ use crate::cli::{Global, SceneArgs as Arguments};
 use crate::exit::{Exit, Failure};
 use crate::manifest::MANIFEST;
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
-use formats::grid_file;
-use formats::inputs::Inputs;
+use formats::grid::file as grid_file;
 use formats::scene::Document;
 use formats::spec::Spec;
+use formats::text::diagnostic::Diagnostic;
+use formats::text::inputs::Inputs;
 use foundations::SolvedModel;
 use foundations::{SolvedStructure, distinct_specs};
 

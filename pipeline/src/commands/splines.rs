@@ -2,7 +2,7 @@
 
 use adams::SplineValues;
 use serde_json::{Map, Value, json};
-use splines::Surface;
+use splines::ExactSurface;
 
 use super::factored::factored;
 use super::{check_tables, fewest};
@@ -10,13 +10,13 @@ use crate::cli::{Global, SplinesArgs, TableFormArg};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
-use formats::fault::{Fault, Faults};
-use formats::grid::{Grid, GridRail};
-use formats::grid_file;
-use formats::inputs::{Input, Inputs};
-use formats::place::Place;
-use formats::tables::{self, Format, TableSet};
+use formats::grid::file as grid_file;
+use formats::grid::{GridRail, StationGrid};
+use formats::tables::{self, TableFormat, TableSet};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::fault::{Fault, Faults};
+use formats::text::inputs::{Input, Inputs};
+use formats::text::place::Place;
 use formats::units::Units;
 use study::table_quality::TableReadingMethod;
 
@@ -32,8 +32,8 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     }
     fits(args)?;
     let format = match &args.output {
-        Some(path) => Format::of(&path.display().to_string()).map_err(|fault| *fault)?,
-        None => Format::Adams,
+        Some(path) => TableFormat::of(&path.display().to_string()).map_err(|fault| *fault)?,
+        None => TableFormat::Adams,
     };
     let progress = Progress::new(global);
     let inputs = Inputs::open_bytes(&args.grid).map_err(|fault| *fault)?;
@@ -42,9 +42,9 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     let (mut set, exact) = given(args, input, &progress, &mut summary)?;
     if !args.only.is_empty() {
         let directions: Vec<_> = args.only.iter().map(|direction| (*direction).into()).collect();
-        set = tables::only(&set, &directions);
+        set = tables::select(&set, &directions);
         if set.tables.is_empty() {
-            let fault = Diagnostic::of_file(&input.shown, "has no table of these directions");
+            let fault = Diagnostic::of_file(&input.display_name, "has no table of these directions");
             return Err(fault
                 .hint("a table's direction is known from a grid, or from the end of its name")
                 .into());
@@ -58,7 +58,7 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
         None => {}
     }
     if let Some(digits) = args.digits {
-        let refused = |why: tables::Unrounded| Diagnostic::of_file(&input.shown, why.to_string());
+        let refused = |why: tables::RoundError| Diagnostic::of_file(&input.display_name, why.to_string());
         let (rounded, rounding) = tables::round(&set, usize::from(digits)).map_err(refused)?;
         progress.say(&rounding.message());
         summary.insert("rounding".into(), rounding.json());
@@ -90,7 +90,7 @@ fn fits(args: &SplinesArgs) -> Result<(), Failure> {
 }
 
 /// The tables of the input, and the exact surface of a grid that has one.
-type Given = (TableSet, Option<(Surface, Vec<GridRail>)>);
+type Given = (TableSet, Option<(ExactSurface, Vec<GridRail>)>);
 
 fn given(
     args: &SplinesArgs,
@@ -100,17 +100,18 @@ fn given(
 ) -> Result<Given, Failure> {
     let units = args.length.zip(args.force);
     let units = units.map(|(length, force)| Units { length: length.into(), force: force.into() });
-    if tables::is_tables(&input.shown, &input.bytes) {
+    if tables::is_tables(&input.display_name, &input.bytes) {
         if args.reading.is_some() {
-            let fault = Diagnostic::of_file(&input.shown, "does not say what is exact between its stations");
+            let fault =
+                Diagnostic::of_file(&input.display_name, "does not say what is exact between its stations");
             return Err(fault.hint("--reading and --tolerance need a grid file").into());
         }
-        return Ok((tables::read(&input.shown, &input.bytes, units)?, None));
+        return Ok((tables::read(&input.display_name, &input.bytes, units)?, None));
     }
     let source = input.source()?;
     let (mut grid, surface) = grid_file::read(&source)?;
     if units.is_some_and(|units| units != grid.units) {
-        let fault = Diagnostic::of_file(&input.shown, "a grid says its units itself");
+        let fault = Diagnostic::of_file(&input.display_name, "a grid says its units itself");
         return Err(fault.hint("leave out --length and --force").into());
     }
     if let Some(wanted) = args.reading.map(TableReadingMethod::from).zip(args.tolerance) {
@@ -127,6 +128,6 @@ fn given(
         let fault = fault.hint("a SPLINE has four x values or more");
         return Err(Failure::Input(source.diagnose(&Faults(vec![fault]))));
     }
-    let Grid { rails, .. } = grid;
+    let StationGrid { rails, .. } = grid;
     Ok((set, surface.map(|surface| (surface, rails))))
 }

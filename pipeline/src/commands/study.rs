@@ -9,8 +9,8 @@ use crate::exit::{Exit, Failure};
 use crate::manifest::Manifest;
 use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
-use formats::diagnostic::Diagnostic;
 use formats::scene::{Case, Document};
+use formats::text::diagnostic::Diagnostic;
 use foundations::{SolvedStructure, distinct_specs, solve_specs};
 use study::stability::{self, MapSubject, MapVerdict};
 use study::{self, SettingFamily, Study, StudyBudget, StudyPoint};
@@ -115,11 +115,11 @@ fn stability(
         let all = json!({ "output": written.display().to_string(), "stability": result });
         output::print(&output::json(&all))?;
     }
-    match maps.iter().find(|map| map.silent() > 0) {
+    match maps.iter().find(|map| map.silent_count() > 0) {
         None => Ok(Exit::Done),
         Some(map) => Err(Failure::Untrusted(format!(
             "girderway itself is silently wrong at {} points of the map \"{}\": see stability.csv",
-            map.silent(),
+            map.silent_count(),
             map.name
         ))),
     }
@@ -147,7 +147,7 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 
 /// Whether the references resolve the errors that the budget asks for.
 fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
-    if let Some((against, why)) = study.lost.first() {
+    if let Some((against, why)) = study.failed_references.first() {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
         return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
     }
@@ -158,7 +158,7 @@ fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
             "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
              wheel forces below {:.1e} cannot be told; asked for: {:.1e}  hint: raise --limit or --resolution",
             worst.against.word(),
-            worst.worst_resolution() / study::MARGIN,
+            worst.worst_resolution() / study::RESOLUTION_FACTOR,
             worst.worst_resolution(),
             budget.resolution
         ))),

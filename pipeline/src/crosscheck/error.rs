@@ -1,6 +1,6 @@
 //! Errors of a cross-check.
 
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use std::path::PathBuf;
 
 /// Why two codes were not compared.

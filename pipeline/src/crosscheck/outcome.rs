@@ -2,7 +2,7 @@
 
 use super::grid::{PlainGrid, Station};
 use super::peer::{Peer, PeerMeasure};
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 

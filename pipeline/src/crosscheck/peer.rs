@@ -3,7 +3,7 @@
 use super::environment::{Environment, tail};
 use super::error::Error;
 use super::grid::PlainGrid;
-use fea::Theory;
+use fea::BeamTheory;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::io::Write;
@@ -67,11 +67,11 @@ impl Peer {
 
     /// The theory under which both sides are compared, for a spec under `theory`.
     #[must_use]
-    pub const fn theory(self, theory: Theory) -> Theory {
+    pub const fn theory(self, theory: BeamTheory) -> BeamTheory {
         match self {
             Peer::ScikitFem | Peer::OpenSees => theory,
-            Peer::PyNite => Theory::EulerBernoulli,
-            Peer::Solid => Theory::Timoshenko,
+            Peer::PyNite => BeamTheory::EulerBernoulli,
+            Peer::Solid => BeamTheory::Timoshenko,
         }
     }
 

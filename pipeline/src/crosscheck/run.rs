@@ -6,7 +6,7 @@ use super::girder::PlainGirder;
 use super::grid::{PlainGrid, Station};
 use super::outcome::{BlockDifference, PeerOutcome};
 use super::peer::{FLOOR, Peer, PeerAnswer, PeerMeasure};
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use serde::Serialize;
 
 /// Influence grids of a girder from scikit-fem.

@@ -2,7 +2,7 @@
 
 use super::run::compare;
 use super::*;
-use formats::block::GridBlock;
+use formats::grid::block::GridBlock;
 use std::path::PathBuf;
 
 fn girder() -> PlainGirder {

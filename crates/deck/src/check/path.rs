@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use adams::AdamsModel;
-use sim::{Analysis, Channel, Foundation, Freedom, Status};
+use sim::{Analysis, BodyDof, Channel, Foundation, Status};
 
 use crate::DeckPlan;
 use crate::Error;
@@ -72,7 +72,7 @@ pub(super) fn path(
     let run = sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
     let mut out =
         SweepDifference { places: 0, height: 0.0, deepest: 0.0, force: 0.0, largest: 0.0, failed: None };
-    if let Status::StepTooSmall(t) | Status::Refused(t, _) = run.status {
+    if let Status::StepTooSmall(t) | Status::Failed(t, _) = run.status {
         out.failed = Some(format!("the simulator stopped at t = {t}"));
         return Ok(Some(out));
     }
@@ -86,7 +86,7 @@ pub(super) fn path(
     };
     out.places = times.len();
     for (b, body) in plan.bodies.iter().enumerate() {
-        let wanted = run.history.column(Channel::Displacement(b, Freedom::Y));
+        let wanted = run.history.column(Channel::Displacement(b, BodyDof::Y));
         for (one, wanted) in found.iter().zip(wanted) {
             let y = one.state.parts.get(&body.part).map_or(f64::MAX, |pose| pose.origin[1]);
             out.height = out.height.max((y - body.datum[0] - wanted).abs());

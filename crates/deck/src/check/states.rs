@@ -12,7 +12,7 @@ use sim::{ContactForces, Foundation, Instant, contact_forces};
 use super::random::Random;
 use crate::DeckPlan;
 use crate::Error;
-use formats::scene::Along;
+use formats::scene::BodyMotion;
 
 /// Largest ratio of the force that the simulator finds at a penetration to the force from which the penetration was
 /// computed: where wheels are close, forces are ill conditioned by penetrations.
@@ -255,7 +255,7 @@ impl Scales {
                     (own[k], rates[k]) = (shift, pace);
                 }
             }
-            if let Along::Prescribed(profile) = &plan.scene.bodies[b].motion {
+            if let BodyMotion::Prescribed(profile) = &plan.scene.bodies[b].motion {
                 let at = profile.at(time);
                 (own[0], rates[0]) = (at.x, at.v);
             }

@@ -10,7 +10,7 @@
 
 use adams::{Spline, SplineValues, Statement};
 use sim::{Extent, Foundation};
-use splines::{Axis, Factored, Kind, Rank, Reading, Sheet};
+use splines::{Axis, FactoredTable, InfluenceBlock, Rank, ReadingMethod, TableReading};
 
 use crate::Error;
 use crate::words::form::DeckForm;
@@ -50,16 +50,16 @@ pub struct RailCompliance {
 enum Tables {
     Rigid,
     /// A family for each ordered pair of directions that has a table, and the tables.
-    Families(Vec<Family>, Vec<Sheet>),
+    Families(Vec<Family>, Vec<InfluenceBlock>),
     /// The factors, the identifier of the first SPLINE of each direction of each factor, and the number of the first
     /// factor.
-    Factored(Factored, Vec<Vec<u32>>, usize),
+    Factored(FactoredTable, Vec<Vec<u32>>, usize),
 }
 
 struct Family {
     deflection: RailAxis,
     load: RailAxis,
-    table: splines::Table,
+    table: splines::SplineTable,
     id: u32,
 }
 
@@ -79,16 +79,17 @@ impl RailCompliance {
     pub fn new(
         structure: &Structure,
         mut directions: Vec<RailAxis>,
-        sheets: &[Sheet],
+        sheets: &[InfluenceBlock],
         form: DeckForm,
         ids: &mut NextId,
         factors: &mut usize,
     ) -> Result<RailCompliance, String> {
         directions.sort_unstable();
         directions.dedup();
-        let used =
-            |sheet: &&Sheet| directions.contains(&sheet.deflection) && directions.contains(&sheet.load);
-        let sheets: Vec<Sheet> = sheets.iter().filter(used).cloned().collect();
+        let used = |sheet: &&InfluenceBlock| {
+            directions.contains(&sheet.deflection) && directions.contains(&sheet.load)
+        };
+        let sheets: Vec<InfluenceBlock> = sheets.iter().filter(used).cloned().collect();
         for direction in &directions {
             if !sheets.iter().any(|sheet| sheet.deflection == *direction && sheet.load == *direction) {
                 return Err(format!(
@@ -107,7 +108,7 @@ impl RailCompliance {
         let tables = match form {
             DeckForm::Factored => {
                 let factored =
-                    Factored::new(&sheets, Rank::Tolerance(SHARE)).map_err(|error| error.to_string())?;
+                    FactoredTable::new(&sheets, Rank::Tolerance(SHARE)).map_err(|error| error.to_string())?;
                 let mut first = Vec::new();
                 for factor in factored.factors() {
                     let mut starts = Vec::new();
@@ -139,7 +140,7 @@ impl RailCompliance {
     #[must_use]
     pub fn rank(&self) -> Option<usize> {
         match &self.tables {
-            Tables::Factored(factored, ..) => factored.factors().iter().map(splines::Factor::rank).max(),
+            Tables::Factored(factored, ..) => factored.factors().iter().map(splines::TableFactor::rank).max(),
             _ => None,
         }
     }
@@ -160,11 +161,15 @@ impl RailCompliance {
                 Ok(Foundation { rails: self.rails.iter().map(extent).collect(), ..Foundation::rigid() })
             }
             Tables::Families(_, sheets) => {
-                let kind = if self.form == DeckForm::Symmetrised { Kind::Symmetrised } else { Kind::Akispl };
-                let reading = Reading::new(kind, sheets).map_err(fail)?;
-                Ok(Foundation::influence(Box::new(reading), rails))
+                let kind = if self.form == DeckForm::Symmetrised {
+                    ReadingMethod::Symmetrised
+                } else {
+                    ReadingMethod::Akispl
+                };
+                let reading = TableReading::new(kind, sheets).map_err(fail)?;
+                Ok(Foundation::massless(Box::new(reading), rails))
             }
-            Tables::Factored(factored, ..) => Ok(Foundation::influence(Box::new(factored.clone()), rails)),
+            Tables::Factored(factored, ..) => Ok(Foundation::massless(Box::new(factored.clone()), rails)),
         }
     }
 
@@ -189,8 +194,11 @@ impl RailCompliance {
                 for (factor, first) in factored.factors().iter().zip(first) {
                     for (curves, &first) in factor.curves.iter().zip(first) {
                         for (id, column) in (first..).zip(curves.values.column_iter()) {
-                            let name =
-                                format!("{}_product_{}", self.direction_name(curves.way), id - first + 1);
+                            let name = format!(
+                                "{}_product_{}",
+                                self.direction_name(curves.direction),
+                                id - first + 1
+                            );
                             let values = column.iter().copied().collect();
                             out.push(spline(id, &name, curves.stations.clone(), Vec::new(), vec![values])?);
                         }
@@ -278,15 +286,15 @@ impl RailCompliance {
 }
 
 /// Identifier of the SPLINE of curve `k` in a direction; `None` where the factor does not have the direction.
-fn curve(factor: &splines::Factor, first: &[u32], direction: RailAxis, k: usize) -> Option<u32> {
-    let at = factor.curves.iter().position(|curves| curves.way == direction)?;
+fn curve(factor: &splines::TableFactor, first: &[u32], direction: RailAxis, k: usize) -> Option<u32> {
+    let at = factor.curves.iter().position(|curves| curves.direction == direction)?;
     Some(first[at] + crate::words::ids::number(k) - 1)
 }
 
 /// Families of every ordered pair of directions that has a table, direct ones first; the transpose of a coupling is the
 /// family of the opposite pair.
-fn families(sheets: Vec<Sheet>, ids: &mut NextId) -> Result<Tables, String> {
-    let mut all: Vec<(RailAxis, RailAxis, splines::Table)> = Vec::new();
+fn families(sheets: Vec<InfluenceBlock>, ids: &mut NextId) -> Result<Tables, String> {
+    let mut all: Vec<(RailAxis, RailAxis, splines::SplineTable)> = Vec::new();
     for direct in [true, false] {
         for sheet in sheets.iter().filter(|sheet| (sheet.deflection == sheet.load) == direct) {
             all.push((sheet.deflection, sheet.load, sheet.table.clone()));

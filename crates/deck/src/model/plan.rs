@@ -10,9 +10,9 @@ use crate::model::compliance::{RailAxis, RailCompliance};
 use crate::model::start::Start;
 use crate::words::form::DeckForm;
 use crate::words::ids::{NextId, number};
-use formats::diagnostic::Diagnostic;
-use formats::motion::{Cast, cast};
-use formats::scene::{self, Along, Scene};
+use formats::scene::motion::{SimulationInput, simulation_input};
+use formats::scene::{self, BodyMotion, Scene};
+use formats::text::diagnostic::Diagnostic;
 use foundations::{SolvedStructure, solution_of};
 
 /// Identifier of the ground part.
@@ -25,7 +25,7 @@ pub struct DeckPlan<'a> {
     /// How the deck reads tables.
     pub form: DeckForm,
     /// The simulator's scene.
-    pub cast: Cast,
+    pub cast: SimulationInput,
     /// The compliance of each structure.
     pub compliances: Vec<RailCompliance>,
     /// Bodies, in the scene's order.
@@ -157,7 +157,7 @@ pub fn plan<'a>(
     file: &str,
 ) -> Result<DeckPlan<'a>, Error> {
     refuse_actuators(scene, file)?;
-    let cast = cast(scene)?;
+    let cast = simulation_input(scene)?;
     let mut splines = NextId::from(6);
     let compliances = compliances(scene, &cast, known, form, file, &mut splines)?;
     let mut foundations = Vec::new();
@@ -243,7 +243,7 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
         let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);
         return refuse(why, "leave it out, and add a PART to the deck by hand");
     }
-    if let Some(structure) = scene.structures.iter().find(|structure| structure.on.is_some()) {
+    if let Some(structure) = scene.structures.iter().find(|structure| structure.carrier.is_some()) {
         let why = format!("structure \"{}\": a deck cannot have structures on bodies", structure.name);
         return refuse(why, "leave out the trolley, and put its mass into the bridge");
     }
@@ -256,7 +256,7 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
             );
         }
         let what = match (&body.motion, body.brake) {
-            (Along::Driven(_), _) => "drive",
+            (BodyMotion::Driven(_), _) => "drive",
             (_, Some(_)) => "brake",
             _ => continue,
         };
@@ -275,7 +275,7 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
 /// The compliance of each structure; refuses foundations that a deck cannot have.
 fn compliances(
     scene: &Scene,
-    cast: &Cast,
+    cast: &SimulationInput,
     known: &[SolvedStructure],
     form: DeckForm,
     file: &str,
@@ -362,7 +362,7 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<
 }
 
 /// The contacts of the simulator, with a DIFF where a damper acts on a flexible rail.
-fn contacts(cast: &Cast, compliances: &[RailCompliance]) -> Vec<ContactPlan> {
+fn contacts(cast: &SimulationInput, compliances: &[RailCompliance]) -> Vec<ContactPlan> {
     let mut first = 0;
     let mut out = Vec::new();
     for (c, contact) in cast.scene.contacts.iter().enumerate() {

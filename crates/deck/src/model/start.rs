@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use sim::{Channel, Foundation, Freedom};
+use sim::{BodyDof, Channel, Foundation};
 
 use crate::Error;
 
@@ -42,12 +42,12 @@ impl Start {
         Ok(Start {
             displacement: bodies
                 .clone()
-                .map(|b| Freedom::ALL.map(|freedom| at(Channel::Displacement(b, freedom))))
+                .map(|b| BodyDof::ALL.map(|freedom| at(Channel::Displacement(b, freedom))))
                 .collect(),
-            speed: bodies.map(|b| at(Channel::Speed(b, Freedom::X))).collect(),
-            place: of_wheels(Channel::Place),
+            speed: bodies.map(|b| at(Channel::Speed(b, BodyDof::X))).collect(),
+            place: of_wheels(Channel::Position),
             penetration: of_wheels(Channel::Penetration),
-            deflection: of_wheels(Channel::Give),
+            deflection: of_wheels(Channel::Deflection),
             vertical: of_wheels(Channel::Vertical),
             lateral: of_wheels(Channel::Lateral),
             traction: of_wheels(Channel::Traction),

@@ -6,7 +6,7 @@ use sim::Profile;
 use crate::model::plan::{DeckPlan, GROUND};
 use crate::words::ids::{NextId, number};
 use crate::words::text::{number as expression_number, plain};
-use formats::scene::{Along, FREEDOMS};
+use formats::scene::{BodyMotion, DOFS};
 
 /// Angles of a marker whose z points along x, y or z of its part.
 const ALONG: [[f64; 3]; 3] = [[90.0, 90.0, 0.0], [0.0, -90.0, 0.0], [0.0, 0.0, 0.0]];
@@ -48,7 +48,7 @@ impl Restraints<'_> {
         }
         let id = self.markers.take();
         self.made.push((part, axis, at, id));
-        let word = FREEDOMS[axis];
+        let word = DOFS[axis];
         let mut statement = Statement::new("MARKER", id)
             .named(plain(&format!("{name}_z_along_{word}")))
             .reference("PART", part)
@@ -77,9 +77,9 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
     let name = &body.name;
     let [height, side] = own.datum;
     let start = plan.start.displacement[b];
-    let prescribed = matches!(body.motion, Along::Prescribed(_));
+    let prescribed = matches!(body.motion, BodyMotion::Prescribed(_));
     let mut held: [bool; 6] = std::array::from_fn(|i| !body.free[i]);
-    held[0] = matches!(body.motion, Along::Held);
+    held[0] = matches!(body.motion, BodyMotion::Held);
     let planar = held[2] && held[3] && held[4] && start[2] == 0.0;
     if planar {
         let id = restraints.joints.take();
@@ -97,7 +97,7 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
         let mut at = zero;
         at[axis] += start[axis];
         let j = restraints.marker(GROUND, at, axis, &format!("hold_{name}"));
-        restraints.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{name}", FREEDOMS[axis]));
+        restraints.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{name}", DOFS[axis]));
     }
     let turns: Vec<usize> = (0..3).filter(|&axis| held[3 + axis]).collect();
     let both = |restraints: &mut Restraints<'_>, axis: usize| {
@@ -121,10 +121,10 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
             let [own_axis, ground_axis] = [[1, 2], [0, 2], [0, 1]][axis];
             let i = restraints.marker(own.part, [0.0; 3], own_axis, name);
             let j = restraints.marker(GROUND, zero, ground_axis, &format!("track_{name}"));
-            restraints.prim("PERPENDICULAR", [i, j], format!("hold_{}_of_{name}", FREEDOMS[3 + axis]));
+            restraints.prim("PERPENDICULAR", [i, j], format!("hold_{}_of_{name}", DOFS[3 + axis]));
         }
     }
-    if prescribed && let Along::Prescribed(profile) = &body.motion {
+    if prescribed && let BodyMotion::Prescribed(profile) = &body.motion {
         restraints.out.push(
             Statement::new("MOTION", number(b))
                 .named(plain(&format!("travel_{name}")))
@@ -186,12 +186,12 @@ fn piece(profile: &Profile, start: f64, end: Option<f64>) -> String {
 #[cfg(test)]
 mod tests {
     use super::motion_expression;
-    use sim::{Given, Profile};
+    use sim::{MotionKind, Profile};
 
     #[test]
     fn a_speed_table_is_a_polynomial_a_stretch() {
         let table = [[0.0, 0.0], [4.0, 6.0], [8.0, 6.0]];
-        let profile = Profile::new(Given::Speed, &table, 20.0, 0.0).expect("a valid table");
+        let profile = Profile::new(MotionKind::Speed, &table, 20.0, 0.0).expect("a valid table");
         assert_eq!(
             motion_expression(&profile),
             "IF(TIME-4.0:20.0+0.75*TIME**2,32.0+6.0*(TIME-4.0),IF(TIME-8.0:32.0+6.0*(TIME-4.0),\

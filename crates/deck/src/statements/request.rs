@@ -10,8 +10,8 @@ use crate::statements::contact;
 use crate::words::ids::{NextId, VariableSlot, variable};
 use crate::words::remark;
 use crate::words::text::{TermList, plain, value};
-use formats::effect::{Ground, Reaction};
-use formats::scene::Along;
+use formats::grid::effects::{Reaction, ReactionPoint};
+use formats::scene::BodyMotion;
 use foundations::{SolvedStructure, solution_of};
 
 /// Reactions in one REQUEST: their names must fit on a line.
@@ -113,7 +113,7 @@ fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
             parts.push((word.to_owned(), format!("{function}({i},{j})")));
         }
     }
-    if matches!(plan.scene.bodies[b].motion, Along::Prescribed(_)) {
+    if matches!(plan.scene.bodies[b].motion, BodyMotion::Prescribed(_)) {
         parts.push(("drive".to_owned(), format!("MOTION({},0,2,{j})", crate::words::ids::number(b))));
     }
     request(id, &format!("motion_of_{name}"), parts)
@@ -181,8 +181,8 @@ fn line(plan: &DeckPlan<'_>, s: usize, reaction: &Reaction, load: &LoadedMarker)
 /// Name of a reaction, such as `uy_60` for a girder and `uy_p12` for a frame.
 fn label(reaction: &Reaction) -> String {
     let place = match reaction.at {
-        Ground::Along(x) => plain(&format!("{x}")),
-        Ground::Point(point) => format!("p{point}"),
+        ReactionPoint::Along(x) => plain(&format!("{x}")),
+        ReactionPoint::Point(point) => format!("p{point}"),
     };
     let spring = if reaction.spring.is_some() { "_spring" } else { "" };
     format!("{}_{}{spring}", reaction.dof, place.chars().take(8).collect::<String>())

@@ -1,6 +1,6 @@
 //! How a deck reads the compliance of its rails.
 
-use formats::scene::Reading;
+use formats::scene::TableInterpolation;
 
 /// How a deck reads the compliance of its rails.
 ///
@@ -30,8 +30,8 @@ impl DeckForm {
     /// Only the factored form is symmetric and positive everywhere and smooth under a moving wheel, and only it has the
     /// force along the rail, without which a free body gains energy.
     #[must_use]
-    pub fn of_readings(readings: impl IntoIterator<Item = Reading>) -> DeckForm {
-        let akispl = readings.into_iter().any(|reading| reading == Reading::Akispl);
+    pub fn of_readings(readings: impl IntoIterator<Item = TableInterpolation>) -> DeckForm {
+        let akispl = readings.into_iter().any(|reading| reading == TableInterpolation::Akispl);
         if akispl { DeckForm::Akispl } else { DeckForm::Factored }
     }
 

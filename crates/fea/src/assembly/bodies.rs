@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::assembly::combination::Combination;
 use crate::assembly::element::{Matrix6, vector};
 use crate::assembly::precision::Real;
-use crate::dof::Freedoms6;
+use crate::dof::DofSet;
 use crate::model::Model;
 
 /// Size of a constraint, relative to what it was, at which it is a combination of the others.
@@ -19,7 +19,7 @@ pub(crate) struct Body<T: Real = f64> {
     /// Motion of the reference by the six columns of the body; columns that the supports fix are zero.
     pub basis: Matrix6<T>,
     /// Columns that the supports leave free.
-    pub free: Freedoms6,
+    pub free: DofSet,
     /// The independent constraints that act on the body, as (point, degree of freedom): each has a reaction.
     pub constraints: Vec<(usize, usize)>,
 }
@@ -41,7 +41,7 @@ impl<T: Real> Bodies<T> {
         let lowest = lowest_linked(m, n);
         let mut fixed = vec![[false; 6]; n];
         for support in &m.supports {
-            for (fixed, &given) in fixed[support.point].iter_mut().zip(&support.fix) {
+            for (fixed, &given) in fixed[support.point].iter_mut().zip(&support.fixed) {
                 *fixed |= given;
             }
         }
@@ -127,7 +127,7 @@ impl<T: Real> Body<T> {
     /// The reference is the point with the most fixed degrees of freedom. Every fixed degree of freedom of
     /// any point is one linear constraint a . u = 0 on the six motions u of the reference. Gauss-Jordan
     /// elimination solves the constraints for as many of the motions; the others are free.
-    fn new(m: &Model, group: &[usize], fixed: &[Freedoms6], arms: &mut [Vector3<T>]) -> Body<T> {
+    fn new(m: &Model, group: &[usize], fixed: &[DofSet], arms: &mut [Vector3<T>]) -> Body<T> {
         let count = |point: usize| fixed[point].iter().filter(|&&fixed| fixed).count();
         let reference = group.iter().copied().fold(group[0], |a, b| if count(b) > count(a) { b } else { a });
         let at = |point: usize| vector::<T>(m.points[point]);

@@ -4,9 +4,9 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use splines::Flexibility;
 
 use crate::assembly::precision::Real;
-use crate::dof::{Freedom, Freedoms6};
-use crate::error::{Error, Fault, Item};
-use crate::model::{Kind, Model};
+use crate::dof::{Dof, DofSet};
+use crate::error::{EntryFault, Error, ModelEntry};
+use crate::model::{MemberKind, Model};
 
 pub(crate) type Matrix6<T = f64> = SMatrix<T, 6, 6>;
 pub(crate) type Matrix12<T = f64> = SMatrix<T, 12, 12>;
@@ -94,7 +94,7 @@ impl<T: Real> Element<T> {
 
     fn new(m: &Model, index: usize) -> Result<Element<T>, Error> {
         let member = &m.members[index];
-        let invalid = |fault| Error::Invalid { item: Item::Member(index), fault };
+        let invalid = |fault| Error::Invalid { entry: ModelEntry::Member(index), fault };
         let offsets = member.offsets.map(vector);
         let place = |k: usize| vector::<T>(m.points[member.points[k]]) + offsets[k];
         let ends = [place(0), place(1)];
@@ -103,12 +103,12 @@ impl<T: Real> Element<T> {
         // Coordinates are rounded relative to the distance from the origin: so is the length.
         let far = ends.iter().flat_map(|end| end.iter()).fold(0.0_f64, |a, x| a.max(x.double().abs()));
         if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
-            return Err(invalid(Fault::NoLength));
+            return Err(invalid(EntryFault::NoLength));
         }
         let axes = local_axes(along / length, vector(member.orientation), member.kind)
-            .ok_or(invalid(Fault::Orientation))?;
+            .ok_or(invalid(EntryFault::Orientation))?;
         let mut flexibility = m.sections[member.section].flexibility(m.theory);
-        if member.kind == Kind::Truss {
+        if member.kind == MemberKind::Truss {
             flexibility = axial_only(flexibility);
         }
         let mut stiffness: Matrix12<T> = stiffness(&flexibility, length);
@@ -116,7 +116,7 @@ impl<T: Real> Element<T> {
         let released = release(&mut stiffness, &member.releases).map_err(|k| Error::Released {
             member: index,
             end: k / 6,
-            freedom: Freedom::ALL[k % 6],
+            dof: Dof::ALL[k % 6],
         })?;
         let points = member.points;
         Ok(Element {
@@ -181,10 +181,10 @@ pub(crate) fn triad<T: Real>(x: Vector3<T>, y: Vector3<T>) -> Option<Matrix3<T>>
 }
 
 /// Local axes of a member. A truss does not use its y axis: without an orientation any normal will do.
-fn local_axes<T: Real>(x: Vector3<T>, orientation: Vector3<T>, kind: Kind) -> Option<Matrix3<T>> {
+fn local_axes<T: Real>(x: Vector3<T>, orientation: Vector3<T>, kind: MemberKind) -> Option<Matrix3<T>> {
     let least = (0..3).fold(0, |a, b| if x[b].magnitude() < x[a].magnitude() { b } else { a });
     let any = || triad(x, Matrix3::identity().column(least).into());
-    triad(x, orientation).or_else(|| if kind == Kind::Truss { any() } else { None })
+    triad(x, orientation).or_else(|| if kind == MemberKind::Truss { any() } else { None })
 }
 
 /// The flexibility of a truss: it resists its change of length alone.
@@ -242,7 +242,7 @@ fn inverse<T: Real>(flexibility: f64, factor: T) -> T {
 /// the other releases have left without stiffness.
 fn release<T: Real>(
     stiffness: &mut Matrix12<T>,
-    releases: &[Freedoms6; 2],
+    releases: &[DofSet; 2],
 ) -> Result<Option<Box<Released<T>>>, usize> {
     let ends = releases.map(|set| set.contains(&true));
     if !ends.contains(&true) {
@@ -261,7 +261,7 @@ fn release<T: Real>(
 /// stiffness stays at rest.
 fn condense<T: Real>(
     k: &mut Matrix12<T>,
-    releases: &[Freedoms6; 2],
+    releases: &[DofSet; 2],
 ) -> Result<(Matrix12<T>, Matrix12<T>), usize> {
     let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)].double());
     let mut recovery = Matrix12::identity();

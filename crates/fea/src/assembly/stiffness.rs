@@ -9,7 +9,7 @@ use crate::assembly::ordering::{Graph, order};
 use crate::assembly::precision::Real;
 use crate::assembly::sparse::{Triplets, column_norm};
 use crate::error::Error;
-use crate::model::{Model, Spring};
+use crate::model::{GroundSpring, Model};
 
 /// Size of an entry of a transformation, in roundings of the magnitudes behind it, at which it counts as zero.
 const CANCELLED: f64 = 8.0;
@@ -153,11 +153,11 @@ impl<T: Real> Contributions<T> {
         self.members.push((pair, k));
     }
 
-    fn add_spring(&mut self, spring: &Spring, bodies: &Bodies<T>) {
+    fn add_spring(&mut self, spring: &GroundSpring, bodies: &Bodies<T>) {
         let body = bodies.of_point[spring.point];
         let motion = bodies.motion(spring.point, &Vector3::zeros());
         let motion = product(&motion, &bodies.list[body].basis);
-        let row: [T; 6] = std::array::from_fn(|k| motion[(spring.freedom as usize, k)]);
+        let row: [T; 6] = std::array::from_fn(|k| motion[(spring.dof as usize, k)]);
         let stiffness = T::from(spring.stiffness);
         for (k, &displacement) in row.iter().enumerate() {
             let part = (stiffness * displacement * displacement).double();

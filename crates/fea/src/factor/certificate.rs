@@ -7,11 +7,11 @@ use crate::factor::cholesky::Factor;
 ///
 /// # Example
 /// ```
-/// use fea::{Frame, Girder};
+/// use fea::{FactoredFrame, Girder};
 ///
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-/// let (model, rail) = girder.frame()?;
-/// let certificate = Frame::new(&model, &[rail])?.certificate();
+/// let (model, rail) = girder.model_and_rail()?;
+/// let certificate = FactoredFrame::new(&model, &[rail])?.certificate();
 /// assert!(certificate.extended, "small frames are factored in double-doubles");
 /// assert!(certificate.error_bound < 1e-20);
 /// # Ok::<(), fea::Error>(())

@@ -13,7 +13,7 @@ use faer::{Accum, MatMut, MatRef, Par, Side};
 use sprs::CsMat;
 
 use crate::assembly::Real;
-use crate::factor::memory::MEMORY;
+use crate::factor::memory::MEMORY_LIMIT;
 
 /// Width of a panel from which a dense matrix product pays.
 const DENSE_WIDTH: usize = 4;
@@ -156,7 +156,7 @@ pub(crate) fn analyse<'a, T: Real>(
         .map_err(|_| FactorError::TooLarge(0))?;
     // The size is known before a number is allocated.
     let size = symbolic.len_val() as u64;
-    if size.saturating_mul(size_of::<T>() as u64) > MEMORY {
+    if size.saturating_mul(size_of::<T>() as u64) > MEMORY_LIMIT {
         return Err(FactorError::TooLarge(size));
     }
     let mut values = Vec::new();

@@ -17,6 +17,6 @@ mod solver;
 pub use certificate::Certificate;
 pub(crate) use cholesky::{Analysis, Factor, FactorError, analyse, for_each_entry};
 pub(crate) use forward::{ForwardSolution, SparseLoad, dot_products};
-pub use memory::MEMORY;
+pub use memory::MEMORY_LIMIT;
 pub(crate) use memory::allow_square;
 pub(crate) use solver::{Factored, Solver, ill_conditioned};

@@ -1,8 +1,8 @@
 //! Factoring in the precision that the accuracy needs, and names for what cannot be factored.
 
 use crate::assembly::{Bodies, Extended, Real, ScaledStiffness, irregular_vector};
-use crate::dof::Freedom;
-use crate::error::{Error, Quantity};
+use crate::dof::Dof;
+use crate::error::{EntryAttribute, Error};
 use crate::factor::certificate::Certificate;
 use crate::factor::cholesky::{Factor, FactorError};
 use crate::factor::forward::{ForwardSolution, SparseLoad};
@@ -96,7 +96,7 @@ impl Factored {
     ) -> Result<Factored, Error> {
         let unknowns = stiffness.len();
         if !stiffness.norm().is_finite() {
-            return Err(Error::Factor { unknowns });
+            return Err(Error::NotFactorable { unknowns });
         }
         let expensive = stiffness.numbering.operations > MOST_OPERATIONS;
         if unknowns > FEW_UNKNOWNS {
@@ -135,13 +135,13 @@ impl Factored {
 
 /// The error of a factor with too many entries; `entries` is 0 if the indices do not suffice.
 fn too_large(unknowns: usize, entries: u64, size: u64) -> Error {
-    allow(Quantity::Factor, entries, size).err().unwrap_or(Error::Factor { unknowns })
+    allow(EntryAttribute::Factor, entries, size).err().unwrap_or(Error::NotFactorable { unknowns })
 }
 
 /// The error of a stiffness without a factor.
 fn mechanism(stiffness: &ScaledStiffness, bodies: &Bodies) -> Error {
     let (point, freedom) = weakest(stiffness, bodies);
-    Error::Mechanism { point, freedom }
+    Error::Mechanism { point, dof: freedom }
 }
 
 /// The error of a certificate that does not meet the accuracy asked for.
@@ -153,7 +153,7 @@ pub(crate) fn ill_conditioned(
 ) -> Error {
     let (point, freedom) = weakest(stiffness, bodies);
     let Certificate { condition, error_bound: bound, .. } = certificate;
-    Error::Ill { condition, bound, asked, point, freedom }
+    Error::IllConditioned { condition, bound, asked, point, dof: freedom }
 }
 
 /// Point and degree of freedom with the largest component, weighted by stiffness, in the motion with the
@@ -161,7 +161,7 @@ pub(crate) fn ill_conditioned(
 ///
 /// Three inverse iterations with the slightly shifted stiffness approximate this motion. Among equal
 /// components the one of the lowest column is named.
-fn weakest(stiffness: &ScaledStiffness, bodies: &Bodies) -> (usize, Freedom) {
+fn weakest(stiffness: &ScaledStiffness, bodies: &Bodies) -> (usize, Dof) {
     let columns = &stiffness.numbering.column;
     let factor = SHIFTS.iter().find_map(|&shift| Factor::new(&stiffness.shifted(shift)).ok());
     let mut x = irregular_vector(stiffness.len());
@@ -180,5 +180,5 @@ fn weakest(stiffness: &ScaledStiffness, bodies: &Bodies) -> (usize, Freedom) {
         }
     }
     let column = columns.get(largest).copied().unwrap_or(0);
-    (bodies.list[column / 6].reference, Freedom::ALL[column % 6])
+    (bodies.list[column / 6].reference, Dof::ALL[column % 6])
 }

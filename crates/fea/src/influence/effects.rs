@@ -1,36 +1,36 @@
 //! Reactions and internal forces under loads on rails.
 
 use nalgebra::DMatrix;
-use splines::{Effects, Probe};
+use splines::{InfluenceLines, Probe};
 
 use crate::error::Error;
-use crate::influence::frame::Frame;
-use crate::influence::functional::{Effect, Hold};
+use crate::influence::frame::FactoredFrame;
+use crate::influence::functional::{Effect, Restraint};
 use crate::model::Model;
 
 /// Reactions per unit load on the rails.
 #[derive(Clone, Debug)]
 pub struct Reactions {
-    /// One for each row: supports first, then springs, as [`Frame::holds`].
-    pub holds: Vec<Hold>,
+    /// One for each row: supports first, then springs, as [`FactoredFrame::restraints`].
+    pub restraints: Vec<Restraint>,
     /// Restraints x probes: `value[(i, j)]` is the force or moment of the ground on the structure at
     /// restraint i, global and positive along its degree of freedom, per unit force at probe j along its axis.
     pub value: DMatrix<f64>,
 }
 
-impl Frame {
+impl FactoredFrame {
     /// Reactions of supports and springs to unit loads at the probes `at`; `m` is the model that the frame was
     /// made of.
     ///
     /// Guarantee: forces and moments of loads and reactions are in equilibrium, up to rounding.
     ///
     /// # Errors
-    /// As [`Frame::effects`].
+    /// As [`FactoredFrame::effects`].
     pub fn reactions(&self, m: &Model, at: &[Probe]) -> Result<Reactions, Error> {
-        let holds = self.holds(m);
+        let holds = self.restraints(m);
         let effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
         let value = self.effects(m, &effects, at)?;
-        Ok(Reactions { holds, value })
+        Ok(Reactions { restraints: holds, value })
     }
 
     /// Influence lines: the effects of unit loads anywhere on the rails, with one solve for each effect.
@@ -41,10 +41,10 @@ impl Frame {
     /// # Errors
     /// [`Error::NoRails`]; [`Error::Invalid`] for a member or restraint that does not exist, or a place
     /// outside 0 to 1.
-    pub fn influence_lines(&self, m: &Model, effects: &[Effect]) -> Result<Effects, Error> {
+    pub fn influence_lines(&self, m: &Model, effects: &[Effect]) -> Result<InfluenceLines, Error> {
         let functionals = self.functionals(m, effects)?;
         let line = self.line()?;
-        let states = &self.states()[..line.states()];
+        let states = &self.states()[..line.state_count()];
         let unstiffened: Vec<usize> =
             (0..6 * states.len()).filter(|&k| self.scaled(&states[k / 6][k % 6]).is_none()).collect();
         let mut rows = DMatrix::zeros(effects.len(), 6 * states.len());
@@ -59,14 +59,14 @@ impl Frame {
             rows.column_mut(k).fill(f64::INFINITY);
         }
         let sections = functionals.into_iter().map(|functional| functional.section).collect();
-        Ok(Effects::new(line.clone(), rows, sections)?)
+        Ok(InfluenceLines::new(line.clone(), rows, sections)?)
     }
 
     /// Effects (rows) of unit loads at the probes (columns): one solve for each effect by
-    /// [`Frame::influence_lines`] or, if there are fewer loads than effects, one solve for each load.
+    /// [`FactoredFrame::influence_lines`] or, if there are fewer loads than effects, one solve for each load.
     ///
     /// # Errors
-    /// As [`Frame::influence_lines`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that
+    /// As [`FactoredFrame::influence_lines`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that
     /// nothing resists.
     pub fn effects(&self, m: &Model, effects: &[Effect], at: &[Probe]) -> Result<DMatrix<f64>, Error> {
         if effects.len() > at.len() {
@@ -80,7 +80,7 @@ impl Frame {
         Ok(value)
     }
 
-    /// [`Frame::effects`] with one solve for each load.
+    /// [`FactoredFrame::effects`] with one solve for each load.
     fn effects_by_load(&self, m: &Model, effects: &[Effect], at: &[Probe]) -> Result<DMatrix<f64>, Error> {
         let mut value = DMatrix::zeros(effects.len(), at.len());
         let functionals = self.functionals(m, effects)?;
@@ -88,7 +88,8 @@ impl Frame {
         let inner: Vec<usize> = (0..effects.len()).filter(|&i| functionals[i].section.is_some()).collect();
         let sections = inner.iter().map(|&i| functionals[i].section.clone()).collect();
         let line = self.line()?;
-        let clamped = Effects::new(line.clone(), DMatrix::zeros(inner.len(), 6 * line.states()), sections)?;
+        let clamped =
+            InfluenceLines::new(line.clone(), DMatrix::zeros(inner.len(), 6 * line.state_count()), sections)?;
         let mut own = vec![0.0; inner.len()];
         for (j, &probe) in at.iter().enumerate() {
             clamped.fill(probe, &mut own)?;

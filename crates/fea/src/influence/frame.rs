@@ -3,27 +3,27 @@
 use std::sync::Arc;
 
 use nalgebra::{SVector, Vector3};
-use splines::{Axis, Line, Probe};
+use splines::{Axis, Probe, Rails};
 
 use crate::assembly::{Bodies, Combination, Element, ScaledStiffness};
-use crate::error::{Error, Fault, Item};
+use crate::error::{EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
 use crate::influence::layout::Layout;
 use crate::model::{Model, Rail};
 
-/// Accuracy of [`Frame::new`]: largest relative error bound of a compliance.
-pub const ACCURACY: f64 = 1e-6;
+/// Accuracy of [`FactoredFrame::new`]: largest relative error bound of a compliance.
+pub const DEFAULT_ACCURACY: f64 = 1e-6;
 
 /// A model and its rails, numbered, assembled and factored: answers any number of questions.
 ///
 /// # Example
 /// ```
-/// use fea::{Frame, Girder};
+/// use fea::{FactoredFrame, Girder};
 /// use splines::{Axis, Probe};
 ///
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-/// let (model, rail) = girder.frame()?;
-/// let frame = Frame::new(&model, &[rail])?;
+/// let (model, rail) = girder.model_and_rail()?;
+/// let frame = FactoredFrame::new(&model, &[rail])?;
 /// // One factor serves grids, surfaces, reactions and internal forces.
 /// let probe = Probe { rail: 0, x: 15.0, axis: Axis::Vertical };
 /// let grid = frame.grid(&[probe])?;
@@ -33,38 +33,38 @@ pub const ACCURACY: f64 = 1e-6;
 /// # Ok::<(), fea::Error>(())
 /// ```
 #[derive(Debug)]
-pub struct Frame {
+pub struct FactoredFrame {
     pub(crate) elements: Vec<Element>,
     pub(crate) bodies: Bodies,
     stiffness: ScaledStiffness,
     factored: Factored,
     /// Largest relative error bound allowed.
     accuracy: f64,
-    line: Option<Arc<Line>>,
+    line: Option<Arc<Rails>>,
     states: Vec<[Combination; 6]>,
 }
 
-impl Frame {
-    /// Checks, assembles and factors a model, with the accuracy [`ACCURACY`].
+impl FactoredFrame {
+    /// Checks, assembles and factors a model, with the accuracy [`DEFAULT_ACCURACY`].
     ///
     /// Degrees of freedom that nothing stiffens are left out: a load on them is refused.
     ///
     /// # Errors
     /// [`Error::Invalid`] for an entry that cannot be used; [`Error::Mechanism`] or [`Error::Released`] for
-    /// a structure that can move without strain; [`Error::Ill`] for a stiffness so badly conditioned that
-    /// the accuracy cannot be met; [`Error::Memory`] or [`Error::Factor`] for one that is too large.
-    pub fn new(m: &Model, rails: &[Rail]) -> Result<Frame, Error> {
-        Frame::accurate(m, rails, ACCURACY)
+    /// a structure that can move without strain; [`Error::IllConditioned`] for a stiffness so badly conditioned that
+    /// the accuracy cannot be met; [`Error::Memory`] or [`Error::NotFactorable`] for one that is too large.
+    pub fn new(m: &Model, rails: &[Rail]) -> Result<FactoredFrame, Error> {
+        FactoredFrame::with_accuracy(m, rails, DEFAULT_ACCURACY)
     }
 
-    /// [`Frame::new`] with a given accuracy: the largest relative error bound of its compliances.
+    /// [`FactoredFrame::new`] with a given accuracy: the largest relative error bound of its compliances.
     ///
     /// The factor is in doubles where their bound suffices. Otherwise stiffness and factor are formed again
     /// in double-doubles from the doubles of the model.
     ///
     /// # Errors
-    /// As [`Frame::new`].
-    pub fn accurate(m: &Model, rails: &[Rail], accuracy: f64) -> Result<Frame, Error> {
+    /// As [`FactoredFrame::new`].
+    pub fn with_accuracy(m: &Model, rails: &[Rail], accuracy: f64) -> Result<FactoredFrame, Error> {
         m.check()?;
         let elements = Element::all(m)?;
         let bodies = Bodies::new(m);
@@ -78,7 +78,7 @@ impl Frame {
             Some(layout) => (Some(Arc::new(layout.line)), layout.states),
             None => Default::default(),
         };
-        Ok(Frame { elements, bodies, stiffness, factored, accuracy, line, states })
+        Ok(FactoredFrame { elements, bodies, stiffness, factored, accuracy, line, states })
     }
 
     /// Condition of the stiffness, and bound of the error of compliances.
@@ -89,7 +89,7 @@ impl Frame {
 
     /// Bytes of the factor.
     #[must_use]
-    pub fn bytes(&self) -> u64 {
+    pub fn factor_bytes(&self) -> u64 {
         self.factored.solver.bytes()
     }
 
@@ -103,15 +103,15 @@ impl Frame {
     ///
     /// # Errors
     /// [`Error::NoRails`].
-    pub fn line(&self) -> Result<&Arc<Line>, Error> {
+    pub fn line(&self) -> Result<&Arc<Rails>, Error> {
         self.line.as_ref().ok_or(Error::NoRails)
     }
 
     /// Whether the structure resists forces along `axis` at three places of every rail element of `rail`.
     #[must_use]
-    pub fn available(&self, rail: usize, axis: Axis) -> bool {
+    pub fn resists(&self, rail: usize, axis: Axis) -> bool {
         let Some(line) = &self.line else { return false };
-        let mut cells = line.cells().iter().filter(|cell| cell.rail == rail).peekable();
+        let mut cells = line.elements().iter().filter(|cell| cell.rail == rail).peekable();
         cells.peek().is_some()
             && cells.all(|cell| {
                 let [a, b] = cell.x;
@@ -153,14 +153,14 @@ impl Frame {
         for (&index, &value) in row.indices().iter().zip(row.values()) {
             sum.add_scaled(&self.states[index / 6][index % 6], value);
         }
-        Ok((sum, row.cell))
+        Ok((sum, row.element))
     }
 
     /// Scaled load of a unit force at a probe, and the rail element of the probe.
     pub(crate) fn load(&self, probe: Probe) -> Result<(SparseLoad, usize), Error> {
         let (row, cell) = self.row(probe)?;
         let Probe { rail, x, axis } = probe;
-        let load = self.scaled(&row).ok_or(splines::Error::Unstiffened { rail, x, axis })?;
+        let load = self.scaled(&row).ok_or(splines::Error::NoStiffness { rail, x, axis })?;
         Ok((load, cell))
     }
 
@@ -234,13 +234,13 @@ impl Frame {
 }
 
 /// Refuses a station that no segment covers.
-fn check_coverage(line: &Line, rails: &[Rail]) -> Result<(), Error> {
+fn check_coverage(line: &Rails, rails: &[Rail]) -> Result<(), Error> {
     for (rail, given) in rails.iter().enumerate() {
         for (station, &x) in given.stations.iter().enumerate() {
             let probe = Probe { rail, x, axis: Axis::Vertical };
             if let Err(splines::Error::OffRail { .. }) = line.row(probe) {
-                let item = Item::Station { rail, station };
-                return Err(Error::Invalid { item, fault: Fault::Uncovered { x } });
+                let item = ModelEntry::Station { rail, station };
+                return Err(Error::Invalid { entry: item, fault: EntryFault::Uncovered { x } });
             }
         }
     }

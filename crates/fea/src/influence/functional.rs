@@ -1,21 +1,21 @@
 //! Effects of loads as linear functions of the motions of the bodies and of the loads.
 
 use nalgebra::{DMatrix, Matrix6, RowSVector, Vector3};
-use splines::{Component, Section};
+use splines::{ForceComponent, InternalForce};
 
 use crate::assembly::{Combination, Element, transformation};
-use crate::dof::Freedom;
-use crate::error::{Error, Fault, Item};
-use crate::influence::frame::Frame;
-use crate::model::{Model, Spring};
+use crate::dof::Dof;
+use crate::error::{EntryFault, Error, ModelEntry};
+use crate::influence::frame::FactoredFrame;
+use crate::model::{GroundSpring, Model};
 
 /// Where a reaction acts: a degree of freedom that a support or a spring restrains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Hold {
+pub struct Restraint {
     /// Index of the point.
     pub point: usize,
     /// The restrained degree of freedom, global.
-    pub freedom: Freedom,
+    pub dof: Dof,
     /// Index of the spring that restrains it; `None` for a support.
     pub spring: Option<usize>,
 }
@@ -24,14 +24,14 @@ pub struct Hold {
 ///
 /// # Example
 /// ```
-/// use fea::{Component, Effect, Frame, Girder};
+/// use fea::{Component, Effect, FactoredFrame, Girder};
 /// use splines::{Axis, Probe};
 ///
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-/// let (model, rail) = girder.frame()?;
-/// let frame = Frame::new(&model, &[rail])?;
+/// let (model, rail) = girder.model_and_rail()?;
+/// let frame = FactoredFrame::new(&model, &[rail])?;
 /// // Bending moment Mz at midspan of member 0; a unit load up at midspan gives -L/4.
-/// let moment = Effect::Force { member: 0, place: 0.5, component: Component::BendingZ };
+/// let moment = Effect::InternalForce { member: 0, place: 0.5, component: Component::BendingZ };
 /// let load = Probe { rail: 0, x: 30.0, axis: Axis::Vertical };
 /// let value = frame.effects(&model, &[moment], &[load])?;
 /// assert!((value[(0, 0)] + 15.0).abs() < 1e-9);
@@ -40,15 +40,15 @@ pub struct Hold {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Effect {
     /// Force or moment of the ground on the structure, global, positive along its degree of freedom.
-    Reaction(Hold),
+    Reaction(Restraint),
     /// Internal force of a member, in its local axes; for the signs see [`Component`].
-    Force {
+    InternalForce {
         /// Index of the member.
         member: usize,
         /// Fraction of its flexible part from end 0 to end 1, 0 to 1; a section at an end is just inside.
         place: f64,
         /// Which component.
-        component: Component,
+        component: ForceComponent,
     },
 }
 
@@ -58,21 +58,21 @@ pub enum Effect {
 pub(crate) struct Functional {
     pub strain: Combination,
     pub direct: Combination,
-    pub section: Option<Section>,
+    pub section: Option<InternalForce>,
 }
 
-impl Frame {
+impl FactoredFrame {
     /// All restraints that have a reaction: supports first, then springs. A support that other supports of
     /// the same rigid body make redundant is left out.
     ///
     /// `m` is the model that the frame was made of.
     #[must_use]
-    pub fn holds(&self, m: &Model) -> Vec<Hold> {
+    pub fn restraints(&self, m: &Model) -> Vec<Restraint> {
         let supports = self.bodies.list.iter().flat_map(|body| &body.constraints);
-        let supports = supports.map(|&(point, k)| Hold { point, freedom: Freedom::ALL[k], spring: None });
-        let springs = m.springs.iter().enumerate().map(|(index, spring)| Hold {
+        let supports = supports.map(|&(point, k)| Restraint { point, dof: Dof::ALL[k], spring: None });
+        let springs = m.springs.iter().enumerate().map(|(index, spring)| Restraint {
             point: spring.point,
-            freedom: spring.freedom,
+            dof: spring.dof,
             spring: Some(index),
         });
         supports.chain(springs).collect()
@@ -84,15 +84,16 @@ impl Frame {
     /// [`Error::Invalid`] for a member or restraint that does not exist, or a place outside 0 to 1.
     pub(crate) fn functionals(&self, m: &Model, effects: &[Effect]) -> Result<Vec<Functional>, Error> {
         let one = |(index, effect): (usize, &Effect)| {
-            let invalid = |fault| Error::Invalid { item: Item::Effect(index), fault };
+            let invalid = |fault| Error::Invalid { entry: ModelEntry::Effect(index), fault };
             match *effect {
                 Effect::Reaction(hold) => self
                     .reaction(m, hold)
-                    .ok_or(invalid(Fault::NoHold { point: hold.point, freedom: hold.freedom })),
-                Effect::Force { member, place, component } => {
-                    let element = self.elements.get(member).ok_or(invalid(Fault::NoMember { member }))?;
+                    .ok_or(invalid(EntryFault::NoReaction { point: hold.point, dof: hold.dof })),
+                Effect::InternalForce { member, place, component } => {
+                    let element =
+                        self.elements.get(member).ok_or(invalid(EntryFault::NoMember { member }))?;
                     if !(0.0..=1.0).contains(&place) {
-                        return Err(invalid(Fault::NoPlace { place }));
+                        return Err(invalid(EntryFault::NoPlace { place }));
                     }
                     Ok(self.internal_force(element, member, place, component))
                 }
@@ -108,7 +109,7 @@ impl Frame {
         element: &Element,
         member: usize,
         place: f64,
-        component: Component,
+        component: ForceComponent,
     ) -> Functional {
         let balance = RowSVector::from(component.balance(place * element.length));
         let mut strain = Combination::default();
@@ -118,30 +119,29 @@ impl Frame {
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
         }
         let ends: RowSVector<f64, 12> = -balance * element.recovery().fixed_columns::<6>(0).transpose();
-        let section = Section { member, place, component, ends: ends.transpose().into() };
+        let section = InternalForce { member, place, component, ends: ends.transpose().into() };
         Functional { strain, direct: Combination::default(), section: Some(section) }
     }
 
     /// Reaction of a restraint; `None` if it does not exist.
-    fn reaction(&self, m: &Model, hold: Hold) -> Option<Functional> {
+    fn reaction(&self, m: &Model, hold: Restraint) -> Option<Functional> {
         let body = *self.bodies.of_point.get(hold.point)?;
         let Some(index) = hold.spring else { return self.support_reaction(m, body, hold) };
         let spring = m.springs.get(index)?;
-        (spring.point == hold.point && spring.freedom == hold.freedom)
-            .then(|| self.spring_reaction(body, spring))
+        (spring.point == hold.point && spring.dof == hold.dof).then(|| self.spring_reaction(body, spring))
     }
 
     /// The force of a spring on its body: -k u.
-    fn spring_reaction(&self, body: usize, spring: &Spring) -> Functional {
+    fn spring_reaction(&self, body: usize, spring: &GroundSpring) -> Functional {
         let mut strain = Combination::default();
-        let row = self.motion_row(spring.point, spring.freedom);
+        let row = self.motion_row(spring.point, spring.dof);
         (0..6).for_each(|k| strain.add(6 * body + k, -spring.stiffness * row[k]));
         Functional { strain, direct: Combination::default(), section: None }
     }
 
     /// The six resultants that the supports of a body must supply are those of its members and springs less
     /// those of its loads; one row of the distribution among the supports gives one reaction.
-    fn support_reaction(&self, m: &Model, body: usize, hold: Hold) -> Option<Functional> {
+    fn support_reaction(&self, m: &Model, body: usize, hold: Restraint) -> Option<Functional> {
         let mut strain = Combination::default();
         let mut direct = Combination::default();
         let distribution = self.distribution(body, hold)?;
@@ -156,7 +156,7 @@ impl Frame {
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
         }
         for spring in m.springs.iter().filter(|spring| self.bodies.of_point[spring.point] == body) {
-            let row = self.motion_row(spring.point, spring.freedom);
+            let row = self.motion_row(spring.point, spring.dof);
             let force = (distribution * row.transpose())[0] * spring.stiffness;
             (0..6).for_each(|k| strain.add(6 * body + k, force * row[k]));
         }
@@ -166,11 +166,11 @@ impl Frame {
 
     /// The reaction of one support by the six resultants that all supports of its body must supply: a row of
     /// the pseudo-inverse of the matrix whose columns are the constraints, by QR.
-    fn distribution(&self, body: usize, hold: Hold) -> Option<RowSVector<f64, 6>> {
+    fn distribution(&self, body: usize, hold: Restraint) -> Option<RowSVector<f64, 6>> {
         let constraints = &self.bodies.list[body].constraints;
-        let index = constraints.iter().position(|&own| own == (hold.point, hold.freedom as usize))?;
+        let index = constraints.iter().position(|&own| own == (hold.point, hold.dof as usize))?;
         let rows: Vec<RowSVector<f64, 6>> =
-            constraints.iter().map(|&(point, k)| self.motion_row(point, Freedom::ALL[k])).collect();
+            constraints.iter().map(|&(point, k)| self.motion_row(point, Dof::ALL[k])).collect();
         let columns = DMatrix::from_fn(6, constraints.len(), |i, j| rows[j][i]);
         let qr = columns.qr();
         let inverse = qr.r().solve_upper_triangular(&qr.q().transpose())?;
@@ -178,7 +178,7 @@ impl Frame {
     }
 
     /// One displacement or rotation of a point by the motion of the reference of its body.
-    fn motion_row(&self, point: usize, freedom: Freedom) -> RowSVector<f64, 6> {
+    fn motion_row(&self, point: usize, freedom: Dof) -> RowSVector<f64, 6> {
         let motion: Matrix6<f64> = self.bodies.motion(point, &Vector3::zeros());
         motion.row(freedom as usize).into_owned()
     }

@@ -4,12 +4,12 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix3};
-use splines::{Cell, Compliance, Influence, Line, Probe, Surface};
+use splines::{Compliance, ExactSurface, Influence, Probe, RailElement, Rails};
 
 use crate::assembly::{Matrix12, diagonal_blocks};
-use crate::error::{Error, Quantity};
+use crate::error::{EntryAttribute, Error};
 use crate::factor::{Certificate, ForwardSolution, allow_square, dot_products};
-use crate::influence::frame::Frame;
+use crate::influence::frame::FactoredFrame;
 use crate::model::{Model, Rail};
 
 /// Influence coefficients of a list of probes, with their certificate.
@@ -20,7 +20,7 @@ use crate::model::{Model, Rail};
 /// use splines::{Axis, Probe};
 ///
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-/// let (model, rail) = girder.frame()?;
+/// let (model, rail) = girder.model_and_rail()?;
 /// let at = [15.0, 30.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
 /// let grid = grid(&model, &[rail], &at)?;
 /// assert_eq!(grid.value[(0, 1)], grid.value[(1, 0)]);
@@ -29,7 +29,7 @@ use crate::model::{Model, Rail};
 /// # Ok::<(), fea::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Grid {
+pub struct InfluenceGrid {
     /// n x n for n probes; `value[(i, j)]` is the displacement at probe i along its axis per unit force at
     /// probe j along its axis, length/force.
     pub value: DMatrix<f64>,
@@ -45,27 +45,27 @@ pub struct Grid {
 /// Guarantee: symmetric to the last bit, positive semi-definite up to rounding.
 ///
 /// # Errors
-/// As [`Frame::new`] and [`Frame::grid`].
-pub fn grid(m: &Model, rails: &[Rail], at: &[Probe]) -> Result<Grid, Error> {
-    Frame::new(m, rails)?.grid(at)
+/// As [`FactoredFrame::new`] and [`FactoredFrame::grid`].
+pub fn grid(m: &Model, rails: &[Rail], at: &[Probe]) -> Result<InfluenceGrid, Error> {
+    FactoredFrame::new(m, rails)?.grid(at)
 }
 
-impl Frame {
+impl FactoredFrame {
     /// [`grid`] of a frame that is already factored.
     ///
     /// # Errors
-    /// [`Error::Rail`] for a probe beyond its rail, or in a direction that nothing resists; [`Error::Ill`]
+    /// [`Error::Rail`] for a probe beyond its rail, or in a direction that nothing resists; [`Error::IllConditioned`]
     /// for a bound above the accuracy; [`Error::Memory`] for too many probes.
-    pub fn grid(&self, at: &[Probe]) -> Result<Grid, Error> {
-        allow_square(Quantity::Grid, at.len())?;
+    pub fn grid(&self, at: &[Probe]) -> Result<InfluenceGrid, Error> {
+        allow_square(EntryAttribute::Grid, at.len())?;
         let mut loads = Vec::with_capacity(at.len());
         // Member, rail element and index of each probe on a member.
         let mut places = Vec::with_capacity(at.len());
         for (k, &probe) in at.iter().enumerate() {
             let (load, cell) = self.load(probe)?;
             loads.push(load);
-            if let Some(carrier) = self.line()?.cells()[cell].carrier {
-                places.push((carrier.member, cell, k));
+            if let Some(carrier) = self.line()?.elements()[cell].member {
+                places.push((carrier.id, cell, k));
             }
         }
         let solutions = self.forward(&loads);
@@ -84,7 +84,7 @@ impl Frame {
         let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
         let mut certificate = self.certificate();
         certificate.error_bound += self.rounding(at, &solutions, &diagonal)?;
-        Ok(Grid { value, certificate: self.require(certificate)? })
+        Ok(InfluenceGrid { value, certificate: self.require(certificate)? })
     }
 
     /// Products of all pairs of forward solutions.
@@ -108,12 +108,12 @@ impl Frame {
     fn clamped(&self, at: &[(Probe, usize)]) -> Result<DMatrix<f64>, Error> {
         let mut distinct: Vec<usize> = at.iter().map(|&(_, cell)| cell).collect();
         distinct.dedup();
-        let cells = self.line()?.cells();
+        let cells = self.line()?.elements();
         // Each rail element becomes a rail of its own with two states of its own.
-        let alone: Vec<Cell> = distinct
+        let alone: Vec<RailElement> = distinct
             .iter()
             .enumerate()
-            .map(|(k, &cell)| Cell { rail: k, ends: [2 * k, 2 * k + 1], ..cells[cell].clone() })
+            .map(|(k, &cell)| RailElement { rail: k, ends: [2 * k, 2 * k + 1], ..cells[cell].clone() })
             .collect();
         let mut nodal = DMatrix::zeros(12 * alone.len(), 12 * alone.len());
         for (a, b) in self.released_pairs(&alone) {
@@ -126,18 +126,17 @@ impl Frame {
         });
         let probes: Vec<Probe> = probes.collect();
         let mut out = Influence::zeros(probes.len());
-        Surface::new(Arc::new(Line::new(alone)?), nodal)?.fill(&probes, &mut out)?;
+        ExactSurface::new(Arc::new(Rails::new(alone)?), nodal)?.fill(&probes, &mut out)?;
         Ok(out.value)
     }
 
     /// Pairs of rail elements, each with itself too, on the same member with releases.
-    pub(crate) fn released_pairs(&self, cells: &[Cell]) -> Vec<(usize, usize)> {
+    pub(crate) fn released_pairs(&self, cells: &[RailElement]) -> Vec<(usize, usize)> {
         let mut by_member: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for (index, cell) in cells.iter().enumerate() {
-            if let Some(carrier) =
-                cell.carrier.filter(|carrier| self.elements[carrier.member].released.is_some())
+            if let Some(carrier) = cell.member.filter(|carrier| self.elements[carrier.id].released.is_some())
             {
-                by_member.entry(carrier.member).or_default().push(index);
+                by_member.entry(carrier.id).or_default().push(index);
             }
         }
         let pairs = |same: &Vec<usize>| {
@@ -148,16 +147,16 @@ impl Frame {
 
     /// Displacement of the end states of rail element `a` per unit load on those of `b`, both on one member,
     /// while the tips of its rigid offsets are fixed: the compliance K_rr^-1 of its releases, in rail axes.
-    pub(crate) fn release_compliance(&self, a: &Cell, b: &Cell) -> Matrix12 {
-        let Some(carrier) = a.carrier else { return Matrix12::zeros() };
-        let Some(released) = &self.elements[carrier.member].released else { return Matrix12::zeros() };
+    pub(crate) fn release_compliance(&self, a: &RailElement, b: &RailElement) -> Matrix12 {
+        let Some(carrier) = a.member else { return Matrix12::zeros() };
+        let Some(released) = &self.elements[carrier.id].released else { return Matrix12::zeros() };
         to_rail_axes(a) * released.compliance * to_rail_axes(b).transpose()
     }
 }
 
 /// From the flexible ends of a member, local axes, to the ends of a rail element on it, rail axes.
-fn to_rail_axes(cell: &Cell) -> Matrix12 {
-    let axes = cell.axes();
+fn to_rail_axes(cell: &RailElement) -> Matrix12 {
+    let axes = cell.member_axes();
     let back = Matrix3::from_fn(|i, j| axes[j][i]);
     let mut out = Matrix12::zeros();
     for end in 0..2 {

@@ -3,11 +3,11 @@
 use std::collections::HashMap;
 
 use nalgebra::{Matrix3, Vector3};
-use splines::{Carrier, Cell, Line};
+use splines::{ElementMember, RailElement, Rails};
 
 use crate::assembly::{Bodies, Combination, Element, Matrix6, diagonal_blocks, transformation, triad};
-use crate::error::{Error, Fault, Item, Quantity, finite};
-use crate::model::{Model, Rail, Segment};
+use crate::error::{EntryAttribute, EntryFault, Error, ModelEntry, finite};
+use crate::model::{Model, Rail, RailSegment};
 
 /// Rounding allowed between neighbouring segments, relative to the coordinates.
 const TOLERANCE: f64 = 1e-12;
@@ -17,7 +17,7 @@ const NO_EXTENT: f64 = 1e-9;
 /// The rail elements of all rails, and the states at their ends.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
-    pub line: Line,
+    pub line: Rails,
     /// For each state its three displacements and three rotations, in the axes of its rail, over the motions
     /// of the bodies.
     pub states: Vec<[Combination; 6]>,
@@ -53,24 +53,31 @@ impl Layout {
         for (index, rail) in rails.iter().enumerate() {
             builder.lay(m, index, rail, &mut cells)?;
         }
-        Ok(Layout { line: Line::new(cells)?, states: builder.states })
+        Ok(Layout { line: Rails::new(cells)?, states: builder.states })
     }
 }
 
 impl Builder<'_> {
     /// Lays one rail: a rail element for each segment, rigid ones in the gaps.
-    fn lay(&mut self, m: &Model, index: usize, rail: &Rail, cells: &mut Vec<Cell>) -> Result<(), Error> {
+    fn lay(
+        &mut self,
+        m: &Model,
+        index: usize,
+        rail: &Rail,
+        cells: &mut Vec<RailElement>,
+    ) -> Result<(), Error> {
         rail.check(index)?;
         let axis = Vector3::from(rail.axis);
         let size = axis.norm();
         let axes = (size > 0.0)
             .then(|| triad(axis / size, Vector3::from(m.up)))
             .flatten()
-            .ok_or(Error::Invalid { item: Item::Rail(index), fault: Fault::Axis })?;
+            .ok_or(Error::Invalid { entry: ModelEntry::Rail(index), fault: EntryFault::Axis })?;
         let origin = Vector3::from(rail.origin);
         let mut stretches = Vec::with_capacity(rail.segments.len());
         for (segment, given) in rail.segments.iter().enumerate() {
-            let invalid = |fault| Error::Invalid { item: Item::Segment { rail: index, segment }, fault };
+            let invalid =
+                |fault| Error::Invalid { entry: ModelEntry::Segment { rail: index, segment }, fault };
             let (stretch, cell) =
                 self.lay_segment([index, segment], given, &axes, &origin).map_err(invalid)?;
             stretches.push(stretch);
@@ -85,13 +92,13 @@ impl Builder<'_> {
     fn lay_segment(
         &mut self,
         [rail, segment]: [usize; 2],
-        given: &Segment,
+        given: &RailSegment,
         axes: &Matrix3<f64>,
         origin: &Vector3<f64>,
-    ) -> Result<(Stretch, Cell), Fault> {
+    ) -> Result<(Stretch, RailElement), EntryFault> {
         let member = given.member;
-        let element = self.elements.get(member).ok_or(Fault::NoMember { member })?;
-        finite(Quantity::Offset, &given.offset)?;
+        let element = self.elements.get(member).ok_or(EntryFault::NoMember { member })?;
+        finite(EntryAttribute::Offset, &given.offset)?;
         let along = |k: usize| (axes * (element.ends[k] - origin))[0];
         let (mut x, mut order) = ([along(0), along(1)], [0, 1]);
         if x[1] < x[0] {
@@ -99,7 +106,7 @@ impl Builder<'_> {
             order.swap(0, 1);
         }
         if x[1] - x[0] <= NO_EXTENT * element.length {
-            return Err(Fault::NoExtent);
+            return Err(EntryFault::NoExtent);
         }
         let reversed = order[0] == 1;
         // Local axes of the member in rail axes; a half turn about y lets it run along the rail.
@@ -112,7 +119,7 @@ impl Builder<'_> {
         let (length, flexibility) = (element.length, element.flexibility);
         let tips = order.map(|end| self.tip(rail, member, end, axes));
         let ends = [0, 1].map(|k| self.end(member, order[k], tips[k], axes));
-        let cell = Cell {
+        let cell = RailElement {
             rail,
             x,
             ends,
@@ -120,7 +127,7 @@ impl Builder<'_> {
             frame: std::array::from_fn(|i| std::array::from_fn(|j| local[(i, j)])),
             offset: offset.into(),
             flexibility,
-            carrier: Some(Carrier { member, reversed }),
+            member: Some(ElementMember { id: member, reversed }),
         };
         Ok((Stretch { segment, x, tips, offset }, cell))
     }
@@ -161,7 +168,7 @@ impl Builder<'_> {
 
 /// Fills each gap between neighbouring segments with two rigid rail elements that meet in the middle, each
 /// following the nearer tip; refuses segments that overlap.
-fn fill_gaps(rail: usize, mut stretches: Vec<Stretch>, cells: &mut Vec<Cell>) -> Result<(), Error> {
+fn fill_gaps(rail: usize, mut stretches: Vec<Stretch>, cells: &mut Vec<RailElement>) -> Result<(), Error> {
     let largest = stretches.iter().flat_map(|stretch| stretch.x).fold(0.0_f64, |a, x| a.max(x.abs()));
     let tolerance = TOLERANCE * largest;
     stretches.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
@@ -170,8 +177,11 @@ fn fill_gaps(rail: usize, mut stretches: Vec<Stretch>, cells: &mut Vec<Cell>) ->
         let gap = [before.x[1], after.x[0]];
         if gap[0] > gap[1] + tolerance {
             let (first, second) = (before.segment.min(after.segment), before.segment.max(after.segment));
-            let item = Item::Segment { rail, segment: second };
-            return Err(Error::Invalid { item, fault: Fault::Overlap { segment: first, x: gap[1] } });
+            let item = ModelEntry::Segment { rail, segment: second };
+            return Err(Error::Invalid {
+                entry: item,
+                fault: EntryFault::Overlap { segment: first, x: gap[1] },
+            });
         }
         if gap[1] - gap[0] <= tolerance {
             continue;
@@ -185,8 +195,8 @@ fn fill_gaps(rail: usize, mut stretches: Vec<Stretch>, cells: &mut Vec<Cell>) ->
 }
 
 /// A rail element that moves rigidly with one state.
-fn rigid(rail: usize, x: [f64; 2], state: usize, offset: Vector3<f64>) -> Cell {
-    Cell {
+fn rigid(rail: usize, x: [f64; 2], state: usize, offset: Vector3<f64>) -> RailElement {
+    RailElement {
         rail,
         x,
         ends: [state; 2],
@@ -194,6 +204,6 @@ fn rigid(rail: usize, x: [f64; 2], state: usize, offset: Vector3<f64>) -> Cell {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: offset.into(),
         flexibility: Default::default(),
-        carrier: None,
+        member: None,
     }
 }

@@ -20,8 +20,8 @@ mod rounding;
 mod surface;
 
 pub use effects::Reactions;
-pub use frame::{ACCURACY, Frame};
+pub use frame::{DEFAULT_ACCURACY, FactoredFrame};
 pub(crate) use functional::Functional;
-pub use functional::{Effect, Hold};
-pub use grid::{Grid, grid};
-pub use surface::{Exact, nodal, surface};
+pub use functional::{Effect, Restraint};
+pub use grid::{InfluenceGrid, grid};
+pub use surface::{CertifiedSurface, point_compliance, surface};

@@ -7,7 +7,7 @@ use splines::Probe;
 use crate::assembly::Combination;
 use crate::error::Error;
 use crate::factor::{ForwardSolution, Solver};
-use crate::influence::frame::Frame;
+use crate::influence::frame::FactoredFrame;
 
 /// Largest relative error of one rounding: half the spacing of doubles at one.
 const UNIT: f64 = 0.5 * f64::EPSILON;
@@ -20,7 +20,7 @@ const SECTION: f64 = 4.0;
 /// Roundings in the four lanes of a product, beside one for every fourth term.
 const LANES: f64 = 8.0;
 
-impl Frame {
+impl FactoredFrame {
     /// Bound of |error of G_ij| / sqrt(G_ii G_jj) from the rounding of loads, products and rail elements, for
     /// the probes `at` with L^-1 p = `solutions` and G_ii = `diagonal`.
     ///
@@ -58,7 +58,7 @@ impl Frame {
         let mut longest = 0;
         for ((&probe, solution), &own) in at.iter().zip(solutions).zip(diagonal) {
             longest = longest.max(solution.values.len());
-            let (row, magnitudes, element) = self.line()?.magnitudes(probe)?;
+            let (row, magnitudes, element) = self.line()?.rounding_magnitudes(probe)?;
             let mut moved = 0.0;
             for (&index, magnitude) in row.indices().iter().zip(magnitudes) {
                 let state = &self.states()[index / 6][index % 6];
@@ -93,13 +93,13 @@ impl Frame {
 
 /// |L^-1 e_k|: one bound for all, or computed for each unknown that is asked for.
 struct UnitNorms<'a> {
-    frame: &'a Frame,
+    frame: &'a FactoredFrame,
     bound: Option<f64>,
     computed: BTreeMap<usize, f64>,
 }
 
 impl UnitNorms<'_> {
-    fn new(frame: &Frame, bound: Option<f64>) -> UnitNorms<'_> {
+    fn new(frame: &FactoredFrame, bound: Option<f64>) -> UnitNorms<'_> {
         UnitNorms { frame, bound, computed: BTreeMap::new() }
     }
 

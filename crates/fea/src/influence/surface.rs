@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use splines::Surface;
+use splines::ExactSurface;
 
 use crate::assembly::Combination;
-use crate::error::{Error, Fault, Item, Quantity};
+use crate::error::{EntryAttribute, EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, allow_square};
-use crate::influence::frame::Frame;
+use crate::influence::frame::FactoredFrame;
 use crate::model::{Model, Rail};
 
 /// The exact influence surface of a frame along its rails.
@@ -19,7 +19,7 @@ use crate::model::{Model, Rail};
 /// use splines::{Axis, Compliance, Influence, Probe};
 ///
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
-/// let (model, rail) = girder.frame()?;
+/// let (model, rail) = girder.model_and_rail()?;
 /// let exact = surface(&model, &[rail])?;
 /// // Coefficients and their slopes at any place, without another solve.
 /// let at = [20.0, 30.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
@@ -30,9 +30,9 @@ use crate::model::{Model, Rail};
 /// # Ok::<(), fea::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Exact {
+pub struct CertifiedSurface {
     /// Influence coefficients at any place of any rail.
-    pub surface: Surface,
+    pub surface: ExactSurface,
     /// Bound of the error of the compliance of its states; the evaluation adds a few roundings.
     pub certificate: Certificate,
 }
@@ -40,9 +40,9 @@ pub struct Exact {
 /// Influence surface of all rails: the compliance of the states at the ends of their rail elements.
 ///
 /// # Errors
-/// As [`Frame::new`] and [`Frame::surface`].
-pub fn surface(m: &Model, rails: &[Rail]) -> Result<Exact, Error> {
-    Frame::new(m, rails)?.surface()
+/// As [`FactoredFrame::new`] and [`FactoredFrame::surface`].
+pub fn surface(m: &Model, rails: &[Rail]) -> Result<CertifiedSurface, Error> {
+    FactoredFrame::new(m, rails)?.surface()
 }
 
 /// Compliance of points, 6 n x 6 n for n points, global axes: entry (6 a + i, 6 b + j) is the displacement
@@ -52,25 +52,25 @@ pub fn surface(m: &Model, rails: &[Rail]) -> Result<Exact, Error> {
 /// diagonal and zero elsewhere.
 ///
 /// # Errors
-/// As [`Frame::new`]; [`Error::Invalid`] for a point that does not exist.
-pub fn nodal(m: &Model, points: &[usize]) -> Result<(DMatrix<f64>, Certificate), Error> {
-    let frame = Frame::new(m, &[])?;
-    Ok((frame.nodal(points)?, frame.certificate()))
+/// As [`FactoredFrame::new`]; [`Error::Invalid`] for a point that does not exist.
+pub fn point_compliance(m: &Model, points: &[usize]) -> Result<(DMatrix<f64>, Certificate), Error> {
+    let frame = FactoredFrame::new(m, &[])?;
+    Ok((frame.point_compliance(points)?, frame.certificate()))
 }
 
-impl Frame {
+impl FactoredFrame {
     /// [`surface`] of a frame that is already factored.
     ///
     /// # Errors
     /// [`Error::NoRails`]; [`Error::Memory`] for too many states.
-    pub fn surface(&self) -> Result<Exact, Error> {
+    pub fn surface(&self) -> Result<CertifiedSurface, Error> {
         let line = Arc::clone(self.line()?);
-        allow_square(Quantity::Surface, 6 * line.states())?;
+        allow_square(EntryAttribute::Surface, 6 * line.state_count())?;
         // States behind the last rail element belong to tips that no element of the line uses.
-        let rows: Vec<&Combination> = self.states().iter().flatten().take(6 * line.states()).collect();
+        let rows: Vec<&Combination> = self.states().iter().flatten().take(6 * line.state_count()).collect();
         let mut nodal = self.compliance(&rows);
-        for (a, b) in self.released_pairs(line.cells()) {
-            let (row, column) = (&line.cells()[a], &line.cells()[b]);
+        for (a, b) in self.released_pairs(line.elements()) {
+            let (row, column) = (&line.elements()[a], &line.elements()[b]);
             let compliance = self.release_compliance(row, column);
             for i in 0..12 {
                 for j in 0..12 {
@@ -79,17 +79,20 @@ impl Frame {
                 }
             }
         }
-        let surface = Surface::new(line, nodal)?;
-        Ok(Exact { surface, certificate: self.certificate() })
+        let surface = ExactSurface::new(line, nodal)?;
+        Ok(CertifiedSurface { surface, certificate: self.certificate() })
     }
 
-    /// [`nodal`] of a frame that is already factored.
+    /// [`point_compliance`] of a frame that is already factored.
     ///
     /// # Errors
     /// [`Error::Invalid`] for a point that does not exist.
-    pub fn nodal(&self, points: &[usize]) -> Result<DMatrix<f64>, Error> {
+    pub fn point_compliance(&self, points: &[usize]) -> Result<DMatrix<f64>, Error> {
         if let Some(&point) = points.iter().find(|&&point| point >= self.bodies.of_point.len()) {
-            return Err(Error::Invalid { item: Item::Point(point), fault: Fault::NoPoint { point } });
+            return Err(Error::Invalid {
+                entry: ModelEntry::Point(point),
+                fault: EntryFault::NoPoint { point },
+            });
         }
         let rows: Vec<[Combination; 6]> = points.iter().map(|&point| self.point(point)).collect();
         Ok(self.compliance(&rows.iter().flatten().collect::<Vec<_>>()))

@@ -1,6 +1,6 @@
 //! Members cut into equal parts, with the rails that run over them.
 
-use crate::model::rail::{Rail, Segment};
+use crate::model::rail::{Rail, RailSegment};
 use crate::model::structure::{Member, Model};
 
 /// Ends of the flexible part of a member: its points plus its rigid offsets, global.
@@ -56,7 +56,7 @@ pub(crate) fn cut_members(m: &Model, rails: &[Rail], parts: &[usize]) -> (Model,
         let segments = rail.segments.iter().flat_map(|segment| {
             let from = first[segment.member];
             let offset = segment.offset;
-            (from..from + parts[segment.member]).map(move |member| Segment { member, offset })
+            (from..from + parts[segment.member]).map(move |member| RailSegment { member, offset })
         });
         Rail { segments: segments.collect(), ..rail.clone() }
     });

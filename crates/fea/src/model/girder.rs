@@ -1,8 +1,8 @@
 //! Straight girders, continuous over their supports.
 
-use crate::error::{Error, Fault, Item, Quantity, finite, not_negative, positive};
-use crate::model::rail::{Rail, Segment};
-use crate::model::section::{Section, Theory};
+use crate::error::{EntryAttribute, EntryFault, Error, ModelEntry, finite, not_negative, positive};
+use crate::model::rail::{Rail, RailSegment};
+use crate::model::section::{BeamTheory, CrossSection};
 use crate::model::structure::{Member, Model, Support};
 
 /// A straight uniform girder along global x (y up) over supports, with one rail over its whole length.
@@ -14,7 +14,7 @@ use crate::model::structure::{Member, Model, Support};
 ///
 /// # Example
 /// ```
-/// use fea::{Frame, Girder};
+/// use fea::{FactoredFrame, Girder};
 /// use splines::{Axis, Probe};
 ///
 /// // Two spans of 60 ft with overhangs of 15 ft that bend vertically; pounds and feet.
@@ -25,9 +25,9 @@ use crate::model::structure::{Member, Model, Support};
 ///     i_vertical: 9.528,
 ///     ..Girder::default()
 /// };
-/// let (model, rail) = girder.frame()?;
+/// let (model, rail) = girder.model_and_rail()?;
 /// assert_eq!(model.members.len(), 4);
-/// let frame = Frame::new(&model, &[rail])?;
+/// let frame = FactoredFrame::new(&model, &[rail])?;
 /// let tips = [-15.0, 135.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
 /// let grid = frame.grid(&tips)?;
 /// assert!((grid.value[(0, 0)] / grid.value[(1, 1)] - 1.0).abs() < 1e-12);
@@ -60,7 +60,7 @@ pub struct Girder {
     /// Mass per length, force time^2/length^2.
     pub mass_per_length: Option<f64>,
     /// Beam theory.
-    pub theory: Theory,
+    pub theory: BeamTheory,
     /// Stations of the rail; coordinate 0 is the first support.
     pub stations: Vec<f64>,
 }
@@ -70,7 +70,7 @@ impl Girder {
     ///
     /// # Errors
     /// [`Error::Invalid`] with the first number that cannot be used.
-    pub fn frame(&self) -> Result<(Model, Rail), Error> {
+    pub fn model_and_rail(&self) -> Result<(Model, Rail), Error> {
         self.check()?;
         let mut model = Model {
             up: [0.0, 1.0, 0.0],
@@ -80,20 +80,20 @@ impl Girder {
         };
         let supported = self.place_points(&mut model.points);
         for (k, point) in supported.into_iter().enumerate() {
-            model.supports.push(Support { point, fix: [k == 0, true, true, true, false, false] });
+            model.supports.push(Support { point, fixed: [k == 0, true, true, true, false, false] });
         }
         for k in 1..model.points.len() {
             model.members.push(Member::beam([k - 1, k], 0, model.up));
         }
         let offset = [0.0, self.rail_height, 0.0];
-        let segments = (0..model.members.len()).map(|member| Segment { member, offset }).collect();
+        let segments = (0..model.members.len()).map(|member| RailSegment { member, offset }).collect();
         let rail =
             Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: self.stations.clone() };
         Ok((model, rail))
     }
 
-    fn section(&self) -> Section {
-        Section {
+    fn section(&self) -> CrossSection {
+        CrossSection {
             e: self.e,
             g: self.g.unwrap_or(0.0),
             area: self.area.unwrap_or(0.0),
@@ -128,35 +128,35 @@ impl Girder {
     }
 
     fn check(&self) -> Result<(), Error> {
-        let invalid = |item: Item| move |fault: Fault| Error::Invalid { item, fault };
+        let invalid = |item: ModelEntry| move |fault: EntryFault| Error::Invalid { entry: item, fault };
         if self.spans.is_empty() {
-            return Err(invalid(Item::Girder)(Fault::Empty { quantity: Quantity::Spans }));
+            return Err(invalid(ModelEntry::Girder)(EntryFault::Empty { quantity: EntryAttribute::Spans }));
         }
         for (k, &span) in self.spans.iter().enumerate() {
-            positive(Quantity::Length, span).map_err(invalid(Item::Span(k)))?;
+            positive(EntryAttribute::Length, span).map_err(invalid(ModelEntry::Span(k)))?;
         }
         for (k, &overhang) in self.overhangs.iter().enumerate() {
-            not_negative(Quantity::Length, overhang).map_err(invalid(Item::Overhang(k)))?;
+            not_negative(EntryAttribute::Length, overhang).map_err(invalid(ModelEntry::Overhang(k)))?;
         }
-        let girder = invalid(Item::Girder);
-        positive(Quantity::E, self.e).map_err(girder)?;
-        positive(Quantity::Iz, self.i_vertical).map_err(girder)?;
+        let girder = invalid(ModelEntry::Girder);
+        positive(EntryAttribute::E, self.e).map_err(girder)?;
+        positive(EntryAttribute::Iz, self.i_vertical).map_err(girder)?;
         let optional = [
-            (Quantity::G, self.g),
-            (Quantity::Area, self.area),
-            (Quantity::Iy, self.i_lateral),
-            (Quantity::J, self.j),
-            (Quantity::ShearY, self.ka_vertical),
-            (Quantity::ShearZ, self.ka_lateral),
-            (Quantity::Mass, self.mass_per_length.filter(|&mass| mass != 0.0)),
+            (EntryAttribute::G, self.g),
+            (EntryAttribute::Area, self.area),
+            (EntryAttribute::Iy, self.i_lateral),
+            (EntryAttribute::J, self.j),
+            (EntryAttribute::ShearY, self.ka_vertical),
+            (EntryAttribute::ShearZ, self.ka_lateral),
+            (EntryAttribute::Mass, self.mass_per_length.filter(|&mass| mass != 0.0)),
         ];
         for (quantity, value) in optional {
             value.map_or(Ok(()), |value| positive(quantity, value)).map_err(girder)?;
         }
         let shears = self.ka_vertical.is_some() || self.ka_lateral.is_some();
-        if self.theory == Theory::Timoshenko && shears && self.g.is_none() {
-            return Err(girder(Fault::NoShearModulus));
+        if self.theory == BeamTheory::Timoshenko && shears && self.g.is_none() {
+            return Err(girder(EntryFault::NoShearModulus));
         }
-        finite(Quantity::Offset, &[self.rail_height]).map_err(girder)
+        finite(EntryAttribute::Offset, &[self.rail_height]).map_err(girder)
     }
 }

@@ -16,7 +16,7 @@ mod taper;
 
 pub(crate) use cut::{cut_members, flexible_ends};
 pub use girder::Girder;
-pub use rail::{Rail, Segment};
-pub use section::{Section, Theory};
-pub use structure::{Kind, Link, Mass, Member, Model, Spring, Support};
+pub use rail::{Rail, RailSegment};
+pub use section::{BeamTheory, CrossSection};
+pub use structure::{GroundSpring, Member, MemberKind, Model, PointMass, RigidLink, Support};
 pub use taper::Taper;

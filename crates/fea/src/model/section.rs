@@ -2,11 +2,11 @@
 
 use splines::Flexibility;
 
-use crate::error::{Fault, Quantity, not_negative, positive};
+use crate::error::{EntryAttribute, EntryFault, not_negative, positive};
 
 /// Beam theory of all members of a model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Theory {
+pub enum BeamTheory {
     /// Plane sections stay normal to the axis; shear areas are ignored.
     #[default]
     EulerBernoulli,
@@ -21,16 +21,16 @@ pub enum Theory {
 ///
 /// # Example
 /// ```
-/// use fea::{Section, Theory};
+/// use fea::{CrossSection, BeamTheory};
 ///
 /// // A steel section that bends in the vertical plane only; newtons and metres.
-/// let section = Section { e: 2.1e11, iz: 4e-4, ..Section::default() };
-/// let flexibility = section.flexibility(Theory::EulerBernoulli);
+/// let section = CrossSection { e: 2.1e11, iz: 4e-4, ..CrossSection::default() };
+/// let flexibility = section.flexibility(BeamTheory::EulerBernoulli);
 /// assert_eq!(flexibility.bending_z, 1.0 / (2.1e11 * 4e-4));
 /// assert_eq!(flexibility.axial, f64::INFINITY);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Section {
+pub struct CrossSection {
     /// Young's modulus, force/length^2, positive.
     pub e: f64,
     /// Shear modulus, force/length^2.
@@ -51,14 +51,14 @@ pub struct Section {
     pub mass: f64,
 }
 
-impl Section {
+impl CrossSection {
     /// Reciprocal stiffnesses 1/EA, 1/GJ, 1/EI and 1/GAs under a beam theory.
     ///
     /// `INFINITY` where the section has no stiffness, 0 where it is rigid in shear.
     #[must_use]
-    pub fn flexibility(&self, theory: Theory) -> Flexibility {
+    pub fn flexibility(&self, theory: BeamTheory) -> Flexibility {
         let shear = |area: Option<f64>| match (theory, area) {
-            (Theory::Timoshenko, Some(area)) => reciprocal(self.g * area),
+            (BeamTheory::Timoshenko, Some(area)) => reciprocal(self.g * area),
             _ => 0.0,
         };
         Flexibility {
@@ -77,24 +77,26 @@ impl Section {
     }
 
     /// Checks every number; returns the first that cannot be used.
-    pub(crate) fn check(&self, theory: Theory) -> Result<(), Fault> {
-        positive(Quantity::E, self.e)?;
+    pub(crate) fn check(&self, theory: BeamTheory) -> Result<(), EntryFault> {
+        positive(EntryAttribute::E, self.e)?;
         let plain = [
-            (Quantity::G, self.g),
-            (Quantity::Area, self.area),
-            (Quantity::Iy, self.iy),
-            (Quantity::Iz, self.iz),
-            (Quantity::J, self.j),
-            (Quantity::Mass, self.mass),
+            (EntryAttribute::G, self.g),
+            (EntryAttribute::Area, self.area),
+            (EntryAttribute::Iy, self.iy),
+            (EntryAttribute::Iz, self.iz),
+            (EntryAttribute::J, self.j),
+            (EntryAttribute::Mass, self.mass),
         ];
         for (quantity, value) in plain {
             not_negative(quantity, value)?;
         }
-        for (quantity, area) in [(Quantity::ShearY, self.shear_y), (Quantity::ShearZ, self.shear_z)] {
+        for (quantity, area) in
+            [(EntryAttribute::ShearY, self.shear_y), (EntryAttribute::ShearZ, self.shear_z)]
+        {
             let Some(area) = area else { continue };
             positive(quantity, area)?;
-            if theory == Theory::Timoshenko && self.g == 0.0 {
-                return Err(Fault::NoShearModulus);
+            if theory == BeamTheory::Timoshenko && self.g == 0.0 {
+                return Err(EntryFault::NoShearModulus);
             }
         }
         Ok(())

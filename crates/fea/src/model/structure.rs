@@ -1,12 +1,12 @@
 //! A frame as given: points, members, supports, springs, links and masses.
 
-use crate::dof::{Freedom, Freedoms6};
-use crate::error::{Error, Fault, Item, Quantity, finite, not_negative};
-use crate::model::section::{Section, Theory};
+use crate::dof::{Dof, DofSet};
+use crate::error::{EntryAttribute, EntryFault, Error, ModelEntry, finite, not_negative};
+use crate::model::section::{BeamTheory, CrossSection};
 
 /// Which deformations a member resists.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Kind {
+pub enum MemberKind {
     /// All deformations for which its section has a stiffness.
     #[default]
     Beam,
@@ -21,18 +21,18 @@ pub enum Kind {
 ///
 /// # Example
 /// ```
-/// use fea::{Freedom, Member};
+/// use fea::{Dof, Member};
 ///
 /// // From point 0 to point 1 with section 0, local y upwards, hinged about local z at its second end.
 /// let mut member = Member::beam([0, 1], 0, [0.0, 1.0, 0.0]);
-/// member.releases[1][Freedom::Rz as usize] = true;
+/// member.releases[1][Dof::Rz as usize] = true;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Member {
     /// Indices of its two points.
     pub points: [usize; 2],
     /// Which deformations it resists.
-    pub kind: Kind,
+    pub kind: MemberKind,
     /// Index of its section.
     pub section: usize,
     /// Any global vector in the half plane of local x and +y. A truss may leave it zero.
@@ -40,7 +40,7 @@ pub struct Member {
     /// Rigid offsets: global vectors from the points to the ends of the flexible part, length.
     pub offsets: [[f64; 3]; 2],
     /// Local degrees of freedom released at each end, between the rigid offset and the flexible part.
-    pub releases: [Freedoms6; 2],
+    pub releases: [DofSet; 2],
 }
 
 impl Member {
@@ -49,7 +49,7 @@ impl Member {
     pub const fn beam(points: [usize; 2], section: usize, orientation: [f64; 3]) -> Self {
         Member {
             points,
-            kind: Kind::Beam,
+            kind: MemberKind::Beam,
             section,
             orientation,
             offsets: [[0.0; 3]; 2],
@@ -64,23 +64,23 @@ pub struct Support {
     /// Index of the point.
     pub point: usize,
     /// Which degrees of freedom are fixed.
-    pub fix: Freedoms6,
+    pub fixed: DofSet,
 }
 
 /// A spring to ground, along or about a global axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spring {
+pub struct GroundSpring {
     /// Index of the point.
     pub point: usize,
     /// Which degree of freedom it acts on.
-    pub freedom: Freedom,
+    pub dof: Dof,
     /// Force per length, or moment per radian; not negative.
     pub stiffness: f64,
 }
 
 /// A rigid connection of two points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Link {
+pub struct RigidLink {
     /// Index of one point.
     pub from: usize,
     /// Index of the other.
@@ -89,7 +89,7 @@ pub struct Link {
 
 /// A rigid mass at a point. Statics does not use it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Mass {
+pub struct PointMass {
     /// Index of the point.
     pub point: usize,
     /// Mass, force time^2/length.
@@ -104,19 +104,19 @@ pub struct Mass {
 ///
 /// # Example
 /// ```
-/// use fea::{Member, Model, Section, Support, nodal};
+/// use fea::{Member, Model, CrossSection, Support, point_compliance};
 ///
 /// // A cantilever of 2 m along x; newtons and metres.
-/// let section = Section { e: 2.1e11, g: 8.1e10, area: 5e-3, iy: 2e-5, iz: 8e-5, j: 3e-7, ..Section::default() };
+/// let section = CrossSection { e: 2.1e11, g: 8.1e10, area: 5e-3, iy: 2e-5, iz: 8e-5, j: 3e-7, ..CrossSection::default() };
 /// let model = Model {
 ///     points: vec![[0.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
 ///     sections: vec![section],
 ///     members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0])],
-///     supports: vec![Support { point: 0, fix: [true; 6] }],
+///     supports: vec![Support { point: 0, fixed: [true; 6] }],
 ///     up: [0.0, 1.0, 0.0],
 ///     ..Model::default()
 /// };
-/// let (compliance, _) = nodal(&model, &[1])?;
+/// let (compliance, _) = point_compliance(&model, &[1])?;
 /// let deflection = 2.0_f64.powi(3) / (3.0 * section.e * section.iz);
 /// assert!((compliance[(1, 1)] / deflection - 1.0).abs() < 1e-12);
 /// # Ok::<(), fea::Error>(())
@@ -126,21 +126,21 @@ pub struct Model {
     /// Global coordinates, length.
     pub points: Vec<[f64; 3]>,
     /// Cross sections.
-    pub sections: Vec<Section>,
+    pub sections: Vec<CrossSection>,
     /// Members.
     pub members: Vec<Member>,
     /// Rigid supports.
     pub supports: Vec<Support>,
     /// Springs to ground; they add to the supports.
-    pub springs: Vec<Spring>,
+    pub springs: Vec<GroundSpring>,
     /// Rigid links.
-    pub links: Vec<Link>,
+    pub links: Vec<RigidLink>,
     /// Rigid masses; statics does not use them.
-    pub masses: Vec<Mass>,
+    pub masses: Vec<PointMass>,
     /// The global direction up, any length. Only rails use it.
     pub up: [f64; 3],
     /// Beam theory of all members.
-    pub theory: Theory,
+    pub theory: BeamTheory,
 }
 
 impl Model {
@@ -149,51 +149,53 @@ impl Model {
     /// # Errors
     /// [`Error::Invalid`] with the first entry that cannot be used, and why.
     pub fn check(&self) -> Result<(), Error> {
-        let at = |item: Item| move |fault: Fault| Error::Invalid { item, fault };
+        let at = |item: ModelEntry| move |fault: EntryFault| Error::Invalid { entry: item, fault };
         let known = |point: usize| {
-            if point < self.points.len() { Ok(()) } else { Err(Fault::NoPoint { point }) }
+            if point < self.points.len() { Ok(()) } else { Err(EntryFault::NoPoint { point }) }
         };
-        finite(Quantity::Coordinate, &self.up).map_err(at(Item::Up))?;
+        finite(EntryAttribute::Coordinate, &self.up).map_err(at(ModelEntry::Up))?;
         for (k, point) in self.points.iter().enumerate() {
-            finite(Quantity::Coordinate, point).map_err(at(Item::Point(k)))?;
+            finite(EntryAttribute::Coordinate, point).map_err(at(ModelEntry::Point(k)))?;
         }
         for (k, section) in self.sections.iter().enumerate() {
-            section.check(self.theory).map_err(at(Item::Section(k)))?;
+            section.check(self.theory).map_err(at(ModelEntry::Section(k)))?;
         }
         for (k, member) in self.members.iter().enumerate() {
-            self.check_member(member).map_err(at(Item::Member(k)))?;
+            self.check_member(member).map_err(at(ModelEntry::Member(k)))?;
         }
         for (k, support) in self.supports.iter().enumerate() {
-            known(support.point).map_err(at(Item::Support(k)))?;
+            known(support.point).map_err(at(ModelEntry::Support(k)))?;
         }
         for (k, spring) in self.springs.iter().enumerate() {
             known(spring.point)
-                .and_then(|()| not_negative(Quantity::Stiffness, spring.stiffness))
-                .map_err(at(Item::Spring(k)))?;
+                .and_then(|()| not_negative(EntryAttribute::Stiffness, spring.stiffness))
+                .map_err(at(ModelEntry::Spring(k)))?;
         }
         for (k, link) in self.links.iter().enumerate() {
-            known(link.from).and_then(|()| known(link.to)).map_err(at(Item::Link(k)))?;
+            known(link.from).and_then(|()| known(link.to)).map_err(at(ModelEntry::Link(k)))?;
         }
         for (k, mass) in self.masses.iter().enumerate() {
             known(mass.point)
-                .and_then(|()| not_negative(Quantity::Mass, mass.mass))
-                .and_then(|()| finite(Quantity::Offset, &mass.offset))
-                .and_then(|()| mass.inertia.iter().try_for_each(|&i| not_negative(Quantity::Inertia, i)))
-                .map_err(at(Item::Mass(k)))?;
+                .and_then(|()| not_negative(EntryAttribute::Mass, mass.mass))
+                .and_then(|()| finite(EntryAttribute::Offset, &mass.offset))
+                .and_then(|()| {
+                    mass.inertia.iter().try_for_each(|&i| not_negative(EntryAttribute::Inertia, i))
+                })
+                .map_err(at(ModelEntry::Mass(k)))?;
         }
         Ok(())
     }
 
-    fn check_member(&self, member: &Member) -> Result<(), Fault> {
+    fn check_member(&self, member: &Member) -> Result<(), EntryFault> {
         for point in member.points {
             if point >= self.points.len() {
-                return Err(Fault::NoPoint { point });
+                return Err(EntryFault::NoPoint { point });
             }
         }
         if member.section >= self.sections.len() {
-            return Err(Fault::NoSection { section: member.section });
+            return Err(EntryFault::NoSection { section: member.section });
         }
-        finite(Quantity::Orientation, &member.orientation)?;
-        member.offsets.iter().try_for_each(|offset| finite(Quantity::Offset, offset))
+        finite(EntryAttribute::Orientation, &member.orientation)?;
+        member.offsets.iter().try_for_each(|offset| finite(EntryAttribute::Offset, offset))
     }
 }

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use crate::model::cut::{cut_member, flexible_ends};
-use crate::model::section::Section;
-use crate::model::structure::{Kind, Member, Model};
+use crate::model::section::CrossSection;
+use crate::model::structure::{Member, MemberKind, Model};
 
 /// How a tapered member differs from a uniform one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct Taper {
     pub parts: usize,
 }
 
-impl Section {
+impl CrossSection {
     /// The uniform section that replaces the stretch `from`..`to` (fractions of the length, 0 to 1) of a
     /// member whose properties vary linearly from `self` to `other`.
     ///
@@ -24,11 +24,11 @@ impl Section {
     /// therefore exact, and deflections converge with the square of the number of parts. The mass is the
     /// arithmetic mean. A shear area that is absent at one end is absent.
     #[must_use]
-    pub fn between(&self, other: &Section, from: f64, to: f64) -> Section {
+    pub fn between(&self, other: &CrossSection, from: f64, to: f64) -> CrossSection {
         let at = |a: f64, b: f64, s: f64| a + (b - a) * s;
         let mean = |a: f64, b: f64| logarithmic_mean(at(a, b, from), at(a, b, to));
         let both = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| mean(a, b));
-        Section {
+        CrossSection {
             e: mean(self.e, other.e),
             g: mean(self.g, other.g),
             area: mean(self.area, other.area),
@@ -85,7 +85,7 @@ impl Model {
             return;
         };
         let ends = flexible_ends([*p, *q], member.offsets);
-        let parts = if member.kind == Kind::Truss { 1 } else { taper.parts.max(1) };
+        let parts = if member.kind == MemberKind::Truss { 1 } else { taper.parts.max(1) };
         cut_member(member, ends, parts, out, |part, out| {
             if taper.section == member.section {
                 return member.section;

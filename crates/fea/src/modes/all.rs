@@ -5,7 +5,7 @@ use nalgebra::DVector;
 use sprs::CsMat;
 
 use crate::error::Error;
-use crate::influence::Frame;
+use crate::influence::FactoredFrame;
 use crate::model::Model;
 use crate::modes::mass::ScaledMass;
 use crate::modes::mode::{Count, Mode, Modes};
@@ -15,14 +15,14 @@ pub const MOST_DENSE_UNKNOWNS: usize = 3000;
 /// 1/lambda, relative to the largest, at which an eigenvalue is that of a degree of freedom without mass.
 const MASSLESS: f64 = 1e-13;
 
-impl Frame {
+impl FactoredFrame {
     /// All modes of finite frequency: K phi = omega^2 M phi by the eigenvalues of L^-1 M L^-T, K = L L^T, from
     /// dense matrices. Time grows with the cube of the number of unknowns, memory with its square.
     ///
     /// `m` is the model that the frame was made of.
     ///
     /// # Errors
-    /// As [`Frame::modes`]; [`Error::TooManyModes`] for more than [`MOST_DENSE_UNKNOWNS`] unknowns.
+    /// As [`FactoredFrame::modes`]; [`Error::TooManyModes`] for more than [`MOST_DENSE_UNKNOWNS`] unknowns.
     pub fn all_modes(&self, m: &Model) -> Result<Modes, Error> {
         let stiffness = self.stiffness();
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, stiffness)?;

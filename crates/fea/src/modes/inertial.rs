@@ -4,8 +4,8 @@ use nalgebra::{DMatrix, SVector, Vector3};
 
 use crate::assembly::{BendingPlane, Element, Matrix12, arm, bending_planes, transformation};
 use crate::error::Error;
-use crate::influence::{Effect, Frame, Functional};
-use crate::model::{Kind, Mass, Model, Section, Theory};
+use crate::influence::{Effect, FactoredFrame, Functional};
+use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
 use crate::modes::mass::{Cubic, bending_shapes, release_shapes, unreleased_mass};
 use crate::modes::mode::Mode;
 
@@ -26,7 +26,7 @@ const GAUSS: [[f64; 2]; 3] =
 ///
 /// where A are the static effects of the loads. Forces of damping are internal: they act like its stiffness.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Inertial {
+pub struct InertialEffects {
     /// Effects x 6: a is a rigid motion with the supports, three translations along the global axes, three
     /// rotations about the global origin.
     pub rigid: DMatrix<f64>,
@@ -40,7 +40,7 @@ struct InertiaForces {
     end_accelerations: Vec<Vector12>,
 }
 
-impl Frame {
+impl FactoredFrame {
     /// Effects of M a, M the consistent mass of the members and the rigid masses, supports included. One solve
     /// for each effect.
     ///
@@ -55,15 +55,15 @@ impl Frame {
     ///
     /// # Source
     /// Mode acceleration: Cook, Malkus, Plesha and Witt, Concepts and Applications of Finite Element Analysis
-    /// (2002), section 11.8; reciprocity as in [`Frame::influence_lines`].
-    pub fn inertial(&self, m: &Model, effects: &[Effect], modes: &[Mode]) -> Result<Inertial, Error> {
+    /// (2002), section 11.8; reciprocity as in [`FactoredFrame::influence_lines`].
+    pub fn inertial(&self, m: &Model, effects: &[Effect], modes: &[Mode]) -> Result<InertialEffects, Error> {
         let functionals = self.functionals(m, effects)?;
         let reference = |body: usize| self.bodies.list[body].reference;
         let rigid = self.inertia_forces(m, &[0, 1, 2, 3, 4, 5], |&k, body| {
             arm(&Vector3::from(m.points[reference(body)])).column(k).into_owned()
         });
         let shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
-        let mut out = Inertial {
+        let mut out = InertialEffects {
             rigid: DMatrix::zeros(effects.len(), 6),
             modes: DMatrix::zeros(effects.len(), modes.len()),
         };
@@ -113,7 +113,7 @@ impl Frame {
         out
     }
 
-    fn add_rigid_mass(&self, mass: &Mass, motions: &[Vec<Vector6>], out: &mut [InertiaForces]) {
+    fn add_rigid_mass(&self, mass: &PointMass, motions: &[Vec<Vector6>], out: &mut [InertiaForces]) {
         let body = self.bodies.of_point[mass.point];
         let motion = self.bodies.motion(mass.point, &Vector3::from(mass.offset));
         for (forces, motions) in out.iter_mut().zip(motions) {
@@ -145,7 +145,7 @@ impl Frame {
 
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
     /// integral of m N a over the part before the section.
-    fn own_member(&self, m: &Model, section: &splines::Section, ends: &Vector12) -> f64 {
+    fn own_member(&self, m: &Model, section: &splines::InternalForce, ends: &Vector12) -> f64 {
         let (element, member) = (&self.elements[section.member], &m.members[section.member]);
         let pair = self.bodies.pair(element.points);
         let cross_section = &m.sections[member.section];
@@ -194,9 +194,9 @@ impl InertiaForces {
 /// The mass along a member.
 struct DistributedMass<'a> {
     element: &'a Element,
-    section: &'a Section,
-    theory: Theory,
-    kind: Kind,
+    section: &'a CrossSection,
+    theory: BeamTheory,
+    kind: MemberKind,
 }
 
 impl DistributedMass<'_> {
@@ -207,7 +207,7 @@ impl DistributedMass<'_> {
         let linear = |k: usize| section.mass * ((1.0 - at) * ends[k] + at * ends[k + 6]);
         let mut out = [0.0; 6];
         out[0] = linear(0);
-        if self.kind != Kind::Truss {
+        if self.kind != MemberKind::Truss {
             out[3] = linear(3) * section.gyration_squared(section.iy + section.iz);
         }
         for (plane, second) in bending_planes(&self.element.flexibility).iter().zip([section.iz, section.iy])
@@ -218,7 +218,7 @@ impl DistributedMass<'_> {
             }
             let [deflection, rotation] = self.bending(plane, ends, at);
             out[plane.deflection] = section.mass * deflection;
-            if self.theory == Theory::Timoshenko {
+            if self.theory == BeamTheory::Timoshenko {
                 out[plane.rotation] = plane.sign * section.mass * section.gyration_squared(second) * rotation;
             }
         }

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::factor::{Factor, Solver};
-use crate::influence::Frame;
+use crate::influence::FactoredFrame;
 use crate::model::{Model, Rail};
 use crate::modes::lanczos::{Lanczos, Pencil};
 use crate::modes::mass::ScaledMass;
@@ -26,15 +26,15 @@ const ATTEMPTS: usize = 12;
 /// The `count` lowest modes of a frame: K phi = omega^2 M phi, M the consistent mass of the members (mass per
 /// length of their sections) and the rigid masses.
 ///
-/// Guarantee: no mode is missing ([`Modes::below`]). Fewer are returned if fewer frequencies are finite.
+/// Guarantee: no mode is missing ([`Modes::count_below_shift`]). Fewer are returned if fewer frequencies are finite.
 ///
 /// # Errors
-/// As [`Frame::new`] and [`Frame::modes`].
+/// As [`FactoredFrame::new`] and [`FactoredFrame::modes`].
 pub fn modes(m: &Model, rails: &[Rail], count: usize) -> Result<Modes, Error> {
-    Frame::new(m, rails)?.modes(m, count)
+    FactoredFrame::new(m, rails)?.modes(m, count)
 }
 
-impl Frame {
+impl FactoredFrame {
     /// [`modes`] of a frame that is already factored; `m` is the model that the frame was made of.
     ///
     /// Shift-invert block Lanczos finds the modes. Then L D L^T of K - sigma^2 M is formed, with sigma between

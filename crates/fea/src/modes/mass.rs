@@ -7,9 +7,9 @@ use crate::assembly::{
     BendingPlane, Bodies, Element, Matrix6, Matrix12, Numbering, ScaledStiffness, arm, bending_planes,
     transformation,
 };
-use crate::dof::Freedom;
+use crate::dof::Dof;
 use crate::error::Error;
-use crate::model::{Kind, Mass, Model, Section, Theory};
+use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
 
 /// Mass of a degree of freedom that nothing stiffens, relative to what was added up, that is only rounding.
 const ROUNDING: f64 = 1e-24;
@@ -106,7 +106,7 @@ impl<'a> MassSum<'a> {
         sum
     }
 
-    fn add_rigid(&mut self, m: &Model, mass: &Mass) {
+    fn add_rigid(&mut self, m: &Model, mass: &PointMass) {
         let body = self.bodies.of_point[mass.point];
         let mut own = Matrix12::zeros();
         for k in 0..3 {
@@ -167,8 +167,8 @@ impl<'a> MassSum<'a> {
         for (column, [own, bulk]) in self.unstiffened.into_iter().enumerate() {
             let body = &self.bodies.list[column / 6];
             if body.free[column % 6] && own > ROUNDING * bulk {
-                let freedom = Freedom::ALL[column % 6];
-                return Err(Error::Mechanism { point: body.reference, freedom });
+                let freedom = Dof::ALL[column % 6];
+                return Err(Error::Mechanism { point: body.reference, dof: freedom });
             }
         }
         Ok(ScaledMass { upper: self.triplets.to_csc(), rigid: self.rigid, total })
@@ -199,7 +199,12 @@ fn integral_of_product(a: &Cubic, b: &Cubic) -> f64 {
 ///
 /// # Source
 /// Archer (1965), AIAA J. 3; Przemieniecki, Theory of Matrix Structural Analysis (1968), section 11.4.
-fn mass_between_tips(element: &Element, section: &Section, theory: Theory, kind: Kind) -> MemberMass {
+fn mass_between_tips(
+    element: &Element,
+    section: &CrossSection,
+    theory: BeamTheory,
+    kind: MemberKind,
+) -> MemberMass {
     let MemberMass { mut resisted, mut unresisted } = member_mass(element, section, theory, kind);
     if let Some(shape) = release_shapes(element) {
         resisted = shape.transpose() * resisted * shape;
@@ -209,7 +214,12 @@ fn mass_between_tips(element: &Element, section: &Section, theory: Theory, kind:
 }
 
 /// Consistent mass between the flexible ends of a member, local axes, without its releases.
-pub(super) fn unreleased_mass(element: &Element, section: &Section, theory: Theory, kind: Kind) -> Matrix12 {
+pub(super) fn unreleased_mass(
+    element: &Element,
+    section: &CrossSection,
+    theory: BeamTheory,
+    kind: MemberKind,
+) -> Matrix12 {
     let MemberMass { resisted, unresisted } = member_mass(element, section, theory, kind);
     resisted + unresisted
 }
@@ -225,11 +235,16 @@ pub(super) fn release_shapes(element: &Element) -> Option<Matrix12> {
     Some(shape)
 }
 
-fn member_mass(element: &Element, section: &Section, theory: Theory, kind: Kind) -> MemberMass {
+fn member_mass(
+    element: &Element,
+    section: &CrossSection,
+    theory: BeamTheory,
+    kind: MemberKind,
+) -> MemberMass {
     let (mass, length) = (section.mass, element.length);
     let mut out = MemberMass { resisted: Matrix12::zeros(), unresisted: Matrix12::zeros() };
     let f = &element.flexibility;
-    let truss = kind == Kind::Truss;
+    let truss = kind == MemberKind::Truss;
     out.add_linear(0, mass, length, truss || f.axial.is_finite());
     if !truss {
         let polar = section.gyration_squared(section.iy + section.iz);
@@ -243,7 +258,8 @@ fn member_mass(element: &Element, section: &Section, theory: Theory, kind: Kind)
         if plane.bending.is_infinite() {
             continue;
         }
-        let rotary = if theory == Theory::Timoshenko { mass * section.gyration_squared(second) } else { 0.0 };
+        let rotary =
+            if theory == BeamTheory::Timoshenko { mass * section.gyration_squared(second) } else { 0.0 };
         out.add_bending(plane, mass, rotary, length);
     }
     out

@@ -17,8 +17,8 @@ mod mode;
 mod refined;
 
 pub use all::MOST_DENSE_UNKNOWNS;
-pub use inertial::Inertial;
+pub use inertial::InertialEffects;
 pub use lowest::modes;
 pub use mass::rigid_mass;
 pub use mode::{Mode, Modes};
-pub use refined::{Refined, full_modes, refined_modes};
+pub use refined::{RefinedModes, full_modes, refined_modes};

@@ -3,11 +3,11 @@
 use std::sync::Arc;
 
 use nalgebra::{DVector, DVectorView, Vector3};
-use splines::{Axis, Line, Probe, Surface};
+use splines::{Axis, ExactSurface, Probe, Rails};
 
 use crate::assembly::{Combination, column_norm, symmetric_product};
 use crate::error::Error;
-use crate::influence::Frame;
+use crate::influence::FactoredFrame;
 use crate::modes::mass::{ScaledMass, rows};
 
 /// A natural mode with modal mass 1: phi^T M phi = 1, K phi = omega^2 M phi.
@@ -41,7 +41,7 @@ pub struct Mode {
 ///     mass_per_length: Some(26.4),
 ///     ..Girder::default()
 /// };
-/// let (mut model, rail) = girder.frame()?;
+/// let (mut model, rail) = girder.model_and_rail()?;
 /// // Four members, one span of 60 ft.
 /// model.supports.retain(|support| support.point % 4 == 0);
 /// let found = modes(&model, &[rail], 1)?;
@@ -59,13 +59,13 @@ pub struct Modes {
     pub shift: f64,
     /// Number of eigenvalues below the shift, by the signs of the pivots of K - sigma^2 M; all of them were
     /// found. If it is less than the number of modes, the others lie within 1e-6 of each other.
-    pub below: usize,
+    pub count_below_shift: usize,
     /// Circular frequency of the mode after these, radian/time; `None` if there is no other or it is unknown.
     pub next: Option<f64>,
     /// r^T M r of the whole structure with its supports, r as in [`Mode::coupling`]: masses, then moments and
     /// moments of inertia about the global origin.
-    pub total: [[f64; 6]; 6],
-    line: Option<Arc<Line>>,
+    pub rigid_mass: [[f64; 6]; 6],
+    line: Option<Arc<Rails>>,
 }
 
 /// What shows that the modes are the lowest: a shift, the number of modes below it, and the next frequency.
@@ -75,7 +75,7 @@ pub(super) struct Count {
     pub next: Option<f64>,
 }
 
-impl Frame {
+impl FactoredFrame {
     /// 1-norms of the scaled stiffness and mass.
     ///
     /// # Errors
@@ -88,7 +88,14 @@ impl Frame {
     /// The modes of a frame with mass `mass`.
     pub(super) fn collect_modes(&self, modes: Vec<Mode>, count: Count, mass: &ScaledMass) -> Modes {
         let Count { shift, below, next } = count;
-        Modes { modes, shift, below, next, total: rows(&mass.total), line: self.line().ok().cloned() }
+        Modes {
+            modes,
+            shift,
+            count_below_shift: below,
+            next,
+            rigid_mass: rows(&mass.total),
+            line: self.line().ok().cloned(),
+        }
     }
 
     /// A mode from its eigenvalue and its scaled unknowns with modal mass 1.
@@ -112,7 +119,7 @@ impl Frame {
 }
 
 impl Modes {
-    fn line(&self) -> Result<&Arc<Line>, Error> {
+    fn line(&self) -> Result<&Arc<Rails>, Error> {
         self.line.as_ref().ok_or(Error::NoRails)
     }
 
@@ -140,7 +147,7 @@ impl Modes {
         let row = |axis| line.row(Probe { rail, x, axis });
         // The directions may differ in what resists them; any of them names the rail element.
         let row = row(Axis::Vertical).or_else(|_| row(Axis::Lateral)).or_else(|_| row(Axis::Longitudinal))?;
-        let cell = &line.cells()[row.cell];
+        let cell = &line.elements()[row.element];
         let r = ((x - cell.x[0]) / (cell.x[1] - cell.x[0])).clamp(0.0, 1.0);
         let [a, b] = cell.ends;
         Ok(self.modes.iter().map(|mode| (1.0 - r) * mode.states[a][3] + r * mode.states[b][3]).collect())
@@ -154,10 +161,10 @@ impl Modes {
     ///
     /// # Errors
     /// [`Error::NoRails`]; [`Error::Rail`] for a surface of another frame, by its number of states.
-    pub fn residual(&self, surface: &Surface) -> Result<Surface, Error> {
+    pub fn residual(&self, surface: &ExactSurface) -> Result<ExactSurface, Error> {
         let line = self.line()?;
         let mut nodal = surface.nodal().clone();
-        let expected = 6 * line.states();
+        let expected = 6 * line.state_count();
         if nodal.nrows() != expected {
             let (rows, columns) = nodal.shape();
             return Err(splines::Error::NodalShape { rows, columns, expected }.into());
@@ -170,6 +177,6 @@ impl Modes {
                 }
             }
         }
-        Ok(Surface::new(Arc::clone(surface.line()), nodal)?)
+        Ok(ExactSurface::new(Arc::clone(surface.rails()), nodal)?)
     }
 }

@@ -3,8 +3,8 @@
 use nalgebra::Vector3;
 
 use crate::error::Error;
-use crate::influence::{Effect, Frame};
-use crate::model::{Kind, Member, Model, Rail, Section, Theory, cut_members, flexible_ends};
+use crate::influence::{Effect, FactoredFrame};
+use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, Rail, cut_members, flexible_ends};
 use crate::modes::lowest::modes;
 use crate::modes::mode::Modes;
 
@@ -15,7 +15,7 @@ const FIRST_PARTS: usize = 3;
 
 /// A model with its members cut into parts, and its modes.
 #[derive(Clone, Debug)]
-pub struct Refined {
+pub struct RefinedModes {
     /// The model: the points of the given one first; members in their order, each in its parts.
     pub model: Model,
     /// The same rails over the parts.
@@ -29,18 +29,18 @@ pub struct Refined {
     pub modes: Modes,
 }
 
-impl Refined {
+impl RefinedModes {
     /// An effect of the given model as one of the model cut into parts. A section where two parts meet is just
     /// inside the second.
     #[must_use]
     pub fn effect(&self, effect: Effect) -> Effect {
         match effect {
-            Effect::Force { member, place, component } if member < self.parts.len() => {
+            Effect::InternalForce { member, place, component } if member < self.parts.len() => {
                 let first: usize = self.parts[..member].iter().sum();
                 let count = self.parts[member];
                 let along = place * count as f64;
                 let part = (along.floor() as usize).min(count - 1);
-                Effect::Force {
+                Effect::InternalForce {
                     member: first + part,
                     place: (along - part as f64).clamp(0.0, 1.0),
                     component,
@@ -66,7 +66,7 @@ impl Refined {
 /// # Source
 /// Leading terms of the dispersion of cubic and linear elements: Belytschko and Mindle (1987), in Reliability of
 /// Methods for Engineering Analysis; Hughes, The Finite Element Method (1987), section 9.1.
-pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> Result<Refined, Error> {
+pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> Result<RefinedModes, Error> {
     let mut parts = first_parts(m, rails, FIRST_PARTS)?;
     loop {
         let (model, rails) = cut_members(m, rails, &parts);
@@ -86,7 +86,7 @@ pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> 
             .collect();
         if next == parts {
             let error = largest_error(m, &parts, highest);
-            return Ok(Refined { model, rails, parts, error: Some(error), modes: found });
+            return Ok(RefinedModes { model, rails, parts, error: Some(error), modes: found });
         }
         parts = next;
     }
@@ -95,31 +95,31 @@ pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> 
 /// All modes of a frame whose beams are cut into `parts` equal parts each: the whole finite-element model in
 /// uncoupled coordinates.
 ///
-/// [`Refined::error`] is not estimated: the highest modes of any mesh belong to the mesh.
+/// [`RefinedModes::error`] is not estimated: the highest modes of any mesh belong to the mesh.
 ///
 /// # Errors
-/// As [`Frame::all_modes`].
-pub fn full_modes(m: &Model, rails: &[Rail], parts: usize) -> Result<Refined, Error> {
+/// As [`FactoredFrame::all_modes`].
+pub fn full_modes(m: &Model, rails: &[Rail], parts: usize) -> Result<RefinedModes, Error> {
     let parts = first_parts(m, rails, parts.max(1))?;
     let (model, rails) = cut_members(m, rails, &parts);
-    let modes = Frame::new(&model, &rails)?.all_modes(&model)?;
-    Ok(Refined { model, rails, parts, error: None, modes })
+    let modes = FactoredFrame::new(&model, &rails)?.all_modes(&model)?;
+    Ok(RefinedModes { model, rails, parts, error: None, modes })
 }
 
 /// `count` parts for each member that may be cut, 1 for the others.
 ///
 /// The frame is factored as given, so that whatever is refused is named by the given indices.
 fn first_parts(m: &Model, rails: &[Rail], count: usize) -> Result<Vec<usize>, Error> {
-    Frame::new(m, rails)?;
+    FactoredFrame::new(m, rails)?;
     Ok(m.members.iter().map(|member| if divisible(m, member) { count } else { 1 }).collect())
 }
 
 /// Whether a member may be cut: a beam with every stiffness that any beam has.
 fn divisible(m: &Model, member: &Member) -> bool {
-    let sizes = |section: &Section| [section.area, section.iy, section.iz, section.j];
+    let sizes = |section: &CrossSection| [section.area, section.iy, section.iz, section.j];
     let own = sizes(&m.sections[member.section]);
-    let beams = || m.members.iter().filter(|other| other.kind == Kind::Beam);
-    member.kind == Kind::Beam
+    let beams = || m.members.iter().filter(|other| other.kind == MemberKind::Beam);
+    member.kind == MemberKind::Beam
         && (0..4).all(|k| own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0))
 }
 
@@ -135,7 +135,7 @@ fn errors_of_one_part(m: &Model, member: &Member, omega: f64) -> Vec<(f64, i32)>
     let fourth = |bending: f64| (inertia * bending * square * square / 1440.0, 4);
     let second = |flexibility: f64| (inertia * flexibility * square / 24.0, 2);
     let mut all = vec![fourth(f.bending_y), fourth(f.bending_z), second(f.axial), second(f.torsion * polar)];
-    if m.theory == Theory::Timoshenko {
+    if m.theory == BeamTheory::Timoshenko {
         all.extend([second(f.shear_y), second(f.shear_z)]);
     }
     all.retain(|(size, _)| size.is_finite());

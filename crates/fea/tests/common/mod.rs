@@ -4,7 +4,10 @@
 #[path = "../../../../tests/near.rs"]
 pub mod near;
 
-use fea::{Freedom, Girder, Kind, Link, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
+use fea::{
+    BeamTheory, CrossSection, Dof, Girder, GroundSpring, Member, MemberKind, Model, Rail, RailSegment,
+    RigidLink, Support,
+};
 use nalgebra::Vector3;
 use serde_json::Value;
 use splines::{Axis, Probe};
@@ -21,7 +24,7 @@ pub fn paper() -> Girder {
         i_lateral: Some(0.874_97),
         j: Some(0.6552),
         rail_height: 3.6615,
-        theory: Theory::EulerBernoulli,
+        theory: BeamTheory::EulerBernoulli,
         stations: vec![-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0],
         ..Girder::default()
     }
@@ -39,7 +42,7 @@ pub fn two_spans() -> Girder {
         j: Some(2e-5),
         ka_vertical: Some(0.004),
         ka_lateral: Some(0.01),
-        theory: Theory::Timoshenko,
+        theory: BeamTheory::Timoshenko,
         ..Girder::default()
     }
 }
@@ -73,7 +76,7 @@ pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, V
             for &k in same {
                 linked[k] = cut.points.len();
                 cut.points.push((place + Vector3::from(places[k].2)).into());
-                cut.links.push(Link { from: node, to: linked[k] });
+                cut.links.push(RigidLink { from: node, to: linked[k] });
             }
         }
         cut.members.push(rest);
@@ -99,13 +102,13 @@ impl Stream {
 }
 
 /// The mill girderway of `data/`, and its one rail.
-pub fn mill(theory: Theory) -> (Model, Rail) {
+pub fn mill(theory: BeamTheory) -> (Model, Rail) {
     let spec: Value = serde_json::from_str(include_str!("../data/mill_girderway.json")).expect("valid");
     let material = &spec["materials"][0];
     let number = |value: &Value| value.as_f64().expect("a number");
     let sections = list(&spec["sections"])
         .iter()
-        .map(|s| Section {
+        .map(|s| CrossSection {
             e: number(&material["E"]),
             g: number(&material["G"]),
             area: number(&s["A"]),
@@ -125,7 +128,7 @@ pub fn mill(theory: Theory) -> (Model, Rail) {
             let data = |name: &str| &spec["cell_data"][name][block][k];
             members.push(Member {
                 points: [index(&pair[0]), index(&pair[1])],
-                kind: if data("kind") == "truss" { Kind::Truss } else { Kind::Beam },
+                kind: if data("kind") == "truss" { MemberKind::Truss } else { MemberKind::Beam },
                 section: index(data("section")),
                 orientation: vector(data("orientation")),
                 offsets: [vector(data("offset_a")), vector(data("offset_b"))],
@@ -135,20 +138,20 @@ pub fn mill(theory: Theory) -> (Model, Rail) {
     }
     let supports = list(&spec["supports"])
         .iter()
-        .map(|s| Support { point: index(&s["point"]), fix: set(&s["fix"]) })
+        .map(|s| Support { point: index(&s["point"]), fixed: set(&s["fix"]) })
         .collect();
     let springs = list(&spec["springs"])
         .iter()
-        .map(|s| Spring {
+        .map(|s| GroundSpring {
             point: index(&s["point"]),
-            freedom: freedom(&s["dof"]),
+            dof: freedom(&s["dof"]),
             stiffness: number(&s["k"]),
         })
         .collect();
     let north = &spec["rails"]["north"];
     let segments = list(&north["segments"])
         .iter()
-        .map(|s| Segment {
+        .map(|s| RailSegment {
             member: first[index(&s["cell"][0])] + index(&s["cell"][1]),
             offset: vector(&s["offset"]),
         })
@@ -176,9 +179,9 @@ fn vector(value: &Value) -> [f64; 3] {
     std::array::from_fn(|k| value[k].as_f64().expect("a number"))
 }
 
-fn freedom(value: &Value) -> Freedom {
+fn freedom(value: &Value) -> Dof {
     let name = value.as_str().expect("a name");
-    Freedom::ALL.into_iter().find(|freedom| freedom.to_string() == name).expect("a freedom")
+    Dof::ALL.into_iter().find(|freedom| freedom.to_string() == name).expect("a freedom")
 }
 
 fn set(value: &Value) -> [bool; 6] {

@@ -6,13 +6,13 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 
 use super::block::GridBlock;
-use super::influence::Grid;
-use crate::fault::number;
+use super::influence::StationGrid;
+use crate::text::number::number;
 
-crate::object::objects!(RawCoupling, RawDropped, RawChange);
+crate::text::object::objects!(RawCoupling, RawDropped, RawChange);
 
 /// Lateral load of the comparison, as a fraction of the wheel load.
-pub const SIDE_LOAD: f64 = 0.1;
+pub const LATERAL_LOAD_FRACTION: f64 = 0.1;
 
 /// A station whose compliance is below this fraction of the largest is fixed: its compliance is rounding error.
 const FIXED: f64 = 1e-9;
@@ -27,15 +27,15 @@ pub struct Coupling {
     /// rounding, of each coupling that the grid has.
     pub largest: Vec<(GridBlock, f64)>,
     /// Error of the deflections when the coupling of vertical and lateral is dropped.
-    pub cost: Option<Cost>,
+    pub error: Option<CouplingError>,
 }
 
 /// Relative change of the deflections of a station when the coupling of vertical and lateral is dropped.
 ///
-/// A wheel load F and a lateral load of [`SIDE_LOAD`] F at a station deflect it vertically by G_vv F + G_vl 0.1 F and
+/// A wheel load F and a lateral load of [`LATERAL_LOAD_FRACTION`] F at a station deflect it vertically by G_vv F + G_vl 0.1 F and
 /// laterally by G_ll 0.1 F + G_lv F. The second terms are dropped; the change is their ratio to the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cost {
+pub struct CouplingError {
     /// Vertical deflection.
     pub vertical: Change,
     /// Lateral deflection.
@@ -54,7 +54,7 @@ pub struct Change {
 impl Coupling {
     /// The couplings of a grid; `None` where it has no coupling block.
     #[must_use]
-    pub fn of(grid: &Grid) -> Option<Coupling> {
+    pub fn of(grid: &StationGrid) -> Option<Coupling> {
         let mut largest = Vec::new();
         for (quantity, block) in &grid.blocks {
             let [row, column] = quantity.direct();
@@ -69,13 +69,13 @@ impl Coupling {
             [GridBlock::Vertical, GridBlock::Lateral, GridBlock::VerticalLateral].map(|q| grid.block(q));
         let cost = match blocks {
             [Some(vertical), Some(lateral), Some(coupling)] => {
-                let vertical = change(coupling, vertical, SIDE_LOAD);
-                let lateral = change(coupling, lateral, 1.0 / SIDE_LOAD);
-                vertical.zip(lateral).map(|(vertical, lateral)| Cost { vertical, lateral })
+                let vertical = change(coupling, vertical, LATERAL_LOAD_FRACTION);
+                let lateral = change(coupling, lateral, 1.0 / LATERAL_LOAD_FRACTION);
+                vertical.zip(lateral).map(|(vertical, lateral)| CouplingError { vertical, lateral })
             }
             _ => None,
         };
-        (!largest.is_empty()).then_some(Coupling { largest, cost })
+        (!largest.is_empty()).then_some(Coupling { largest, error: cost })
     }
 
     /// The member `coupling` of a grid file.
@@ -85,10 +85,10 @@ impl Coupling {
         for (quantity, relative) in &self.largest {
             object.insert(quantity.name().to_owned(), json!(relative));
         }
-        if let Some(cost) = &self.cost {
+        if let Some(cost) = &self.error {
             let change = |change: Change| json!({ "median": change.median, "largest": change.largest });
             let dropped = json!({
-                "side_load": SIDE_LOAD, "vertical": change(cost.vertical), "lateral": change(cost.lateral),
+                "side_load": LATERAL_LOAD_FRACTION, "vertical": change(cost.vertical), "lateral": change(cost.lateral),
             });
             object.insert("dropped".to_owned(), dropped);
         }
@@ -97,17 +97,17 @@ impl Coupling {
 
     /// One line for the terminal, where the relative coupling of vertical and lateral is at least 1e-3.
     #[must_use]
-    pub fn line(&self) -> Option<String> {
+    pub fn summary(&self) -> Option<String> {
         let (_, relative) =
             self.largest.iter().find(|(quantity, _)| *quantity == GridBlock::VerticalLateral)?;
-        let cost = self.cost.filter(|_| *relative >= NEGLIGIBLE)?;
+        let cost = self.error.filter(|_| *relative >= NEGLIGIBLE)?;
         let percent = |change: Change| {
             format!("{:.1} % (median; at most {:.1} %)", 100.0 * change.median, 100.0 * change.largest)
         };
         Some(format!(
             "coupling: vertical-lateral reaches {relative:.3} of sqrt(Gvv Gll); under a side load of {} of the wheel \
              load, dropping it moves the lateral deflection by {}, the vertical by {}",
-            number(SIDE_LOAD),
+            number(LATERAL_LOAD_FRACTION),
             percent(cost.lateral),
             percent(cost.vertical),
         ))

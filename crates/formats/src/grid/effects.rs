@@ -1,10 +1,10 @@
 //! Influence lines of reactions and internal forces: their values under unit loads at the stations.
 
-use fea::{Effect, Frame, Model};
+use fea::{Effect, FactoredFrame, Model};
 use splines::{Axis, Probe};
 
 pub use crate::spec::COMPONENTS;
-use crate::spec::{Cut, Form, Spec, Spot};
+use crate::spec::{Cut, CutPlace, Form, Spec};
 
 /// Influence lines of reactions and of internal forces, sampled at the stations.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,29 +12,29 @@ pub struct Effects {
     /// Forces and moments that the ground exerts.
     pub reactions: Vec<Reaction>,
     /// Internal forces at named sections.
-    pub sections: Vec<Section>,
+    pub sections: Vec<SectionForces>,
 }
 
 /// Influence lines by the direction of the unit load: one value for each station. Forces are per unit force, moments
 /// are lengths.
-pub type Lines = Vec<(Axis, Vec<f64>)>;
+pub type EffectLines = Vec<(Axis, Vec<f64>)>;
 
 /// A reaction, positive along its global degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
     /// Where it acts.
-    pub at: Ground,
+    pub at: ReactionPoint,
     /// Word of its degree of freedom, such as `uy`.
     pub dof: String,
     /// Index of the spring that exerts it; `None` where a support does.
     pub spring: Option<usize>,
     /// Its influence lines.
-    pub lines: Lines,
+    pub lines: EffectLines,
 }
 
 /// A supported place in the terms of the spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ground {
+pub enum ReactionPoint {
     /// Coordinate along a girder.
     Along(f64),
     /// Index of a point.
@@ -43,13 +43,13 @@ pub enum Ground {
 
 /// Internal forces at a section.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
+pub struct SectionForces {
     /// Its name.
     pub name: String,
     /// Where it is.
-    pub at: Spot,
+    pub at: CutPlace,
     /// Influence lines of the components N, Vy, Vz, Mx, My, Mz in the member's local axes.
-    pub lines: [Lines; 6],
+    pub lines: [EffectLines; 6],
 }
 
 impl Effects {
@@ -63,37 +63,37 @@ impl Effects {
     pub fn of(
         spec: &Spec,
         model: &Model,
-        frame: &Frame,
+        frame: &FactoredFrame,
         stations: &[(usize, f64)],
         axes: &[Axis],
     ) -> Result<Effects, fea::Error> {
-        let holds = frame.holds(model);
+        let holds = frame.restraints(model);
         let mut effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
         for &Cut { member, place, .. } in &spec.effects {
-            let force = |(_, component)| Effect::Force { member, place, component };
+            let force = |(_, component)| Effect::InternalForce { member, place, component };
             effects.extend(COMPONENTS.map(force));
         }
         let load = |axis: Axis| stations.iter().map(move |&(rail, x)| Probe { rail, x, axis });
         let probes: Vec<Probe> = axes.iter().copied().flat_map(load).collect();
         let value = frame.effects(model, &effects, &probes)?;
         let n = stations.len();
-        let lines = |row: usize| -> Lines {
+        let lines = |row: usize| -> EffectLines {
             let line = |k: usize| value.row(row).columns(k * n, n).iter().copied().collect();
             axes.iter().enumerate().map(|(k, &axis)| (axis, line(k))).collect()
         };
         let ground = |point: usize| match &spec.form {
-            Form::Girder(_) => Ground::Along(model.points.get(point).map_or(0.0, |place| place[0])),
-            Form::Frame(_) => Ground::Point(point),
+            Form::Girder(_) => ReactionPoint::Along(model.points.get(point).map_or(0.0, |place| place[0])),
+            Form::Frame(_) => ReactionPoint::Point(point),
         };
         let reactions = holds.iter().enumerate().map(|(row, hold)| Reaction {
             at: ground(hold.point),
-            dof: hold.freedom.to_string(),
+            dof: hold.dof.to_string(),
             spring: hold.spring,
             lines: lines(row),
         });
-        let sections = spec.effects.iter().enumerate().map(|(index, cut)| Section {
+        let sections = spec.effects.iter().enumerate().map(|(index, cut)| SectionForces {
             name: cut.name.clone(),
-            at: cut.spot,
+            at: cut.place_in_spec,
             lines: std::array::from_fn(|k| lines(holds.len() + 6 * index + k)),
         });
         Ok(Effects { reactions: reactions.collect(), sections: sections.collect() })

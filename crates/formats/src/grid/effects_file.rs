@@ -7,13 +7,13 @@ use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use splines::Axis;
 
-use super::effects::{Effects, Ground, Lines, Reaction, Section};
-use crate::fault::{Fault, Faults};
-use crate::place::Place;
-use crate::spec::{COMPONENTS, Spot};
+use super::effects::{EffectLines, Effects, Reaction, ReactionPoint, SectionForces};
+use crate::spec::{COMPONENTS, CutPlace};
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
 use crate::units::Units;
 
-crate::object::objects!(RawEffects, RawUnits, RawReaction, RawSection, RawLines);
+crate::text::object::objects!(RawEffects, RawUnits, RawReaction, RawSection, RawLines);
 
 const AXES: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
@@ -101,8 +101,8 @@ pub fn write(effects: &Effects, units: Units) -> String {
 fn reaction(reaction: &Reaction) -> Value {
     let mut object = Map::new();
     match reaction.at {
-        Ground::Along(x) => object.insert("x".into(), json!(x)),
-        Ground::Point(point) => object.insert("point".into(), json!(point)),
+        ReactionPoint::Along(x) => object.insert("x".into(), json!(x)),
+        ReactionPoint::Point(point) => object.insert("point".into(), json!(point)),
     };
     object.insert("dof".into(), json!(reaction.dof));
     if let Some(spring) = reaction.spring {
@@ -112,14 +112,14 @@ fn reaction(reaction: &Reaction) -> Value {
     Value::Object(object)
 }
 
-fn section(section: &Section) -> Value {
+fn section(section: &SectionForces) -> Value {
     let mut object = Map::new();
     object.insert("name".into(), json!(section.name));
     match section.at {
-        Spot::Along(x) => {
+        CutPlace::Along(x) => {
             object.insert("x".into(), json!(x));
         }
-        Spot::Cell(cell, at) => {
+        CutPlace::Cell(cell, at) => {
             object.insert("cell".into(), json!(cell));
             object.insert("at".into(), json!(at));
         }
@@ -130,7 +130,7 @@ fn section(section: &Section) -> Value {
     Value::Object(object)
 }
 
-fn lines(lines: &Lines) -> Map<String, Value> {
+fn lines(lines: &EffectLines) -> Map<String, Value> {
     let named = AXES.iter().filter_map(|(word, axis)| {
         let (_, line) = lines.iter().find(|(known, _)| known == axis)?;
         Some(((*word).to_owned(), json!(line)))
@@ -146,14 +146,14 @@ impl RawEffects {
         for (index, raw) in self.reactions.iter().flatten().enumerate() {
             let at = list.index(index);
             let ground = match (raw.x, raw.point) {
-                (Some(x), None) => Some(Ground::Along(x)),
-                (None, Some(point)) => Some(Ground::Point(point)),
+                (Some(x), None) => Some(ReactionPoint::Along(x)),
+                (None, Some(point)) => Some(ReactionPoint::Point(point)),
                 _ => {
                     faults.add(Fault::new(&at, "must have one of `x` and `point`"));
                     None
                 }
             };
-            let dof = faults.need(&raw.dof, &at, "dof").cloned();
+            let dof = faults.require(&raw.dof, &at, "dof").cloned();
             let lines = read([&raw.vertical, &raw.lateral, &raw.longitudinal], size, &at, faults);
             if let (Some(at), Some(dof)) = (ground, dof) {
                 effects.reactions.push(Reaction { at, dof, spring: raw.spring, lines });
@@ -163,24 +163,24 @@ impl RawEffects {
         for (index, raw) in self.sections.iter().flatten().enumerate() {
             let at = list.index(index);
             let spot = match (raw.x, raw.cell.zip(raw.at)) {
-                (Some(x), None) => Some(Spot::Along(x)),
-                (None, Some((cell, fraction))) => Some(Spot::Cell(cell, fraction)),
+                (Some(x), None) => Some(CutPlace::Along(x)),
+                (None, Some((cell, fraction))) => Some(CutPlace::Cell(cell, fraction)),
                 _ => {
                     faults.add(Fault::new(&at, "must have either `x`, or `cell` and `at`"));
                     None
                 }
             };
-            let name = faults.need(&raw.name, &at, "name").cloned();
+            let name = faults.require(&raw.name, &at, "name").cloned();
             let all = [&raw.n, &raw.vy, &raw.vz, &raw.mx, &raw.my, &raw.mz];
             let lines = std::array::from_fn(|k| {
                 let word = COMPONENTS[k].0;
-                let own = faults.need(all[k], &at, word).map(|own| {
+                let own = faults.require(all[k], &at, word).map(|own| {
                     read([&own.vertical, &own.lateral, &own.longitudinal], size, &at.key(word), faults)
                 });
                 own.unwrap_or_default()
             });
             if let (Some(at), Some(name)) = (spot, name) {
-                effects.sections.push(Section { name, at, lines });
+                effects.sections.push(SectionForces { name, at, lines });
             }
         }
         effects
@@ -188,8 +188,8 @@ impl RawEffects {
 }
 
 /// The lines by direction of the unit load, each of `size` numbers.
-fn read(all: [&Option<Vec<f64>>; 3], size: usize, place: &Place<'_>, faults: &mut Faults) -> Lines {
-    let mut lines = Lines::new();
+fn read(all: [&Option<Vec<f64>>; 3], size: usize, place: &Place<'_>, faults: &mut Faults) -> EffectLines {
+    let mut lines = EffectLines::new();
     for ((word, axis), line) in AXES.iter().zip(all) {
         let Some(line) = line else { continue };
         if line.len() != size {

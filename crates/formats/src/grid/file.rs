@@ -7,33 +7,33 @@ use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::json;
-use splines::Surface;
+use splines::ExactSurface;
 
 use super::block::GridBlock;
 use super::coupling::{Coupling, RawCoupling};
 use super::effects_file::{self, RawEffects};
-use super::influence::{Grid, GridRail};
+use super::influence::{GridRail, StationGrid};
 use super::modes_file::RawModes;
 use super::surface_file::{self, RawSurface};
-use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults, number};
-use crate::place::Place;
-use crate::source::Source;
 use crate::spec::THEORIES;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::fault::{Fault, Faults, number};
+use crate::text::place::Place;
+use crate::text::source::Source;
 use crate::units::{RawUnits, Units};
 
-crate::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
+crate::text::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-grid/1";
 /// Most degrees of freedom of the node states of an exact compliance that the command `fea` writes: some 170 MB of
 /// text.
-pub const LARGEST: usize = 3000;
+pub const MAX_DOFS: usize = 3000;
 
 /// The text of a grid file: one row of a matrix per line, every number in the fewest digits that give it back.
 /// `surface`, where given, is written too: the compliance between any two places, exact also between the stations.
 #[must_use]
-pub fn write(grid: &Grid, surface: Option<&Surface>) -> String {
+pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
     let mut head = serde_json::Map::new();
     head.insert("format".into(), json!(FORMAT));
     head.insert("name".into(), json!(grid.name));
@@ -160,7 +160,7 @@ impl RawInfluence {
 /// # Errors
 /// The first syntax or type error, or else all other faults, such as a block whose size differs from the number of
 /// stations or a direct block that is not symmetric to the last bit.
-pub fn read(source: &Source) -> Result<(Grid, Option<Surface>), Vec<Diagnostic>> {
+pub fn read(source: &Source) -> Result<(StationGrid, Option<ExactSurface>), Vec<Diagnostic>> {
     let raw: RawGrid = source.parse(FORMAT).map_err(|error| vec![*error])?;
     let mut faults = Faults::default();
     let grid = check(&raw, source, &mut faults);
@@ -172,19 +172,19 @@ pub fn read(source: &Source) -> Result<(Grid, Option<Surface>), Vec<Diagnostic>>
     }
 }
 
-fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
+fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationGrid> {
     let root = Place::root();
     crate::spec::format(&raw.format, FORMAT, &root, faults);
     let units = Units::read(&raw.units, &root, faults);
     if let Some(theory) = &raw.theory {
-        faults.word(theory, &root.key("theory"), &THEORIES);
+        faults.one_of(theory, &root.key("theory"), &THEORIES);
     }
     let rails = read_rails(raw, &root, faults);
     let size = rails.iter().map(|rail| rail.stations.len()).sum();
     if let Some(modes) = &raw.modes {
         modes.check(size, &root.key("modes"), faults);
     }
-    let influence = faults.need(&raw.influence, &root, "influence")?;
+    let influence = faults.require(&raw.influence, &root, "influence")?;
     let at = root.key("influence");
     let mut blocks = Vec::new();
     for quantity in GridBlock::ALL {
@@ -207,7 +207,7 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
         error_bound: given.error_bound,
         extended: given.precision == Precision::DoubleDouble,
     });
-    Some(Grid {
+    Some(StationGrid {
         name: raw.name.clone().unwrap_or_else(|| crate::spec::stem(&source.name)),
         units: units?,
         theory: raw.theory.clone(),
@@ -222,11 +222,11 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<Grid> {
 fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridRail> {
     let list = root.key("rails");
     let mut rails: Vec<GridRail> = Vec::new();
-    let given = faults.need(&raw.rails, root, "rails").map(Vec::as_slice).unwrap_or_default();
+    let given = faults.require(&raw.rails, root, "rails").map(Vec::as_slice).unwrap_or_default();
     for (index, raw) in given.iter().enumerate() {
         let at = list.index(index);
-        let name = faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
-        let stations = faults.need(&raw.stations, &at, "stations").cloned().unwrap_or_default();
+        let name = faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let stations = faults.require(&raw.stations, &at, "stations").cloned().unwrap_or_default();
         faults.increasing(&stations, &at.key("stations"));
         if rails.iter().any(|rail| rail.name == name) {
             faults.add(
@@ -276,14 +276,14 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grid::effects::{Effects, Ground, Reaction, Section};
-    use crate::spec::Spot;
+    use crate::grid::effects::{Effects, Reaction, ReactionPoint, SectionForces};
+    use crate::spec::CutPlace;
     use crate::units::{Force, Length};
     use splines::Axis;
 
-    fn grid() -> Grid {
+    fn grid() -> StationGrid {
         let block = DMatrix::from_row_slice(2, 2, &[1.0 / 3.0 * 1e-8, 2.5e-310, 2.5e-310, 1e-7]);
-        Grid {
+        StationGrid {
             name: "two \"stations\"".to_owned(),
             units: Units { length: Length::Foot, force: Force::Kip },
             theory: Some("timoshenko".to_owned()),
@@ -305,14 +305,17 @@ mod tests {
         given.blocks.insert(1, (GridBlock::Lateral, given.blocks[0].1.clone()));
         let lines = |k: f64| vec![(Axis::Vertical, vec![k / 3.0, -1.0]), (Axis::Lateral, vec![0.1 * k, 0.0])];
         let reaction = |at, spring| Reaction { at, dof: "uy".to_owned(), spring, lines: lines(1.0) };
-        let section = |at| Section {
+        let section = |at| SectionForces {
             name: "mid \"span\"".to_owned(),
             at,
             lines: [1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(lines),
         };
         given.effects = Some(Effects {
-            reactions: vec![reaction(Ground::Point(3), None), reaction(Ground::Along(0.1), Some(2))],
-            sections: vec![section(Spot::Cell([1, 2], 0.3)), section(Spot::Along(1.0 / 3.0))],
+            reactions: vec![
+                reaction(ReactionPoint::Point(3), None),
+                reaction(ReactionPoint::Along(0.1), Some(2)),
+            ],
+            sections: vec![section(CutPlace::Cell([1, 2], 0.3)), section(CutPlace::Along(1.0 / 3.0))],
         });
         for grid in [grid(), given] {
             let (read, surface) = read(&source(write(&grid, None))).expect("our own file");

@@ -1,6 +1,6 @@
 //! Influence coefficients of a structure between its stations.
 
-use fea::{Certificate, Frame, Model};
+use fea::{Certificate, FactoredFrame, Model};
 use nalgebra::DMatrix;
 use splines::{Axis, Probe};
 
@@ -17,9 +17,9 @@ use crate::units::Units;
 /// +x, up and to the right.
 ///
 /// ```
-/// use formats::grid::{Grid, GridBlock};
-/// use formats::grid_file;
-/// use formats::source::Source;
+/// use formats::grid::{StationGrid, GridBlock};
+/// use formats::grid::file as grid_file;
+/// use formats::text::source::Source;
 /// use formats::spec::Spec;
 ///
 /// let text = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
@@ -28,8 +28,8 @@ use crate::units::Units;
 /// let spec = Spec::read(&Source { name: "beam.json".to_owned(), text: text.to_owned() }, None)
 ///     .expect("a beam on two supports");
 /// let (model, rails) = spec.model().expect("a model of it");
-/// let frame = fea::Frame::new(&model, &rails).expect("a stable structure");
-/// let grid = Grid::of(&spec, &frame).expect("stations on the rail");
+/// let frame = fea::FrameSpec::new(&model, &rails).expect("a stable structure");
+/// let grid = StationGrid::of(&spec, &frame).expect("stations on the rail");
 ///
 /// // at midspan L^3 / (48 EI)
 /// let vertical = grid.block(GridBlock::Vertical).expect("the supports resist vertical loads");
@@ -39,7 +39,7 @@ use crate::units::Units;
 /// assert_eq!(grid_file::read(&file).expect("our own file").0, grid);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Grid {
+pub struct StationGrid {
     /// Name of the structure.
     pub name: String,
     /// Units of all numbers.
@@ -67,20 +67,20 @@ pub struct GridRail {
     pub stations: Vec<f64>,
 }
 
-impl Grid {
+impl StationGrid {
     /// Influence coefficients between the stations of `spec`, from its factored `frame`.
     ///
     /// Blocks of a direction in which some rail is free to move are left out, with a note.
     ///
     /// # Errors
     /// A station where the frame has no solution, such as one beyond the end of its rail.
-    pub fn of(spec: &Spec, frame: &Frame) -> Result<Grid, fea::Error> {
+    pub fn of(spec: &Spec, frame: &FactoredFrame) -> Result<StationGrid, fea::Error> {
         let rails = spec.rails();
         let lists = rails.iter().map(|rail| rail.stations.as_slice());
         let stations = listed(lists);
         let resisted: Vec<Axis> = [Axis::Vertical, Axis::Lateral, Axis::Longitudinal]
             .into_iter()
-            .filter(|axis| (0..rails.len()).all(|rail| frame.available(rail, *axis)))
+            .filter(|axis| (0..rails.len()).all(|rail| frame.resists(rail, *axis)))
             .collect();
         let probes: Vec<Probe> = resisted
             .iter()
@@ -105,7 +105,7 @@ impl Grid {
                 ));
             }
         }
-        Ok(Grid {
+        Ok(StationGrid {
             name: spec.name.clone(),
             units: spec.units,
             theory: Some(theory_word(spec.theory).to_owned()),
@@ -124,12 +124,17 @@ impl Grid {
     ///
     /// # Errors
     /// A station where the frame has no solution.
-    pub fn with_effects(self, spec: &Spec, model: &Model, frame: &Frame) -> Result<Grid, fea::Error> {
+    pub fn with_effects(
+        self,
+        spec: &Spec,
+        model: &Model,
+        frame: &FactoredFrame,
+    ) -> Result<StationGrid, fea::Error> {
         let direct = [GridBlock::Vertical, GridBlock::Lateral, GridBlock::Longitudinal];
         let resisted: Vec<Axis> =
             direct.into_iter().filter(|q| self.block(*q).is_some()).map(|q| axes(q).0).collect();
         let effects = Effects::of(spec, model, frame, &self.stations(), &resisted)?;
-        Ok(Grid { effects: Some(effects), ..self })
+        Ok(StationGrid { effects: Some(effects), ..self })
     }
 
     /// Index of the rail and coordinate of every station, in the order of rows and columns.

@@ -3,19 +3,19 @@
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-use fea::{Modes, Refined};
+use fea::{Modes, RefinedModes};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use splines::{Axis, Probe};
 
-use crate::fault::{Fault, Faults};
-use crate::place::Place;
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
 
-crate::object::objects!(RawModes, RawMode, RawShape);
+crate::text::object::objects!(RawModes, RawMode, RawShape);
 
 /// Largest relative error of natural frequencies due to the length of the finite elements that is accepted.
-pub const ACCURACY: f64 = 1e-3;
+pub const MESH_TOLERANCE: f64 = 1e-3;
 
 const AXES: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
@@ -25,7 +25,7 @@ const AXES: [(&str, Axis); 3] =
 /// `stations` are index of the rail and coordinate, in the order of the blocks. A direction in which the shapes have no
 /// value at some station, as the rail there is free to move, is left out. Frequencies are in Hz and rad/s.
 #[must_use]
-pub fn write(refined: &Refined, stations: &[(usize, f64)]) -> String {
+pub fn write(refined: &RefinedModes, stations: &[(usize, f64)]) -> String {
     let modes = &refined.modes;
     let shapes: Vec<(&str, Vec<Vec<[f64; 2]>>)> = AXES
         .into_iter()
@@ -36,10 +36,13 @@ pub fn write(refined: &Refined, stations: &[(usize, f64)]) -> String {
         .collect();
     let twist: Result<Vec<Vec<f64>>, _> = stations.iter().map(|&(rail, x)| modes.twist(rail, x)).collect();
     let mut head = Map::new();
-    head.insert("complete_below".into(), json!({ "hz": modes.shift / TAU, "count": modes.below }));
+    head.insert(
+        "complete_below".into(),
+        json!({ "hz": modes.shift / TAU, "count": modes.count_below_shift }),
+    );
     head.insert("next_hz".into(), json!(modes.next.map(|omega| omega / TAU)));
     head.insert("mesh_error".into(), json!(refined.error));
-    head.insert("mass".into(), json!(modes.total));
+    head.insert("mass".into(), json!(modes.rigid_mass));
     let mut text = String::from("{\n");
     for (key, value) in &head {
         // writing to a string cannot fail
@@ -69,7 +72,7 @@ pub fn write(refined: &Refined, stations: &[(usize, f64)]) -> String {
 
 /// The text of a grid file, as [`write`](super::file::write) of the file gives it, with `member` added at its end.
 #[must_use]
-pub fn insert(grid: &str, member: &str) -> String {
+pub fn append(grid: &str, member: &str) -> String {
     let body = grid.strip_suffix("\n}\n").unwrap_or(grid);
     format!("{body},\n  \"modes\": {member}\n}}\n")
 }
@@ -77,7 +80,7 @@ pub fn insert(grid: &str, member: &str) -> String {
 /// One line for the terminal: the first frequencies, and how many there are below the shift by the count of negative
 /// pivots.
 #[must_use]
-pub fn line(modes: &Modes) -> String {
+pub fn summary(modes: &Modes) -> String {
     let mut list: Vec<String> = modes.modes.iter().take(6).map(|mode| hertz(mode.omega)).collect();
     if modes.modes.len() > list.len() {
         list.push("...".to_owned());
@@ -85,7 +88,7 @@ pub fn line(modes: &Modes) -> String {
     format!(
         "modes: {} Hz; {} below {} Hz by count, none missed",
         list.join(", "),
-        modes.below,
+        modes.count_below_shift,
         hertz(modes.shift)
     )
 }
@@ -138,9 +141,9 @@ impl RawModes {
     pub fn check(&self, size: usize, place: &Place<'_>, faults: &mut Faults) {
         let list = place.key("modes");
         let mut last = 0.0;
-        for (k, mode) in faults.need(&self.modes, place, "modes").into_iter().flatten().enumerate() {
+        for (k, mode) in faults.require(&self.modes, place, "modes").into_iter().flatten().enumerate() {
             let at = list.index(k);
-            if let Some(&hz) = faults.need(&mode.hz, &at, "hz") {
+            if let Some(&hz) = faults.require(&mode.hz, &at, "hz") {
                 if hz < last {
                     let fault = Fault::new(&at.key("hz"), "must not be below the one before it");
                     faults.add(fault.got(hz));

@@ -10,12 +10,12 @@ use nalgebra::DMatrix;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde_json::{Value, json};
-use splines::{Carrier, Cell, Flexibility, Line, Surface};
+use splines::{ElementMember, ExactSurface, Flexibility, RailElement, Rails};
 
-use crate::fault::{Fault, Faults};
-use crate::place::Place;
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
 
-crate::object::objects!(RawSurface, RawCell);
+crate::text::object::objects!(RawSurface, RawCell);
 
 /// The member `surface` as it stands in the file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -43,11 +43,11 @@ struct RawCell {
 }
 
 /// The member of a compliance.
-pub(crate) fn to_json(surface: &Surface) -> Value {
+pub(crate) fn to_json(surface: &ExactSurface) -> Value {
     // JSON has no infinity: serde_json writes null
     let cells: Vec<Value> = surface
-        .line()
-        .cells()
+        .rails()
+        .elements()
         .iter()
         .map(|cell| {
             let f = &cell.flexibility;
@@ -60,8 +60,8 @@ pub(crate) fn to_json(surface: &Surface) -> Value {
                 "offset": cell.offset,
                 "flexibility": [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
             });
-            if let Some(carrier) = cell.carrier {
-                object["member"] = json!(carrier.member);
+            if let Some(carrier) = cell.member {
+                object["member"] = json!(carrier.id);
                 if carrier.reversed {
                     object["reversed"] = json!(true);
                 }
@@ -76,15 +76,15 @@ pub(crate) fn to_json(surface: &Surface) -> Value {
 
 impl RawSurface {
     /// The compliance of the member; `None`, and a fault, where elements or matrix are unusable.
-    pub fn surface(&self, place: &Place<'_>, faults: &mut Faults) -> Option<Surface> {
+    pub fn surface(&self, place: &Place<'_>, faults: &mut Faults) -> Option<ExactSurface> {
         let finite_or_infinite = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
-        let cells: Vec<Cell> = self
+        let cells: Vec<RailElement> = self
             .cells
             .iter()
             .map(|raw| {
                 let [axial, torsion, bending_y, bending_z, shear_y, shear_z] =
                     raw.flexibility.map(finite_or_infinite);
-                Cell {
+                RailElement {
                     rail: raw.rail,
                     x: raw.x,
                     ends: raw.ends,
@@ -92,25 +92,25 @@ impl RawSurface {
                     frame: raw.frame,
                     offset: raw.offset,
                     flexibility: Flexibility { axial, torsion, bending_y, bending_z, shear_y, shear_z },
-                    carrier: raw.member.map(|member| Carrier { member, reversed: raw.reversed }),
+                    member: raw.member.map(|member| ElementMember { id: member, reversed: raw.reversed }),
                 }
             })
             .collect();
-        let line = match Line::new(cells) {
+        let line = match Rails::new(cells) {
             Ok(line) => Arc::new(line),
             Err(error) => {
                 faults.add(Fault::new(&place.key("cells"), error.to_string()));
                 return None;
             }
         };
-        let size = 6 * line.states();
+        let size = 6 * line.state_count();
         let at = place.key("compliance");
         if self.compliance.len() != size || self.compliance.iter().any(|row| row.len() != size) {
             faults.add(Fault::new(&at, format!("must be {size} x {size}: six freedoms a state")));
             return None;
         }
         let nodal = DMatrix::from_fn(size, size, |i, j| finite_or_infinite(self.compliance[i][j]));
-        match Surface::new(line, nodal) {
+        match ExactSurface::new(line, nodal) {
             Ok(surface) => Some(surface),
             Err(error) => {
                 faults.add(Fault::new(&at, error.to_string()));

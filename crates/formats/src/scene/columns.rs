@@ -2,12 +2,12 @@
 
 use super::values::scene::Scene;
 use super::values::structure::Origin;
-use crate::effect::COMPONENTS;
+use crate::grid::effects::COMPONENTS;
 use crate::spec::Spec;
 use crate::units::Dimension;
 
 /// Number of columns of one kind up to which a scene has all of them by default.
-pub const MOST: usize = 100;
+pub const MOST_BY_DEFAULT: usize = 100;
 
 /// A reaction, a component of the internal force at a section, or the stress at a point of one.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,12 +48,12 @@ pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
     let reactions = spec.model().map_or_else(
         |_| Vec::new(),
         |(model, _)| {
-            let grounds = spec.grounds(&model);
+            let grounds = spec.supported_points(&model);
             let all = grounds.iter().flat_map(|ground| {
                 ground
-                    .freedoms
+                    .dofs
                     .iter()
-                    .map(|freedom| format!("{structure}.{}.{}", ground.name, spec.freedom_word(*freedom)))
+                    .map(|freedom| format!("{structure}.{}.{}", ground.name, spec.dof_word(*freedom)))
             });
             all.collect()
         },
@@ -73,9 +73,9 @@ pub fn stresses(structure: &str, spec: &Spec) -> Vec<String> {
     points.map(|(cut, point)| format!("{structure}.{cut}.{point}")).collect()
 }
 
-/// Whether a scene has few reactions, few internal forces, few stresses: at most [`MOST`].
+/// Whether a scene has few reactions, few internal forces, few stresses: at most [`MAX_ELEMENTS`].
 #[must_use]
-pub fn few(scene: &Scene) -> [bool; 3] {
+pub fn has_few(scene: &Scene) -> [bool; 3] {
     let mut counts = [0; 3];
     for structure in &scene.structures {
         if let Origin::Spec { spec, .. } = &structure.origin {
@@ -85,5 +85,5 @@ pub fn few(scene: &Scene) -> [bool; 3] {
             counts[2] += stresses(&structure.name, spec).len();
         }
     }
-    counts.map(|count| count <= MOST)
+    counts.map(|count| count <= MOST_BY_DEFAULT)
 }

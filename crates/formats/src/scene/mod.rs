@@ -15,15 +15,21 @@ mod values;
 pub(crate) use raw::{RawColumns, RawNode, RawPick, RawScene};
 
 pub use document::{Case, Document};
-pub use values::actuator::{Event, Load, Meeting, Rope, Spin, Stop};
-pub use values::body::{Along, Body, Drive, FREEDOMS};
-pub use values::output::{Fatigue, Output, Pick};
+pub use values::actuator::{Event, Load, Rope, Spin, Stop, StopPoint};
+pub use values::body::{Body, BodyMotion, DOFS, Drive};
+pub use values::output::{ColumnSelection, Fatigue, Output};
 pub use values::practice::Practice;
-pub use values::scene::{Analysis, FORMAT, Scene, SceneRail, across, end_stops, seat, stepper_word};
+pub use values::scene::{
+    Analysis, FORMAT, Scene, SceneRail, end_stops, mean_lateral_position, root_body, stepper_word,
+};
 pub use values::structure::{
-    Foundation, Gauge, Handover, On, Origin, PARTS, Reading, Structure, TOLERANCE, TablePair,
+    CarriedBy, DEFAULT_PARTS, Foundation, Gauge, Handover, Origin, Structure, TOLERANCE, TableInterpolation,
+    TablePair,
 };
 pub use values::truck::{Node, Truck};
-pub use values::wheel::{Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel};
+pub use values::wheel::{
+    DEFAULT_IMPACT_EXPONENT, DamperVelocity, FlangeContact, Friction, FrictionLaw, NormalForceLaw,
+    TreadContact, WheelKind,
+};
 
 pub use crate::text::names::{names, resolve};

@@ -5,26 +5,26 @@ use splines::Probe;
 use thiserror::Error;
 
 use super::values::actuator::Spin;
-use super::values::body::{Along, Body};
+use super::values::body::{Body, BodyMotion};
 use super::values::scene::{Analysis, Scene};
 use super::values::structure::Gauge;
 use super::values::truck::Truck;
-use super::values::wheel::{Damper, FrictionLaw, Law, Wheel};
+use super::values::wheel::{DamperVelocity, FrictionLaw, NormalForceLaw, WheelKind};
 use crate::units::{Dimension, Length, Scale, Units};
 
 /// Sliding speed s at which a brake has 76 % of its friction mu N tanh(s / speed), ft/s.
 const BRAKE_SPEED_FT: f64 = 0.02;
 
 /// Input of the simulation: its scene, and the wheels by name.
-pub struct Cast {
+pub struct SimulationInput {
     /// The scene.
     pub scene: sim::Scene,
     /// The wheels, in the simulator's order.
-    pub wheels: Vec<CastWheel>,
+    pub wheels: Vec<NamedWheel>,
 }
 
 /// One wheel of a scene.
-pub struct CastWheel {
+pub struct NamedWheel {
     /// `<truck>.wheel<n>`, counted from 1.
     pub name: String,
     /// Its body.
@@ -36,7 +36,7 @@ pub struct CastWheel {
     /// Whether it spins: its angle is a degree of freedom, or prescribed.
     pub spins: bool,
     /// Whether its spin is prescribed.
-    pub turned: bool,
+    pub is_prescribed: bool,
 }
 
 /// An equaliser whose wheels carry unequal fractions of its load.
@@ -44,7 +44,7 @@ pub struct CastWheel {
 #[error(
     "{truck}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels"
 )]
-pub struct UnequalShares {
+pub struct UnequalFractions {
     /// Name of the truck.
     pub truck: String,
 }
@@ -53,7 +53,7 @@ pub struct UnequalShares {
 ///
 /// # Errors
 /// An equaliser whose wheels carry unequal fractions of its load.
-pub fn cast(scene: &Scene) -> Result<Cast, UnequalShares> {
+pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractions> {
     let bodies = scene.bodies.iter().map(body).collect();
     let wheels: Vec<sim::Wheel> = scene.wheels.iter().map(wheel).collect();
     let mut contacts = Vec::new();
@@ -62,7 +62,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, UnequalShares> {
         for node in &truck.tree {
             let below = node.wheels();
             if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
-                return Err(UnequalShares { truck: truck.name.clone() });
+                return Err(UnequalFractions { truck: truck.name.clone() });
             }
             contacts.push(Contact {
                 body: truck.body,
@@ -76,7 +76,7 @@ pub fn cast(scene: &Scene) -> Result<Cast, UnequalShares> {
     }
     let names = self::wheels(scene);
     let scene = sim::Scene {
-        actuators: sim::Actuators { turns: turns(scene), ..actuators(scene, &contacts) },
+        actuators: sim::Actuators { spins: turns(scene), ..actuators(scene, &contacts) },
         gauges: gauges(scene),
         gravity: scene.gravity,
         bodies,
@@ -90,12 +90,12 @@ pub fn cast(scene: &Scene) -> Result<Cast, UnequalShares> {
         output_dt: scene.dt,
         accuracy: scene.accuracy,
     };
-    Ok(Cast { scene, wheels: names })
+    Ok(SimulationInput { scene, wheels: names })
 }
 
 /// The wheels of `scene`, in the simulator's order.
 #[must_use]
-pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
+pub fn wheels(scene: &Scene) -> Vec<NamedWheel> {
     let of_truck = |(index, truck): (usize, &Truck)| {
         let kind = &scene.wheels[truck.wheel];
         let (name, body, rail, kind, spins) = (
@@ -108,13 +108,13 @@ pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
         let numbers = 1..=truck.wheel_offsets().len();
         numbers.map(move |number| {
             let turned = scene.spins.iter().any(|spin| (spin.truck, spin.wheel + 1) == (index, number));
-            CastWheel {
+            NamedWheel {
                 name: format!("{name}.wheel{number}"),
                 body,
                 rail,
                 kind,
                 spins: spins.is_some_and(|spins| spins || turned),
-                turned,
+                is_prescribed: turned,
             }
         })
     };
@@ -122,7 +122,7 @@ pub fn wheels(scene: &Scene) -> Vec<CastWheel> {
 }
 
 /// Wheels whose spin is prescribed, by their contacts.
-fn turns(scene: &Scene) -> Vec<sim::Turn> {
+fn turns(scene: &Scene) -> Vec<sim::PrescribedSpin> {
     let mut contact = 0;
     let mut turns = Vec::new();
     for (index, truck) in scene.trucks.iter().enumerate() {
@@ -130,7 +130,7 @@ fn turns(scene: &Scene) -> Vec<sim::Turn> {
         for node in &truck.tree {
             let count = node.wheels().len();
             let own = |spin: &&Spin| spin.truck == index && (first..first + count).contains(&spin.wheel);
-            turns.extend(scene.spins.iter().filter(own).map(|spin| sim::Turn {
+            turns.extend(scene.spins.iter().filter(own).map(|spin| sim::PrescribedSpin {
                 contact,
                 wheel: spin.wheel - first,
                 motion: spin.motion.clone(),
@@ -143,7 +143,7 @@ fn turns(scene: &Scene) -> Vec<sim::Turn> {
 
 /// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
 fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
-    let own = |b: usize, is_meant: &dyn Fn(&Wheel) -> bool| {
+    let own = |b: usize, is_meant: &dyn Fn(&WheelKind) -> bool| {
         let all = contacts.iter().enumerate();
         all.filter(|(_, contact)| contact.body == b && is_meant(&scene.wheels[contact.wheel]))
             .map(|(index, _)| index)
@@ -163,7 +163,7 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
         });
     }
     for stop in &scene.stops {
-        out.stops.extend(stop.meetings.iter().map(|meeting| sim::Stop {
+        out.stops.extend(stop.points.iter().map(|meeting| sim::Stop {
             body: meeting.body,
             against: stop.against,
             at: meeting.at,
@@ -176,13 +176,13 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     }
     out.rules = scene.events.iter().map(|event| event.rule.clone()).collect();
     let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
-    out.hung = in_space.map(|(b, _)| b).collect();
+    out.hanging = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {
-        let freedom = sim::Freedom::ALL[load.freedom];
-        out.loads.push(sim::Load { body: load.body, freedom, value: load.value.clone() });
+        let freedom = sim::BodyDof::ALL[load.dof];
+        out.loads.push(sim::Load { body: load.body, dof: freedom, value: load.value.clone() });
     }
     for (b, body) in scene.bodies.iter().enumerate() {
-        if let Along::Driven(drive) = &body.motion {
+        if let BodyMotion::Driven(drive) = &body.motion {
             out.drives.push(sim::Drive {
                 body: b,
                 speed: drive.speed.clone(),
@@ -214,8 +214,8 @@ fn gauges(scene: &Scene) -> Vec<sim::Gauge> {
 fn body(body: &Body) -> sim::Body {
     let [y, z, roll, yaw, pitch] = body.start.unwrap_or_default();
     let motion = match &body.motion {
-        Along::Prescribed(travel) => Some(travel.clone()),
-        Along::Held | Along::Free | Along::Driven(_) => None,
+        BodyMotion::Prescribed(travel) => Some(travel.clone()),
+        BodyMotion::Held | BodyMotion::Free | BodyMotion::Driven(_) => None,
     };
     let mut free = body.free;
     free[0] = body.motion.is_free();
@@ -227,15 +227,15 @@ fn body(body: &Body) -> sim::Body {
         start: [body.x0, y, z, roll, yaw, pitch],
         start_speed: [body.v0, 0.0, 0.0, 0.0, 0.0, 0.0],
         motion,
-        pinned: body.pinned.map(|(to, at)| sim::Pin { to, at }),
+        pinned: body.pinned.map(|(to, at)| sim::Pin { body: to, at }),
     }
 }
 
-fn wheel(wheel: &Wheel) -> sim::Wheel {
+fn wheel(wheel: &WheelKind) -> sim::Wheel {
     let vertical = &wheel.vertical;
     let (exponent, depth) = match vertical.law {
-        Law::Linear => (1.0, 0.0),
-        Law::Impact { exponent, depth } => (exponent, depth),
+        NormalForceLaw::Linear => (1.0, 0.0),
+        NormalForceLaw::Impact { exponent, depth } => (exponent, depth),
     };
     sim::Wheel {
         radius: wheel.radius,
@@ -245,8 +245,8 @@ fn wheel(wheel: &Wheel) -> sim::Wheel {
             damping: vertical.c,
             depth,
             damper: match vertical.damper {
-                Damper::Rail => sim::Damper::Rail,
-                Damper::Ground => sim::Damper::Ground,
+                DamperVelocity::Rail => sim::Damper::Rail,
+                DamperVelocity::Ground => sim::Damper::Ground,
             },
             bilateral: vertical.bilateral,
         },

@@ -1,12 +1,12 @@
 //! Quantities of a run by their names in histories, events and charts.
 
-use sim::{Channel, Freedom};
+use sim::{BodyDof, Channel};
 use splines::Axis;
 
-use super::motion::{CastWheel, wheels};
-use super::values::body::{Along, Body, FREEDOMS};
+use super::motion::{NamedWheel, wheels};
+use super::values::body::{Body, BodyMotion, DOFS};
 use super::values::scene::Scene;
-use super::values::wheel::Wheel;
+use super::values::wheel::WheelKind;
 use crate::units::Dimension;
 
 /// A named linear combination of channels.
@@ -33,12 +33,12 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
     for (w, wheel) in wheels.iter().enumerate() {
         let name = &wheel.name;
         let parts = [
-            ("x", Dimension::LENGTH, Channel::Place(w)),
+            ("x", Dimension::LENGTH, Channel::Position(w)),
             ("vertical", Dimension::FORCE, Channel::Vertical(w)),
             ("lateral", Dimension::FORCE, Channel::Lateral(w)),
             ("traction", Dimension::FORCE, Channel::Traction(w)),
             ("penetration", Dimension::LENGTH, Channel::Penetration(w)),
-            ("rail_deflection", Dimension::LENGTH, Channel::Give(w)),
+            ("rail_deflection", Dimension::LENGTH, Channel::Deflection(w)),
         ];
         for (part, dimension, channel) in parts {
             list.one(format!("{name}.{part}"), dimension, channel);
@@ -47,7 +47,7 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
             list.one(format!("{name}.spin_angle"), Dimension::NUMBER, Channel::SpinAngle(w));
             list.one(format!("{name}.spin_speed"), Dimension::of(0, 0, -1), Channel::SpinSpeed(w));
         }
-        if wheel.turned {
+        if wheel.is_prescribed {
             list.one(format!("{name}.moment"), Dimension::MOMENT, Channel::SpinMoment(w));
         }
     }
@@ -57,7 +57,7 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
     }
     let mut met = 0..0;
     for stop in &scene.stops {
-        met = met.end..met.end + stop.meetings.len();
+        met = met.end..met.end + stop.points.len();
         let forces = met.clone().map(|meeting| (Channel::Stop(meeting), 1.0)).collect();
         list.sum(format!("{}.force", stop.name), Dimension::FORCE, forces);
     }
@@ -74,8 +74,8 @@ pub fn quantities(scene: &Scene) -> Vec<Quantity> {
         if !forces.is_empty() {
             list.sum(format!("{}.reaction", rail.name), Dimension::FORCE, forces);
         }
-        let kind = |wheel: &CastWheel| &scene.wheels[wheel.kind];
-        let mut sum = |part: &str, counts: &dyn Fn(&Wheel) -> bool, channel: fn(usize) -> Channel| {
+        let kind = |wheel: &NamedWheel| &scene.wheels[wheel.kind];
+        let mut sum = |part: &str, counts: &dyn Fn(&WheelKind) -> bool, channel: fn(usize) -> Channel| {
             let on_rail =
                 wheels.iter().enumerate().filter(|(_, wheel)| wheel.rail == r && counts(kind(wheel)));
             let forces: Vec<_> = on_rail.map(|(w, _)| (channel(w), 1.0)).collect();
@@ -103,21 +103,21 @@ impl List {
     fn body(&mut self, b: usize, body: &Body) {
         let name = &body.name;
         if body.in_space {
-            for (axis, freedom) in ["X", "Y", "Z"].into_iter().zip(Freedom::ALL) {
+            for (axis, freedom) in ["X", "Y", "Z"].into_iter().zip(BodyDof::ALL) {
                 self.one(format!("{name}.{axis}"), Dimension::LENGTH, Channel::Displacement(b, freedom));
                 self.one(format!("{name}.{axis}_speed"), Dimension::SPEED, Channel::Speed(b, freedom));
             }
             return;
         }
-        self.one(format!("{name}.x"), Dimension::LENGTH, Channel::Displacement(b, Freedom::X));
-        let down = vec![(Channel::Displacement(b, Freedom::Y), -1.0)];
+        self.one(format!("{name}.x"), Dimension::LENGTH, Channel::Displacement(b, BodyDof::X));
+        let down = vec![(Channel::Displacement(b, BodyDof::Y), -1.0)];
         self.sum(format!("{name}.deflection"), Dimension::LENGTH, down);
-        for (i, freedom) in Freedom::ALL.into_iter().enumerate().skip(2).filter(|(i, _)| body.free[*i]) {
+        for (i, freedom) in BodyDof::ALL.into_iter().enumerate().skip(2).filter(|(i, _)| body.free[*i]) {
             let dimension = if i == 2 { Dimension::LENGTH } else { Dimension::NUMBER };
-            self.one(format!("{name}.{}", FREEDOMS[i]), dimension, Channel::Displacement(b, freedom));
+            self.one(format!("{name}.{}", DOFS[i]), dimension, Channel::Displacement(b, freedom));
         }
-        self.one(format!("{name}.speed"), Dimension::SPEED, Channel::Speed(b, Freedom::X));
-        if matches!(body.motion, Along::Prescribed(_) | Along::Driven(_)) {
+        self.one(format!("{name}.speed"), Dimension::SPEED, Channel::Speed(b, BodyDof::X));
+        if matches!(body.motion, BodyMotion::Prescribed(_) | BodyMotion::Driven(_)) {
             self.one(format!("{name}.drive"), Dimension::FORCE, Channel::Drive(b));
         }
         if body.brake.is_some() {

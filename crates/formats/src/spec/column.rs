@@ -2,8 +2,8 @@
 
 use super::block::Block;
 use crate::check::Check;
-use crate::fault::Fault;
-use crate::place::Place;
+use crate::text::fault::Fault;
+use crate::text::place::Place;
 
 /// One array of `cell_data`: for each block of cells an item for each cell, or one for the block.
 pub(super) struct Column<'r, T> {

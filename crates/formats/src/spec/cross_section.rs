@@ -38,7 +38,7 @@ pub struct Properties {
 
 /// Why a shape gives no section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Refusal {
+pub enum ShapeError {
     /// The shape is not known.
     Unknown,
     /// The walls overlap, or one of them has no thickness.
@@ -108,7 +108,7 @@ struct Drawing {
 ///
 /// # Errors
 /// An unknown shape, or a wrong number of dimensions; walls that overlap; principal axes that are not y and z.
-pub fn properties(shape: &str, d: &[f64]) -> Result<Properties, Refusal> {
+pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeError> {
     let circle = |r: f64, inner: f64, k: f64| {
         // squared, a negative inner radius would pass for a positive one
         let inner = if inner < 0.0 { r } else { inner };
@@ -141,21 +141,21 @@ pub fn properties(shape: &str, d: &[f64]) -> Result<Properties, Refusal> {
         ("CHAN1", &[reach, web, inner, h]) => of_drawing(&channel(reach + web, h, web, 0.5 * (h - inner)))?,
         ("CHAN2", &[leg, web, h, b]) => of_drawing(&turned(channel(h, b, web, leg)))?,
         ("CROSS", &[reach, upright, h, level]) => of_drawing(&crossed(reach, upright, h, level))?,
-        _ => return Err(Refusal::Unknown),
+        _ => return Err(ShapeError::Unknown),
     };
     let numbers = [found.area, found.i1, found.i2, found.j, found.k1, found.k2];
     if numbers.iter().all(|value| value.is_finite() && *value > 0.0) {
         Ok(found)
     } else {
-        Err(Refusal::Dimensions)
+        Err(ShapeError::Dimensions)
     }
 }
 
 /// Area and second moments of the walls about their common centroid.
-fn of_drawing(drawing: &Drawing) -> Result<Properties, Refusal> {
+fn of_drawing(drawing: &Drawing) -> Result<Properties, ShapeError> {
     // a wall whose side is negative does not fit between the others
     if drawing.walls.iter().flat_map(Wall::sides).any(|side| side.is_nan() || side <= 0.0) {
-        return Err(Refusal::Dimensions);
+        return Err(ShapeError::Dimensions);
     }
     let area: f64 = drawing.walls.iter().map(Wall::area).sum();
     let middle = |range: [f64; 2]| 0.5 * (range[0] + range[1]);
@@ -170,7 +170,7 @@ fn of_drawing(drawing: &Drawing) -> Result<Properties, Refusal> {
         i12 += b * h * y * z;
     }
     if i12.abs() > 1e-9 * (i1 * i2).sqrt() {
-        return Err(Refusal::Oblique);
+        return Err(ShapeError::Oblique);
     }
     Ok(Properties { area, i1, i2, j: drawing.j, k1: drawing.shear[0] / area, k2: drawing.shear[1] / area })
 }

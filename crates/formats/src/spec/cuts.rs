@@ -6,8 +6,8 @@ use super::members::Cells;
 use super::raw::{RawCut, RawSpec};
 use super::stress::StressPoint;
 use crate::check::Check;
-use crate::fault::{Fault, number};
-use crate::place::Place;
+use crate::text::fault::{Fault, number};
+use crate::text::place::Place;
 use crate::units::Dimension;
 
 /// A section of a member whose internal forces are asked for.
@@ -16,7 +16,7 @@ pub struct Cut {
     /// Its name.
     pub name: String,
     /// Where it is, in the terms of the spec.
-    pub spot: Spot,
+    pub place_in_spec: CutPlace,
     /// Index of the member.
     pub member: usize,
     /// Place along the member's flexible part, as a fraction of its length from end a, 0..=1.
@@ -27,7 +27,7 @@ pub struct Cut {
 
 /// A place of a structure in the terms of the spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Spot {
+pub enum CutPlace {
     /// Coordinate along a girder, in length.
     Along(f64),
     /// Block and index of a cell, and the place along its flexible part as a fraction from end a, 0..=1.
@@ -64,7 +64,7 @@ pub(super) fn read_girder(
                 check.faults.add(fault.hint("on a `girder` a section is at `x`, from the first support"));
             }
         }
-        let Some(&given) = check.faults.need(&raw.x, at, "x") else { return };
+        let Some(&given) = check.faults.require(&raw.x, at, "x") else { return };
         let x = check.number(given, &at.key("x"), Dimension::LENGTH);
         let (first, last) = (bounds[0], bounds[bounds.len() - 1]);
         let slack = 1e-12 * (last - first);
@@ -80,7 +80,7 @@ pub(super) fn read_girder(
         let members = bounds.len() - 1;
         let member = bounds[1..members].partition_point(|bound| *bound <= x + slack);
         let place = ((x - bounds[member]) / (bounds[member + 1] - bounds[member])).clamp(0.0, 1.0);
-        cuts.push(Cut { name, spot: Spot::Along(x), member, place, points: points.to_vec() });
+        cuts.push(Cut { name, place_in_spec: CutPlace::Along(x), member, place, points: points.to_vec() });
     });
     cuts
 }
@@ -99,15 +99,21 @@ pub(super) fn read_frame(
             let fault = Fault::new(&at.key("x"), "`x` belongs to the short form").at_key();
             check.faults.add(fault.hint("in the general form a section is `at` a share of its `cell`"));
         }
-        let cell = check.faults.need(&raw.cell, at, "cell").copied();
-        let place = check.faults.need(&raw.at, at, "at").copied();
+        let cell = check.faults.require(&raw.cell, at, "cell").copied();
+        let place = check.faults.require(&raw.at, at, "at").copied();
         if let Some(place) = place.filter(|place| !(0.0..=1.0).contains(place)) {
             let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(place));
             check.faults.add(fault.hint("0 is the cell's flexible end a, 1 its end b"));
         }
         let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));
         if let (Some(cell), Some(member), Some(place)) = (cell, member, place) {
-            cuts.push(Cut { name, spot: Spot::Cell(cell, place), member, place, points: points(member) });
+            cuts.push(Cut {
+                name,
+                place_in_spec: CutPlace::Cell(cell, place),
+                member,
+                place,
+                points: points(member),
+            });
         }
     });
     cuts
@@ -124,7 +130,7 @@ fn each(
     let mut names: Vec<&str> = Vec::new();
     for (index, raw) in raw.effects.iter().flatten().enumerate() {
         let at = list.index(index);
-        let name = check.faults.need(&raw.name, &at, "name").map(String::as_str).unwrap_or_default();
+        let name = check.faults.require(&raw.name, &at, "name").map(String::as_str).unwrap_or_default();
         if raw.name.is_some() && (name.is_empty() || names.contains(&name)) {
             let fault = Fault::new(&at.key("name"), "must be a name of its own").got(format!("\"{name}\""));
             check.faults.add(fault);

@@ -1,17 +1,17 @@
 //! The general form of a spec: points, members, supports and springs, links, masses, and rails.
 
-use fea::{Freedom, Link, Mass, Model, Segment, Spring, Support, Taper, Theory};
+use fea::{BeamTheory, Dof, GroundSpring, Model, PointMass, RailSegment, RigidLink, Support, Taper};
 
 use super::cuts::{self, Cut};
 use super::raw::RawSpec;
 use super::references::{Points, dofs, index_below};
 use super::stress::{self, StressPoint};
-use super::structure::Frame;
+use super::structure::FrameSpec;
 use super::words::FREEDOMS;
 use super::{members, rails, sections};
 use crate::check::Check;
-use crate::fault::Fault;
-use crate::place::Place;
+use crate::text::fault::Fault;
+use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::length;
 
@@ -24,16 +24,17 @@ const UP: [f64; 3] = [0.0, 1.0, 0.0];
 /// valid members (rails' extents, completeness of sections, tapers) is left out where some member has a fault.
 pub(super) fn read(
     raw: &RawSpec,
-    theory: Theory,
+    theory: BeamTheory,
     root: &Place<'_>,
     check: &mut Check<'_>,
-) -> (Frame, Vec<Cut>) {
+) -> (FrameSpec, Vec<Cut>) {
     let mut model = Model { theory, up: raw.up.unwrap_or(UP), ..Model::default() };
     if length(model.up) == 0.0 {
         check.faults.add(Fault::new(&root.key("up"), "must not be zero"));
     }
     let place = root.key("points");
-    for (index, point) in check.faults.need(&raw.points, root, "points").into_iter().flatten().enumerate() {
+    for (index, point) in check.faults.require(&raw.points, root, "points").into_iter().flatten().enumerate()
+    {
         model.points.push(check.vector(*point, &place.index(index), Dimension::LENGTH));
     }
     if raw.stations.is_some() {
@@ -61,7 +62,7 @@ pub(super) fn read(
     };
     let cuts = cuts::read_frame(raw, &cells, &points_of, root, check);
     let points = model.points.len();
-    let frame = Frame {
+    let frame = FrameSpec {
         model,
         rails,
         ranges,
@@ -76,7 +77,7 @@ pub(super) fn read(
 }
 
 /// Replaces each tapered member by uniform parts; rails run over all parts, and each cut moves to the part it is in.
-fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Frame, Vec<Cut>) {
+fn in_parts(frame: FrameSpec, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (FrameSpec, Vec<Cut>) {
     if tapers.iter().all(Option::is_none) {
         return (frame, cuts);
     }
@@ -86,7 +87,9 @@ fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Fram
         let segments = std::mem::take(&mut rail.segments);
         rail.segments = segments
             .iter()
-            .flat_map(|segment| parts[segment.member].clone().map(|member| Segment { member, ..*segment }))
+            .flat_map(|segment| {
+                parts[segment.member].clone().map(|member| RailSegment { member, ..*segment })
+            })
             .collect();
     }
     for cut in &mut cuts {
@@ -98,7 +101,7 @@ fn in_parts(frame: Frame, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (Fram
         cut.place = (along - part as f64).min(1.0);
     }
     let cells = frame.cells.iter().zip(&parts).flat_map(|(cell, own)| own.clone().map(|_| *cell)).collect();
-    (Frame { model, rails, cells, ..frame }, cuts)
+    (FrameSpec { model, rails, cells, ..frame }, cuts)
 }
 
 /// Supports; the result is, for each support of the model, the index of the file's support that gave it.
@@ -115,10 +118,11 @@ fn read_supports(
         let at = list.index(index);
         let supported = known.all(&raw.point, "point", &at, check);
         let place = at.key("fix");
-        let fix = check.faults.need(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
+        let fix =
+            check.faults.require(&raw.fix, &at, "fix").map(|words| words.as_slice()).unwrap_or_default();
         let fix = dofs(fix, &place, check);
         given.extend(supported.iter().map(|_| index));
-        model.supports.extend(supported.into_iter().map(|point| Support { point, fix }));
+        model.supports.extend(supported.into_iter().map(|point| Support { point, fixed: fix }));
     }
     given
 }
@@ -136,13 +140,13 @@ fn read_springs(
         let point = known.one(&raw.point, "point", &at, check);
         let freedom = check
             .faults
-            .need(&raw.dof, &at, "dof")
-            .and_then(|word| check.faults.word(word, &at.key("dof"), &FREEDOMS));
-        let rotational = matches!(freedom, Some(Freedom::Rx | Freedom::Ry | Freedom::Rz));
+            .require(&raw.dof, &at, "dof")
+            .and_then(|word| check.faults.one_of(word, &at.key("dof"), &FREEDOMS));
+        let rotational = matches!(freedom, Some(Dof::Rx | Dof::Ry | Dof::Rz));
         let dimension = if rotational { Dimension::MOMENT } else { Dimension::STIFFNESS };
-        let stiffness = check.needed(raw.k, &at, "k", dimension, "stiffness to ground");
+        let stiffness = check.required_positive(raw.k, &at, "k", dimension, "stiffness to ground");
         let both = point.zip(freedom);
-        model.springs.extend(both.map(|(point, freedom)| Spring { point, freedom, stiffness }));
+        model.springs.extend(both.map(|(point, freedom)| GroundSpring { point, dof: freedom, stiffness }));
     }
 }
 
@@ -158,7 +162,7 @@ fn read_links(raw: &RawSpec, root: &Place<'_>, known: &Points<'_>, model: &mut M
                     .faults
                     .add(Fault::new(&at, "a link must join two points").got(format!("point {from} twice")));
             }
-            model.links.push(Link { from, to });
+            model.links.push(RigidLink { from, to });
         }
     }
 }
@@ -174,7 +178,7 @@ fn read_masses(
     for (index, raw) in raw.masses.iter().flatten().enumerate() {
         let at = list.index(index);
         let point = known.one(&raw.point, "point", &at, check);
-        let mass = match check.faults.need(&raw.mass, &at, "mass") {
+        let mass = match check.faults.require(&raw.mass, &at, "mass") {
             Some(mass) => check.not_negative(*mass, &at.key("mass"), Dimension::MASS, ""),
             None => 0.0,
         };
@@ -184,7 +188,7 @@ fn read_masses(
             inertia[axis] = check.not_negative(value, &place.index(axis), Dimension::INERTIA, "");
         }
         let offset = check.vector(raw.offset.unwrap_or_default(), &at.key("offset"), Dimension::LENGTH);
-        model.masses.extend(point.map(|point| Mass { point, mass, inertia, offset }));
+        model.masses.extend(point.map(|point| PointMass { point, mass, inertia, offset }));
     }
 }
 

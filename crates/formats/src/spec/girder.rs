@@ -1,26 +1,26 @@
 //! The short form of a spec: a straight girder, continuous over its supports.
 
-use fea::{Girder, Theory};
+use fea::{BeamTheory, Girder};
 
 use super::raw::RawGirder;
 use super::structure::range;
 use crate::check::Check;
-use crate::fault::{Fault, number};
-use crate::place::Place;
+use crate::text::fault::{Fault, number};
+use crate::text::place::Place;
 use crate::units::Dimension;
 
 /// Reads the member `girder`, and the `stations` on it.
 pub(super) fn read(
     raw: &RawGirder,
     stations: &Option<Vec<f64>>,
-    theory: Theory,
+    theory: BeamTheory,
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Girder {
     let at = root.key("girder");
     let mut spans = Vec::new();
     let before = check.faults.0.len();
-    if let Some(given) = check.faults.need(&raw.spans, &at, "spans") {
+    if let Some(given) = check.faults.require(&raw.spans, &at, "spans") {
         let place = at.key("spans");
         if given.is_empty() {
             check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
@@ -46,15 +46,15 @@ pub(super) fn read(
     let j = optional(raw.j, "J", Dimension::SECOND_MOMENT);
     let ka_vertical = optional(raw.ka_vertical, "kA_vertical", Dimension::AREA);
     let ka_lateral = optional(raw.ka_lateral, "kA_lateral", Dimension::AREA);
-    let e = check.needed(raw.e, &at, "E", Dimension::STRESS, "");
-    let i_vertical = check.needed(raw.i_vertical, &at, "I_vertical", Dimension::SECOND_MOMENT, "");
+    let e = check.required_positive(raw.e, &at, "E", Dimension::STRESS, "");
+    let i_vertical = check.required_positive(raw.i_vertical, &at, "I_vertical", Dimension::SECOND_MOMENT, "");
     let hint = "0 where the rail lies on the elastic axis";
     let height = raw.rail_height.unwrap_or_default();
     let rail_height = check.not_negative(height, &at.key("rail_height"), Dimension::LENGTH, hint);
     let mass_per_length = raw
         .mass_per_length
         .map(|mass| check.not_negative(mass, &at.key("mass_per_length"), Dimension::LINE_MASS, ""));
-    let sheared = theory == Theory::Timoshenko && (ka_vertical.is_some() || ka_lateral.is_some());
+    let sheared = theory == BeamTheory::Timoshenko && (ka_vertical.is_some() || ka_lateral.is_some());
     if sheared && g.is_none() {
         let fault = Fault::new(&at, "missing key `G`");
         check.faults.add(fault.hint("kA_vertical and kA_lateral have no effect without it"));
@@ -95,7 +95,7 @@ fn read_stations(
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<f64> {
-    let Some(given) = check.faults.need(stations, root, "stations") else { return Vec::new() };
+    let Some(given) = check.faults.require(stations, root, "stations") else { return Vec::new() };
     let place = root.key("stations");
     if given.is_empty() {
         check.faults.add(Fault::new(&place, "must have at least one station").got("an empty list"));

@@ -1,20 +1,20 @@
 //! Names of the points where the ground supports a structure.
 
-use fea::{Freedom, Model};
+use fea::{Dof, Model};
 
 use super::structure::{Form, Spec};
 use super::words::FREEDOMS;
 
 /// A point held by supports or springs.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Ground {
+pub struct SupportedPoint {
     /// Index of the point.
     pub point: usize,
     /// Its name. Of a girder: `support1`, `support2`, ... along it. Of the general form: that of its point set,
     /// followed by a number where the set has several points, else `point<index>`.
     pub name: String,
     /// The degrees of freedom that are held, each once, in the order ux, uy, uz, rx, ry, rz.
-    pub freedoms: Vec<Freedom>,
+    pub dofs: Vec<Dof>,
 }
 
 impl Spec {
@@ -22,18 +22,18 @@ impl Spec {
     ///
     /// `model` is that of [`Spec::model`].
     #[must_use]
-    pub fn grounds(&self, model: &Model) -> Vec<Ground> {
-        let mut all: Vec<Ground> = Vec::new();
+    pub fn supported_points(&self, model: &Model) -> Vec<SupportedPoint> {
+        let mut all: Vec<SupportedPoint> = Vec::new();
         let supports = model.supports.iter().flat_map(|support| {
-            let held = Freedom::ALL.into_iter().filter(|freedom| support.fix[*freedom as usize]);
+            let held = Dof::ALL.into_iter().filter(|freedom| support.fixed[*freedom as usize]);
             held.map(|freedom| (support.point, freedom))
         });
-        let springs = model.springs.iter().map(|spring| (spring.point, spring.freedom));
+        let springs = model.springs.iter().map(|spring| (spring.point, spring.dof));
         for (point, freedom) in supports.chain(springs) {
             match all.iter_mut().find(|ground| ground.point == point) {
-                Some(ground) if ground.freedoms.contains(&freedom) => {}
-                Some(ground) => ground.freedoms.push(freedom),
-                None => all.push(Ground { point, name: String::new(), freedoms: vec![freedom] }),
+                Some(ground) if ground.dofs.contains(&freedom) => {}
+                Some(ground) => ground.dofs.push(freedom),
+                None => all.push(SupportedPoint { point, name: String::new(), dofs: vec![freedom] }),
             }
         }
         if let Form::Girder(_) = self.form {
@@ -43,7 +43,7 @@ impl Spec {
             let name = self.ground_name(all[index].point, index);
             let taken = all[..index].iter().any(|ground| ground.name == name);
             all[index].name = if taken { format!("point{}", all[index].point) } else { name };
-            all[index].freedoms.sort();
+            all[index].dofs.sort();
         }
         all
     }
@@ -71,12 +71,12 @@ impl Spec {
     /// The word of a degree of freedom in names of columns: of a girder `longitudinal`, `vertical`, `lateral` and
     /// `twist` instead of `ux`, `uy`, `uz` and `rx`.
     #[must_use]
-    pub fn freedom_word(&self, freedom: Freedom) -> &'static str {
+    pub fn dof_word(&self, freedom: Dof) -> &'static str {
         match (&self.form, freedom) {
-            (Form::Girder(_), Freedom::Ux) => "longitudinal",
-            (Form::Girder(_), Freedom::Uy) => "vertical",
-            (Form::Girder(_), Freedom::Uz) => "lateral",
-            (Form::Girder(_), Freedom::Rx) => "twist",
+            (Form::Girder(_), Dof::Ux) => "longitudinal",
+            (Form::Girder(_), Dof::Uy) => "vertical",
+            (Form::Girder(_), Dof::Uz) => "lateral",
+            (Form::Girder(_), Dof::Rx) => "twist",
             _ => FREEDOMS.iter().find(|(_, known)| *known == freedom).map_or("", |(word, _)| word),
         }
     }

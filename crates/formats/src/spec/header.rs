@@ -1,12 +1,12 @@
 //! The head of every file of ours: its format, and its name where it gives none.
 
-use crate::fault::Faults;
-use crate::place::Place;
+use crate::text::fault::Faults;
+use crate::text::place::Place;
 
 /// Checks that the member `format` is there and equal to `expected`.
 pub fn format(found: &Option<String>, expected: &str, root: &Place<'_>, faults: &mut Faults) {
-    if let Some(word) = faults.need(found, root, "format") {
-        faults.word(word, &root.key("format"), &[(expected, ())]);
+    if let Some(word) = faults.require(found, root, "format") {
+        faults.one_of(word, &root.key("format"), &[(expected, ())]);
     }
 }
 

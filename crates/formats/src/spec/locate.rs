@@ -1,12 +1,12 @@
 //! Errors of the solver in the terms of the spec: with the place in the file that caused them.
 
-use fea::{Error, Freedom, Item};
+use fea::{Dof, Error, ModelEntry};
 
 use super::structure::{Form, Spec};
-use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults};
-use crate::place::{Path, Step};
-use crate::source::Source;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::{Path, Step};
+use crate::text::source::Source;
 
 /// Why the structure of a spec has no solution, in the terms of the spec.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -14,16 +14,16 @@ pub enum SolveError {
     /// An entry of the file is unusable.
     Input(Vec<Diagnostic>),
     /// There is no trustworthy solution: the structure is a mechanism, ill-conditioned, or too large for the memory.
-    Untrusted(String),
+    NoSolution(String),
 }
 
 impl Spec {
     /// An error of the solver in the terms of the spec: an unusable entry is an input error with its place in `source`;
     /// of a mechanism or an ill-conditioned system no number can be trusted.
     #[must_use]
-    pub fn refuse(&self, source: &Source, error: &Error) -> SolveError {
+    pub fn locate_error(&self, source: &Source, error: &Error) -> SolveError {
         match error {
-            Error::Invalid { item, fault } => {
+            Error::Invalid { entry: item, fault } => {
                 let fault = Fault {
                     path: self.path(*item),
                     at_key: false,
@@ -33,79 +33,83 @@ impl Spec {
                 };
                 SolveError::Input(source.diagnose(&Faults(vec![fault])))
             }
-            Error::Mechanism { point, freedom } => SolveError::Untrusted(format!(
+            Error::Mechanism { point, dof: freedom } => SolveError::NoSolution(format!(
                 "{}: mechanism: nothing holds {} in {freedom} ({})",
                 source.name,
                 self.point(*point),
                 meaning(*freedom)
             )),
-            Error::Ill { condition, bound, asked, point, freedom } => SolveError::Untrusted(format!(
-                "{}: condition {condition:.1e} bounds the relative error by {bound:.1e}, asked \
+            Error::IllConditioned { condition, bound, asked, point, dof: freedom } => {
+                SolveError::NoSolution(format!(
+                    "{}: condition {condition:.1e} bounds the relative error by {bound:.1e}, asked \
                  {asked:.1e}; weakest is {} in {freedom} ({})  hint: lengthen or join the shortest members, one a span is \
                  best, or ask less with --accuracy",
-                source.name,
-                self.point(*point),
-                meaning(*freedom)
-            )),
-            Error::Released { member, end, freedom } => SolveError::Untrusted(format!(
+                    source.name,
+                    self.point(*point),
+                    meaning(*freedom)
+                ))
+            }
+            Error::Released { member, end, dof: freedom } => SolveError::NoSolution(format!(
                 "{}: mechanism: releases of {} leave {freedom} free at its end {}",
                 source.name,
-                self.path(Item::Member(*member)),
+                self.path(ModelEntry::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
             )),
-            Error::Memory { quantity, bytes, most } => SolveError::Untrusted(format!(
+            Error::Memory { quantity, bytes, most } => SolveError::NoSolution(format!(
                 "{}: the {quantity} would take {:.1} GB of memory, {:.1} GB are allowed  hint: {}",
                 source.name,
                 *bytes as f64 / 1e9,
                 *most as f64 / 1e9,
                 "let the rails cover only what carriages reach, or join members"
             )),
-            Error::Factor { .. }
+            Error::NotFactorable { .. }
             | Error::NoRails
             | Error::Rail(_)
             | Error::NoMass
             | Error::TooManyModes { .. }
-            | Error::Modes { .. } => SolveError::Untrusted(format!("{}: {error}", source.name)),
+            | Error::Modes { .. } => SolveError::NoSolution(format!("{}: {error}", source.name)),
         }
     }
 
     /// Place of an item of the model in the file.
-    fn path(&self, item: Item) -> Path {
+    fn path(&self, item: ModelEntry) -> Path {
         let key = |word: &str| Step::Key(word.to_owned());
         let list = |word: &str, index: usize| Path(vec![key(word), Step::Index(index)]);
         match (&self.form, item) {
-            (Form::Girder(_), Item::Span(index)) => {
+            (Form::Girder(_), ModelEntry::Span(index)) => {
                 Path(vec![key("girder"), key("spans"), Step::Index(index)])
             }
-            (Form::Girder(_), Item::Overhang(index)) => {
+            (Form::Girder(_), ModelEntry::Overhang(index)) => {
                 Path(vec![key("girder"), key("overhangs"), Step::Index(index)])
             }
-            (Form::Girder(_), Item::Station { station, .. }) => list("stations", station),
-            (_, Item::Effect(index)) => list("effects", index),
+            (Form::Girder(_), ModelEntry::Station { station, .. }) => list("stations", station),
+            (_, ModelEntry::Effect(index)) => list("effects", index),
             (Form::Girder(_), _) => Path(vec![key("girder")]),
-            (Form::Frame(_), Item::Up) => Path(vec![key("up")]),
-            (Form::Frame(_), Item::Point(index)) => list("points", index),
-            (Form::Frame(_), Item::Section(index)) => list("sections", index),
-            (Form::Frame(frame), Item::Support(index)) => {
+            (Form::Frame(_), ModelEntry::Up) => Path(vec![key("up")]),
+            (Form::Frame(_), ModelEntry::Point(index)) => list("points", index),
+            (Form::Frame(_), ModelEntry::Section(index)) => list("sections", index),
+            (Form::Frame(frame), ModelEntry::Support(index)) => {
                 list("supports", frame.supports.get(index).copied().unwrap_or(index))
             }
-            (Form::Frame(_), Item::Spring(index)) => list("springs", index),
-            (Form::Frame(_), Item::Link(index)) => list("links", index),
-            (Form::Frame(_), Item::Mass(index)) => list("masses", index),
-            (Form::Frame(frame), Item::Member(index)) => match frame.cells.get(index) {
+            (Form::Frame(_), ModelEntry::Spring(index)) => list("springs", index),
+            (Form::Frame(_), ModelEntry::Link(index)) => list("links", index),
+            (Form::Frame(_), ModelEntry::Mass(index)) => list("masses", index),
+            (Form::Frame(frame), ModelEntry::Member(index)) => match frame.cells.get(index) {
                 Some(&[block, cell]) => {
                     Path(vec![key("cells"), Step::Index(block), key("data"), Step::Index(cell)])
                 }
                 None => Path(vec![key("cells")]),
             },
-            (Form::Frame(_), Item::Rail(rail)) => self.rail_path(rail, None),
-            (Form::Frame(_), Item::Segment { rail, segment }) => {
+            (Form::Frame(_), ModelEntry::Rail(rail)) => self.rail_path(rail, None),
+            (Form::Frame(_), ModelEntry::Segment { rail, segment }) => {
                 self.rail_path(rail, Some(("segments", segment)))
             }
-            (Form::Frame(_), Item::Station { rail, station }) => {
+            (Form::Frame(_), ModelEntry::Station { rail, station }) => {
                 self.rail_path(rail, Some(("stations", station)))
             }
-            (Form::Frame(_), Item::Span(_) | Item::Overhang(_) | Item::Girder) => Path::default(),
+            (Form::Frame(_), ModelEntry::Span(_) | ModelEntry::Overhang(_) | ModelEntry::Girder) => {
+                Path::default()
+            }
         }
     }
 
@@ -125,7 +129,7 @@ impl Spec {
     fn point(&self, index: usize) -> String {
         let unit = self.units.length.word();
         match &self.form {
-            Form::Girder(girder) => match girder.frame() {
+            Form::Girder(girder) => match girder.model_and_rail() {
                 Ok((model, _)) if index < model.points.len() => {
                     format!("the girder at x = {} {unit}", model.points[index][0])
                 }
@@ -144,13 +148,13 @@ impl Spec {
 }
 
 /// A degree of freedom in plain words.
-const fn meaning(freedom: Freedom) -> &'static str {
+const fn meaning(freedom: Dof) -> &'static str {
     match freedom {
-        Freedom::Ux => "displacement along x",
-        Freedom::Uy => "displacement along y",
-        Freedom::Uz => "displacement along z",
-        Freedom::Rx => "rotation about x",
-        Freedom::Ry => "rotation about y",
-        Freedom::Rz => "rotation about z",
+        Dof::Ux => "displacement along x",
+        Dof::Uy => "displacement along y",
+        Dof::Uz => "displacement along z",
+        Dof::Rx => "rotation about x",
+        Dof::Ry => "rotation about y",
+        Dof::Rz => "rotation about z",
     }
 }

@@ -1,6 +1,6 @@
 //! Members of the general form, from `cells` and `cell_data`.
 
-use fea::{Kind, Member, Model, Taper};
+use fea::{Member, MemberKind, Model, Taper};
 
 use super::block::Reference;
 use super::column::Column;
@@ -8,8 +8,8 @@ use super::raw::{RawCellData, RawSpec};
 use super::references::{dofs, index_below, refer};
 use super::tapers::Tapers;
 use crate::check::Check;
-use crate::fault::Fault;
-use crate::place::Place;
+use crate::text::fault::Fault;
+use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
 
@@ -48,16 +48,16 @@ pub(super) fn read(
 ) -> Cells {
     let names: Vec<(&str, usize)> =
         sections.iter().enumerate().map(|(index, name)| (name.as_str(), index)).collect();
-    let Some(blocks) = check.faults.need(&raw.cells, root, "cells") else { return Cells::default() };
+    let Some(blocks) = check.faults.require(&raw.cells, root, "cells") else { return Cells::default() };
     let before = check.faults.0.len();
     let list = root.key("cells");
     let mut counts = Vec::new();
     for (block, raw) in blocks.iter().enumerate() {
         let at = list.index(block);
-        if let Some(kind) = check.faults.need(&raw.kind, &at, "type") {
-            check.faults.word(kind, &at.key("type"), &[("line", ())]);
+        if let Some(kind) = check.faults.require(&raw.kind, &at, "type") {
+            check.faults.one_of(kind, &at.key("type"), &[("line", ())]);
         }
-        counts.push(check.faults.need(&raw.data, &at, "data").map_or(0, Vec::len));
+        counts.push(check.faults.require(&raw.data, &at, "data").map_or(0, Vec::len));
     }
     let none = RawCellData::default();
     let data = raw.cell_data.as_ref().unwrap_or(&none);
@@ -138,12 +138,12 @@ impl<'r> Columns<'r> {
         for (end, point) in points.into_iter().enumerate() {
             ends_exist &= index_below(point, model.points.len(), "points", &cell.index(end), check);
         }
-        let kinds = [("beam", Kind::Beam), ("truss", Kind::Truss)];
+        let kinds = [("beam", MemberKind::Beam), ("truss", MemberKind::Truss)];
         let kind = self
             .kind
             .get(block, index)
-            .and_then(|word| self.kind.at(here, &data, |place| check.faults.word(word, place, &kinds)));
-        let kind = kind.unwrap_or(Kind::Beam);
+            .and_then(|word| self.kind.at(here, &data, |place| check.faults.one_of(word, place, &kinds)));
+        let kind = kind.unwrap_or(MemberKind::Beam);
         let section = match self.section.get(block, index) {
             Some(section) => {
                 self.section.at(here, &data, |place| refer(section, names, "section", place, check))
@@ -190,7 +190,7 @@ impl<'r> Columns<'r> {
         }
         let given = self.orientation.get(block, index);
         let orientation = given.copied().unwrap_or(model.up);
-        if kind == Kind::Beam && length(along) > 0.0 && parallel(orientation, along) {
+        if kind == MemberKind::Beam && length(along) > 0.0 && parallel(orientation, along) {
             let fault = |place: &Place<'_>| {
                 let found = format!("{} on a member along {}", listed(orientation), listed(along));
                 let fault =
@@ -212,5 +212,5 @@ impl<'r> Columns<'r> {
 
 /// A vector as files write it.
 fn listed(vector: [f64; 3]) -> String {
-    format!("[{}]", vector.map(crate::fault::number).join(", "))
+    format!("[{}]", vector.map(crate::text::fault::number).join(", "))
 }

@@ -31,12 +31,12 @@ pub mod ties;
 mod words;
 
 pub(crate) use block::{Block, Reference};
-pub use cuts::{Cut, Spot};
-pub use grounds::Ground;
+pub use cuts::{Cut, CutPlace};
+pub use grounds::SupportedPoint;
 pub use header::{format, stem};
 pub use locate::SolveError;
 pub(crate) use raw::{RawDetail, RawSpec};
 pub use read::FORMAT;
 pub use stress::{Detail, StressPoint};
-pub use structure::{Form, Frame, GIRDER_RAIL, RailOutline, Spec};
+pub use structure::{Form, FrameSpec, GIRDER_RAIL, RailOutline, Spec};
 pub use words::{COMPONENTS, THEORIES, theory_word};

@@ -1,12 +1,12 @@
 //! Rails of the general form.
 
-use fea::{Model, Rail, Segment};
+use fea::{Model, Rail, RailSegment};
 
 use super::members::Cells;
 use super::raw::{RawRail, RawSpec};
 use crate::check::Check;
-use crate::fault::{Fault, number};
-use crate::place::Place;
+use crate::text::fault::{Fault, number};
+use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
 
@@ -22,7 +22,7 @@ pub(super) fn read(
     let mut rails = Vec::new();
     let mut ranges = Vec::new();
     let given =
-        check.faults.need(&raw.rails, root, "rails").map(|rails| rails.0.as_slice()).unwrap_or_default();
+        check.faults.require(&raw.rails, root, "rails").map(|rails| rails.0.as_slice()).unwrap_or_default();
     if raw.rails.is_some() && given.is_empty() {
         check.faults.add(Fault::new(&list, "must have at least one rail"));
     }
@@ -51,7 +51,7 @@ fn read_rail(
     let before = check.faults.0.len();
     let origin = raw.origin.unwrap_or_default();
     let origin = check.vector(origin, &at.key("origin"), Dimension::LENGTH);
-    let axis = check.faults.need(&raw.axis, at, "axis").copied().unwrap_or([1.0, 0.0, 0.0]);
+    let axis = check.faults.require(&raw.axis, at, "axis").copied().unwrap_or([1.0, 0.0, 0.0]);
     if parallel(axis, model.up) && length(model.up) > 0.0 {
         let fault = Fault::new(&at.key("axis"), "must not be zero or along `up`").got(format!("{axis:?}"));
         check.faults.add(fault);
@@ -59,23 +59,23 @@ fn read_rail(
     let place = at.key("segments");
     let mut segments = Vec::new();
     let mut places = Vec::new();
-    if let Some(given) = check.faults.need(&raw.segments, at, "segments") {
+    if let Some(given) = check.faults.require(&raw.segments, at, "segments") {
         if given.is_empty() {
             check.faults.add(Fault::new(&place, "must have at least one segment").got("an empty list"));
         }
         for (index, raw) in given.iter().enumerate() {
             let item = place.index(index);
             let offset = check.vector(raw.offset.unwrap_or_default(), &item.key("offset"), Dimension::LENGTH);
-            let Some(&cell) = check.faults.need(&raw.cell, &item, "cell") else { continue };
+            let Some(&cell) = check.faults.require(&raw.cell, &item, "cell") else { continue };
             if let Some(member) = cells.of(cell, &item.key("cell"), check) {
-                segments.push(Segment { member, offset });
+                segments.push(RailSegment { member, offset });
                 places.push(index);
             }
         }
     }
     let stations = raw.stations.as_deref();
     if stations.is_none() {
-        check.faults.need(&raw.stations, at, "stations");
+        check.faults.require(&raw.stations, at, "stations");
     }
     let stations = stations.unwrap_or_default();
     let line = at.key("stations");

@@ -1,6 +1,6 @@
 //! Reading a beam spec: which of the two forms it has, and everything that is wrong with it.
 
-use fea::Theory;
+use fea::BeamTheory;
 
 use super::header::format;
 use super::raw::RawSpec;
@@ -8,10 +8,10 @@ use super::structure::{Form, Spec};
 use super::words::THEORIES;
 use super::{cuts, frame, girder, header, stress};
 use crate::check::Check;
-use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults};
-use crate::place::Place;
-use crate::source::Source;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
+use crate::text::source::Source;
 use crate::units::{Scale, Units};
 
 /// Value of the member `format`: name and version of the format.
@@ -37,8 +37,10 @@ impl Spec {
         format(&raw.format, FORMAT, &root, faults);
         let own = Units::read(&raw.units, &root, faults);
         let theory = match &raw.theory {
-            Some(word) => faults.word(word, &root.key("theory"), &THEORIES).unwrap_or(Theory::Timoshenko),
-            None => Theory::Timoshenko,
+            Some(word) => {
+                faults.one_of(word, &root.key("theory"), &THEORIES).unwrap_or(BeamTheory::Timoshenko)
+            }
+            None => BeamTheory::Timoshenko,
         };
         // without units the numbers are still checked, in any one system
         let from = own.unwrap_or(Units::SI);

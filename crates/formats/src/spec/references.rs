@@ -3,9 +3,9 @@
 use super::block::Reference;
 use super::words::FREEDOMS;
 use crate::check::Check;
-use crate::fault::Fault;
-use crate::place::Place;
+use crate::text::fault::Fault;
 use crate::text::names::resolve;
+use crate::text::place::Place;
 
 /// The points of a spec, as references to them are resolved.
 pub(super) struct Points<'s> {
@@ -24,7 +24,7 @@ impl Points<'_> {
         at: &Place<'_>,
         check: &mut Check<'_>,
     ) -> Vec<usize> {
-        match check.faults.need(given, at, key) {
+        match check.faults.require(given, at, key) {
             None => Vec::new(),
             Some(Reference::Index(index)) => {
                 let exists = index_below(*index, self.count, "points", &at.key(key), check);
@@ -97,7 +97,7 @@ pub(super) fn dofs(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [
     let mut set = [false; 6];
     for (index, word) in words.iter().enumerate() {
         let item = at.index(index);
-        let Some(dof) = check.faults.word(word, &item, &FREEDOMS) else { continue };
+        let Some(dof) = check.faults.one_of(word, &item, &FREEDOMS) else { continue };
         if set[dof as usize] {
             check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
         }

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use fea::{Kind, Model, Section, Taper, Theory};
+use fea::{BeamTheory, CrossSection, MemberKind, Model, Taper};
 
 use super::raw::{RawMaterial, RawSection, RawSpec};
 use crate::check::Check;
-use crate::fault::{Fault, nearest};
-use crate::place::Place;
+use crate::text::fault::{Fault, nearest};
+use crate::text::place::Place;
 use crate::units::Dimension;
 
 /// Young's modulus, shear modulus and mass per volume.
@@ -21,11 +21,12 @@ struct Material {
 pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Vec<String> {
     let mut materials = BTreeMap::new();
     let list = root.key("materials");
-    for (index, raw) in check.faults.need(&raw.materials, root, "materials").into_iter().flatten().enumerate()
+    for (index, raw) in
+        check.faults.require(&raw.materials, root, "materials").into_iter().flatten().enumerate()
     {
         let at = list.index(index);
         let material = read_material(raw, &at, check);
-        let Some(name) = check.faults.need(&raw.name, &at, "name") else { continue };
+        let Some(name) = check.faults.require(&raw.name, &at, "name") else { continue };
         if materials.insert(name.as_str(), material).is_some() {
             check.faults.add(
                 Fault::new(&at.key("name"), "must differ from the other materials")
@@ -35,9 +36,11 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
     }
     let list = root.key("sections");
     let mut names: Vec<String> = Vec::new();
-    for (index, raw) in check.faults.need(&raw.sections, root, "sections").into_iter().flatten().enumerate() {
+    for (index, raw) in
+        check.faults.require(&raw.sections, root, "sections").into_iter().flatten().enumerate()
+    {
         let at = list.index(index);
-        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
         if !name.is_empty() && names.contains(&name) {
             check.faults.add(
                 Fault::new(&at.key("name"), "must differ from the other sections").got(format!("\"{name}\"")),
@@ -51,7 +54,7 @@ pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &m
 }
 
 fn read_material(raw: &RawMaterial, at: &Place<'_>, check: &mut Check<'_>) -> Material {
-    let e = check.needed(raw.e, at, "E", Dimension::STRESS, "");
+    let e = check.required_positive(raw.e, at, "E", Dimension::STRESS, "");
     let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
     let density = raw.density.unwrap_or_default();
     let density = check.not_negative(density, &at.key("density"), Dimension::DENSITY, "mass per volume");
@@ -63,10 +66,10 @@ fn read_section(
     materials: &BTreeMap<&str, Material>,
     at: &Place<'_>,
     check: &mut Check<'_>,
-) -> Section {
+) -> CrossSection {
     let place = at.key("material");
     let mut material = None;
-    if let Some(name) = check.faults.need(&raw.material, at, "material") {
+    if let Some(name) = check.faults.require(&raw.material, at, "material") {
         material = materials.get(name.as_str());
         if material.is_none() {
             let known: Vec<&str> = materials.keys().copied().collect();
@@ -83,7 +86,7 @@ fn read_section(
     };
     let area = plain(raw.area, "A", Dimension::AREA);
     let (e, g) = material.map_or((1.0, 1.0), |material| (material.e, material.g.unwrap_or_default()));
-    Section {
+    CrossSection {
         e,
         g,
         area,
@@ -124,7 +127,7 @@ pub(super) fn check_complete(
         if users.peek().is_none() {
             continue;
         }
-        let beams = users.any(|(member, _)| member.kind == Kind::Beam);
+        let beams = users.any(|(member, _)| member.kind == MemberKind::Beam);
         for (key, value) in [("A", raw.area), ("Iy", raw.iy), ("Iz", raw.iz), ("J", raw.j)] {
             if value.is_none() && raw.shape.is_none() && (beams || key == "A") {
                 let user = if beams { "beams" } else { "members" };
@@ -133,8 +136,8 @@ pub(super) fn check_complete(
                 );
             }
         }
-        let sheared =
-            model.theory == Theory::Timoshenko && (section.shear_y.is_some() || section.shear_z.is_some());
+        let sheared = model.theory == BeamTheory::Timoshenko
+            && (section.shear_y.is_some() || section.shear_z.is_some());
         if beams && section.g == 0.0 && (section.j > 0.0 || sheared) {
             let fault = Fault::new(&at, "its material needs `G`");
             check.faults.add(fault.hint("torsion and shear of beams depend on the shear modulus"));

@@ -1,10 +1,10 @@
 //! Sections given by the dimensions of their plates: the key `shape` of a section.
 
-use super::cross_section::properties;
+use super::cross_section::section_properties;
 use super::raw::{RawSection, RawShape};
 use crate::check::Check;
-use crate::fault::{Fault, number};
-use crate::place::Place;
+use crate::text::fault::{Fault, number};
+use crate::text::place::Place;
 use crate::units::{Dimension, Length};
 
 /// Keys of dimensions, in the order in which [`read`] lists them.
@@ -61,8 +61,8 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
 
 /// A, Iy, Iz, J, Asy, Asz of a shape, in the units of the file; `None`, and faults, where its dimensions are unusable.
 fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6]> {
-    let kind = check.faults.need(&raw.kind, at, "kind")?;
-    let kind = check.faults.word(kind, &at.key("kind"), &Kind::WORDS)?;
+    let kind = check.faults.require(&raw.kind, at, "kind")?;
+    let kind = check.faults.one_of(kind, &at.key("kind"), &Kind::WORDS)?;
     let given = [
         raw.height,
         raw.width,
@@ -97,7 +97,7 @@ fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6
     let own = match &raw.length {
         Some(word) => {
             let words = Length::ALL.map(|unit| (unit.word(), unit));
-            check.faults.word(word, &at.key("length"), &words)
+            check.faults.one_of(word, &at.key("length"), &words)
         }
         None => Some(check.scale.from.length),
     };
@@ -110,11 +110,11 @@ fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6
     let found = match kind {
         Kind::I => {
             let lower = [or(lower_width, width), or(lower_flange, flange)];
-            properties("I", &[height, lower[0], width, web, lower[1], flange])
+            section_properties("I", &[height, lower[0], width, web, lower[1], flange])
         }
-        Kind::Box => properties("BOX", &[width, height, flange, web]),
-        Kind::Tube => properties("TUBE2", &[0.5 * diameter, wall]),
-        Kind::Bar => properties("BAR", &[width, height]),
+        Kind::Box => section_properties("BOX", &[width, height, flange, web]),
+        Kind::Tube => section_properties("TUBE2", &[0.5 * diameter, wall]),
+        Kind::Bar => section_properties("BAR", &[width, height]),
     };
     let Ok(found) = found else {
         let listed: Vec<String> =

@@ -6,8 +6,8 @@ use practice::fatigue::CATEGORIES;
 use super::raw::{RawDetail, RawPoint, RawSpec};
 use super::words::COMPONENTS;
 use crate::check::Check;
-use crate::fault::{Fault, alternatives, number};
-use crate::place::Place;
+use crate::text::fault::{Fault, alternatives, number};
+use crate::text::place::Place;
 use crate::units::Dimension;
 
 /// A point of a section whose normal stress is asked for.
@@ -59,7 +59,7 @@ pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> V
     let mut points: Vec<StressPoint> = Vec::new();
     for (index, raw) in raw.iter().enumerate() {
         let at = list.index(index);
-        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
         let is_taken = points.iter().any(|other| other.name == name);
         if raw.name.is_some() && (name.is_empty() || is_taken || name.contains('.')) {
             let fault = Fault::new(&at.key("name"), "must be a name of its own, without dots");

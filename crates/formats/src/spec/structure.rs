@@ -1,6 +1,6 @@
 //! A checked beam spec: a structure with its rails and the names that users know, as plain values.
 
-use fea::{Girder, Model, Rail, Theory};
+use fea::{BeamTheory, Girder, Model, Rail};
 
 use super::cuts::Cut;
 use crate::units::Units;
@@ -11,7 +11,7 @@ pub const GIRDER_RAIL: &str = "rail";
 /// A beam spec, checked and in the units asked for.
 ///
 /// ```
-/// use formats::source::Source;
+/// use formats::text::source::Source;
 /// use formats::spec::Spec;
 /// use formats::units::Units;
 ///
@@ -33,7 +33,7 @@ pub struct Spec {
     /// Units of all its numbers.
     pub units: Units,
     /// Beam theory: whether shear deforms the members.
-    pub theory: Theory,
+    pub theory: BeamTheory,
     /// The structure.
     pub form: Form,
     /// Sections of members whose internal forces are asked for.
@@ -46,7 +46,7 @@ pub enum Form {
     /// A straight girder, continuous over its supports.
     Girder(Girder),
     /// The general form: points, members, supports and springs, and rails.
-    Frame(Frame),
+    Frame(FrameSpec),
 }
 
 /// A rail in the terms of the user: its name, extent and stations.
@@ -62,7 +62,7 @@ pub struct RailOutline {
 
 /// The checked general form, in the units asked for: the model with the names of the file.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Frame {
+pub struct FrameSpec {
     /// Points, members, supports, springs, links and masses.
     pub model: Model,
     /// Rails with their names, in the order of the file.
@@ -135,13 +135,13 @@ impl Spec {
         }
     }
 
-    /// The model and the rails on it, as `fea::Frame::new` takes them.
+    /// The model and the rails on it, as `fea::FrameSpec::new` takes them.
     ///
     /// # Errors
     /// A girder whose numbers give no model.
     pub fn model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
         match &self.form {
-            Form::Girder(girder) => girder.frame().map(|(model, rail)| (model, vec![rail])),
+            Form::Girder(girder) => girder.model_and_rail().map(|(model, rail)| (model, vec![rail])),
             Form::Frame(frame) => {
                 Ok((frame.model.clone(), frame.rails.iter().map(|(_, rail)| rail.clone()).collect()))
             }
@@ -150,7 +150,7 @@ impl Spec {
 
     /// The same structure under another beam theory.
     #[must_use]
-    pub fn with_theory(mut self, theory: Theory) -> Spec {
+    pub fn with_theory(mut self, theory: BeamTheory) -> Spec {
         self.theory = theory;
         match &mut self.form {
             Form::Girder(girder) => girder.theory = theory,

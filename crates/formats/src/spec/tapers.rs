@@ -1,14 +1,14 @@
 //! Tapered members of the general form: `section_b` and `parts`.
 
-use fea::{Kind, Member, Model, Taper};
+use fea::{Member, MemberKind, Model, Taper};
 
 use super::block::Reference;
 use super::column::Column;
 use super::raw::{RawCellData, RawSpec};
 use super::references::refer;
 use crate::check::Check;
-use crate::fault::Fault;
-use crate::place::Place;
+use crate::text::fault::Fault;
+use crate::text::place::Place;
 
 /// Most uniform parts of a tapered member: more of them lose digits to rounding and gain none.
 const MAX_PARTS: usize = 1000;
@@ -87,14 +87,14 @@ impl<'r> Tapers<'r> {
             check.faults.add(fault.hint("a tapered cell has one material"));
         }
         for (name, pair) in [("Asy", [a.shear_y, b.shear_y]), ("Asz", [a.shear_z, b.shear_z])] {
-            if member.kind == Kind::Beam && pair[0].is_some() != pair[1].is_some() {
+            if member.kind == MemberKind::Beam && pair[0].is_some() != pair[1].is_some() {
                 let fault = Fault::new(item, format!("must have `{name}` where the cell's `section` has it"));
                 let hint = "shear areas vary linearly between two values, or are absent at both ends";
                 check.faults.add(fault.hint(hint));
             }
         }
         // a tapered truss member stays one bar where the file does not say otherwise
-        let of_kind = (member.kind == Kind::Truss).then_some(1);
+        let of_kind = (member.kind == MemberKind::Truss).then_some(1);
         let Some(parts) = own.or(self.default).or(of_kind) else {
             let hint = "a cell with `section_b` is solved in uniform parts: give their number in `parts` or \
                         `cell_data.parts`";

@@ -1,10 +1,10 @@
 //! Specs converted to other units describe the same structure.
 
-use fea::Frame;
+use fea::FactoredFrame;
 
 use super::{Form, Spec};
-use crate::grid::Grid;
-use crate::source::Source;
+use crate::grid::StationGrid;
+use crate::text::source::Source;
 use crate::units::{Dimension, Force, Length, Scale, Units};
 
 const FT_KIP: Units = Units { length: Length::Foot, force: Force::Kip };
@@ -39,10 +39,10 @@ fn read(source: &Source, units: Option<Units>) -> Spec {
     Spec::read(source, units).expect("a spec without faults")
 }
 
-fn solve(spec: &Spec) -> Grid {
+fn solve(spec: &Spec) -> StationGrid {
     let (model, rails) = spec.model().expect("usable numbers");
-    let frame = Frame::new(&model, &rails).expect("a structure that stands");
-    Grid::of(spec, &frame).expect("stations on the rail")
+    let frame = FactoredFrame::new(&model, &rails).expect("a structure that stands");
+    StationGrid::of(spec, &frame).expect("stations on the rail")
 }
 
 /// Source: the structure is the same, so its influence coefficients differ by the unit of length per force alone.

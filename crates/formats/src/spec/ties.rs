@@ -7,17 +7,19 @@
 //! leads from the rail's point through a rigid arm to the point of the structure. Every rail must run along a global
 //! axis, since supports, which keep the new rail from moving along itself, exist for global axes alone.
 
-use fea::{Freedom, Mass, Member, Model, Rail, Section, Segment, Spring, Support, Theory};
+use fea::{
+    BeamTheory, CrossSection, Dof, GroundSpring, Member, Model, PointMass, Rail, RailSegment, Support,
+};
 use nalgebra::Vector3;
 use thiserror::Error;
 
 use super::cuts::Cut;
 pub use super::structure::Pad;
-use super::structure::{Form, Frame, GIRDER_RAIL, Spec};
+use super::structure::{Form, FrameSpec, GIRDER_RAIL, Spec};
 use crate::units::Units;
 
 /// Most elements of one rail: bays between ties times elements per bay.
-pub const MOST: f64 = 2000.0;
+pub const MAX_ELEMENTS: f64 = 2000.0;
 /// Number of stations of a rail over the ground, approximately.
 const STATIONS: usize = 50;
 /// Places closer than this fraction of a length (of the member, or of the spacing of ties) are one place.
@@ -30,10 +32,10 @@ const SAME: f64 = 1e-9;
 /// longitudinally and against roll by the ground.
 ///
 /// ```
-/// use formats::track::{Ties, on_ground};
+/// use formats::spec::ties::{Ties, on_ground};
 /// use formats::units::Units;
 ///
-/// let rail = fea::Section { e: 2.1e11, area: 7.7e-3, iy: 5e-6, iz: 3e-5, ..fea::Section::default() };
+/// let rail = fea::SectionForces { e: 2.1e11, area: 7.7e-3, iy: 5e-6, iz: 3e-5, ..fea::SectionForces::default() };
 /// let ties = Ties { spacing: 0.6, k: 5e7, rail, elements: 2, ..Ties::default() };
 /// let spec = on_ground("track", Units::SI, &ties, [0.0, 6.0]).expect("eleven ties");
 /// assert_eq!(spec.pads().len(), 11);
@@ -58,7 +60,7 @@ pub struct Ties {
     /// Mass of one tie, force time^2/length.
     pub mass: f64,
     /// Section of the rail: `iz` is for vertical bending, `iy` for lateral bending.
-    pub rail: Section,
+    pub rail: CrossSection,
     /// Number of beam elements between two ties.
     pub elements: usize,
 }
@@ -71,16 +73,16 @@ impl Ties {
     }
 
     /// Coordinates of the ties on a rail from `first` to `last`.
-    fn places(&self, [first, last]: [f64; 2]) -> Result<Vec<f64>, Refusal> {
+    fn places(&self, [first, last]: [f64; 2]) -> Result<Vec<f64>, TiesError> {
         let start = self.first.unwrap_or(first);
         let slack = SAME * self.spacing;
         // two ties at least
         if start < first - slack || start + self.spacing > last + slack {
-            return Err(Refusal::Few { range: [first, last] });
+            return Err(TiesError::Few { range: [first, last] });
         }
         let count = ((last - start + slack) / self.spacing).floor();
-        if (count + 2.0) * self.elements as f64 > MOST {
-            return Err(Refusal::Many { bays: (count + 2.0) * self.elements as f64 });
+        if (count + 2.0) * self.elements as f64 > MAX_ELEMENTS {
+            return Err(TiesError::Many { bays: (count + 2.0) * self.elements as f64 });
         }
         let place = |k: usize| (start + k as f64 * self.spacing).max(first).min(last);
         Ok((0..=count as usize).map(place).collect())
@@ -89,15 +91,15 @@ impl Ties {
 
 /// Why ties cannot be laid.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
-pub enum Refusal {
+pub enum TiesError {
     /// Fewer than two ties on a rail.
     #[error("must put at least two ties on the rail from {} to {}", range[0], range[1])]
     Few {
         /// First and last coordinate of the rail.
         range: [f64; 2],
     },
-    /// More than [`MOST`] elements of rail.
-    #[error("must leave at most {MOST} elements of rail, got {bays}")]
+    /// More than [`MAX_ELEMENTS`] elements of rail.
+    #[error("must leave at most {MAX_ELEMENTS} elements of rail, got {bays}")]
     Many {
         /// Number of elements there would be.
         bays: f64,
@@ -124,8 +126,8 @@ pub enum Refusal {
 /// A rail on ties over the ground, from coordinate `range[0]` to `range[1]`, as a spec of this name.
 ///
 /// # Errors
-/// Fewer than two ties; more than [`MOST`] elements.
-pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Result<Spec, Refusal> {
+/// Fewer than two ties; more than [`MAX_ELEMENTS`] elements.
+pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Result<Spec, TiesError> {
     let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
     let places = ties.places(range)?;
     let mut pads = Vec::new();
@@ -134,13 +136,13 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
     let points = lay(&mut model, &mut rail, ties, &line, range, &places);
     for point in points {
         restrain(&mut model, ties, point, &line);
-        model.springs.push(Spring { point, freedom: Freedom::Uy, stiffness: ties.k });
-        let lateral = ties.lateral_k.map(|stiffness| Spring { point, freedom: Freedom::Uz, stiffness });
+        model.springs.push(GroundSpring { point, dof: Dof::Uy, stiffness: ties.k });
+        let lateral = ties.lateral_k.map(|stiffness| GroundSpring { point, dof: Dof::Uz, stiffness });
         model.springs.extend(lateral);
         pads.push(Pad { rail: point, base: None, up: model.up });
     }
     rail.stations = places.iter().copied().step_by(places.len().div_ceil(STATIONS)).collect();
-    let frame = Frame {
+    let frame = FrameSpec {
         sections: vec![GIRDER_RAIL.to_owned()],
         rails: vec![(GIRDER_RAIL.to_owned(), rail)],
         ranges: vec![range],
@@ -152,7 +154,7 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
         pads,
     };
     let (name, form) = (name.to_owned(), Form::Frame(frame));
-    Ok(Spec { name, units, theory: Theory::EulerBernoulli, form, effects: Vec::new() })
+    Ok(Spec { name, units, theory: BeamTheory::EulerBernoulli, form, effects: Vec::new() })
 }
 
 /// The structure with a rail on ties over each of its rails. The new rails have the names, coordinates and stations of
@@ -162,24 +164,24 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
 /// that the base of a pad moves as the structure's own rail does at that place.
 ///
 /// # Errors
-/// Fewer than two ties on a rail, or more than [`MOST`] elements; a tie at a hinge; a rail that does not run along a
+/// Fewer than two ties on a rail, or more than [`MAX_ELEMENTS`] elements; a tie at a hinge; a rail that does not run along a
 /// global axis; a structure without a model.
-pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
-    let (model, rails) = spec.model().map_err(|_| Refusal::Model)?;
+pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
+    let (model, rails) = spec.model().map_err(|_| TiesError::Model)?;
     let mut seats = Vec::new();
     let mut lines = Vec::new();
     for (index, (rail, outline)) in rails.iter().zip(spec.rails()).enumerate() {
-        let line = Line::of(&model, rail).ok_or(Refusal::Oblique { rail: index })?;
+        let line = Line::of(&model, rail).ok_or(TiesError::Oblique { rail: index })?;
         let places = ties.places(outline.range)?;
         for &x in &places {
-            seats.push(Seat::of(&model, rail, &line, x).ok_or(Refusal::Model)?);
+            seats.push(Seat::of(&model, rail, &line, x).ok_or(TiesError::Model)?);
         }
         lines.push((line, places, outline));
     }
     let (mut model, points, parts) = split(&model, &seats)?;
     let base = model.points.len();
     // EA / L = k for a truss member of length L = spacing
-    let stiff = |k: f64| Section { e: k * ties.spacing, area: 1.0, ..Section::default() };
+    let stiff = |k: f64| CrossSection { e: k * ties.spacing, area: 1.0, ..CrossSection::default() };
     let section = model.sections.len() + 1;
     let mut new_rails = Vec::new();
     let mut pads = Vec::new();
@@ -200,7 +202,7 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
             let mut spring = |direction: Vector3<f64>, section: usize| {
                 let tip = at + direction * ties.spacing;
                 let offsets = [[0.0; 3], (tip - foot).into()];
-                let kind = fea::Kind::Truss;
+                let kind = fea::MemberKind::Truss;
                 trusses.push(Member { kind, offsets, ..Member::beam([point, seat], section, line.y.into()) });
             };
             spring(-line.y, section);
@@ -237,8 +239,17 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, Refusal> {
     };
     let ranges = spec.rails().iter().map(|rail| rail.range).collect();
     let effects = spec.effects.iter().map(|cut| on_part(cut, &parts)).collect();
-    let frame =
-        Frame { model, rails: new_rails, ranges, sections, points: base, cells, point_sets, supports, pads };
+    let frame = FrameSpec {
+        model,
+        rails: new_rails,
+        ranges,
+        sections,
+        points: base,
+        cells,
+        point_sets,
+        supports,
+        pads,
+    };
     Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
 }
 
@@ -262,7 +273,7 @@ impl Line {
     }
 }
 
-/// Adds a rail along `line` to a model: points at the ends of `range`, at the ties and, with several elements per bay,
+/// Adds a rail along `summary` to a model: points at the ends of `range`, at the ties and, with several elements per bay,
 /// between them; beams of the rail's section between these; and the segments of `rail`. The result are the points at
 /// the ties, in the order of `places`.
 fn lay(
@@ -299,7 +310,7 @@ fn lay(
             };
             if k > 0 {
                 model.members.push(Member::beam([point - 1, point], section, line.y.into()));
-                rail.segments.push(Segment { member: model.members.len() - 1, offset: [0.0; 3] });
+                rail.segments.push(RailSegment { member: model.members.len() - 1, offset: [0.0; 3] });
             }
         }
         if places.contains(&x) {
@@ -319,9 +330,9 @@ fn restrain(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
         0..3 => is_along(&line.x, k) || (plane && is_along(&z, k)),
         _ => is_along(&line.x, k - 3) || (plane && is_along(&line.y, k - 3)),
     });
-    model.supports.push(Support { point, fix });
+    model.supports.push(Support { point, fixed: fix });
     if ties.mass > 0.0 {
-        model.masses.push(Mass { point, mass: ties.mass, inertia: [0.0; 3], offset: [0.0; 3] });
+        model.masses.push(PointMass { point, mass: ties.mass, inertia: [0.0; 3], offset: [0.0; 3] });
     }
 }
 
@@ -379,7 +390,7 @@ type Parts = Vec<(usize, [f64; 2])>;
 ///
 /// # Errors
 /// A seat at an end that has releases: a hinge there would be on both sides of the tie or on neither.
-fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusal> {
+fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), TiesError> {
     let mut model = Model { members: Vec::new(), ..m.clone() };
     let mut points = vec![0; seats.len()];
     let mut parts = Vec::new();
@@ -403,7 +414,7 @@ fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), Refusa
             let end = if *fraction == 0.0 { Some(0) } else { (*fraction == 1.0).then_some(1) };
             if let Some(end) = end {
                 if member.releases[end] != [false; 6] {
-                    return Err(Refusal::Hinge { x: *x, cell: index });
+                    return Err(TiesError::Hinge { x: *x, cell: index });
                 }
                 points[seat] = member.points[end];
             } else {

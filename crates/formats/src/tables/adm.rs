@@ -4,10 +4,10 @@ use adams::{DataSet, Spline, Tables};
 
 use super::parsed::{Draft, Parsed};
 use super::set::{Product, Table, TableSet, adams_name};
-use crate::diagnostic::Diagnostic;
-use crate::grid::Grid;
-use crate::source::Source;
+use crate::grid::StationGrid;
 use crate::spec::stem;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::source::Source;
 use crate::units::{Dimension, Units};
 
 impl TableSet {
@@ -51,7 +51,7 @@ fn name_of_title(title: &str) -> &str {
 
 /// The tables of a grid, [`TableSet::of_grid`], as SPLINE statements.
 #[must_use]
-pub fn data_set(grid: &Grid) -> Tables {
+pub fn data_set(grid: &StationGrid) -> Tables {
     TableSet::of_grid(grid).adams()
 }
 
@@ -60,8 +60,8 @@ pub fn data_set(grid: &Grid) -> Tables {
 ///
 /// # Errors
 /// More tables than there are identifiers.
-pub fn adm(name: &str, grid: &Grid) -> Result<Option<String>, adams::Error> {
-    let set = data_set(&Grid { name: name.to_owned(), ..grid.clone() });
+pub fn adm(name: &str, grid: &StationGrid) -> Result<Option<String>, adams::Error> {
+    let set = data_set(&StationGrid { name: name.to_owned(), ..grid.clone() });
     if set.splines.is_empty() { Ok(None) } else { adams::tables::write(&set).map(Some) }
 }
 

@@ -2,7 +2,7 @@
 
 use adams::SplineValues;
 
-use crate::fault::number;
+use crate::text::number::number;
 
 /// The part of a table that has a defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

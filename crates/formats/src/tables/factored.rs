@@ -8,7 +8,10 @@
 use adams::SplineValues;
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
-use splines::{Axis, Compliance, Factor, Factored, Influence, Probe, Rank, Sheet, Surface, Table as Values};
+use splines::{
+    Axis, Compliance, ExactSurface, FactoredTable, Influence, InfluenceBlock, Probe, Rank,
+    SplineTable as Values, TableFactor,
+};
 
 use super::parsed::Draft;
 use super::set::{Product, Table, TableSet};
@@ -19,7 +22,7 @@ type Direction = (usize, Axis);
 
 /// Tables in the factored form, and how far they deviate from the given ones.
 #[derive(Clone, Debug)]
-pub struct Factoring {
+pub struct FactoredTables {
     /// The factored form.
     pub set: TableSet,
     /// For each set of coupled directions, the number of products kept and the number of eigenvalues above rounding.
@@ -29,7 +32,7 @@ pub struct Factoring {
     /// Numbers of the tables left out: those of a rail with fewer stations than a curve needs, and couplings that are
     /// zero.
     pub skipped: Vec<u32>,
-    form: Factored,
+    form: FactoredTable,
     /// For each product the directions of deflection and load.
     directions: Vec<[Direction; 2]>,
     /// Names of the rails.
@@ -48,7 +51,7 @@ struct Directions {
 /// # Errors
 /// No table with four stations both ways; a table whose rails or directions are not known; tables that are all zero, or
 /// that have no such form, as a matrix with negative eigenvalues.
-pub fn factor(set: &TableSet, rank: Rank) -> Result<Factoring, Unfactored> {
+pub fn factor(set: &TableSet, rank: Rank) -> Result<FactoredTables, FactorError> {
     let (tables, skipped): (Vec<&Table>, Vec<&Table>) = set.tables.iter().partition(|table| {
         let relates = |quantity: GridBlock| quantity.direct() != [quantity; 2];
         let coupling = table.quantity.is_some_and(relates) || table.curves.x() != table.curves.z();
@@ -61,9 +64,9 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<Factoring, Unfactored> {
         let (x, z) = (table.curves.x().to_vec(), table.curves.z().to_vec());
         let values = DMatrix::from_row_iterator(z.len(), x.len(), table.curves.y().concat());
         let values = Values::new(x, z, values)?;
-        sheets.push(Sheet { deflection: *deflection, load: *load, table: values });
+        sheets.push(InfluenceBlock { deflection: *deflection, load: *load, table: values });
     }
-    let form = Factored::new(&sheets, rank)?;
+    let form = FactoredTable::new(&sheets, rank)?;
     let curves = curves_of(&tables, &directions.of_tables, &form)?;
     let ids =
         |direction: &Direction| curves.iter().find(|(known, _)| known == direction).map(|(_, tables)| tables);
@@ -86,7 +89,7 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<Factoring, Unfactored> {
         form.factors().iter().map(|factor| [factor.rank(), factor.rank() + significant(factor)]).collect();
     let stations = deviation(&tables, &new);
     let skipped = skipped.iter().map(|table| table.id).collect();
-    Ok(Factoring {
+    Ok(FactoredTables {
         set: new,
         ranks,
         stations,
@@ -98,14 +101,14 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<Factoring, Unfactored> {
 }
 
 /// Number of dropped eigenvalues above the rounding error of the largest.
-fn significant(factor: &Factor) -> usize {
+fn significant(factor: &TableFactor) -> usize {
     let largest = factor.kept.first().copied().unwrap_or(0.0);
     factor.dropped.iter().filter(|value| value.abs() > 1e-15 * factor.dropped.len() as f64 * largest).count()
 }
 
 /// Why tables have no factored form.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unfactored {
+pub enum FactorError {
     /// No table with four stations along x and along z.
     #[error("there is no table of four stations both ways")]
     Empty,
@@ -127,7 +130,7 @@ pub enum Unfactored {
 
 /// Directions of the tables. A table without rails belongs to the one unnamed rail where no other such table has its
 /// quantity. A table without quantity, if its x are its z, is that of a rail of its own.
-fn directions(tables: &[&Table]) -> Result<Directions, Unfactored> {
+fn directions(tables: &[&Table]) -> Result<Directions, FactorError> {
     let mut rails: Vec<String> = Vec::new();
     let mut number = |name: String| {
         rails.iter().position(|known| *known == name).unwrap_or_else(|| {
@@ -136,7 +139,7 @@ fn directions(tables: &[&Table]) -> Result<Directions, Unfactored> {
         })
     };
     if tables.is_empty() {
-        return Err(Unfactored::Empty);
+        return Err(FactorError::Empty);
     }
     let mut of_tables = Vec::new();
     for table in tables {
@@ -157,7 +160,7 @@ fn directions(tables: &[&Table]) -> Result<Directions, Unfactored> {
                 // no rail has such a name
                 [(number(format!("\0{}", table.id)), axis); 2]
             }
-            _ => return Err(Unfactored::Unknown { id: table.id }),
+            _ => return Err(FactorError::Unknown { id: table.id }),
         });
     }
     Ok(Directions { rails, of_tables })
@@ -168,18 +171,18 @@ fn directions(tables: &[&Table]) -> Result<Directions, Unfactored> {
 fn curves_of(
     tables: &[&Table],
     directions: &[[Direction; 2]],
-    form: &Factored,
-) -> Result<Vec<(Direction, Vec<Table>)>, Unfactored> {
-    let most = form.factors().iter().map(Factor::rank).max().unwrap_or(0);
+    form: &FactoredTable,
+) -> Result<Vec<(Direction, Vec<Table>)>, FactorError> {
+    let most = form.factors().iter().map(TableFactor::rank).max().unwrap_or(0);
     if most == 0 {
-        return Err(Unfactored::Zero);
+        return Err(FactorError::Zero);
     }
     let step = if most < 100 { 100 } else { 10_usize.pow(most.ilog10() + 1) };
     let mut out: Vec<(Direction, Vec<Table>)> = Vec::new();
     for (curves, rank) in
         form.factors().iter().flat_map(|one| one.curves.iter().map(move |c| (c, one.rank())))
     {
-        let own = tables.iter().zip(directions).find(|(_, both)| **both == [curves.way; 2]);
+        let own = tables.iter().zip(directions).find(|(_, both)| **both == [curves.direction; 2]);
         let Some((table, _)) = own else { continue };
         let direct = table.quantity.map(|quantity: GridBlock| quantity.direct()[0]);
         let mut own = Vec::new();
@@ -191,10 +194,10 @@ fn curves_of(
                 name: format!("{}_{}", table.name, k + 1),
                 quantity: direct,
                 rails: table.rails.clone(),
-                curves: curve.map_err(|_| Unfactored::Zero)?,
+                curves: curve.map_err(|_| FactorError::Zero)?,
             });
         }
-        out.push((curves.way, own));
+        out.push((curves.direction, own));
     }
     Ok(out)
 }
@@ -219,14 +222,14 @@ fn deviation(tables: &[&Table], factored: &TableSet) -> Deviation {
     out
 }
 
-impl Factoring {
+impl FactoredTables {
     /// Deviation from the exact compliance at the stations and at three places between each two; `None` where a rail of
     /// the tables is not among `rails`, those of the compliance.
     #[must_use]
-    pub fn against(&self, surface: &Surface, rails: &[GridRail]) -> Option<Deviation> {
+    pub fn deviation_from(&self, surface: &ExactSurface, rails: &[GridRail]) -> Option<Deviation> {
         let mut out = Deviation::default();
         for (product, [deflection, load]) in self.set.products.iter().zip(&self.directions) {
-            let find = |id: Option<u32>| id.and_then(|id| self.set.find(id));
+            let find = |id: Option<u32>| id.and_then(|id| self.set.table(id));
             let x = places(find(product.terms.first().map(|term| term[0]))?.curves.x());
             let z = places(find(product.terms.first().map(|term| term[1]))?.curves.x());
             let own = |direction: &Direction, x: f64| Probe { rail: direction.0, x, axis: direction.1 };
@@ -290,7 +293,7 @@ pub fn expand(set: &TableSet) -> TableSet {
     let mut drafts = Vec::new();
     for product in &set.products {
         let terms: Option<Vec<[&Table; 2]>> =
-            product.terms.iter().map(|[x, z]| Some([set.find(*x)?, set.find(*z)?])).collect();
+            product.terms.iter().map(|[x, z]| Some([set.table(*x)?, set.table(*z)?])).collect();
         let Some(terms) = terms else { continue };
         let Some([first_x, first_z]) = terms.first() else { continue };
         let (x, z) = (first_x.curves.x(), first_z.curves.x());

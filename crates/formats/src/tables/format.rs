@@ -11,13 +11,13 @@ use super::factored::expand;
 use super::parsed::Parsed;
 use super::set::{Table, TableSet};
 use super::{adm, csv, json, npz, view};
-use crate::diagnostic::Diagnostic;
-use crate::source::Source;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::source::Source;
 use crate::units::Units;
 
 /// A format of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub enum TableFormat {
     /// ADAMS data set, `.adm`.
     Adams,
     /// Commands of Adams View, `.cmd`.
@@ -30,19 +30,19 @@ pub enum Format {
     Npz,
 }
 
-impl Format {
+impl TableFormat {
     /// The format of a file by the ending of its name.
     ///
     /// # Errors
     /// An ending that is none of `.adm`, `.cmd`, `.csv`, `.json` and `.npz`.
-    pub fn of(name: &str) -> Result<Format, Box<Diagnostic>> {
+    pub fn of(name: &str) -> Result<TableFormat, Box<Diagnostic>> {
         let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref().unwrap_or_default() {
-            "adm" => Ok(Format::Adams),
-            "cmd" => Ok(Format::View),
-            "json" => Ok(Format::Json),
-            "csv" => Ok(Format::Csv),
-            "npz" => Ok(Format::Npz),
+            "adm" => Ok(TableFormat::Adams),
+            "cmd" => Ok(TableFormat::View),
+            "json" => Ok(TableFormat::Json),
+            "csv" => Ok(TableFormat::Csv),
+            "npz" => Ok(TableFormat::Npz),
             _ => {
                 let fault = Diagnostic::of_file(name, "the ending says no format");
                 Err(Box::new(fault.hint("use .adm, .cmd, .csv, .json or .npz")))
@@ -66,13 +66,13 @@ pub enum WriteError {
 ///
 /// # Errors
 /// Two tables of one number; an archive that cannot be written.
-pub fn write(set: &TableSet, format: Format) -> Result<Vec<u8>, WriteError> {
+pub fn write(set: &TableSet, format: TableFormat) -> Result<Vec<u8>, WriteError> {
     match format {
-        Format::Adams => Ok(adm::write(set)?.into_bytes()),
-        Format::View => Ok(view::write(set)?.into_bytes()),
-        Format::Csv => Ok(csv::write(set).into_bytes()),
-        Format::Json => Ok(json::write(set).into_bytes()),
-        Format::Npz => Ok(npz::write(set)?),
+        TableFormat::Adams => Ok(adm::write(set)?.into_bytes()),
+        TableFormat::View => Ok(view::write(set)?.into_bytes()),
+        TableFormat::Csv => Ok(csv::write(set).into_bytes()),
+        TableFormat::Json => Ok(json::write(set).into_bytes()),
+        TableFormat::Npz => Ok(npz::write(set)?),
     }
 }
 
@@ -130,16 +130,16 @@ pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
 
 /// Reads a file as it is.
 fn parse(name: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
-    let format = Format::of(name).map_err(|error| vec![*error])?;
-    if format == Format::Npz {
+    let format = TableFormat::of(name).map_err(|error| vec![*error])?;
+    if format == TableFormat::Npz {
         return npz::read(name, bytes);
     }
     let source = Source::from_bytes(name, bytes.to_vec()).map_err(|error| vec![*error])?;
     match format {
-        Format::Adams => adm::read(&source),
-        Format::View => view::read(&source),
-        Format::Csv => csv::read(&source),
-        Format::Json | Format::Npz => json::read(&source),
+        TableFormat::Adams => adm::read(&source),
+        TableFormat::View => view::read(&source),
+        TableFormat::Csv => csv::read(&source),
+        TableFormat::Json | TableFormat::Npz => json::read(&source),
     }
 }
 
@@ -152,8 +152,8 @@ pub fn is_tables(name: &str, bytes: &[u8]) -> bool {
         tables: Option<IgnoredAny>,
         values: Option<IgnoredAny>,
     }
-    match Format::of(name) {
-        Ok(Format::Json) => {
+    match TableFormat::of(name) {
+        Ok(TableFormat::Json) => {
             serde_json::from_slice(bytes).is_ok_and(|members: Members| match &members.format {
                 Some(format) => format == json::FORMAT,
                 None => members.tables.is_some() || members.values.is_some(),

@@ -9,15 +9,15 @@ use serde_json::{Map, Value, json};
 use super::defect::{self, Defect, Part};
 use super::parsed::{Draft, Parsed};
 use super::set::{Product, TableSet};
-use crate::diagnostic::Diagnostic;
-use crate::fault::{Fault, Faults};
 use crate::grid::GridBlock;
-use crate::place::Place;
-use crate::source::Source;
 use crate::spec::{format, stem};
+use crate::text::diagnostic::Diagnostic;
+use crate::text::fault::{Fault, Faults};
+use crate::text::place::Place;
+use crate::text::source::Source;
 use crate::units::{RawUnits, Units};
 
-crate::object::objects!(RawSet, RawTable, RawProduct);
+crate::text::object::objects!(RawSet, RawTable, RawProduct);
 
 /// Value of the member `format`: name and version of the format.
 pub(super) const FORMAT: &str = "girderway-tables/1";
@@ -137,7 +137,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
             }
         }
         let list = root.key("tables");
-        let tables = faults.need(&raw.tables, &root, "tables").map(Vec::as_slice).unwrap_or_default();
+        let tables = faults.require(&raw.tables, &root, "tables").map(Vec::as_slice).unwrap_or_default();
         let drafts: Vec<Option<Draft>> =
             tables.iter().enumerate().map(|(k, table)| draft(table, &list.index(k), &mut faults)).collect();
         check_ids(tables, &list, &mut faults);
@@ -159,14 +159,14 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
 
 /// The one table of a file without `format` and `tables`.
 fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
-    let values = faults.need(&raw.values, root, "values")?;
+    let values = faults.require(&raw.values, root, "values")?;
     let (key, x) = match (&raw.stations, &raw.x) {
         (Some(_), Some(_)) => {
             faults.add(Fault::new(&root.key("x"), "cannot stand beside `stations`"));
             return None;
         }
         (Some(stations), None) => ("stations", stations),
-        (None, _) => ("x", faults.need(&raw.x, root, "x")?),
+        (None, _) => ("x", faults.require(&raw.x, root, "x")?),
     };
     let z = match (&raw.stations, &raw.z) {
         (Some(_), Some(_)) => {
@@ -184,7 +184,7 @@ fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> 
 /// One of `tables`.
 fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
     let quantity = quantity(&raw.quantity, at, faults);
-    let (x, values) = (faults.need(&raw.x, at, "x"), faults.need(&raw.values, at, "values"));
+    let (x, values) = (faults.require(&raw.x, at, "x"), faults.require(&raw.values, at, "values"));
     let (x, values) = x.zip(values)?;
     let z = raw.z.clone().unwrap_or_default();
     let curves: Result<SplineValues, Defect> = defect::checked(x.clone(), z, values.clone());
@@ -195,7 +195,7 @@ fn draft(raw: &RawTable, at: &Place<'_>, faults: &mut Faults) -> Option<Draft> {
 
 fn quantity(word: &Option<String>, at: &Place<'_>, faults: &mut Faults) -> Option<GridBlock> {
     let words: Vec<(&str, GridBlock)> = GridBlock::ALL.iter().map(|one| (one.name(), *one)).collect();
-    word.as_ref().and_then(|word| faults.word(word, &at.key("quantity"), &words))
+    word.as_ref().and_then(|word| faults.one_of(word, &at.key("quantity"), &words))
 }
 
 /// A defect as a fault below `at`; `x` is the key of x.
@@ -234,8 +234,8 @@ fn read_products(raw: &RawSet, tables: &[RawTable], list: &Place<'_>, faults: &m
     let mut out = Vec::new();
     for (k, raw) in raw.factored.iter().flatten().enumerate() {
         let at = list.index(k);
-        let name = faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
-        let terms = faults.need(&raw.terms, &at, "terms").cloned().unwrap_or_default();
+        let name = faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let terms = faults.require(&raw.terms, &at, "terms").cloned().unwrap_or_default();
         let place = at.key("terms");
         let find = |id: u32| tables.iter().find(|table| table.id == Some(id));
         let x_of = |id: u32| {

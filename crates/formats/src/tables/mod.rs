@@ -16,10 +16,10 @@ mod round;
 mod set;
 mod view;
 
-pub use self::csv::Columns;
+pub use self::csv::CsvColumns;
 pub use adm::{adm, data_set};
 pub(crate) use defect::disorder;
-pub use factored::{Deviation, Factoring, Unfactored, expand, factor};
-pub use format::{Contents, Format, WriteError, contents, is_tables, read, write};
-pub use round::{Rounding, Unrounded, round};
-pub use set::{Product, Table, TableSet, only};
+pub use factored::{Deviation, FactorError, FactoredTables, expand, factor};
+pub use format::{Contents, TableFormat, WriteError, contents, is_tables, read, write};
+pub use round::{RoundError, Rounding, round};
+pub use set::{Product, Table, TableSet, select};

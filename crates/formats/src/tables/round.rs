@@ -4,7 +4,7 @@ use adams::SplineValues;
 use serde_json::{Value, json};
 
 use super::set::{Table, TableSet};
-use crate::number::rounded;
+use crate::text::number::rounded;
 
 /// What rounding changed.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,7 +22,7 @@ pub struct Rounding {
 
 /// Why tables cannot be rounded to so few digits.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unrounded {
+pub enum RoundError {
     /// A value that overflows when rounded.
     #[error("SPLINE/{id} has a value that overflows when rounded")]
     Overflow {
@@ -64,7 +64,7 @@ impl Rounding {
 ///
 /// # Errors
 /// A value that overflows; stations that become equal.
-pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), Unrounded> {
+pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), RoundError> {
     let mut rounding = Rounding { digits, largest: 0.0, at: None, stations: false };
     let tables =
         set.tables.iter().map(|table| table_rounded(table, &mut rounding)).collect::<Result<_, _>>()?;
@@ -72,13 +72,13 @@ pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), Unro
 }
 
 /// Rounds a table, and takes each change into account in `rounding`.
-fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, Unrounded> {
+fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, RoundError> {
     let id = table.id;
     let (x, z) = (table.curves.x(), table.curves.z());
     let mut one = |value: f64, x: f64, z: Option<f64>, station: bool| {
         let nearest = rounded(value, rounding.digits);
         if !nearest.is_finite() {
-            return Err(Unrounded::Overflow { id });
+            return Err(RoundError::Overflow { id });
         }
         if nearest != value {
             // value is not 0, which rounding does not change
@@ -99,6 +99,6 @@ fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, Unroun
         let values = row.iter().zip(x).map(|(&value, &x)| one(value, x, z, false));
         rows.push(values.collect::<Result<_, _>>()?);
     }
-    let curves = SplineValues::new(new_x, new_z, rows).map_err(|_| Unrounded::Stations { id })?;
+    let curves = SplineValues::new(new_x, new_z, rows).map_err(|_| RoundError::Stations { id })?;
     Ok(Table { curves, ..table.clone() })
 }

@@ -2,7 +2,7 @@
 
 use adams::SplineValues;
 
-use crate::grid::{Grid, GridBlock};
+use crate::grid::{GridBlock, StationGrid};
 use crate::units::Units;
 
 /// Number of the first SPLINE: the paper's vertical table is SPLINE/6, its lateral one SPLINE/7.
@@ -14,7 +14,7 @@ pub(super) const FIRST: u32 = 6;
 /// table is one curve along a rail, and `products` say of which products of curves G is the sum.
 ///
 /// ```
-/// use formats::tables::{Format, expand, factor, read, write};
+/// use formats::tables::{TableFormat, expand, factor, read, write};
 /// use formats::units::{Force, Length, Units};
 ///
 /// // deflections in ft/lbf: a row for each z, a column for each x
@@ -25,7 +25,7 @@ pub(super) const FIRST: u32 = 6;
 /// assert_eq!(set.tables[0].curves.y()[0], [4.0, 3.0, 2.0, 1.0]);
 ///
 /// // the SPLINE statements read back as the same tables, and so does the factored form but for rounding
-/// let adm = write(&set, Format::Adams).expect("tables of different numbers");
+/// let adm = write(&set, TableFormat::Adams).expect("tables of different numbers");
 /// assert_eq!(read("north.adm", &adm, None).expect("our own file").tables[0].curves, set.tables[0].curves);
 /// let factored = factor(&set, splines::Rank::Full).expect("a positive definite table").set;
 /// assert_eq!(factored.tables.len(), 4);
@@ -68,7 +68,7 @@ impl TableSet {
     /// once, as the other is its transpose. Rails with fewer than four stations, the fewest of a SPLINE, have no
     /// tables.
     #[must_use]
-    pub fn of_grid(grid: &Grid) -> TableSet {
+    pub fn of_grid(grid: &StationGrid) -> TableSet {
         let mut tables = Vec::new();
         let rails = &grid.rails;
         let mut pair = 0;
@@ -110,7 +110,7 @@ impl TableSet {
 
     /// The table with this number.
     #[must_use]
-    pub fn find(&self, id: u32) -> Option<&Table> {
+    pub fn table(&self, id: u32) -> Option<&Table> {
         self.tables.iter().find(|table| table.id == id)
     }
 }
@@ -145,7 +145,7 @@ impl Product {
 /// The tables whose deflections and loads are both of these directions (direct blocks): the direct tables and the
 /// couplings between them. In the factored form these are the products, and the curves of their terms.
 #[must_use]
-pub fn only(set: &TableSet, directions: &[GridBlock]) -> TableSet {
+pub fn select(set: &TableSet, directions: &[GridBlock]) -> TableSet {
     let wanted = |quantity: Option<GridBlock>| {
         quantity.is_some_and(|quantity| quantity.direct().iter().all(|direct| directions.contains(direct)))
     };

@@ -3,9 +3,9 @@
 use super::adm::{comments, drafts, remarks, unreadable};
 use super::parsed::Parsed;
 use super::set::{TableSet, adams_name};
-use crate::diagnostic::Diagnostic;
-use crate::source::Source;
 use crate::spec::stem;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::source::Source;
 use crate::units::Units;
 
 /// The text of a command file: units, model and splines, with the products in comments at its head.

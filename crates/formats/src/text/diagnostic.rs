@@ -7,7 +7,7 @@ use serde::Serialize;
 /// One error of an input with its place in the file, as far as that is known.
 ///
 /// ```
-/// use formats::diagnostic::Diagnostic;
+/// use formats::text::diagnostic::Diagnostic;
 ///
 /// let missing = Diagnostic::of_file("scene.json", "cannot be read: no such file").hint("check the path");
 /// assert_eq!(missing.to_string(), "scene.json: cannot be read: no such file  hint: check the path");

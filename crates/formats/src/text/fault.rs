@@ -9,8 +9,8 @@ const DUPLICATE: &str = "duplicate key ";
 /// One thing wrong, by path; `Source::diagnose` finds its line and column.
 ///
 /// ```
-/// use formats::fault::Fault;
-/// use formats::place::Place;
+/// use formats::text::fault::Fault;
+/// use formats::text::place::Place;
 ///
 /// let root = Place::root();
 /// let girder = root.key("girder");
@@ -85,7 +85,7 @@ impl Faults {
     }
 
     /// `Some` where there is a value; a fault that names the missing key where there is none.
-    pub fn need<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
+    pub fn require<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
         if value.is_none() {
             self.add(Fault::new(place, format!("missing key `{key}`")));
         }
@@ -93,7 +93,7 @@ impl Faults {
     }
 
     /// One of a few words; unknown ones are a fault that lists them and suggests the nearest.
-    pub fn word<T: Copy>(&mut self, found: &str, place: &Place<'_>, words: &[(&str, T)]) -> Option<T> {
+    pub fn one_of<T: Copy>(&mut self, found: &str, place: &Place<'_>, words: &[(&str, T)]) -> Option<T> {
         if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
             return Some(*value);
         }
@@ -214,8 +214,8 @@ mod tests {
     fn word_lists_what_is_known() {
         let mut faults = Faults::default();
         let root = Place::root();
-        assert_eq!(faults.word("rail", &root, &[("rail", 1), ("ground", 2)]), Some(1));
-        assert_eq!(faults.word("grund", &root, &[("rail", 1), ("ground", 2)]), None);
+        assert_eq!(faults.one_of("rail", &root, &[("rail", 1), ("ground", 2)]), Some(1));
+        assert_eq!(faults.one_of("grund", &root, &[("rail", 1), ("ground", 2)]), None);
         assert_eq!(faults.0.len(), 1);
         assert_eq!(faults.0[0].expected, "must be \"rail\" or \"ground\"");
         assert_eq!(faults.0[0].hint.as_deref(), Some("did you mean \"ground\"?"));

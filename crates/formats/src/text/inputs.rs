@@ -13,7 +13,7 @@ pub struct Input {
     /// As named by the user or by the file that refers to it.
     pub name: String,
     /// Its name in messages.
-    pub shown: String,
+    pub display_name: String,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
     /// Its contents.
@@ -22,8 +22,8 @@ pub struct Input {
 
 impl Input {
     fn read(name: String, path: &Path) -> Result<Input, String> {
-        let bytes = std::fs::read(path).map_err(|error| cannot_read(&error))?;
-        Ok(Input { name, shown: path.display().to_string(), sha256: sha256(&bytes), bytes })
+        let bytes = std::fs::read(path).map_err(|error| read_error_message(&error))?;
+        Ok(Input { name, display_name: path.display().to_string(), sha256: sha256(&bytes), bytes })
     }
 
     /// Its text.
@@ -31,7 +31,7 @@ impl Input {
     /// # Errors
     /// Bytes that are not UTF-8, placed in it.
     pub fn source(&self) -> Result<Source, Box<Diagnostic>> {
-        Source::from_bytes(self.shown.clone(), self.bytes.clone())
+        Source::from_bytes(self.display_name.clone(), self.bytes.clone())
     }
 }
 
@@ -69,7 +69,7 @@ impl Inputs {
     ///
     /// # Errors
     /// Why it cannot be read, in words.
-    pub fn refer(&mut self, name: &str) -> Result<&Input, String> {
+    pub fn open_referenced(&mut self, name: &str) -> Result<&Input, String> {
         let index = match self.read.iter().position(|input| input.name == name) {
             Some(index) => index,
             None => {
@@ -94,7 +94,7 @@ impl Inputs {
 }
 
 /// Message of an error of the file system.
-pub fn cannot_read(error: &std::io::Error) -> String {
+pub fn read_error_message(error: &std::io::Error) -> String {
     let why = match error.kind() {
         std::io::ErrorKind::NotFound => "no such file".to_owned(),
         std::io::ErrorKind::PermissionDenied => "permission denied".to_owned(),

@@ -40,7 +40,7 @@ fn is_plain(key: &str) -> bool {
 /// A place in a document that is being read: a chain of steps on the stack, made into a [`Path`] only for a fault.
 ///
 /// ```
-/// use formats::place::Place;
+/// use formats::text::place::Place;
 ///
 /// let root = Place::root();
 /// let bodies = root.key("bodies");

@@ -13,9 +13,9 @@ use super::wording::syntax;
 /// An input file's name, as users know it, and its text.
 ///
 /// ```
-/// use formats::fault::{Fault, Faults};
-/// use formats::place::Place;
-/// use formats::source::Source;
+/// use formats::text::fault::{Fault, Faults};
+/// use formats::text::place::Place;
+/// use formats::text::source::Source;
 ///
 /// let text = "{\n  \"spans\": [60, -60]\n}";
 /// let source = Source { name: "girder.json".to_owned(), text: text.to_owned() };
@@ -120,7 +120,7 @@ impl<'s> Tree<'s> {
     fn other_format(&self, format: &str) -> Option<Diagnostic> {
         let found = self.root.member("format")?.value.as_text()?;
         let mut faults = Faults::default();
-        faults.word(found, &Place::root().key("format"), &[(format, ())]);
+        faults.one_of(found, &Place::root().key("format"), &[(format, ())]);
         self.diagnose(&faults).pop()
     }
 

@@ -50,7 +50,8 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             let name = parts.head.trim_end_matches('*').trim_end().to_owned();
             lost = !plain(&name);
             if lost {
-                let finding = ImportFinding::new(line.at, "", "must be the name of a card").got(&parts.head);
+                let finding =
+                    ImportFinding::new(line.at, "", "must be the name of a card").with_found(&parts.head);
                 let hint = "a name is letters and digits; `=` and `/` are not read";
                 findings.error(finding.hint(hint));
             } else {
@@ -79,7 +80,7 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
         if !expected.is_empty() && !marker.is_empty() && expected != marker {
             let finding =
                 ImportFinding::new(line.at, &card.name, format!("must continue with the marker {expected}"));
-            findings.error(finding.got(marker).hint("put each continuation right after its card"));
+            findings.error(finding.with_found(marker).hint("put each continuation right after its card"));
         }
         let whole = if parts.large { 4 } else { 8 };
         while card.fields.len() % whole != 0 {
@@ -184,7 +185,7 @@ mod tests {
             "CBAR*                  5               1              10              20\n*                     0.              1.              0.\n+            456                                     1.5",
         ] {
             let (cards, findings) = read(text);
-            assert!(!findings.wrong(), "{text}: {:?}", findings.errors());
+            assert!(!findings.has_errors(), "{text}: {:?}", findings.errors());
             assert_eq!(cards.len(), 1, "{text}");
             assert_eq!((cards[0].name.as_str(), texts(&cards[0])), ("CBAR", wanted.to_vec()), "{text}");
         }
@@ -193,7 +194,7 @@ mod tests {
     #[test]
     fn a_large_card_of_one_line_may_be_continued_in_small_fields() {
         let (cards, findings) = read("GRID*                  1                              2.\n+       7");
-        assert!(!findings.wrong());
+        assert!(!findings.has_errors());
         assert_eq!(texts(&cards[0]), ["1", "", "2.", "", "", "", "", "", "7"]);
     }
 

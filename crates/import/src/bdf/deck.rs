@@ -159,7 +159,7 @@ impl BulkDeck {
                 ("SPC", None) => {
                     findings.error(
                         ImportFinding::new(line.at, "SPC", "must be a whole number above 0")
-                            .got(word(line, 1)),
+                            .with_found(word(line, 1)),
                     );
                 }
                 ("MPC", _) if skip.iter().all(|name| name != "MPC") => {

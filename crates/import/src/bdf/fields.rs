@@ -3,7 +3,7 @@
 use super::card::{Card, CardField};
 use super::field::{Number, freedoms, number};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use formats::fault::number as written;
+use formats::text::fault::number as written;
 
 /// Reads the fields of one card; field 1 is the first after the name.
 #[derive(Debug)]
@@ -58,7 +58,7 @@ impl CardFields<'_, '_> {
     pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> ImportFinding {
         let about = if name.is_empty() { self.label() } else { format!("{}: {name}", self.label()) };
         let finding = ImportFinding::new(self.at(index), about, expected);
-        if self.blank(index) { finding } else { finding.got(ascii(self.text(index))) }
+        if self.blank(index) { finding } else { finding.with_found(ascii(self.text(index))) }
     }
 
     /// Adds an error about a field.

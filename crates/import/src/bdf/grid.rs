@@ -137,7 +137,7 @@ pub fn resolve(
                     format!("GRID {id}: {name}"),
                     "must be 0 or the number of a CORD2R",
                 );
-                findings.error(finding.got(system));
+                findings.error(finding.with_found(system));
             }
             frames.get(&system).copied()
         };
@@ -147,8 +147,9 @@ pub fn resolve(
             let about = format!("GRID {id}: CD");
             let finding =
                 ImportFinding::new(grid.spots[1], about, "must be a system with the axes of the basic one");
-            findings
-                .error(finding.got(cd).hint("supports and springs of a beam spec are along the global axes"));
+            findings.error(
+                finding.with_found(cd).hint("supports and springs of a beam spec are along the global axes"),
+            );
         }
         let Some(frame) = place else { continue };
         let at = frame.basic(grid.at);
@@ -195,7 +196,7 @@ fn frames(
             for (id, system) in left.drain(..) {
                 let about = format!("CORD2R {id}: RID");
                 let expected = "must lead to the basic system, which is 0";
-                findings.error(ImportFinding::new(system.card, about, expected).got(system.reference));
+                findings.error(ImportFinding::new(system.card, about, expected).with_found(system.reference));
             }
         }
     }

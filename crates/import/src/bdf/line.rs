@@ -4,10 +4,10 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use formats::inputs::cannot_read;
+use formats::text::inputs::read_error_message;
 
 /// Function that reads a file; tests and the command line bring their own.
-pub type Open<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
+pub type OpenFile<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
 
 /// Largest number of files that a deck may include: more mean that it includes itself repeatedly.
 const MOST_FILES: usize = 1000;
@@ -27,7 +27,7 @@ pub struct BulkLine {
 ///
 /// # Errors
 /// The first file's own reason why it cannot be read; includes are findings.
-pub fn read(path: &Path, open: Open<'_>, findings: &mut ImportFindings) -> io::Result<Vec<BulkLine>> {
+pub fn read(path: &Path, open: OpenFile<'_>, findings: &mut ImportFindings) -> io::Result<Vec<BulkLine>> {
     let bytes = open(path)?;
     let mut reader = Reader { open, lines: Vec::new(), stack: Vec::new(), main: folder(path), ended: false };
     reader.file(path, &bytes, findings);
@@ -39,7 +39,7 @@ fn folder(path: &Path) -> PathBuf {
 }
 
 struct Reader<'a> {
-    open: Open<'a>,
+    open: OpenFile<'a>,
     lines: Vec<BulkLine>,
     stack: Vec<PathBuf>,
     main: PathBuf,
@@ -95,7 +95,7 @@ impl Reader<'_> {
         let bytes = match read {
             Ok(bytes) => bytes,
             Err(error) => {
-                let expected = format!("{} {}", places[0].display(), cannot_read(&error));
+                let expected = format!("{} {}", places[0].display(), read_error_message(&error));
                 findings.error(refuse(&expected, "names are relative to the file that includes"));
                 return;
             }
@@ -103,7 +103,7 @@ impl Reader<'_> {
         if self.stack.contains(path) {
             findings.error(
                 refuse("must not lead back to a file that is being read", "take out one of the INCLUDEs")
-                    .got(name),
+                    .with_found(name),
             );
         } else if findings.files.len() >= MOST_FILES {
             findings.error(refuse("includes too many files", "a deck may include up to 999 files"));

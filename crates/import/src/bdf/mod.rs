@@ -25,7 +25,7 @@ mod support;
 use std::io;
 use std::path::Path;
 
-pub use line::Open;
+pub use line::OpenFile;
 
 use super::findings::ImportFindings;
 use super::structure::ImportedStructure;
@@ -37,7 +37,7 @@ use super::structure::ImportedStructure;
 /// The deck cannot be read as a file; all other errors are among the findings.
 pub fn read(
     path: &Path,
-    open: Open<'_>,
+    open: OpenFile<'_>,
     empty: ImportedStructure,
     spc: Option<u64>,
     skip: &[String],
@@ -46,7 +46,7 @@ pub fn read(
     let lines = line::read(path, open, findings)?;
     let deck = deck::BulkDeck::new(&lines, skip, findings);
     // references to cards that could not be read would give errors that are not their own
-    if findings.wrong() {
+    if findings.has_errors() {
         return Ok(empty);
     }
     Ok(resolve::resolve(&deck, empty, spc, findings))

@@ -7,8 +7,8 @@
 
 use super::fields::CardFields;
 use crate::findings::FilePlace;
-use formats::fault::nearest;
-use formats::shape::{Refusal, SHAPES, dimensions, properties};
+use formats::spec::cross_section::{SHAPES, ShapeError, dimensions, section_properties};
+use formats::text::fault::nearest;
 
 /// A property of bars, beams or rods.
 #[derive(Clone, Debug)]
@@ -255,13 +255,13 @@ fn section(
     material: u64,
     nsm: f64,
 ) -> Option<Property> {
-    let section = match properties(shape, dimensions) {
+    let section = match section_properties(shape, dimensions) {
         Ok(section) => section,
-        Err(Refusal::Oblique) => {
+        Err(ShapeError::Oblique) => {
             card.refuse(4, "TYPE", "must have its principal axes along y and z", NO_PRODUCT);
             return None;
         }
-        Err(Refusal::Dimensions | Refusal::Unknown) => {
+        Err(ShapeError::Dimensions | ShapeError::Unknown) => {
             let hint = "some of them leave no room for others";
             card.refuse(9, "DIM1", "must begin dimensions of a section", hint);
             return None;

@@ -89,7 +89,8 @@ impl<'d> Resolver<'d, '_> {
         let index = self.index.get(&id).copied();
         // a grid that exists but could not be read has an error of its own
         if index.is_none() && !self.deck.grids.contains_key(&id) {
-            self.findings.error(ImportFinding::new(at, about, "names a grid that is not there").got(id));
+            self.findings
+                .error(ImportFinding::new(at, about, "names a grid that is not there").with_found(id));
         }
         index
     }
@@ -118,7 +119,7 @@ impl<'d> Resolver<'d, '_> {
                 let Some(property) = deck.properties.get(number) else {
                     let finding =
                         ImportFinding::new(element.card, about, "names a property that is not there");
-                    self.findings.error(finding.got(number));
+                    self.findings.error(finding.with_found(number));
                     return None;
                 };
                 (*number, property)
@@ -156,7 +157,7 @@ impl<'d> Resolver<'d, '_> {
                             format!("{about}: G0"),
                             "names a grid that is not there",
                         );
-                        self.findings.error(finding.got(grid));
+                        self.findings.error(finding.with_found(grid));
                     }
                     return None;
                 };
@@ -286,8 +287,9 @@ impl<'d> Resolver<'d, '_> {
             }
             for (grid, at) in &hold.grids {
                 if !deck.grids.contains_key(grid) {
-                    self.findings
-                        .error(ImportFinding::new(*at, &about, "names a grid that is not there").got(grid));
+                    self.findings.error(
+                        ImportFinding::new(*at, &about, "names a grid that is not there").with_found(grid),
+                    );
                 }
                 restrained.extend(self.index.get(grid));
             }
@@ -318,7 +320,7 @@ impl<'d> Resolver<'d, '_> {
                     None => {
                         let finding =
                             ImportFinding::new(spring.card, &spring.label, "names a PELAS that is not there");
-                        self.findings.error(finding.got(number));
+                        self.findings.error(finding.with_found(number));
                         continue;
                     }
                 },
@@ -326,7 +328,7 @@ impl<'d> Resolver<'d, '_> {
             if k <= 0.0 {
                 let finding =
                     ImportFinding::new(spring.card, &spring.label, "must have a positive stiffness");
-                self.findings.error(finding.got(k));
+                self.findings.error(finding.with_found(k));
                 continue;
             }
             let mut free = Vec::new();
@@ -345,7 +347,7 @@ impl<'d> Resolver<'d, '_> {
             match free.as_slice() {
                 _ if !known => {}
                 [(point, dof)] => {
-                    self.structure.springs.push(ImportedSpring { point: *point, freedom: *dof, k });
+                    self.structure.springs.push(ImportedSpring { point: *point, dof: *dof, k });
                 }
                 [] => {
                     let finding =

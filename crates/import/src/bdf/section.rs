@@ -90,7 +90,7 @@ fn material_of<'d>(
     let Some(material) = deck.materials.get(&property.material) else {
         let finding =
             ImportFinding::new(property.card, format!("{name}: MID"), "must be the number of a MAT1");
-        findings.error(finding.got(property.material));
+        findings.error(finding.with_found(property.material));
         return None;
     };
     let is_shear_flexible = property.bending[0] > 0.0 && property.shear.iter().any(|k| *k > 0.0);

@@ -152,8 +152,8 @@ pub fn chosen(
         return parts.iter().copied().collect();
     }
     if !plain.contains(&set) {
-        let finding =
-            ImportFinding::new(at, "SPC", "must be the number of a set of SPC, SPC1 or SPCADD").got(set);
+        let finding = ImportFinding::new(at, "SPC", "must be the number of a set of SPC, SPC1 or SPCADD")
+            .with_found(set);
         findings.error(finding.hint(list));
     }
     BTreeSet::from([set])

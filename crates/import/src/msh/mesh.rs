@@ -56,7 +56,7 @@ impl Mesh {
             };
         }
         for needed in ["Entities", "Nodes", "Elements"] {
-            if !seen.contains(&needed) && !findings.wrong() {
+            if !seen.contains(&needed) && !findings.has_errors() {
                 let at = FilePlace { file: 0, line: 1, column: 1 };
                 findings.error(ImportFinding::new(at, format!("${needed}"), "is missing").hint(CONVERT));
             }
@@ -76,7 +76,8 @@ impl Mesh {
                 return None;
             };
             if self.names.insert((dimension, tag), name.to_owned()).is_some() {
-                findings.error(ImportFinding::new(record.at, "physical group", "has two names").got(tag));
+                findings
+                    .error(ImportFinding::new(record.at, "physical group", "has two names").with_found(tag));
             }
         }
         Some(())
@@ -101,7 +102,8 @@ impl Mesh {
                     list.push(record.tag(index, "physical group", findings)?);
                 }
                 if self.groups.insert((dimension, tag), list).is_some() {
-                    findings.error(ImportFinding::new(record.at, "entity", "stands there twice").got(tag));
+                    findings
+                        .error(ImportFinding::new(record.at, "entity", "stands there twice").with_found(tag));
                 }
             }
         }
@@ -127,7 +129,7 @@ impl Mesh {
                     place[axis] = record.real(axis, name, findings)?;
                 }
                 if self.nodes.insert(tag, place).is_some() {
-                    findings.error(ImportFinding::new(at, "node", "stands there twice").got(tag));
+                    findings.error(ImportFinding::new(at, "node", "stands there twice").with_found(tag));
                 }
                 if dimension == 0 {
                     self.points.entry(entity).or_default().push(tag);
@@ -184,7 +186,7 @@ impl Mesh {
             findings.error(ImportFinding::new(record.at, format!("element {tag}"), "must join two nodes"));
         }
         if self.lines.insert(tag, (curve, nodes, record.at)).is_some() {
-            findings.error(ImportFinding::new(record.at, "element", "stands there twice").got(tag));
+            findings.error(ImportFinding::new(record.at, "element", "stands there twice").with_found(tag));
         }
         Some(())
     }
@@ -222,7 +224,7 @@ fn plain_41(text: &str, findings: &mut ImportFindings) -> bool {
     let (line, format) = lines.next().unwrap_or((1, ""));
     let words: Vec<&str> = format.split_ascii_whitespace().collect();
     let refuse = |expected: &str, found: &str| {
-        ImportFinding::new(at(line), "$MeshFormat", expected).got(found).hint(CONVERT)
+        ImportFinding::new(at(line), "$MeshFormat", expected).with_found(found).hint(CONVERT)
     };
     match words.as_slice() {
         ["4.1", "0", ..] => true,

@@ -32,7 +32,7 @@ pub fn read(
 ) -> ImportedStructure {
     let mesh = Mesh::read(text, findings);
     let mut structure = empty;
-    if findings.wrong() {
+    if findings.has_errors() {
         return structure;
     }
     structure.materials.clone_from(&groups.materials);
@@ -46,7 +46,8 @@ pub fn read(
         let [a, b] = nodes.map(|node| index.get(&node).copied());
         let (Some(a), Some(b)) = (a, b) else {
             let missing = nodes.into_iter().find(|node| !index.contains_key(node)).unwrap_or_default();
-            findings.error(ImportFinding::new(at, about, "names a node that is not there").got(missing));
+            findings
+                .error(ImportFinding::new(at, about, "names a node that is not there").with_found(missing));
             continue;
         };
         let names: Vec<&str> = names(&mesh, 1, curve);
@@ -96,7 +97,7 @@ pub fn read(
             releases: group.releases,
         });
     }
-    if structure.members.is_empty() && !findings.wrong() {
+    if structure.members.is_empty() && !findings.has_errors() {
         let at = super::findings::FilePlace { file: 0, line: 1, column: 1 };
         let hint = "mesh the curves (gmsh -1), and put them in physical groups";
         findings.error(ImportFinding::new(at, "", "has no line cells").hint(hint));

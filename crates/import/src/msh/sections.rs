@@ -9,17 +9,17 @@ use serde::Deserialize;
 
 use crate::structure::{ImportedMaterial, ImportedSection};
 use formats::check::Check;
-use formats::diagnostic::Diagnostic;
-use formats::entries::Entries;
-use formats::fault::{Fault, Faults, nearest};
-use formats::place::Place;
-use formats::source::Source;
+use formats::text::diagnostic::Diagnostic;
+use formats::text::entries::Entries;
+use formats::text::fault::{Fault, Faults, nearest};
+use formats::text::place::Place;
+use formats::text::source::Source;
 use formats::units::{Dimension, RawUnits, Scale, Units};
 
 /// The word of the format, with its version.
 pub const FORMAT: &str = "girderway-sections/1";
 
-formats::object::objects!(Raw, RawMaterial, RawSection, RawMember);
+formats::text::object::objects!(Raw, RawMaterial, RawSection, RawMember);
 
 #[derive(Debug, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
@@ -108,8 +108,8 @@ impl Sections {
         let raw: Raw = source.parse(FORMAT).map_err(|error| vec![*error])?;
         let mut faults = Faults::default();
         let root = Place::root();
-        if let Some(word) = faults.need(&raw.format, &root, "format") {
-            faults.word(word, &root.key("format"), &[(FORMAT, ())]);
+        if let Some(word) = faults.require(&raw.format, &root, "format") {
+            faults.one_of(word, &root.key("format"), &[(FORMAT, ())]);
         }
         let units = Units::read(&raw.units, &root, &mut faults);
         let Some(units) = units else { return Err(source.diagnose(&faults)) };
@@ -128,14 +128,15 @@ impl Sections {
 fn materials(raw: &Raw, root: &Place<'_>, check: &mut Check<'_>) -> Vec<ImportedMaterial> {
     let list = root.key("materials");
     let mut materials: Vec<ImportedMaterial> = Vec::new();
-    for (index, raw) in check.faults.need(&raw.materials, root, "materials").into_iter().flatten().enumerate()
+    for (index, raw) in
+        check.faults.require(&raw.materials, root, "materials").into_iter().flatten().enumerate()
     {
         let at = list.index(index);
-        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
         if materials.iter().any(|other| other.name == name) {
             check.faults.add(Fault::new(&at.key("name"), "must differ from the other materials").got(&name));
         }
-        let e = check.needed(raw.e, &at, "E", Dimension::STRESS, "");
+        let e = check.required_positive(raw.e, &at, "E", Dimension::STRESS, "");
         let g = check.optional_positive(raw.g, &at.key("G"), Dimension::STRESS, "");
         let density =
             raw.density.map(|value| check.not_negative(value, &at.key("density"), Dimension::DENSITY, ""));
@@ -152,13 +153,15 @@ fn sections(
 ) -> Vec<ImportedSection> {
     let list = root.key("sections");
     let mut sections: Vec<ImportedSection> = Vec::new();
-    for (index, raw) in check.faults.need(&raw.sections, root, "sections").into_iter().flatten().enumerate() {
+    for (index, raw) in
+        check.faults.require(&raw.sections, root, "sections").into_iter().flatten().enumerate()
+    {
         let at = list.index(index);
-        let name = check.faults.need(&raw.name, &at, "name").cloned().unwrap_or_default();
+        let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
         if sections.iter().any(|other| other.name == name) {
             check.faults.add(Fault::new(&at.key("name"), "must differ from the other sections").got(&name));
         }
-        let material = check.faults.need(&raw.material, &at, "material").cloned().unwrap_or_default();
+        let material = check.faults.require(&raw.material, &at, "material").cloned().unwrap_or_default();
         if raw.material.is_some() && !materials.iter().any(|other| other.name == material) {
             let known: Vec<&str> = materials.iter().map(|other| other.name.as_str()).collect();
             unknown(check.faults, &at.key("material"), "a material", &material, &known);
@@ -203,14 +206,14 @@ fn named_groups(
         let position = sections.iter().position(|section| section.name == *wanted);
         let kinds = [("beam", false), ("truss", true)];
         if let Some(word) = &raw.kind {
-            group.truss = faults.word(word, &at.key("kind"), &kinds).unwrap_or_default();
+            group.truss = faults.one_of(word, &at.key("kind"), &kinds).unwrap_or_default();
         }
         for (end, (key, words)) in
             [("release_a", &raw.release_a), ("release_b", &raw.release_b)].into_iter().enumerate()
         {
             let list = at.key(key);
             for (index, word) in words.iter().flatten().enumerate() {
-                if let Some(freedom) = faults.word(word, &list.index(index), &DOFS) {
+                if let Some(freedom) = faults.one_of(word, &list.index(index), &DOFS) {
                     group.releases[end][freedom] = true;
                 }
             }

@@ -37,7 +37,7 @@ impl<'t> MeshRecord<'t> {
         if word.is_none() {
             findings.error(
                 ImportFinding::new(self.at, what, "is missing in this line")
-                    .got(format!("{} words", self.len())),
+                    .with_found(format!("{} words", self.len())),
             );
         }
         word
@@ -48,7 +48,7 @@ impl<'t> MeshRecord<'t> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok();
         if value.is_none() {
-            findings.error(ImportFinding::new(at, what, "must be a whole number from 0").got(word));
+            findings.error(ImportFinding::new(at, what, "must be a whole number from 0").with_found(word));
         }
         value
     }
@@ -58,7 +58,7 @@ impl<'t> MeshRecord<'t> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok().map(i64::unsigned_abs);
         if value.is_none() {
-            findings.error(ImportFinding::new(at, what, "must be a whole number").got(word));
+            findings.error(ImportFinding::new(at, what, "must be a whole number").with_found(word));
         }
         value
     }
@@ -68,7 +68,7 @@ impl<'t> MeshRecord<'t> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok().filter(|value: &f64| value.is_finite());
         if value.is_none() {
-            findings.error(ImportFinding::new(at, what, "must be a finite number").got(word));
+            findings.error(ImportFinding::new(at, what, "must be a finite number").with_found(word));
         }
         value
     }
@@ -123,7 +123,7 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
                 open = false;
                 if name.strip_prefix("End") != Some(section.name) {
                     let expected = format!("must be $End{}", section.name);
-                    findings.error(ImportFinding::new(record.at, "", expected).got(record.line));
+                    findings.error(ImportFinding::new(record.at, "", expected).with_found(record.line));
                     return sections;
                 }
             }

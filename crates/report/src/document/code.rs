@@ -3,7 +3,7 @@
 
 use serde_json::{Value, json};
 
-use formats::number::rounded;
+use formats::text::number::rounded;
 
 /// Smallest number of steps in the range of an axis: twenty for each pixel.
 const FINE: f64 = 2e4;

@@ -20,7 +20,7 @@ const DIGITS: usize = 7;
 /// ```
 /// use report::{Report, ReportSection};
 ///
-/// let sections = vec![ReportSection::new("Case <1>").say("Values are escaped.")];
+/// let sections = vec![ReportSection::new("Case <1>").paragraph("Values are escaped.")];
 /// let report = Report { title: "Crossing".to_owned(), subtitle: "one wheel".to_owned(), sections };
 /// let page = report.html(None)?;
 /// assert!(page.contains("Case &lt;1&gt;"));

@@ -8,7 +8,7 @@ use crate::document::animated::Animation;
 /// ```
 /// use report::{ReportSection, TableCell};
 ///
-/// let section = ReportSection::new("Results").say("All runs reached their ends.").fact("steps", 120_usize, "");
+/// let section = ReportSection::new("Results").paragraph("All runs reached their ends.").fact("steps", 120_usize, "");
 /// assert_eq!(section.facts[0].value, TableCell::Number(120.0));
 /// assert_eq!(section.paragraphs.len(), 1);
 /// ```
@@ -33,7 +33,7 @@ impl ReportSection {
     }
 
     /// The same section with one more paragraph.
-    pub fn say(mut self, paragraph: impl Into<String>) -> Self {
+    pub fn paragraph(mut self, paragraph: impl Into<String>) -> Self {
         self.paragraphs.push(paragraph.into());
         self
     }

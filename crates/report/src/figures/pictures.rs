@@ -1,14 +1,14 @@
 //! Charts of a run and of its structures.
 
-use splines::{Axis as Direction, Compliance, Influence, Probe, Surface};
+use splines::{Axis as Direction, Compliance, ExactSurface, Influence, Probe};
 
 use super::error::FigureError;
 use crate::Picture;
 use crate::chart::{
     self, Chart, ChartAxis, Deflected, GirderPlot, Series, Style, SupportMark, SurfacePlot, Svg,
 };
-use formats::block::GridBlock;
-use formats::motion::{Cast, CastWheel};
+use formats::grid::block::GridBlock;
+use formats::scene::motion::{NamedWheel, SimulationInput};
 use formats::scene::{Body, Scene};
 use formats::units::{Dimension, Units};
 use foundations::SolvedModel;
@@ -126,7 +126,7 @@ pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
 
 /// Vertical forces of all wheels, sliding and rolling where wheels spin.
 #[must_use]
-pub fn wheels(run: &LabelledRun, cast: &Cast) -> Vec<RunFigure> {
+pub fn wheels(run: &LabelledRun, cast: &SimulationInput) -> Vec<RunFigure> {
     let units = run.scene.units;
     let time = || ChartAxis::new("time", "s");
     let mut forces =
@@ -148,8 +148,8 @@ pub fn wheels(run: &LabelledRun, cast: &Cast) -> Vec<RunFigure> {
 }
 
 /// Lateral forces or traction of the wheels where they are largest; none where all are zero.
-fn horizontal(run: &LabelledRun, cast: &Cast, part: &str, word: &str) -> Option<RunFigure> {
-    let reach = |wheel: &CastWheel| {
+fn horizontal(run: &LabelledRun, cast: &SimulationInput, part: &str, word: &str) -> Option<RunFigure> {
+    let reach = |wheel: &NamedWheel| {
         run.record.part(&wheel.name, part).iter().fold(0.0_f64, |most, force| most.max(force.abs()))
     };
     let mut own: Vec<(usize, f64)> = cast
@@ -177,7 +177,7 @@ fn horizontal(run: &LabelledRun, cast: &Cast, part: &str, word: &str) -> Option<
 }
 
 /// Speeds of hub and rim, and the path of a point of the rim.
-fn rolling(run: &LabelledRun, wheel: &CastWheel) -> Vec<RunFigure> {
+fn rolling(run: &LabelledRun, wheel: &NamedWheel) -> Vec<RunFigure> {
     let (units, record, name) = (run.scene.units, run.record, &wheel.name);
     let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
     let values = |part: &str| record.part(name, part);
@@ -275,7 +275,7 @@ pub fn structure(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<R
 }
 
 /// Direct influence coefficients between all pairs of `places` on rail 0.
-fn dense(surface: &Surface, axis: Direction, places: &[f64]) -> Result<Vec<Vec<f64>>, splines::Error> {
+fn dense(surface: &ExactSurface, axis: Direction, places: &[f64]) -> Result<Vec<Vec<f64>>, splines::Error> {
     let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail: 0, x, axis }).collect();
     let mut influence = Influence::zeros(probes.len());
     surface.fill(&probes, &mut influence)?;
@@ -290,7 +290,7 @@ pub fn girder(
     name: &str,
     structure: usize,
     run: &LabelledRun,
-    cast: &Cast,
+    cast: &SimulationInput,
     solved: &SolvedModel,
 ) -> Result<Option<RunFigure>, FigureError> {
     let (Some(short), Some(surface)) = (&solved.girder, &solved.surface) else { return Ok(None) };
@@ -331,7 +331,7 @@ pub fn girder(
             .iter()
             .map(|support| SupportMark {
                 at: [solved.model.points[support.point][0], 0.0],
-                holds_length: support.fix[0],
+                holds_length: support.fixed[0],
             })
             .collect(),
         stations: solved.rails[0].stations.iter().map(|&x| [x, height]).collect(),

@@ -22,7 +22,7 @@ pub fn rails(runs: &[LabelledRun], comparison: &RunComparison) -> Vec<RunFigure>
     let grounded = |name: &String| {
         let rail = name.rsplit_once('.').map_or("", |(rail, _)| rail);
         let known = first.scene.rails.iter().find(|known| known.name == rail);
-        known.is_some_and(|rail| first.scene.structures[rail.structure].on.is_none())
+        known.is_some_and(|rail| first.scene.structures[rail.structure].carrier.is_none())
     };
     let sums = rail_sums(first.record).into_iter().filter(|sums| sums.iter().all(grounded)).take(RAILS);
     sums.flatten().filter_map(|column| plate(first.scene, &column, runs, comparison)).collect()

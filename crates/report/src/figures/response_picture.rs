@@ -50,7 +50,7 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
     let ridden: Vec<String> = scene
         .structures
         .iter()
-        .filter(|structure| structure.on.is_some())
+        .filter(|structure| structure.carrier.is_some())
         .map(|structure| format!("{}.", structure.name))
         .collect();
     let is_ground = |column: &&Column| {

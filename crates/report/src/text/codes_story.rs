@@ -1,8 +1,8 @@
 //! Report content on values of codes.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
-use formats::number::rounded;
 use formats::scene::Scene;
+use formats::text::number::rounded;
 use results::codes::{CodeCheck, CodeComparison};
 
 /// Significant digits of code values; codes give no more.
@@ -14,7 +14,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
     let all: Vec<(&str, &CodeCheck)> =
         runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
     let (_, first) = *all.first()?;
-    let mut section = ReportSection::new("Beside the codes").say(
+    let mut section = ReportSection::new("Beside the codes").paragraph(
         "What the runs have beside values of codes for the same crane. Forces found include what moves alone. CodeCheck give \
          values for design, with their own partial factors on top: a run that stays below one is no proof, a run above \
          one is a question.",
@@ -23,7 +23,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
     }
     if first.measures.approach_is_found {
-        section = section.say("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
+        section = section.paragraph("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
     }
     let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
     columns.extend(all.iter().map(|(label, _)| TableColumn::new(*label, "")));

@@ -1,9 +1,9 @@
 //! Report content on fatigue.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
-use formats::number::rounded;
 use formats::scene::Scene;
 use formats::spec::Detail;
+use formats::text::number::rounded;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 use results::fatigue::FatigueResult;
 
@@ -17,7 +17,7 @@ pub fn section(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> Option<Repor
         return None;
     }
     let fatigue = &scene.output.fatigue;
-    let mut section = ReportSection::new("Fatigue").say(format!(
+    let mut section = ReportSection::new("Fatigue").paragraph(format!(
         "Direct stresses N/A + My z/Iy - Mz y/Iz of what moves, at points given with the sections, counted by rainflow (ASTM \
          E1049) and summed by Miner's rule over the run; gamma_Ff = {}, gamma_Mf = {}. Numbers are detail categories of EN \
          1993-1-9 (N/mm2), letters those of AISC 360 (ksi). A history whose ranges all lie within the limit does no damage.",

@@ -1,8 +1,8 @@
 //! Report content on reactions, internal forces, sag and uplift.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
-use formats::number::rounded;
 use formats::scene::Scene;
+use formats::text::number::rounded;
 use formats::units::Dimension;
 use results::record::NamedColumns;
 use results::response::{Response, RunComparison};
@@ -19,7 +19,7 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
     if !response.columns.is_empty() {
         let weight = if scene.output.dead_load { "with" } else { "without" };
         section = section
-            .say(format!(
+            .paragraph(format!(
                 "Reactions of the ground on the structures, positive along their global axes, and internal forces at \
                  named sections: influence lines times wheel forces, less the inertia of the structure; {weight} the \
                  structures' own weight, which stands in a column of its own."
@@ -58,7 +58,7 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
         }
     }
     for note in &response.notes {
-        section = section.say(format!("{note}."));
+        section = section.paragraph(format!("{note}."));
     }
     section
 }

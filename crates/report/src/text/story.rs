@@ -2,7 +2,7 @@
 
 use crate::figures::pictures::RunFigure;
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
-use formats::coupling::Coupling;
+use formats::grid::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
 use formats::units::Dimension;
 use foundations::SolvedModel;
@@ -97,7 +97,7 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         Analysis::QuasiStatic => "a sequence of static equilibria over the prescribed motion",
     };
     ReportSection::new("Results")
-        .say(format!("The scene was computed as {how}. Deflections are positive downwards; forces on the rail are positive pressing."))
+        .paragraph(format!("The scene was computed as {how}. Deflections are positive downwards; forces on the rail are positive pressing."))
         .table(table)
 }
 
@@ -106,16 +106,18 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
     let mut section = ReportSection::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
         let choice = choices.iter().find(|choice| choice.structure == s);
-        let word = choice
-            .map_or_else(|| structure.foundation.word().to_owned(), |c| foundations::fidelity_name(c.rung));
+        let word = choice.map_or_else(
+            || structure.foundation.word().to_owned(),
+            |c| foundations::fidelity_name(c.fidelity),
+        );
         let name = &structure.name;
         section = section.fact(format!("{name}: foundation"), word, "").fact(
             format!("{name}: reading"),
-            structure.reading.word().to_owned(),
+            structure.interpolation.word().to_owned(),
             "",
         );
         if let Some(choice) = choice {
-            section = section.say(format!("{name}: {}.", foundations::selection_reason(choice)));
+            section = section.paragraph(format!("{name}: {}.", foundations::selection_reason(choice)));
         }
         let Some(solved) = solved else { continue };
         if let Some(certificate) = &solved.grid.certificate {
@@ -133,11 +135,11 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
                 scene.units.label(Dimension::LENGTH),
             );
         }
-        if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.line()) {
-            section = section.say(format!("{name}: {line}."));
+        if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.summary()) {
+            section = section.paragraph(format!("{name}: {line}."));
         }
         for note in &solved.grid.notes {
-            section = section.say(format!("{name}: {note}."));
+            section = section.paragraph(format!("{name}: {note}."));
         }
     }
     section
@@ -195,8 +197,8 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
             table.rows.push(vec![
                 TableCell::from(outcome.label.clone()),
                 TableCell::from(run.audit.peak_stored),
-                TableCell::from(exchanged.net_loss() + exchanged.put_in()),
-                TableCell::from(exchanged.put_in()),
+                TableCell::from(exchanged.net_loss() + exchanged.supplied()),
+                TableCell::from(exchanged.supplied()),
                 TableCell::from(run.audit.residual()),
                 TableCell::from(run.counts.steps as f64),
             ]);
@@ -205,11 +207,11 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let mut section = ReportSection::new("Energy");
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         for warning in warning::case_warnings(&case.scene, outcome) {
-            section = section.say(format!("Warning, {}: {warning}.", outcome.label));
+            section = section.paragraph(format!("Warning, {}: {warning}.", outcome.label));
         }
     }
     if table.rows.is_empty() {
-        section.say("No run of this scene is dynamic: there is no energy to audit.")
+        section.paragraph("No run of this scene is dynamic: there is no energy to audit.")
     } else {
         section.table(table)
     }

@@ -4,8 +4,8 @@ use sim::Action;
 
 use crate::layout::ScenePositions;
 use crate::record::NamedColumns;
-use formats::motion::Cast;
-use formats::scene::{Along, Practice, Scene, across, end_stops, seat};
+use formats::scene::motion::SimulationInput;
+use formats::scene::{BodyMotion, Practice, Scene, end_stops, mean_lateral_position, root_body};
 use formats::units::{Dimension, Scale, Units};
 use foundations::Error;
 
@@ -67,12 +67,13 @@ impl CraneData {
     pub fn new(
         scene: &Scene,
         practice: &Practice,
-        cast: &Cast,
+        cast: &SimulationInput,
         record: &NamedColumns,
     ) -> Result<CraneData, Error> {
         let layout = ScenePositions::new(scene)?;
         let g = scene.gravity;
-        let all: Vec<(usize, [f64; 3])> = (0..scene.bodies.len()).map(|body| seat(scene, body)).collect();
+        let all: Vec<(usize, [f64; 3])> =
+            (0..scene.bodies.len()).map(|body| root_body(scene, body)).collect();
         let mut fixed: Vec<[f64; 2]> = scene
             .bodies
             .iter()
@@ -90,7 +91,7 @@ impl CraneData {
         let weight = |counts: &dyn Fn(usize) -> bool| -> f64 {
             (0..all.len()).filter(|body| counts(*body)).map(|body| scene.bodies[body].mass * g).sum()
         };
-        let across = practice.rails.map(|rail| across(scene, practice.crane, rail));
+        let across = practice.rails.map(|rail| mean_lateral_position(scene, practice.crane, rail));
         let line = practice.trolley.and_then(|trolley| {
             let (_, axle) = layout.track(trolley)?;
             let [_, _, off] = layout.turned(trolley, scene.bodies[trolley].cg);
@@ -173,13 +174,13 @@ impl CraneData {
 /// The first buffer between the crane and another body.
 fn between(scene: &Scene, practice: &Practice, layout: &ScenePositions) -> Option<Between> {
     let met = scene.stops.iter().enumerate().find_map(|(index, stop)| {
-        let meeting = stop.meetings.first()?;
+        let meeting = stop.points.first()?;
         let pair = [stop.against?, meeting.body];
         let other = pair.into_iter().find(|body| *body != practice.crane)?;
         pair.contains(&practice.crane).then_some((index, stop.stiffness, other))
     });
     let (stop, stiffness, other) = met?;
-    let own = scene.bodies.iter().enumerate().filter(|(body, _)| seat(scene, *body).0 == other);
+    let own = scene.bodies.iter().enumerate().filter(|(body, _)| root_body(scene, *body).0 == other);
     let mass: f64 = own.map(|(_, body)| body.mass).sum();
     let carried: f64 = layout.carried(other).map(|mount| mount.mass[1][1]).sum();
     let speed = driven(scene, other).unwrap_or_default();
@@ -188,7 +189,7 @@ fn between(scene: &Scene, practice: &Practice, layout: &ScenePositions) -> Optio
 
 /// The largest speed that a body's drive is commanded.
 fn driven(scene: &Scene, body: usize) -> Option<f64> {
-    let Along::Driven(drive) = &scene.bodies[body].motion else { return None };
+    let BodyMotion::Driven(drive) = &scene.bodies[body].motion else { return None };
     drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
 }
 

@@ -4,8 +4,8 @@ use practice::TimedValue;
 
 use super::crane::CraneData;
 use crate::record::NamedColumns;
-use formats::motion::Cast;
-use formats::scene::{Practice, Scene, end_stops, seat};
+use formats::scene::motion::SimulationInput;
+use formats::scene::{Practice, Scene, end_stops, root_body};
 
 /// Time over which the mean acceleration of a trolley is taken, s.
 const WINDOW: f64 = 0.5;
@@ -50,7 +50,7 @@ impl MeasuredCrane {
     pub fn new(
         scene: &Scene,
         practice: &Practice,
-        cast: &Cast,
+        cast: &SimulationInput,
         measures: &CraneData,
         record: &NamedColumns,
     ) -> MeasuredCrane {
@@ -65,7 +65,7 @@ impl MeasuredCrane {
         };
         let ridden = cast.wheels.iter().enumerate();
         let ridden: Vec<usize> = ridden
-            .filter(|(_, wheel)| practice.trolley == Some(seat(scene, wheel.body).0))
+            .filter(|(_, wheel)| practice.trolley == Some(root_body(scene, wheel.body).0))
             .map(|(w, _)| w)
             .collect();
         let mut found = MeasuredCrane::default();

@@ -21,8 +21,8 @@ use serde_json::{Map, json};
 use self::formulas::CodeCase;
 use self::lists::{comparisons, factors};
 use crate::record::NamedColumns;
-use formats::motion::Cast;
 use formats::scene::Scene;
+use formats::scene::motion::SimulationInput;
 use foundations::Error;
 
 /// The values of codes for a crane, and those of its run.
@@ -41,7 +41,11 @@ impl CodeCheck {
     ///
     /// # Errors
     /// A spec that no model can be made of.
-    pub fn new(scene: &Scene, cast: &Cast, record: &NamedColumns) -> Result<Option<CodeCheck>, Error> {
+    pub fn new(
+        scene: &Scene,
+        cast: &SimulationInput,
+        record: &NamedColumns,
+    ) -> Result<Option<CodeCheck>, Error> {
         let Some(practice) = &scene.practice else { return Ok(None) };
         let measures = CraneData::new(scene, practice, cast, record)?;
         let found = MeasuredCrane::new(scene, practice, cast, &measures, record);

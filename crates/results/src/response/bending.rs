@@ -1,6 +1,6 @@
 //! Envelopes of bending moments along girders.
 
-use fea::{Component, Effect, Frame, Model};
+use fea::{Effect, FactoredFrame, ForceComponent, Model};
 use nalgebra::Vector3;
 use sim::Channel;
 
@@ -42,21 +42,21 @@ pub(super) fn moment_envelopes(
 ) -> Result<Vec<Bending>, fea::Error> {
     let LoadedStructure { scene, s, history, built, .. } = *loaded;
     let (model, rails) = (&solved.model, &solved.rails);
-    let frame = Frame::new(model, rails)?;
+    let frame = FactoredFrame::new(model, rails)?;
     let line = frame.line()?;
-    let count = line.cells().len();
+    let count = line.elements().len();
     if count > ELEMENTS || history.is_empty() {
         return Ok(Vec::new());
     }
     let intervals = (SECTIONS * rails.len().max(1) / count.max(1)).clamp(PER_ELEMENT[0], PER_ELEMENT[1]);
     let (mut effects, mut places) = (Vec::new(), Vec::new());
-    for cell in line.cells() {
-        let Some(carrier) = cell.carrier.filter(|_| cell.ends[0] != cell.ends[1]) else { continue };
-        let Some((component, sign)) = sagging(model, carrier.member) else { continue };
+    for cell in line.elements() {
+        let Some(carrier) = cell.member.filter(|_| cell.ends[0] != cell.ends[1]) else { continue };
+        let Some((component, sign)) = sagging(model, carrier.id) else { continue };
         for k in 0..=intervals {
             let x = cell.x[0] + (cell.x[1] - cell.x[0]) * k as f64 / intervals as f64;
-            let place = (cell.place(x) / cell.length).clamp(0.0, 1.0);
-            effects.push(Effect::Force { member: carrier.member, place, component });
+            let place = (cell.place_on_member(x) / cell.length).clamp(0.0, 1.0);
+            effects.push(Effect::InternalForce { member: carrier.id, place, component });
             places.push((cell.rail, x, sign));
         }
     }
@@ -92,7 +92,7 @@ pub(super) fn moment_envelopes(
 
 /// The component of bending in the vertical plane of a member, and its sign where the member sags; `None` for a member
 /// steeper than about 45 degrees.
-fn sagging(model: &Model, member: usize) -> Option<(Component, f64)> {
+fn sagging(model: &Model, member: usize) -> Option<(ForceComponent, f64)> {
     let member = model.members.get(member)?;
     let end = |k: usize| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]);
     let x = (end(1) - end(0)).try_normalize(0.0)?;
@@ -104,9 +104,9 @@ fn sagging(model: &Model, member: usize) -> Option<(Component, f64)> {
         None
     } else if along_y.abs() >= along_z.abs() {
         // Mz > 0 puts the fibres at -y into tension
-        Some((Component::BendingZ, along_y.signum()))
+        Some((ForceComponent::BendingZ, along_y.signum()))
     } else {
         // My > 0 puts those at +z into tension
-        Some((Component::BendingY, -along_z.signum()))
+        Some((ForceComponent::BendingY, -along_z.signum()))
     }
 }

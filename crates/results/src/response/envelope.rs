@@ -2,13 +2,13 @@
 //! intervals in which wheels are off their rails.
 
 use serde_json::{Map, Value, json};
-use sim::{Channel, Freedom, History};
+use sim::{BodyDof, Channel, History};
 
 use super::loaded::WheelLoadHistories;
 use crate::record::NamedColumns;
-use formats::motion::Cast;
 use formats::scene::Scene;
 use formats::scene::columns::Column;
+use formats::scene::motion::SimulationInput;
 
 /// Largest and smallest value of one column.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ impl ColumnEnvelope {
     pub fn all(
         columns: &[Column],
         scene: &Scene,
-        cast: &Cast,
+        cast: &SimulationInput,
         history: &History,
         loads: &WheelLoadHistories,
         record: &NamedColumns,
@@ -94,7 +94,7 @@ impl ColumnExtreme {
 fn scene_at(
     row: usize,
     scene: &Scene,
-    cast: &Cast,
+    cast: &SimulationInput,
     history: &History,
     loads: &WheelLoadHistories,
 ) -> ColumnExtreme {
@@ -102,8 +102,8 @@ fn scene_at(
     let of =
         |channel: Channel| history.channels().iter().position(|c| *c == channel).map_or(0.0, |at| sample[at]);
     let bodies = scene.bodies.iter().enumerate().map(|(b, body)| {
-        let all: &[Freedom] =
-            if body.in_space { &[Freedom::X, Freedom::Y, Freedom::Z] } else { &[Freedom::X] };
+        let all: &[BodyDof] =
+            if body.in_space { &[BodyDof::X, BodyDof::Y, BodyDof::Z] } else { &[BodyDof::X] };
         let places = all.iter().map(|freedom| of(Channel::Displacement(b, *freedom)));
         (body.name.clone(), places.collect())
     });
@@ -168,7 +168,7 @@ impl Uplift {
 }
 
 /// All intervals without force at output times, wheel by wheel.
-pub(super) fn uplifts(cast: &Cast, record: &NamedColumns) -> Vec<Uplift> {
+pub(super) fn uplifts(cast: &SimulationInput, record: &NamedColumns) -> Vec<Uplift> {
     let time = record.values("time");
     let of = |name: &str| {
         let found = zero_intervals(time, record.part(name, "vertical"));

@@ -12,19 +12,19 @@
 //!
 //! 1. Effects and their columns are listed from the spec ([`ColumnInfluence::new`]).
 //! 2. A: influence lines of the effects, evaluated at the wheels at every output time ([`ColumnInfluence::at`]).
-//! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes ([`fea::Frame::inertial`]) or
+//! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes ([`fea::FactoredFrame::inertial`]) or
 //!    by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit acceleration upwards of the whole mass.
 //! 4. Columns that no load, weight or inertia can change from zero are dropped ([`ColumnInfluence::nonzero`]).
 
 use std::sync::Arc;
 
-use fea::{Effect, Frame, Freedom, Model, Section};
+use fea::{CrossSection, Dof, Effect, FactoredFrame, Model};
 use nalgebra::{DMatrix, Vector3};
-use splines::{Axis, Effects, Probe};
+use splines::{Axis, InfluenceLines, Probe};
 
 use super::loaded::WheelLoadHistory;
 use super::part_inertia::part_inertia;
-use formats::effect::COMPONENTS;
+use formats::grid::effects::COMPONENTS;
 use formats::scene::columns;
 use formats::scene::columns::{Column, Direction, Kind};
 use formats::spec::{Spec, StressPoint};
@@ -43,7 +43,7 @@ const ROUNDING: f64 = 1e-12;
 /// included: the sum of all reactions is the sum of the wheel forces less the rate of change of the structure's momentum.
 pub struct ColumnInfluence {
     columns: Vec<Column>,
-    effects: Effects,
+    effects: InfluenceLines,
     /// The column of each effect and its weight there: springs and supports of one degree of freedom of a point are one
     /// column, and a stress is a sum of internal forces.
     terms: Vec<ColumnTerm>,
@@ -81,7 +81,7 @@ impl ColumnInfluence {
         if !lists.iter().any(|(kind, names)| names.iter().any(|own| wanted(*kind, own))) {
             return Ok(None);
         }
-        let frame = Frame::new(model, rails)?;
+        let frame = FactoredFrame::new(model, rails)?;
         let mut list = ColumnList::default();
         list.add_reactions(name, spec, (model, rails), &frame, wanted);
         list.add_internal_forces(name, spec, wanted);
@@ -100,7 +100,7 @@ impl ColumnInfluence {
     /// # Errors
     /// What the frame refuses.
     pub(super) fn of(
-        frame: &Frame,
+        frame: &FactoredFrame,
         solved: &SolvedModel,
         built: &BuiltFoundation,
         gravity: f64,
@@ -139,7 +139,7 @@ impl ColumnInfluence {
     fn nonzero(&self) -> Vec<bool> {
         let n = self.columns.len();
         let mut units = vec![0.0_f64; n];
-        for cell in self.line().cells() {
+        for cell in self.line().elements() {
             for fraction in [0.0, 0.3, 0.6, 1.0] {
                 let x = cell.x[0] + fraction * (cell.x[1] - cell.x[0]);
                 for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
@@ -172,7 +172,7 @@ impl ColumnInfluence {
         self,
         kept: &[bool],
         model: &Model,
-        frame: &Frame,
+        frame: &FactoredFrame,
         effects: &[Effect],
     ) -> Result<ColumnInfluence, fea::Error> {
         if !kept.contains(&false) {
@@ -213,8 +213,8 @@ impl ColumnInfluence {
 
     /// The rail elements.
     #[must_use]
-    pub fn line(&self) -> &Arc<splines::Line> {
-        self.effects.line()
+    pub fn line(&self) -> &Arc<splines::Rails> {
+        self.effects.rails()
     }
 
     /// Writes the value of every column under `loads` and `acceleration` into `out`, without own weight. Returns whether
@@ -287,18 +287,18 @@ impl ColumnList {
         structure: &str,
         spec: &Spec,
         (model, rails): (&Model, &[fea::Rail]),
-        frame: &Frame,
+        frame: &FactoredFrame,
         wanted: &dyn Fn(Kind, &str) -> bool,
     ) {
-        let restraints = frame.holds(model);
-        for ground in spec.grounds(model) {
-            for &freedom in &ground.freedoms {
-                let name = format!("{structure}.{}.{}", ground.name, spec.freedom_word(freedom));
-                let is_here = |hold: &&fea::Hold| hold.point == ground.point && hold.freedom == freedom;
+        let restraints = frame.restraints(model);
+        for ground in spec.supported_points(model) {
+            for &freedom in &ground.dofs {
+                let name = format!("{structure}.{}.{}", ground.name, spec.dof_word(freedom));
+                let is_here = |hold: &&fea::Restraint| hold.point == ground.point && hold.dof == freedom;
                 let all: Vec<Effect> =
                     restraints.iter().filter(is_here).copied().map(Effect::Reaction).collect();
                 if wanted(Kind::Reaction, &name) && !all.is_empty() {
-                    let dimension = dimension(freedom >= Freedom::Rx);
+                    let dimension = dimension(freedom >= Dof::Rx);
                     let direction = direction(model, rails, freedom);
                     self.add(Column { name, dimension, kind: Kind::Reaction, direction }, all);
                 }
@@ -314,7 +314,10 @@ impl ColumnList {
                 if wanted(Kind::Section, &name) {
                     let dimension = dimension(index >= 3);
                     let column = Column { name, dimension, kind: Kind::Section, direction: None };
-                    self.add(column, vec![Effect::Force { member: cut.member, place: cut.place, component }]);
+                    self.add(
+                        column,
+                        vec![Effect::InternalForce { member: cut.member, place: cut.place, component }],
+                    );
                 }
             }
         }
@@ -336,7 +339,11 @@ impl ColumnList {
                 for ((_, component), weight) in COMPONENTS.into_iter().zip(stress_weights(section, point)) {
                     if weight != 0.0 {
                         self.terms.push(ColumnTerm { column: self.columns.len(), weight });
-                        self.effects.push(Effect::Force { member: cut.member, place: cut.place, component });
+                        self.effects.push(Effect::InternalForce {
+                            member: cut.member,
+                            place: cut.place,
+                            component,
+                        });
                     }
                 }
                 let dimension = Dimension::STRESS;
@@ -367,7 +374,7 @@ fn inertia(
 
 /// Normal stress at a point by a unit of each component of the internal force: N/A + My z/Iy - Mz y/Iz, as in
 /// [`practice::stress::weights`]; a component that the section does not resist (property 0) has no stress.
-fn stress_weights(section: &Section, point: &StressPoint) -> [f64; 6] {
+fn stress_weights(section: &CrossSection, point: &StressPoint) -> [f64; 6] {
     let over = |lever: f64, property: f64| if property > 0.0 { lever / property } else { 0.0 };
     [over(1.0, section.area), 0.0, 0.0, 0.0, over(point.z, section.iy), over(0.0 - point.y, section.iz)]
 }
@@ -378,7 +385,7 @@ const fn dimension(is_moment: bool) -> Dimension {
 }
 
 /// Direction of a reaction relative to the first rail: vertical or lateral where it is within about 25 degrees of it.
-fn direction(model: &Model, rails: &[fea::Rail], freedom: Freedom) -> Option<Direction> {
+fn direction(model: &Model, rails: &[fea::Rail], freedom: Dof) -> Option<Direction> {
     let k = freedom as usize;
     let up = Vector3::from(model.up).normalize();
     let side = Vector3::from(rails.first()?.axis).cross(&up).normalize();

@@ -3,8 +3,8 @@
 use sim::{Channel, Foundation, History};
 use splines::{Axis, Error, Influence, Probe};
 
-use formats::motion::Cast;
 use formats::scene::Scene;
+use formats::scene::motion::SimulationInput;
 use foundations::BuiltFoundation;
 
 /// The force of one wheel, or of one end stop, on its rail.
@@ -47,18 +47,18 @@ struct Wheel {
 impl WheelLoadHistories {
     /// Of every wheel of `cast`, in its order, and of the end stops of `scene` that stand on rails.
     #[must_use]
-    pub fn new(scene: &Scene, cast: &Cast, history: &History) -> WheelLoadHistories {
+    pub fn new(scene: &Scene, cast: &SimulationInput, history: &History) -> WheelLoadHistories {
         let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
         let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
             Wheel {
                 structure: rail.structure,
                 rail: rail.rail,
-                first: channel(Channel::Place(w)).unwrap_or_default(),
+                first: channel(Channel::Position(w)).unwrap_or_default(),
             }
         });
         let meetings =
-            scene.stops.iter().flat_map(|stop| stop.meetings.iter().map(move |meeting| (stop, meeting)));
+            scene.stops.iter().flat_map(|stop| stop.points.iter().map(move |meeting| (stop, meeting)));
         let stops = meetings.enumerate().filter_map(|(index, (stop, meeting))| {
             let rail = &scene.rails[stop.rail?];
             Some(Stop {
@@ -131,10 +131,10 @@ impl LoadedStructure<'_> {
     ) -> Result<Option<Vec<f64>>, Error> {
         let foundation = &self.built.foundation;
         let sample = self.history.sample(row);
-        let q = self.start().map_or(&[][..], |at| &sample[at..at + foundation.freedoms()]);
+        let q = self.start().map_or(&[][..], |at| &sample[at..at + foundation.dofs()]);
         match displacements(foundation, probes, on, q) {
             Ok(moved) => Ok(Some(moved)),
-            Err(Error::Unstiffened { .. }) => Ok(None),
+            Err(Error::NoStiffness { .. }) => Ok(None),
             Err(error) => Err(error),
         }
     }
@@ -166,7 +166,7 @@ fn displacements(
             for (axis, force) in
                 [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
             {
-                if force != 0.0 && (axis != Axis::Longitudinal || foundation.is_dragged) {
+                if force != 0.0 && (axis != Axis::Longitudinal || foundation.is_loaded_along) {
                     at.push(Probe { rail: load.rail, x: load.x, axis });
                     forces.push(force);
                 }

@@ -29,9 +29,9 @@ use sim::{Channel, History};
 
 use crate::Error;
 use crate::record::NamedColumns;
-use formats::motion::Cast;
 use formats::scene::columns::{self, Column, Kind};
-use formats::scene::{Origin, Pick, Scene};
+use formats::scene::motion::SimulationInput;
+use formats::scene::{ColumnSelection, Origin, Scene};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
 /// The response of a run's structures, beside the columns that it adds to the run's record.
@@ -62,8 +62,10 @@ pub struct Response {
 /// For each structure of `scene`, whether it may have columns whose values need its degrees of freedom.
 #[must_use]
 pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<bool> {
-    let few = columns::few(scene);
-    let some = |pick: &Pick, few: bool| !matches!(pick, Pick::None) && (few || !matches!(pick, Pick::Few));
+    let few = columns::has_few(scene);
+    let some = |pick: &ColumnSelection, few: bool| {
+        !matches!(pick, ColumnSelection::None) && (few || !matches!(pick, ColumnSelection::Few))
+    };
     let output = &scene.output;
     let is_asked =
         some(&output.reactions, few[0]) || some(&output.sections, few[1]) || some(&output.stresses, few[2]);
@@ -84,7 +86,7 @@ pub fn lines(
     built: &[BuiltFoundation],
     solved: &[Option<&SolvedModel>],
 ) -> Result<Vec<Option<ColumnInfluence>>, Error> {
-    let few = columns::few(scene);
+    let few = columns::has_few(scene);
     let each = scene.structures.iter().zip(built).zip(solved).map(|((structure, built), solved)| {
         let (Origin::Spec { spec, .. }, Some(solved)) = (&structure.origin, solved) else { return Ok(None) };
         let wanted = |kind: Kind, name: &str| {
@@ -93,7 +95,7 @@ pub fn lines(
                 Kind::Section => (&scene.output.sections, few[1]),
                 Kind::Stress => (&scene.output.stresses, few[2]),
             };
-            pick.takes(name, few)
+            pick.selects(name, few)
         };
         ColumnInfluence::new(&structure.name, spec, solved, built, scene.gravity, &wanted)
             .map_err(|source| Error::Lines { structure: structure.name.clone(), source })
@@ -109,7 +111,7 @@ impl Response {
     /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
     pub fn new(
         scene: &Scene,
-        cast: &Cast,
+        cast: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
@@ -181,14 +183,14 @@ impl Response {
     pub fn bend(
         &mut self,
         scene: &Scene,
-        cast: &Cast,
+        cast: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
     ) -> Result<(), Error> {
         let loads = WheelLoadHistories::new(scene, cast, history);
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
-            let is_known = built.foundation.freedoms() == 0 || built.foundation.recorded;
+            let is_known = built.foundation.dofs() == 0 || built.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
             let failed = |source| Error::Lines { structure: scene.structures[s].name.clone(), source };
             let loaded = LoadedStructure { scene, s, history, loads: &loads, built: built };

@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use serde_json::{Value, json};
-use sim::{Action, Channel, Foundation, Freedom, NaturalMode, Run, natural_modes};
+use sim::{Action, BodyDof, Channel, Foundation, NaturalMode, Run, natural_modes};
 
-use formats::motion::Cast;
+use formats::scene::motion::SimulationInput;
 use formats::scene::{Analysis, Scene};
 
 /// Most degrees of freedom of structures, beside those of bodies, for which modes are computed.
@@ -36,8 +36,13 @@ impl SceneMode {
     /// Modes of the bodies of `scene` on `foundations`, at their positions near the end of `run`, with at least one period
     /// within the run; lowest first. None where they cannot be computed, and where events have changed ropes or loads.
     #[must_use]
-    pub fn all(scene: &Scene, cast: &Cast, foundations: &[Foundation], run: &Run) -> Vec<SceneMode> {
-        let freedoms: usize = foundations.iter().map(Foundation::freedoms).sum();
+    pub fn all(
+        scene: &Scene,
+        cast: &SimulationInput,
+        foundations: &[Foundation],
+        run: &Run,
+    ) -> Vec<SceneMode> {
+        let freedoms: usize = foundations.iter().map(Foundation::dofs).sum();
         let rules = &cast.scene.actuators.rules;
         let changes_ropes = |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
         let changed = run
@@ -52,7 +57,7 @@ impl SceneMode {
         let Some(last) = times.last() else { return Vec::new() };
         let at = times.iter().position(|t| *t >= INSTANT * last).unwrap_or(times.len() - 1);
         let places: Vec<f64> = (0..scene.bodies.len())
-            .map(|b| run.history.column(Channel::Displacement(b, Freedom::X)).get(at).copied())
+            .map(|b| run.history.column(Channel::Displacement(b, BodyDof::X)).get(at).copied())
             .map(Option::unwrap_or_default)
             .collect();
         let found = natural_modes(&cast.scene, foundations, times[at], &places);
@@ -62,7 +67,7 @@ impl SceneMode {
 
     fn new(scene: &Scene, mode: &NaturalMode) -> SceneMode {
         let mut shares: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
-        for (body, own) in scene.bodies.iter().zip(&mode.share) {
+        for (body, own) in scene.bodies.iter().zip(&mode.fraction) {
             let words = if body.in_space {
                 ["X", "Y", "Z", "", "", ""]
             } else {

@@ -1,8 +1,8 @@
 //! Effects of the inertia of rigid parts on the girder that they represent.
 
-use fea::{Effect, Frame, Girder};
+use fea::{Effect, FactoredFrame, Girder};
 use nalgebra::DMatrix;
-use splines::{Axis, Effects, Probe};
+use splines::{Axis, InfluenceLines, Probe};
 
 use foundations::{RigidParts, roll_inertia};
 
@@ -26,16 +26,16 @@ pub fn part_inertia(
     parts: &RigidParts,
     effects: &[Effect],
 ) -> Result<DMatrix<f64>, fea::Error> {
-    let lines_at = |height: f64| -> Result<Effects, fea::Error> {
-        let (model, rail) = Girder { rail_height: height, ..girder.clone() }.frame()?;
-        Frame::new(&model, &[rail])?.influence_lines(&model, effects)
+    let lines_at = |height: f64| -> Result<InfluenceLines, fea::Error> {
+        let (model, rail) = Girder { rail_height: height, ..girder.clone() }.model_and_rail()?;
+        FactoredFrame::new(&model, &[rail])?.influence_lines(&model, effects)
     };
     let [low, high] = [lines_at(0.0)?, lines_at(1.0)?];
     let mass = girder.mass_per_length.unwrap_or_default();
-    let breaks = low.line().breaks(0);
+    let breaks = low.rails().breaks(0);
     let n = effects.len();
     let mut out = DMatrix::zeros(n, parts.basis.ncols());
-    let unit = |lines: &Effects, x: f64, axis: Axis| {
+    let unit = |lines: &InfluenceLines, x: f64, axis: Axis| {
         let mut line = vec![0.0; n];
         // parts do not move in a direction that the girder does not resist
         let resists = lines.fill(Probe { rail: 0, x, axis }, &mut line).is_ok();

@@ -206,7 +206,7 @@ pub(super) fn drifts(
     let LoadedStructure { scene, s, history, built, .. } = *loaded;
     let structure = &scene.structures[s];
     let (Origin::Spec { spec, .. }, Some(solved), true, None, None) =
-        (&structure.origin, solved, loaded.is_known(), &built.foundation.parts, structure.on)
+        (&structure.origin, solved, loaded.is_known(), &built.foundation.parts, structure.carrier)
     else {
         return Ok(Vec::new());
     };

@@ -14,8 +14,8 @@ use sim::Run;
 
 use crate::outcome::CaseResult;
 use crate::record::NamedColumns;
-use formats::motion::Cast;
-use formats::scene::{Analysis, Foundation, Origin, Reading, Scene, SceneRail, seat};
+use formats::scene::motion::SimulationInput;
+use formats::scene::{Analysis, Foundation, Origin, Scene, SceneRail, TableInterpolation, root_body};
 use formats::spec::Form;
 
 /// Residual of the energy audit above which a run is warned of.
@@ -41,7 +41,7 @@ pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     all
 }
 
-fn warnings(scene: &Scene, cast: &Cast, record: &NamedColumns, run: &Run) -> Vec<String> {
+fn warnings(scene: &Scene, cast: &SimulationInput, record: &NamedColumns, run: &Run) -> Vec<String> {
     let mut all = Vec::new();
     let residual = run.audit.residual();
     if residual > RESIDUAL {
@@ -72,7 +72,7 @@ fn warnings(scene: &Scene, cast: &Cast, record: &NamedColumns, run: &Run) -> Vec
 
 /// The wheels of one rail.
 struct Wheels<'a> {
-    cast: &'a Cast,
+    cast: &'a SimulationInput,
     record: &'a NamedColumns,
     rail: usize,
 }
@@ -185,13 +185,14 @@ fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
 /// A body that moves freely along a rail whose interpolation is not symmetric, and so not conservative.
 fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
-    let is_unsymmetric = matches!(structure.reading, Reading::Akispl | Reading::Cubspl);
+    let is_unsymmetric =
+        matches!(structure.interpolation, TableInterpolation::Akispl | TableInterpolation::Cubspl);
     if !is_unsymmetric || structure.foundation != Foundation::Influence || scene.analysis != Analysis::Dynamic
     {
         return None;
     }
     let free = |body: usize| {
-        let root = &scene.bodies[seat(scene, body).0];
+        let root = &scene.bodies[root_body(scene, body).0];
         root.motion.is_free().then_some(&root.name)
     };
     let own = wheels.cast.wheels.iter().filter(|wheel| wheel.rail == wheels.rail);
@@ -200,12 +201,12 @@ fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option
         "{body} rolls by its forces over {}, read by {}, which is not symmetric: energy comes and goes on the way; \
          \"natural\" and \"exact\" keep it",
         rail.name,
-        structure.reading.word()
+        structure.interpolation.word()
     ))
 }
 
 /// Wheels that are off their rails at some output times.
-fn lift_off(cast: &Cast, record: &NamedColumns) -> Vec<String> {
+fn lift_off(cast: &SimulationInput, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
     for wheel in &cast.wheels {
         let forces = record.part(&wheel.name, "vertical");

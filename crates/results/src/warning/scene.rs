@@ -2,9 +2,9 @@
 //! stand beside the body below them, ropes beyond their strength.
 
 use crate::record::NamedColumns;
-use formats::fault::number;
-use formats::number::rounded;
-use formats::scene::{Analysis, Body, Origin, Scene, seat};
+use formats::scene::{Analysis, Body, Origin, Scene, root_body};
+use formats::text::number::number;
+use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
 
 /// Force of a body's own weight on a wheel over the square of its diameter, above which no wheel is built, N/m2. Steel
@@ -32,8 +32,8 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
 
 /// A mass whose weight its wheels cannot carry, probably a weight given as a mass.
 fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
-    let (root, _) = seat(scene, b);
-    let below = scene.trucks.iter().filter(|truck| seat(scene, truck.body).0 == root);
+    let (root, _) = root_body(scene, b);
+    let below = scene.trucks.iter().filter(|truck| root_body(scene, truck.body).0 == root);
     let squares: Vec<f64> = below
         .flat_map(|truck| {
             let diameter = 2.0 * scene.wheels[truck.wheel].radius;
@@ -74,13 +74,13 @@ fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
 /// A structure whose supports on a body lie beyond the wheels of the body.
 fn beside(scene: &Scene, s: usize) -> Option<String> {
     let structure = &scene.structures[s];
-    let (on, Origin::Spec { spec, .. }) = (structure.on?, &structure.origin) else { return None };
+    let (on, Origin::Spec { spec, .. }) = (structure.carrier?, &structure.origin) else { return None };
     let (model, _) = spec.model().ok()?;
-    let (root, own) = seat(scene, on.body);
+    let (root, own) = root_body(scene, on.body);
     let wheels: Vec<[f64; 3]> = scene
         .trucks
         .iter()
-        .map(|truck| (truck, seat(scene, truck.body)))
+        .map(|truck| (truck, root_body(scene, truck.body)))
         .filter(|(_, (below, _))| *below == root)
         .flat_map(|(truck, (_, arm))| {
             let at = move |offset: f64| [arm[0] + offset, 0.0, arm[2] + truck.at[2]];

@@ -1,10 +1,10 @@
 //! Values of a spec that are probably wrong: moduli and densities of no known material, rails with gaps.
 
-use fea::{Model, Rail, Section};
+use fea::{CrossSection, Model, Rail};
 
-use formats::fault::number;
-use formats::number::rounded;
 use formats::spec::{Form, Spec};
+use formats::text::number::number;
+use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
 
 /// Range of Young's moduli of structures, N/m2; rigid arms a hundred times as stiff as steel are within it.
@@ -46,7 +46,7 @@ pub fn spec_warnings(spec: &Spec) -> Vec<String> {
 }
 
 /// Mass of a section per volume; 0 without area.
-fn density(section: &Section) -> f64 {
+fn density(section: &CrossSection) -> f64 {
     if section.area > 0.0 { section.mass / section.area } else { 0.0 }
 }
 
@@ -66,7 +66,7 @@ fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
 }
 
 /// A section whose density is outside [`DENSITIES`].
-fn heavy(name: &str, section: &Section, units: Units, scale: Scale) -> Option<String> {
+fn heavy(name: &str, section: &CrossSection, units: Units, scale: Scale) -> Option<String> {
     let own = density(section);
     let si = own * scale.factor(Dimension::DENSITY);
     let unit = units.label(Dimension::DENSITY);
@@ -121,7 +121,7 @@ fn short(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use formats::source::Source;
+    use formats::text::source::Source;
 
     fn found(text: &str) -> Vec<String> {
         let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use fea::{Freedom, Kind, Member, Model};
+use fea::{Dof, Member, MemberKind, Model};
 
 /// Largest relative growth of the bending stiffness by axial tension, A delta^2 / (4 I), of the members that carry `rail`
 /// between neighbouring points that the ground holds along it; `delta`: deflection of the rail, in the length unit of the
@@ -15,13 +15,13 @@ use fea::{Freedom, Kind, Member, Model};
 /// # Source
 /// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17 (1950).
 pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
-    let freedoms = [Freedom::Ux, Freedom::Uy, Freedom::Uz];
+    let freedoms = [Dof::Ux, Dof::Uy, Dof::Uz];
     let size = rail.axis.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
     let along = (0..3).find(|&k| rail.axis[k].abs() == size)?;
     let held: BTreeSet<usize> = model
         .supports
         .iter()
-        .filter(|support| support.fix[freedoms[along] as usize])
+        .filter(|support| support.fixed[freedoms[along] as usize])
         .map(|support| support.point)
         .collect();
     let mut members: Vec<&Member> =
@@ -37,7 +37,7 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
         if place(from) > place(to) {
             std::mem::swap(&mut from, &mut to);
         }
-        let slides = member.releases.iter().any(|released| released[Freedom::Ux as usize]);
+        let slides = member.releases.iter().any(|released| released[Dof::Ux as usize]);
         if held.contains(&from) {
             stretch.clear();
             stretch.push(member);
@@ -46,7 +46,7 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
         } else {
             stretch.clear();
         }
-        if slides || member.kind == Kind::Truss {
+        if slides || member.kind == MemberKind::Truss {
             stretch.clear();
         }
         if held.contains(&to) {
@@ -76,7 +76,7 @@ fn is_upright(member: &Member, model: &Model) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use fea::{Rail, Section, Segment, Support};
+    use fea::{CrossSection, Rail, RailSegment, Support};
 
     use super::*;
 
@@ -87,14 +87,14 @@ mod tests {
             up: [0.0, 1.0, 0.0],
             points: vec![[0.0; 3], [5.0, 0.0, 0.0], [10.0, 0.0, 0.0]],
             members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0]), Member::beam([1, 2], 0, [0.0, 0.0, 1.0])],
-            sections: vec![Section { area: 0.2, iy: 0.01, iz: 0.05, ..Section::default() }],
+            sections: vec![CrossSection { area: 0.2, iy: 0.01, iz: 0.05, ..CrossSection::default() }],
             supports: vec![
-                Support { point: 0, fix: held },
-                Support { point: 2, fix: [last_holds, true, true, false, false, false] },
+                Support { point: 0, fixed: held },
+                Support { point: 2, fixed: [last_holds, true, true, false, false, false] },
             ],
             ..Model::default()
         };
-        let segments = (0..2).map(|member| Segment { member, offset: [0.0; 3] }).collect();
+        let segments = (0..2).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
         (model, Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() })
     }
 

@@ -45,7 +45,7 @@ pub struct Exchanged {
     /// Put in by hoisting.
     pub hoists: f64,
     /// Put in where wheels meet steps of uneven rails; what their slopes do is in `drives`, or the body's own.
-    pub steps: f64,
+    pub rail_steps: f64,
 }
 
 impl Exchanged {
@@ -53,13 +53,13 @@ impl Exchanged {
     #[must_use]
     pub fn net_loss(&self) -> f64 {
         self.dampers + self.friction + self.flanges + self.handover + self.structure + self.switches
-            - self.put_in()
+            - self.supplied()
     }
 
     /// Work put in by prescribed motions, drives, loads, hoisting and steps of rails.
     #[must_use]
-    pub fn put_in(&self) -> f64 {
-        self.drives + self.loads + self.hoists + self.steps
+    pub fn supplied(&self) -> f64 {
+        self.drives + self.loads + self.hoists + self.rail_steps
     }
 
     /// Adds `weight` times `power`.
@@ -73,6 +73,6 @@ impl Exchanged {
         self.drives += weight * power.drives;
         self.loads += weight * power.loads;
         self.hoists += weight * power.hoists;
-        self.steps += weight * power.steps;
+        self.rail_steps += weight * power.rail_steps;
     }
 }

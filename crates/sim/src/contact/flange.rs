@@ -7,10 +7,10 @@ use super::energy::{Exchanged, Stored};
 use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
 use crate::scene::dof::arm_rows;
-use crate::{Channel, Flange, Freedom};
+use crate::{BodyDof, Channel, Flange};
 
 /// Index of the roll among the displacements of a body.
-const ROLL: usize = Freedom::Roll as usize;
+const ROLL: usize = BodyDof::Roll as usize;
 
 /// The flange of one wheel.
 pub(crate) struct FlangeContact<'a> {
@@ -99,7 +99,7 @@ impl Element for FlangeContact<'_> {
         if overlap == 0.0 {
             return None;
         }
-        let (share, by_height) = flange.share(self.radius - query.reached[self.vertical][0]);
+        let (share, by_height) = flange.fraction(self.radius - query.reached[self.vertical][0]);
         Some(Law {
             force: flange.stiffness * share * overlap,
             by_penetration: flange.stiffness * share,
@@ -123,14 +123,14 @@ impl Element for FlangeContact<'_> {
         let deflection = at.deflection();
         energy.structure += 0.5 * at.force() * deflection;
         let overlap = flange.overlap(at.approach() - deflection);
-        let share = flange.share(at.places.height[self.wheel]).0;
+        let share = flange.fraction(at.places.height[self.wheel]).0;
         energy.contact += 0.5 * flange.stiffness * share * overlap * overlap;
     }
 
     /// What the flange gives off as it is released while the wheel climbs.
     fn power(&self, at: &At, power: &mut Exchanged) {
         let flange = self.flange;
-        let (share, slope) = flange.share(at.places.height[self.wheel]);
+        let (share, slope) = flange.fraction(at.places.height[self.wheel]);
         if !(share > 0.0 && slope != 0.0 && at.force() != 0.0) {
             return;
         }

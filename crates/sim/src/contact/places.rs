@@ -2,14 +2,14 @@
 
 use nalgebra::DVector;
 
-use crate::Moving;
+use crate::Travel;
 use crate::mechanics::assembly::Mechanics;
 
 /// Places of the wheels at one state.
 #[derive(Clone)]
 pub(crate) struct Places {
     /// Travel of each body whose x is prescribed.
-    pub travel: Vec<Moving>,
+    pub travel: Vec<Travel>,
     /// Rail coordinate of each wheel.
     pub x: Vec<f64>,
     /// Piece of the uneven rail that each wheel is on; it changes where a wheel crosses a corner, not within a step.
@@ -22,7 +22,7 @@ impl Places {
     pub fn new(mechanics: &Mechanics) -> Self {
         let count = mechanics.wheels.len();
         let mut places = Places {
-            travel: vec![Moving::default(); mechanics.scene.bodies.len()],
+            travel: vec![Travel::default(); mechanics.scene.bodies.len()],
             x: vec![0.0; count],
             piece: vec![0; count],
             height: vec![0.0; count],

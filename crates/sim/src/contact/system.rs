@@ -152,7 +152,7 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
     };
     for (element, probes) in of_elements.iter().enumerate() {
         for &ElementProbe { wheel, axis, .. } in probes {
-            let is_dragged = mechanics.foundations[structure_of(wheel)].is_dragged;
+            let is_dragged = mechanics.foundations[structure_of(wheel)].is_loaded_along;
             if axis == Axis::Longitudinal && is_dragged && find(&tangential, element, wheel).is_none() {
                 tangential.push(TangentialContact { element, wheel });
             }
@@ -166,7 +166,7 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
                 let complies = match axis {
                     Axis::Vertical => true,
                     Axis::Lateral => foundation.parts.is_none(),
-                    Axis::Longitudinal => foundation.is_dragged,
+                    Axis::Longitudinal => foundation.is_loaded_along,
                 };
                 if structure_of(wheel) != s || !complies {
                     continue;

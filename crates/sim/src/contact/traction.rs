@@ -76,7 +76,7 @@ impl Element for Traction<'_> {
     fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law> {
         let mu = self.friction.coefficient;
         let load: f64 = self.verticals.iter().map(|&(n, count)| query.force[n] / count).sum();
-        let (share, by_slip) = self.friction.share(query.rate);
+        let (share, by_slip) = self.friction.fraction(query.rate);
         for &(n, count) in &self.verticals {
             couplings.push(Coupling { element: query.index, by: n, slope: mu * share / count });
         }

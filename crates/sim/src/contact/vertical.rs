@@ -18,7 +18,7 @@ use crate::mechanics::state::State;
 use crate::numerics::dense::along;
 use crate::numerics::step::step_integral;
 use crate::scene::dof::arm_rows;
-use crate::scene::wheel::LawPoint;
+use crate::scene::wheel::LawValue;
 use crate::{Channel, Damper, NormalLaw};
 
 /// A vertical contact.
@@ -119,7 +119,7 @@ impl Element for Vertical<'_> {
         let chains = mechanics.foundations[contact.structure].parts.as_ref()?;
         let part = self.part?;
         let mean = self.wheels.clone().map(|w| places.x[w]).sum::<f64>() / self.count();
-        Some(chains[contact.rail].share(part, mean))
+        Some(chains[contact.rail].fraction(part, mean))
     }
 
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
@@ -156,7 +156,7 @@ impl Element for Vertical<'_> {
         if !query.is_active {
             return None;
         }
-        let LawPoint { force, by_penetration, by_rate } = self.law.at(query.penetration(), query.rate);
+        let LawValue { force, by_penetration, by_rate } = self.law.at(query.penetration(), query.rate);
         let scale = self.count() * query.local.fraction[0];
         Some(Law {
             force: scale * force,

@@ -35,7 +35,7 @@ pub struct ContactForces {
     /// Friction on the wheel along -x, a wheel.
     pub traction: Vec<f64>,
     /// Force that the slope of the deflected rail exerts on the wheel along +x, a wheel; of vertical forces alone.
-    pub slope: Vec<f64>,
+    pub slope_force: Vec<f64>,
     /// Approach of wheel and rail before the rail deflects, a contact of the scene.
     pub approach: Vec<f64>,
     /// Penetration, a contact of the scene; negative where it is open.
@@ -170,7 +170,7 @@ fn answer(solver: &Solver, at: &State) -> ContactForces {
         vertical: wheels.clone().map(vertical).collect(),
         lateral,
         traction: wheels.clone().map(|w| system.friction_of(w, at)).collect(),
-        slope: wheels.map(|w| solver.geometry().rail_slope(normal(w)) * vertical(w)).collect(),
+        slope_force: wheels.map(|w| solver.geometry().rail_slope(normal(w)) * vertical(w)).collect(),
         approach: (0..count).map(|i| solver.geometry().approach(i, &at.q)).collect(),
         penetration: at.p[..count].to_vec(),
         compliance: DMatrix::from_fn(count, count, |i, j| solver.geometry().rails().value[i * m + j]),

@@ -6,7 +6,7 @@ use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::numerics::dense::dot;
-use crate::{Error, Freedom};
+use crate::{BodyDof, Error};
 
 /// Sweeps of the active set.
 const SWEEPS: usize = 60;
@@ -105,7 +105,7 @@ fn balancing(solver: &Solver) -> Vec<usize> {
     let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
     let numbers = solver.system().mechanics.kinematics.numbers.iter();
     numbers
-        .flat_map(|numbers| [Freedom::Y, Freedom::Roll, Freedom::Pitch].map(|f| numbers[f as usize]))
+        .flat_map(|numbers| [BodyDof::Y, BodyDof::Roll, BodyDof::Pitch].map(|f| numbers[f as usize]))
         .flatten()
         .filter(|&number| (0..count).any(|i| rows.approach_row(i)[number] != 0.0))
         .collect()

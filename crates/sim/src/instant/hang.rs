@@ -140,7 +140,7 @@ fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64
 /// Puts hanging bodies below the ends of their ropes, stretched by their weight.
 pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
-    for &b in &system.scene.actuators.hung {
+    for &b in &system.scene.actuators.hanging {
         let ropes = (0..system.scene.actuators.ropes.len()).filter_map(|index| Some(system.rope(index)?.1));
         let mut ends = ropes.filter_map(|rope| {
             let [from, to] = rope.ends()?;
@@ -168,7 +168,7 @@ fn hanging(system: &System) -> Vec<usize> {
         let mut points = system.springs().iter().filter_map(|&i| system.elements[i].points());
         points.any(|points| points.is_on(b))
     };
-    let bodies = system.scene.actuators.hung.iter();
+    let bodies = system.scene.actuators.hanging.iter();
     bodies
         .filter(|&&b| is_joined(b))
         .flat_map(|&b| system.mechanics.kinematics.numbers[b].iter().take(3).flatten().copied())

@@ -28,7 +28,7 @@ pub struct NaturalMode {
     pub omega: f64,
     /// Share of each body's six degrees of freedom in the kinetic energy, phi_i (M phi)_i / phi^T M phi; together with
     /// `structures` they sum to 1.
-    pub share: Vec<[f64; 6]>,
+    pub fraction: Vec<[f64; 6]>,
     /// Share of the degrees of freedom of structures with mass.
     pub structures: f64,
 }
@@ -78,8 +78,8 @@ pub fn natural_modes(
 /// The scene at rest: nothing prescribed, driven, braked, damped or rubbing.
 fn stilled(scene: &Scene, place: &[f64]) -> Scene {
     let mut still = Scene { gauges: Vec::new(), analysis: Analysis::Dynamic, ..scene.clone() };
-    let Actuators { loads, ropes, stops, hung, .. } = still.actuators;
-    still.actuators = Actuators { loads, ropes, stops, hung, ..Actuators::default() };
+    let Actuators { loads, ropes, stops, hanging: hung, .. } = still.actuators;
+    still.actuators = Actuators { loads, ropes, stops, hanging: hung, ..Actuators::default() };
     for (body, x) in still.bodies.iter_mut().zip(place) {
         if body.motion.take().is_some() {
             body.free[0] = false;
@@ -165,7 +165,7 @@ fn modes(system: &System, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Opti
             system.mechanics.kinematics.numbers.iter().map(|of| of.each_ref().map(own)).collect();
         let structures =
             system.mechanics.structures.iter().flat_map(|range| range.clone().map(|i| energy[i])).sum();
-        modes.push(NaturalMode { omega: square.sqrt(), share, structures });
+        modes.push(NaturalMode { omega: square.sqrt(), fraction: share, structures });
     }
     modes.sort_by(|a, b| a.omega.total_cmp(&b.omega));
     Some(modes)

@@ -17,7 +17,7 @@ use super::state::State;
 use super::wheels::{WheelGroup, WheelPoint, Wheels};
 use crate::scene::check::check_carriers;
 use crate::scene::dof::arm_rows;
-use crate::{Error, Foundation, Freedom, Irregularity, Load, Moving, Scene};
+use crate::{BodyDof, Error, Foundation, Irregularity, Load, Scene, Travel};
 
 /// Fraction of a degree of freedom's mass below which what it moves by itself is rounding.
 const MASSLESS: f64 = 1e-13;
@@ -82,7 +82,7 @@ impl<'a> Mechanics<'a> {
             .iter()
             .map(|foundation| {
                 let first = dofs;
-                dofs += foundation.freedoms();
+                dofs += foundation.dofs();
                 first..dofs
             })
             .collect();
@@ -124,7 +124,7 @@ impl<'a> Mechanics<'a> {
 
     /// Whether some structure is loaded along its rails.
     pub fn has_sliding_rails(&self) -> bool {
-        self.foundations.iter().any(|foundation| foundation.is_dragged)
+        self.foundations.iter().any(|foundation| foundation.is_loaded_along)
     }
 
     /// The wheel groups that `wheel` belongs to: one, or one a rigid part.
@@ -134,7 +134,7 @@ impl<'a> Mechanics<'a> {
 
     /// Number of the degree of freedom on which `load` acts.
     pub fn loaded(&self, load: &Load) -> Option<usize> {
-        self.kinematics.numbers[load.body][load.freedom as usize]
+        self.kinematics.numbers[load.body][load.dof as usize]
     }
 
     /// Shape of the unloaded rail of wheel `w`, where it is uneven.
@@ -157,7 +157,7 @@ impl<'a> Mechanics<'a> {
     }
 
     /// Angle, speed and acceleration of the spin of wheel `w` at `t`, where it is prescribed.
-    pub fn turn(&self, w: usize, t: f64) -> Option<Moving> {
+    pub fn turn(&self, w: usize, t: f64) -> Option<Travel> {
         self.wheels[w].turn.map(|motion| motion.at(t))
     }
 
@@ -180,7 +180,7 @@ impl<'a> Mechanics<'a> {
             let line = arm_rows(body.cg)[1].map(|arm| body.mass * arm);
             add_weight(&mut self.gravity, self.scene, self.kinematics.terms(b), &line);
         }
-        for mount in self.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        for mount in self.foundations.iter().filter_map(|foundation| foundation.carrier.as_ref()) {
             self.kinematics.add_mass(mount.body, &mount.mass, &mut mass);
             let terms = self.kinematics.terms(mount.body);
             add_weight(&mut self.gravity, self.scene, terms, &mount.mass[1]);
@@ -195,7 +195,7 @@ impl<'a> Mechanics<'a> {
         if let Some(massless) = first_massless(&whole, own) {
             for (body, numbers) in self.kinematics.numbers.iter().enumerate() {
                 if let Some(k) = numbers.iter().position(|number| *number == Some(massless)) {
-                    return Err(Error::NoInertia { body, freedom: Freedom::ALL[k] });
+                    return Err(Error::NoInertia { body, dof: BodyDof::ALL[k] });
                 }
             }
         }
@@ -209,7 +209,7 @@ impl<'a> Mechanics<'a> {
             if let Some(structure) = &foundation.structure {
                 self.blocks.push(Block::structure(range.clone(), structure));
                 let coupling = foundation
-                    .on
+                    .carrier
                     .as_ref()
                     .and_then(|mount| InertialCoupling::new(&self.kinematics, mount, range.clone(), bodies));
                 self.couplings.extend(coupling);

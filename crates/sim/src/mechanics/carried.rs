@@ -13,7 +13,7 @@ use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 
 use super::carried_point::{CarriedPoint, Track, hub};
 use super::kinematics::Kinematics;
-use crate::{Axle, Error, Foundation};
+use crate::{CarriedRail, Error, Foundation};
 
 /// Slack allowed between directions of rails of one track.
 const SLACK: f64 = 1e-9;
@@ -30,7 +30,7 @@ impl CarriedBodies {
     /// The carried bodies of a scene, found by their contacts.
     ///
     /// # Errors
-    /// [`Error::Mounted`]: a tree with contacts on several carriers or rails of different directions, one that
+    /// [`Error::Carried`]: a tree with contacts on several carriers or rails of different directions, one that
     /// carries what it rides on, loads on carried bodies, and structures on carried bodies.
     pub fn new(foundations: &[Foundation], kinematics: &Kinematics) -> Result<Self, Error> {
         let scene = kinematics.scene;
@@ -40,8 +40,8 @@ impl CarriedBodies {
         let mut grounded = vec![false; count];
         for contact in &scene.contacts {
             let tree = root(contact.body);
-            let refused = Error::Mounted { body: tree };
-            let Some(mount) = &foundations[contact.structure].on else {
+            let refused = Error::Carried { body: tree };
+            let Some(mount) = &foundations[contact.structure].carrier else {
                 grounded[tree] = true;
                 continue;
             };
@@ -57,9 +57,9 @@ impl CarriedBodies {
                 Some(_) => return Err(refused),
             }
         }
-        for mount in foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+        for mount in foundations.iter().filter_map(|foundation| foundation.carrier.as_ref()) {
             if tracks[root(mount.body)].is_some() {
-                return Err(Error::Mounted { body: mount.body });
+                return Err(Error::Carried { body: mount.body });
             }
         }
         let mut centres = Vec::new();
@@ -67,7 +67,7 @@ impl CarriedBodies {
             let Some(track) = &tracks[root(b)] else { continue };
             let loaded = scene.actuators.loads.iter().any(|load| load.body == b);
             if grounded[root(b)] || root(track.carrier) == root(b) || loaded {
-                return Err(Error::Mounted { body: b });
+                return Err(Error::Carried { body: b });
             }
             centres.push(CarriedPoint::new(kinematics, track, b, body.cg));
         }
@@ -172,7 +172,7 @@ fn inertias(body: &crate::Body) -> SVector<f64, 6> {
 }
 
 /// Axes of a rail's frame as columns; `None` where it is not level or not of length 1.
-fn frame(rail: &Axle) -> Option<Matrix3<f64>> {
+fn frame(rail: &CarriedRail) -> Option<Matrix3<f64>> {
     let x = Vector3::from(rail.along);
     let level = x[1].abs() < SLACK && (x.norm() - 1.0).abs() < SLACK;
     level.then(|| Matrix3::from_columns(&[x, Vector3::y(), x.cross(&Vector3::y())]))

@@ -169,7 +169,7 @@ fn combine(at: [f64; 3], by: &[f64; 6]) -> Vector3<f64> {
 pub(crate) fn hub(scene: &Scene, b: usize, at: [f64; 3]) -> [f64; 3] {
     let ([mut x, mut y, mut z], mut b) = (at, b);
     while let Some(pin) = &scene.bodies[b].pinned {
-        (x, y, z, b) = (x + pin.at[0], y + pin.at[1], z + pin.at[2], pin.to);
+        (x, y, z, b) = (x + pin.at[0], y + pin.at[1], z + pin.at[2], pin.body);
     }
     [x, y, z]
 }

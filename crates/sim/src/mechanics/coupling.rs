@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::inertia::Block;
 use super::kinematics::Kinematics;
-use crate::Mount;
+use crate::Carrier;
 
 /// B of one structure.
 pub(crate) struct InertialCoupling {
@@ -22,7 +22,7 @@ impl InertialCoupling {
     /// bodies; `None` where nothing couples them.
     pub fn new(
         kinematics: &Kinematics,
-        mount: &Mount,
+        mount: &Carrier,
         range: Range<usize>,
         bodies: usize,
     ) -> Option<InertialCoupling> {

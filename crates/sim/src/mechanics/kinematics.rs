@@ -66,7 +66,7 @@ impl<'a> Kinematics<'a> {
             self.add_mass_of_tree(b, &body.mass_matrix()[0]);
         }
         for (foundation, range) in foundations.iter().zip(structures) {
-            let Some(mount) = &foundation.on else { continue };
+            let Some(mount) = &foundation.carrier else { continue };
             self.add_mass_of_tree(mount.body, &mount.mass[0]);
             let root = self.root[mount.body];
             for (number, row) in range.clone().zip(&mount.coupling) {
@@ -103,16 +103,16 @@ impl<'a> Kinematics<'a> {
                 Some(arm) => line = *arm,
                 None => line[i] = 1.0,
             }
-            let terms = self.combine(pin.to, &line);
+            let terms = self.combine(pin.body, &line);
             self.terms[b][i] = terms;
             self.constant[b][i] =
-                line.iter().zip(&self.constant[pin.to]).map(|(l, constant)| l * constant).sum();
+                line.iter().zip(&self.constant[pin.body]).map(|(l, constant)| l * constant).sum();
             if i == 0 {
                 self.constant[b][0] += pin.at[0];
             }
         }
         if let Some(pin) = &body.pinned {
-            self.root[b] = self.root[pin.to];
+            self.root[b] = self.root[pin.body];
         }
     }
 

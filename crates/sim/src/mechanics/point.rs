@@ -12,7 +12,7 @@ use super::carried_point::{CarriedPoint, Pose};
 use super::kinematics::Terms;
 use crate::numerics::dense::dot;
 use crate::scene::dof::arm_rows;
-use crate::{Moving, RopeEnd};
+use crate::{RopeEnd, Travel};
 
 /// A point fixed to a body, or to space where there is no body.
 pub(crate) struct Point {
@@ -100,7 +100,7 @@ impl Point {
     }
 
     /// Velocity by prescribed motions alone at (t, q), `travel` being those of t.
-    pub fn drift(&self, mechanics: &Mechanics, travel: &[Moving], t: f64, q: &DVector<f64>) -> [f64; 3] {
+    pub fn drift(&self, mechanics: &Mechanics, travel: &[Travel], t: f64, q: &DVector<f64>) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (b, body) in mechanics.scene.bodies.iter().enumerate() {
             if body.motion.is_some() && travel[b].v != 0.0 {
@@ -169,7 +169,7 @@ fn rest(mechanics: &Mechanics, body: Option<usize>) -> [f64; 2] {
                 });
             }
         }
-        next = pin.map(|pin| pin.to);
+        next = pin.map(|pin| pin.body);
     }
     origin
 }
@@ -184,7 +184,7 @@ fn height_over(mechanics: &Mechanics, b: usize, root: usize) -> f64 {
     let (mut height, mut at) = (0.0, b);
     while let Some(pin) = mechanics.scene.bodies[at].pinned.as_ref().filter(|_| at != root) {
         height += pin.at[1];
-        at = pin.to;
+        at = pin.body;
     }
     height
 }

@@ -54,7 +54,7 @@ impl<'a> Wheels<'a> {
             let kind = &scene.wheels[contact.wheel];
             for (own, offset) in contact.offsets.iter().enumerate() {
                 let [x, y, z] = contact.at;
-                let mut turns = scene.actuators.turns.iter();
+                let mut turns = scene.actuators.spins.iter();
                 let turn =
                     turns.find(|turn| (turn.contact, turn.wheel) == (index, own)).map(|turn| &turn.motion);
                 let spins = kind.spin_inertia.is_some() && kind.friction.is_some() && turn.is_none();

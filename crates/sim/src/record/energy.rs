@@ -57,7 +57,7 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
                 coupling.iter().map(|&(number, inertia)| inertia * speed[0] * state.v[number]).sum::<f64>();
         }
     }
-    for mount in system.foundations.iter().filter_map(|foundation| foundation.on.as_ref()) {
+    for mount in system.foundations.iter().filter_map(|foundation| foundation.carrier.as_ref()) {
         let (displacement, _) = mechanics.body(mount.body, state.t, &state.q, &state.v);
         energy.gravity += system.scene.gravity * dot(&mount.mass[1], &displacement);
     }

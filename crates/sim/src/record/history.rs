@@ -8,7 +8,7 @@ use crate::scene::channel::Channel;
 /// [`History::values`] goes along one channel; neither copies.
 /// ```
 /// # use std::ops::ControlFlow;
-/// # use sim::{Body, Channel, Contact, Damper, Foundation, Freedom, NormalLaw, Scene, Wheel};
+/// # use sim::{Body, Channel, Contact, Damper, Foundation, BodyDof, NormalLaw, Scene, Wheel};
 /// # let scene = Scene {
 /// #     bodies: vec![Body { free: [false, true, false, false, false, false], ..Body::new(1000.0, [0.0; 3]) }],
 /// #     wheels: vec![Wheel::new(0.5, NormalLaw::linear(1e7, 0.0, Damper::Rail))],
@@ -19,7 +19,7 @@ use crate::scene::channel::Channel;
 /// let history = sim::run(&scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(()))?.history;
 /// let force = history.position(Channel::Vertical(0)).expect("the scene has a wheel");
 /// assert!(history.samples().all(|sample| (sample[force] / 9810.0 - 1.0).abs() < 1e-5));
-/// let (time, y) = (history.values(Channel::Time), history.values(Channel::Displacement(0, Freedom::Y)));
+/// let (time, y) = (history.values(Channel::Time), history.values(Channel::Displacement(0, BodyDof::Y)));
 /// assert_eq!((time.len(), y.len()), (101, 101));
 /// # Ok::<(), sim::Error>(())
 /// ```

@@ -11,7 +11,7 @@ use crate::numerics::dense::dot;
 use crate::record::energy::{motion_force, spin_moment};
 use crate::record::history::History;
 use crate::scene::dof::arm_rows;
-use crate::{Analysis, Channel, Error, Freedom, Gauge};
+use crate::{Analysis, BodyDof, Channel, Error, Gauge};
 
 /// Structures whose degrees of freedom are recorded, with the numbers of these.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
@@ -168,18 +168,18 @@ fn channels_of(system: &System) -> Vec<Channel> {
     let mut channels = Vec::with_capacity(1 + 14 * bodies + 9 * wheels + others);
     channels.push(Channel::Time);
     for b in 0..bodies {
-        channels.extend(Freedom::ALL.map(|freedom| Channel::Displacement(b, freedom)));
-        channels.extend(Freedom::ALL.map(|freedom| Channel::Speed(b, freedom)));
+        channels.extend(BodyDof::ALL.map(|freedom| Channel::Displacement(b, freedom)));
+        channels.extend(BodyDof::ALL.map(|freedom| Channel::Speed(b, freedom)));
         channels.extend([Channel::Drive(b), Channel::Brake(b)]);
     }
     for w in 0..wheels {
         channels.extend([
-            Channel::Place(w),
+            Channel::Position(w),
             Channel::Vertical(w),
             Channel::Lateral(w),
             Channel::Traction(w),
             Channel::Penetration(w),
-            Channel::Give(w),
+            Channel::Deflection(w),
             Channel::SpinAngle(w),
             Channel::SpinSpeed(w),
             Channel::SpinMoment(w),

@@ -1,6 +1,6 @@
 //! What acts on bodies besides weight and rails: loads, drives, brakes and prescribed spins.
 
-use super::dof::Freedom;
+use super::dof::BodyDof;
 use super::profile::Profile;
 use super::rope::{Rope, Stop};
 use super::rule::Rule;
@@ -13,7 +13,7 @@ pub struct Load {
     pub body: usize,
     /// On which freedom: a force at the origin along x, y or z, or a moment about them; positive as the degree of
     /// freedom is.
-    pub freedom: Freedom,
+    pub dof: BodyDof,
     /// Its size.
     pub value: Schedule,
 }
@@ -59,7 +59,7 @@ pub struct Brake {
 /// A wheel's spin over time: its angle about z is prescribed and its moment follows. Rolling towards +x turns it
 /// negative.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Turn {
+pub struct PrescribedSpin {
     /// Which contact; its wheels have friction.
     pub contact: usize,
     /// Which of the contact's wheels.
@@ -82,9 +82,9 @@ pub struct Actuators {
     /// End stops and floors.
     pub stops: Vec<Stop>,
     /// Wheels whose spin is prescribed.
-    pub turns: Vec<Turn>,
+    pub spins: Vec<PrescribedSpin>,
     /// Bodies without wheels that start at rest below their ropes or on their floors.
-    pub hung: Vec<usize>,
+    pub hanging: Vec<usize>,
     /// What switches drives, brakes and ropes during the run.
     pub rules: Vec<Rule>,
 }
@@ -96,7 +96,7 @@ impl Actuators {
         let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));
         let ropes = self.ropes.iter().flat_map(Rope::breaks);
         let rules = self.rules.iter().filter_map(|rule| rule.when.time());
-        let turns = self.turns.iter().flat_map(|turn| turn.motion.breaks().iter().copied());
+        let turns = self.spins.iter().flat_map(|turn| turn.motion.breaks().iter().copied());
         let loads = loads.chain(turns);
         loads.chain(drives).chain(self.brakes.iter().map(|brake| brake.from)).chain(ropes).chain(rules)
     }

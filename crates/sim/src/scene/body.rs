@@ -8,7 +8,7 @@ use super::profile::Profile;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pin {
     /// Index of the body that carries the pin.
-    pub to: usize,
+    pub body: usize,
     /// Place of the pin from the origin of that body.
     pub at: [f64; 3],
 }
@@ -18,12 +18,12 @@ pub struct Pin {
 /// Its y and z are measured from the position in which its wheels just touch the unloaded, straight rail,
 /// centred; its x is the rail coordinate of its origin.
 /// ```
-/// use sim::{Body, Freedom, Given, Profile};
+/// use sim::{Body, BodyDof, MotionKind, Profile};
 ///
 /// // 20 t, driven at 2 m/s from x = 1 m, free to roll beside what a new body is free in.
 /// let mut body = Body::new(20e3, [5e3, 0.0, 40e3]);
-/// body.motion = Some(Profile::new(Given::Speed, &[[0.0, 2.0]], 1.0, 0.0)?);
-/// body.free[Freedom::Roll as usize] = true;
+/// body.motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 2.0]], 1.0, 0.0)?);
+/// body.free[BodyDof::Roll as usize] = true;
 /// assert_eq!(body.free, [false, true, false, true, false, true]);
 /// # Ok::<(), sim::Error>(())
 /// ```
@@ -92,7 +92,7 @@ pub(crate) fn parents_first(bodies: &[Body]) -> Result<Vec<usize>, Error> {
     for b in 0..bodies.len() {
         let (mut depth, mut at) = (0, b);
         while let Some(pin) = &bodies[at].pinned {
-            (depth, at) = (depth + 1, pin.to);
+            (depth, at) = (depth + 1, pin.body);
             if depth > bodies.len() {
                 return Err(Error::Pinned { body: b });
             }

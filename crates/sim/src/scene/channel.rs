@@ -1,6 +1,6 @@
 //! The quantities that a history holds and that rules compare.
 
-use super::dof::Freedom;
+use super::dof::BodyDof;
 
 /// One quantity of a history.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,15 +8,15 @@ pub enum Channel {
     /// Time.
     Time,
     /// Displacement of a body in one degree of freedom.
-    Displacement(usize, Freedom),
+    Displacement(usize, BodyDof),
     /// Speed of a body in one degree of freedom.
-    Speed(usize, Freedom),
+    Speed(usize, BodyDof),
     /// Force along +x of a body's drive, or that its prescribed motion needs.
     Drive(usize),
     /// Force along +x of a body's brakes.
     Brake(usize),
     /// Rail coordinate of a wheel.
-    Place(usize),
+    Position(usize),
     /// Vertical force of a wheel on the rail.
     Vertical(usize),
     /// Lateral force of a wheel on the rail, +z.
@@ -26,7 +26,7 @@ pub enum Channel {
     /// Penetration of a wheel into the rail, negative where it is off the rail.
     Penetration(usize),
     /// Downward deflection of the rail under a wheel.
-    Give(usize),
+    Deflection(usize),
     /// Angle of a wheel about z; rolling towards +x turns it negative.
     SpinAngle(usize),
     /// Angular speed of a wheel about z.

@@ -2,9 +2,9 @@
 //!
 //! All checks of what a scene says stand here, above the types that they look at: a rope or a rule knows no scene.
 
-use super::actuators::{Actuators, Brake, Drive, Turn};
+use super::actuators::{Actuators, Brake, Drive, PrescribedSpin};
 use super::body::{Body, parents_first};
-use super::dof::Freedom;
+use super::dof::BodyDof;
 use super::error::Error;
 use super::foundation::Foundation;
 use super::model::Scene;
@@ -53,8 +53,8 @@ impl Scene {
 /// A body that does not exist; a mass that is not finite, or below zero.
 pub(crate) fn check_carriers(scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
     for foundation in foundations {
-        let Some(mount) = &foundation.on else { continue };
-        if ![0, foundation.freedoms()].contains(&mount.coupling.len()) {
+        let Some(mount) = &foundation.carrier else { continue };
+        if ![0, foundation.dofs()].contains(&mount.coupling.len()) {
             return Err(Error::NoSuch { what: "freedom of a structure", index: mount.coupling.len() });
         }
         exists(scene, mount.body)?;
@@ -74,10 +74,10 @@ pub(crate) fn check_carriers(scene: &Scene, foundations: &[Foundation]) -> Resul
 fn check_pins(bodies: &[Body]) -> Result<(), Error> {
     for (b, body) in bodies.iter().enumerate() {
         let Some(pin) = &body.pinned else { continue };
-        if pin.to >= bodies.len() {
-            return Err(Error::NoSuch { what: "body", index: pin.to });
+        if pin.body >= bodies.len() {
+            return Err(Error::NoSuch { what: "body", index: pin.body });
         }
-        if body.motion.is_some() || body.free[..=Freedom::Z as usize].contains(&true) {
+        if body.motion.is_some() || body.free[..=BodyDof::Z as usize].contains(&true) {
             return Err(Error::Pinned { body: b });
         }
     }
@@ -95,8 +95,8 @@ fn check_wheel(wheel: &Wheel) -> Result<(), Error> {
 fn check_actuators(actuators: &Actuators, scene: &Scene) -> Result<(), Error> {
     actuators.ropes.iter().try_for_each(|rope| check_rope(rope, scene))?;
     actuators.stops.iter().try_for_each(|stop| check_stop(stop, scene))?;
-    check_turns(&actuators.turns, scene)?;
-    for &index in &actuators.hung {
+    check_turns(&actuators.spins, scene)?;
+    for &index in &actuators.hanging {
         let has_wheels = scene.contacts.iter().any(|contact| contact.body == index);
         if index >= scene.bodies.len() || has_wheels {
             return Err(Error::NoSuch { what: "body without wheels", index });
@@ -104,7 +104,7 @@ fn check_actuators(actuators: &Actuators, scene: &Scene) -> Result<(), Error> {
     }
     actuators.rules.iter().try_for_each(|rule| check_rule(rule, scene))?;
     for load in &actuators.loads {
-        is_free(scene, load.body, load.freedom)?;
+        is_free(scene, load.body, load.dof)?;
     }
     for (index, drive) in actuators.drives.iter().enumerate() {
         let is_second = actuators.drives[..index].iter().any(|earlier| earlier.body == drive.body);
@@ -114,7 +114,7 @@ fn check_actuators(actuators: &Actuators, scene: &Scene) -> Result<(), Error> {
 }
 
 fn check_drive(drive: &Drive, is_second: bool, scene: &Scene) -> Result<(), Error> {
-    is_free(scene, drive.body, Freedom::X)?;
+    is_free(scene, drive.body, BodyDof::X)?;
     number("drives of a body", "one at most", 2.0, !is_second)?;
     positive("gain of a drive", drive.gain)?;
     number("largest force of a drive", "zero or above", drive.max_force, drive.max_force >= 0.0)?;
@@ -123,7 +123,7 @@ fn check_drive(drive: &Drive, is_second: bool, scene: &Scene) -> Result<(), Erro
 }
 
 fn check_brake(brake: &Brake, scene: &Scene) -> Result<(), Error> {
-    is_free(scene, brake.body, Freedom::X)?;
+    is_free(scene, brake.body, BodyDof::X)?;
     positive("speed of a brake", brake.speed)?;
     number("start of a brake", "a time", brake.from, !brake.from.is_nan())?;
     for &contact in &brake.contacts {
@@ -135,7 +135,7 @@ fn check_brake(brake: &Brake, scene: &Scene) -> Result<(), Error> {
     Ok(())
 }
 
-fn check_turns(turns: &[Turn], scene: &Scene) -> Result<(), Error> {
+fn check_turns(turns: &[PrescribedSpin], scene: &Scene) -> Result<(), Error> {
     for (index, turn) in turns.iter().enumerate() {
         let none = Error::NoSuch { what: "contact of a prescribed spin", index: turn.contact };
         let contact = scene.contacts.get(turn.contact).ok_or(none)?;
@@ -145,7 +145,7 @@ fn check_turns(turns: &[Turn], scene: &Scene) -> Result<(), Error> {
         if scene.wheels.get(contact.wheel).is_none_or(|kind| kind.friction.is_none()) {
             return Err(Error::NoSuch { what: "friction of the contact that turns", index: turn.contact });
         }
-        let same = |other: &Turn| (other.contact, other.wheel) == (turn.contact, turn.wheel);
+        let same = |other: &PrescribedSpin| (other.contact, other.wheel) == (turn.contact, turn.wheel);
         let is_second = turns[..index].iter().any(same);
         number("prescribed spins of a wheel", "one at most", 2.0, !is_second)?;
     }
@@ -222,10 +222,10 @@ fn exists(scene: &Scene, index: usize) -> Result<(), Error> {
     if index < scene.bodies.len() { Ok(()) } else { Err(Error::NoSuch { what: "body", index }) }
 }
 
-fn is_free(scene: &Scene, body: usize, freedom: Freedom) -> Result<(), Error> {
+fn is_free(scene: &Scene, body: usize, freedom: BodyDof) -> Result<(), Error> {
     let owner = scene.bodies.get(body).ok_or(Error::NoSuch { what: "body", index: body })?;
-    let is_free = owner.free[freedom as usize] && (freedom != Freedom::X || owner.motion.is_none());
-    if is_free { Ok(()) } else { Err(Error::NotFree { body, freedom }) }
+    let is_free = owner.free[freedom as usize] && (freedom != BodyDof::X || owner.motion.is_none());
+    if is_free { Ok(()) } else { Err(Error::NotFree { body, dof: freedom }) }
 }
 
 /// Checks that contact `index` is of `body` and that its wheels do not spin by themselves.
@@ -236,7 +236,7 @@ fn has_contact(scene: &Scene, body: usize, index: usize) -> Result<(), Error> {
     }
     let kind =
         scene.wheels.get(contact.wheel).ok_or(Error::NoSuch { what: "wheel", index: contact.wheel })?;
-    let turns = scene.actuators.turns.iter().any(|turn| turn.contact == index);
+    let turns = scene.actuators.spins.iter().any(|turn| turn.contact == index);
     if turns || kind.spin_inertia.is_some() && kind.friction.is_some() {
         return Err(Error::Spins { contact: index });
     }

@@ -2,7 +2,7 @@
 
 /// Degree of degree of freedom of a body on its track; rotations are small and right-handed about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Freedom {
+pub enum BodyDof {
     /// Along the rail.
     X,
     /// Up.
@@ -17,10 +17,10 @@ pub enum Freedom {
     Pitch,
 }
 
-impl Freedom {
+impl BodyDof {
     /// All six, in the order of every array of six in this crate.
-    pub const ALL: [Freedom; 6] =
-        [Freedom::X, Freedom::Y, Freedom::Z, Freedom::Roll, Freedom::Yaw, Freedom::Pitch];
+    pub const ALL: [BodyDof; 6] =
+        [BodyDof::X, BodyDof::Y, BodyDof::Z, BodyDof::Roll, BodyDof::Yaw, BodyDof::Pitch];
 }
 
 /// Displacement of a point at `r` from a body's origin: row i gives component i per unit of each degree of

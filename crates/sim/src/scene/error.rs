@@ -1,6 +1,6 @@
 //! What can go wrong in a scene: ids and numbers; the caller knows the names.
 
-use super::dof::Freedom;
+use super::dof::BodyDof;
 use super::method::Method;
 
 /// Errors of the simulator.
@@ -15,12 +15,12 @@ pub enum Error {
         source: splines::Error,
     },
     /// The mass or inertia of a free degree of freedom that is not positive.
-    #[error("body {body}: freedom {freedom:?} is free but nothing has inertia there")]
+    #[error("body {body}: freedom {dof:?} is free but nothing has inertia there")]
     NoInertia {
         /// Which body.
         body: usize,
         /// Which degree of freedom.
-        freedom: Freedom,
+        dof: BodyDof,
     },
     /// A body, structure or rail index beyond the scene's.
     #[error("{what} {index} does not exist")]
@@ -62,17 +62,17 @@ pub enum Error {
     /// different directions, itself a carrier of its carrier, loaded, held by a rope or stop, or on a structure with
     /// mass or parts of its own.
     #[error("body {body}: not a way to ride on another body, or to carry a structure")]
-    Mounted {
+    Carried {
         /// Which body.
         body: usize,
     },
     /// A load, drive or brake on a degree of freedom that is fixed or prescribed.
-    #[error("body {body}: freedom {freedom:?} is not free, nothing can push it")]
+    #[error("body {body}: freedom {dof:?} is not free, nothing can push it")]
     NotFree {
         /// Which body.
         body: usize,
         /// Which degree of freedom.
-        freedom: Freedom,
+        dof: BodyDof,
     },
     /// A driven or braked wheel that spins by itself.
     #[error("contact {contact}: a driven or braked wheel cannot have a spin of its own")]

@@ -5,7 +5,7 @@
 
 use splines::Compliance;
 
-use super::carrier::Mount;
+use super::carrier::Carrier;
 use super::irregularity::Irregularity;
 use super::parts::PartChain;
 use super::structure::Structure;
@@ -21,7 +21,7 @@ pub struct Extent {
 
 /// One structure as the wheels feel it.
 ///
-/// [`Foundation::default`] is a rigid rail without end; [`Foundation::influence`] is a compliance without mass; with a
+/// [`Foundation::default`] is a rigid rail without end; [`Foundation::massless`] is a compliance without mass; with a
 /// [`structure`](Foundation::structure) it has mass.
 /// ```
 /// use sim::{Extent, Foundation};
@@ -29,7 +29,7 @@ pub struct Extent {
 /// // A rigid rail from 0 to 30 m with a joint at 12 m, where steps end.
 /// let extent = Extent { range: Some([0.0, 30.0]), breaks: vec![12.0] };
 /// let foundation = Foundation { rails: vec![extent], ..Foundation::rigid() };
-/// assert_eq!(foundation.freedoms(), 0);
+/// assert_eq!(foundation.dofs(), 0);
 /// ```
 #[derive(Default)]
 pub struct Foundation {
@@ -45,11 +45,11 @@ pub struct Foundation {
     /// Whether histories hold its degrees of freedom and their accelerations.
     pub recorded: bool,
     /// Whether friction, drives and brakes load the structure along its rails, and feel their speed.
-    pub is_dragged: bool,
+    pub is_loaded_along: bool,
     /// Shapes of the rails when nothing loads them; empty: straight.
     pub irregularities: Vec<Irregularity>,
     /// The body that carries the structure, all its supports in it; `None`: the ground.
-    pub on: Option<Mount>,
+    pub carrier: Option<Carrier>,
 }
 
 impl Foundation {
@@ -61,7 +61,7 @@ impl Foundation {
 
     /// A massless structure of `rails` rails.
     #[must_use]
-    pub fn influence(compliance: Box<dyn Compliance>, rails: usize) -> Self {
+    pub fn massless(compliance: Box<dyn Compliance>, rails: usize) -> Self {
         let extent = |rail| Extent { range: compliance.range(rail), breaks: compliance.breaks(rail) };
         Foundation {
             rails: (0..rails).map(extent).collect(),
@@ -82,7 +82,7 @@ impl Foundation {
 
     /// Number of degrees of freedom with mass.
     #[must_use]
-    pub fn freedoms(&self) -> usize {
-        self.structure.as_ref().map_or(0, |structure| structure.dynamics.freedoms())
+    pub fn dofs(&self) -> usize {
+        self.structure.as_ref().map_or(0, |structure| structure.dynamics.dofs())
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use splines::{Compliance, Error, Influence, Line, Probe, Surface};
+use splines::{Compliance, Error, ExactSurface, Influence, Probe, Rails};
 
 use super::structure::Shapes;
 use crate::numerics::step::step;
@@ -71,7 +71,7 @@ impl PartChain {
 
     /// Share of part `j` in carrying a wheel at `x`, and its slope. The shares of all parts add to one.
     #[must_use]
-    pub fn share(&self, j: usize, x: f64) -> [f64; 2] {
+    pub fn fraction(&self, j: usize, x: f64) -> [f64; 2] {
         let mut share = [1.0, 0.0];
         if j > 0 {
             let [a, b] = self.windows[j - 1];
@@ -91,7 +91,7 @@ impl PartChain {
     fn carriers(&self, x: f64) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         let at = self.windows.partition_point(|window| window[1] <= x);
         (at..self.count().min(at + 2))
-            .map(move |j| (j, self.share(j, x)))
+            .map(move |j| (j, self.fraction(j, x)))
             .filter(|(_, share)| share[0] != 0.0)
     }
 }
@@ -100,7 +100,7 @@ impl PartChain {
 /// carry p and q. Symmetric and positive by construction.
 pub struct BlendedParts {
     /// Compliance of the parts, each on a rail of its own.
-    pub surface: Surface,
+    pub surface: ExactSurface,
     /// One chain a rail.
     pub chains: Vec<PartChain>,
 }
@@ -158,7 +158,7 @@ impl Compliance for BlendedParts {
 /// Shapes of the parts' degrees of freedom: the state of every part is `basis` times the degrees of freedom.
 pub struct PartShapes {
     /// The parts, each a rigid arm on a rail of its own.
-    pub line: Arc<Line>,
+    pub line: Arc<Rails>,
     /// States (six a part) x degrees of freedom.
     pub basis: DMatrix<f64>,
     /// One chain a rail; the rail's datum is blended.
@@ -199,7 +199,8 @@ mod tests {
         let chain = PartChain::new(vec![-15.0, 10.0, 30.0, 75.0], 0, None).expect("increasing ends");
         for i in 0..=90 {
             let x = f64::from(i) - 15.0;
-            let sums = (0..3).map(|j| chain.share(j, x)).fold([0.0, 0.0], |s, w| [s[0] + w[0], s[1] + w[1]]);
+            let sums =
+                (0..3).map(|j| chain.fraction(j, x)).fold([0.0, 0.0], |s, w| [s[0] + w[0], s[1] + w[1]]);
             assert!((sums[0] - 1.0).abs() < 1e-14 && sums[1].abs() < 1e-14);
             let carried: f64 = chain.carriers(x).map(|(_, share)| share[0]).sum();
             assert!((carried - 1.0).abs() < 1e-14);
@@ -210,6 +211,6 @@ mod tests {
     fn a_window_of_a_given_length_is_centred_on_the_joint() {
         let chain = PartChain::new(vec![-15.0, 30.0, 75.0], 0, Some(60.0)).expect("increasing ends");
         assert_eq!(chain.breaks(), vec![0.0, 60.0]);
-        assert_eq!(chain.share(1, 30.0)[0], 0.5);
+        assert_eq!(chain.fraction(1, 30.0)[0], 0.5);
     }
 }

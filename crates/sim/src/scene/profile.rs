@@ -14,7 +14,7 @@ struct Piece {
 
 /// Which of the three a table gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Given {
+pub enum MotionKind {
     /// Position along the rail.
     Position,
     /// Speed.
@@ -28,10 +28,10 @@ pub enum Given {
 /// Between the rows of its table the quantity given is linear in time; before the first and after the last row
 /// it keeps the row's value. So x is piecewise linear, quadratic or cubic, and integrated exactly.
 /// ```
-/// use sim::{Given, Profile};
+/// use sim::{MotionKind, Profile};
 ///
 /// // From rest at x = 4 m to 2 m/s within 5 s, then at constant speed.
-/// let motion = Profile::new(Given::Speed, &[[0.0, 0.0], [5.0, 2.0]], 4.0, 0.0)?;
+/// let motion = Profile::new(MotionKind::Speed, &[[0.0, 0.0], [5.0, 2.0]], 4.0, 0.0)?;
 /// assert_eq!((motion.at(5.0).x, motion.at(5.0).v), (9.0, 2.0));
 /// assert_eq!(motion.at(6.0).x, 11.0);
 /// # Ok::<(), sim::Error>(())
@@ -44,7 +44,7 @@ pub struct Profile {
 
 /// State of travel at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Moving {
+pub struct Travel {
     /// Position along the rail.
     pub x: f64,
     /// Speed.
@@ -59,7 +59,7 @@ impl Profile {
     ///
     /// # Errors
     /// An empty table, times that do not increase, numbers that are not finite.
-    pub fn new(given: Given, table: &[[f64; 2]], x0: f64, v0: f64) -> Result<Profile, Error> {
+    pub fn new(given: MotionKind, table: &[[f64; 2]], x0: f64, v0: f64) -> Result<Profile, Error> {
         check_rows(table)?;
         if let Some(found) = [x0, v0].into_iter().find(|number| !number.is_finite()) {
             return Err(Error::Number { what: "start of a motion", wanted: "finite", found });
@@ -68,13 +68,13 @@ impl Profile {
         for start in starts(table) {
             let before = match pieces.last() {
                 Some(piece) => piece.at(start),
-                None => Moving { x: x0, v: v0, a: 0.0 },
+                None => Travel { x: x0, v: v0, a: 0.0 },
             };
             let (value, rate) = linear(table, start);
             pieces.push(match given {
-                Given::Position => Piece { start, x: value, v: rate, a: 0.0, jerk: 0.0 },
-                Given::Speed => Piece { start, x: before.x, v: value, a: rate, jerk: 0.0 },
-                Given::Acceleration => Piece { start, x: before.x, v: before.v, a: value, jerk: rate },
+                MotionKind::Position => Piece { start, x: value, v: rate, a: 0.0, jerk: 0.0 },
+                MotionKind::Speed => Piece { start, x: before.x, v: value, a: rate, jerk: 0.0 },
+                MotionKind::Acceleration => Piece { start, x: before.x, v: before.v, a: value, jerk: rate },
             });
         }
         let breaks = pieces.iter().map(|piece| piece.start).filter(|start| *start > 0.0).collect();
@@ -83,11 +83,11 @@ impl Profile {
 
     /// Position, speed and acceleration at `t` >= 0; at a jump, those just after it.
     #[must_use]
-    pub fn at(&self, t: f64) -> Moving {
+    pub fn at(&self, t: f64) -> Travel {
         let next = self.pieces.partition_point(|piece| piece.start <= t);
         match self.pieces.get(next.saturating_sub(1)) {
             Some(piece) => piece.at(t),
-            None => Moving::default(),
+            None => Travel::default(),
         }
     }
 
@@ -155,9 +155,9 @@ impl Profile {
 }
 
 impl Piece {
-    fn at(&self, t: f64) -> Moving {
+    fn at(&self, t: f64) -> Travel {
         let s = t - self.start;
-        Moving {
+        Travel {
             x: self.x + s * (self.v + s * (self.a / 2.0 + s * self.jerk / 6.0)),
             v: self.v + s * (self.a + s * self.jerk / 2.0),
             a: self.a + s * self.jerk,
@@ -217,25 +217,26 @@ mod tests {
     #[test]
     fn speed_table_is_integrated_exactly() {
         // 0 to 5 ft/s in 5 s, then constant: x = t^2/2, then 12.5 + 5 (t - 5)
-        let travel = Profile::new(Given::Speed, &[[0.0, 0.0], [5.0, 5.0]], 40.0, 0.0).expect("a valid table");
-        assert_eq!(travel.at(3.0), Moving { x: 44.5, v: 3.0, a: 1.0 });
-        assert_eq!(travel.at(9.0), Moving { x: 72.5, v: 5.0, a: 0.0 });
+        let travel =
+            Profile::new(MotionKind::Speed, &[[0.0, 0.0], [5.0, 5.0]], 40.0, 0.0).expect("a valid table");
+        assert_eq!(travel.at(3.0), Travel { x: 44.5, v: 3.0, a: 1.0 });
+        assert_eq!(travel.at(9.0), Travel { x: 72.5, v: 5.0, a: 0.0 });
         assert_eq!(travel.breaks(), vec![5.0]);
     }
 
     #[test]
     fn acceleration_table_is_integrated_exactly() {
         // a = 6 t: x = x0 + v0 t + t^3
-        let travel =
-            Profile::new(Given::Acceleration, &[[0.0, 0.0], [2.0, 12.0]], 1.0, 0.5).expect("a valid table");
-        assert_eq!(travel.at(2.0), Moving { x: 10.0, v: 12.5, a: 12.0 });
-        assert_eq!(travel.at(1.0), Moving { x: 2.5, v: 3.5, a: 6.0 });
+        let travel = Profile::new(MotionKind::Acceleration, &[[0.0, 0.0], [2.0, 12.0]], 1.0, 0.5)
+            .expect("a valid table");
+        assert_eq!(travel.at(2.0), Travel { x: 10.0, v: 12.5, a: 12.0 });
+        assert_eq!(travel.at(1.0), Travel { x: 2.5, v: 3.5, a: 6.0 });
     }
 
     #[test]
     fn position_table_keeps_its_rows_and_its_ends() {
         let travel =
-            Profile::new(Given::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0).expect("a valid table");
+            Profile::new(MotionKind::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0).expect("a valid table");
         for (t, x) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 6.0), (9.0, 6.0)] {
             assert_eq!(travel.at(t).x, x, "t = {t}");
         }
@@ -245,7 +246,7 @@ mod tests {
     fn leaving_is_found_between_rows_and_at_turning_points() {
         // x = 10 t - t^2 from a speed of 10 falling by 2 a second: turns at t = 5 with x = 25
         let travel =
-            Profile::new(Given::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
+            Profile::new(MotionKind::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
         assert_eq!(travel.leaves([0.0, 25.0], 10.0), None);
         let (t, x) = travel.leaves([-1.0, 24.0], 10.0).expect("25 is beyond 24");
         assert!((t - 4.0).abs() < 1e-12 && (x - 24.0).abs() < 1e-11, "{t} {x}");
@@ -256,7 +257,7 @@ mod tests {
 
     #[test]
     fn rejects_times_that_do_not_increase() {
-        assert!(Profile::new(Given::Speed, &[[0.0, 1.0], [0.0, 2.0]], 0.0, 0.0).is_err());
-        assert!(Profile::new(Given::Speed, &[], 0.0, 0.0).is_err());
+        assert!(Profile::new(MotionKind::Speed, &[[0.0, 1.0], [0.0, 2.0]], 0.0, 0.0).is_err());
+        assert!(Profile::new(MotionKind::Speed, &[], 0.0, 0.0).is_err());
     }
 }

@@ -22,7 +22,7 @@ pub struct RopeEnd {
 /// // 1 t hangs at rest on 10 m of rope below the origin of space.
 /// let rope = Rope {
 ///     from: RopeEnd { body: None, at: [0.0; 3] },
-///     to: RopeEnd { body: Some(0), at: [0.0; 3] },
+///     body: RopeEnd { body: Some(0), at: [0.0; 3] },
 ///     stiffness: 1e7,
 ///     damping: 0.0,
 ///     length: 10.0,
@@ -31,7 +31,7 @@ pub struct RopeEnd {
 /// let free = [true, true, true, false, false, false];
 /// let mut scene = Scene { bodies: vec![Body { free, ..Body::new(1e3, [0.0; 3]) }], ..Scene::default() };
 /// scene.actuators.ropes = vec![rope];
-/// scene.actuators.hung = vec![0];
+/// scene.actuators.hanging = vec![0];
 /// let run = sim::run(&scene, &[], &mut |_| ControlFlow::Continue(()))?;
 /// assert!(run.history.values(Channel::Tension(0)).all(|tension| (tension / 9810.0 - 1.0).abs() < 1e-6));
 /// # Ok::<(), sim::Error>(())

@@ -54,7 +54,7 @@ impl Dynamics {
 
     /// Number of degrees of freedom.
     #[must_use]
-    pub fn freedoms(&self) -> usize {
+    pub fn dofs(&self) -> usize {
         match self {
             Dynamics::Matrices { mass, .. } => mass.nrows(),
             Dynamics::Modes { omega, .. } => omega.len(),

@@ -34,7 +34,7 @@ pub struct NormalLaw {
 
 /// A force and its derivatives with respect to penetration and rate.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LawPoint {
+pub struct LawValue {
     /// Force.
     pub force: f64,
     /// Derivative with respect to penetration.
@@ -70,7 +70,7 @@ impl NormalLaw {
     /// Force of the law at penetration `p` and rate `r`, not clipped: negative penetration continues the
     /// spring oddly, so that a step that ends a contact stays smooth until its end is located.
     #[must_use]
-    pub fn at(&self, p: f64, r: f64) -> LawPoint {
+    pub fn at(&self, p: f64, r: f64) -> LawValue {
         let (spring, by_spring) = if self.exponent == 1.0 {
             (self.stiffness * p, self.stiffness)
         } else {
@@ -78,7 +78,7 @@ impl NormalLaw {
             (self.stiffness * p * power, self.stiffness * self.exponent * power)
         };
         let (ramp, by_ramp) = if self.depth > 0.0 { step(p, 0.0, 0.0, self.depth, 1.0) } else { (1.0, 0.0) };
-        LawPoint {
+        LawValue {
             force: spring + self.damping * ramp * r,
             by_penetration: by_spring + self.damping * by_ramp * r,
             by_rate: self.damping * ramp,
@@ -128,7 +128,7 @@ pub struct Flange {
 impl Flange {
     /// Share S(h) of the flange force that is left at height `h`, and its slope.
     #[must_use]
-    pub fn share(&self, h: f64) -> (f64, f64) {
+    pub fn fraction(&self, h: f64) -> (f64, f64) {
         self.release.map_or((1.0, 0.0), |[from, to]| step(h, from, 1.0, to, 0.0))
     }
 
@@ -166,7 +166,7 @@ pub struct Friction {
 impl Friction {
     /// Share of mu N at sliding velocity `s`, -1 to 1, and its slope.
     #[must_use]
-    pub fn share(&self, s: f64) -> (f64, f64) {
+    pub fn fraction(&self, s: f64) -> (f64, f64) {
         match self.law {
             FrictionLaw::Step => step(s, -self.slip, -1.0, self.slip, 1.0),
             FrictionLaw::Coulomb => {
@@ -269,31 +269,31 @@ mod tests {
         let flange = Flange { stiffness: 1e8, clearance: 0.04, release: Some([1.25, 1.385]) };
         assert_eq!(flange.overlap(0.03), 0.0);
         assert!((flange.overlap(-0.05) + 0.01).abs() < 1e-15);
-        assert_eq!(flange.share(1.2).0, 1.0);
-        assert_eq!(flange.share(1.4).0, 0.0);
-        assert!((flange.share(1.3175).0 - 0.5).abs() < 1e-12);
+        assert_eq!(flange.fraction(1.2).0, 1.0);
+        assert_eq!(flange.fraction(1.4).0, 0.0);
+        assert!((flange.fraction(1.3175).0 - 0.5).abs() < 1e-12);
     }
 
     #[test]
     fn friction_is_odd_and_full_beyond_the_slip_velocity() {
         let friction = Friction { law: FrictionLaw::Step, coefficient: 0.2, slip: 0.1 };
-        assert_eq!(friction.share(0.2).0, 1.0);
-        assert_eq!(friction.share(-0.2).0, -1.0);
-        assert!(friction.share(0.0).0.abs() < 1e-15);
+        assert_eq!(friction.fraction(0.2).0, 1.0);
+        assert_eq!(friction.fraction(-0.2).0, -1.0);
+        assert!(friction.fraction(0.0).0.abs() < 1e-15);
     }
 
     #[test]
     fn coulomb_friction_is_odd_and_nearly_full_at_ten_slip_velocities() {
         let friction = Friction { law: FrictionLaw::Coulomb, coefficient: 0.2, slip: 0.1 };
-        assert_eq!(friction.share(0.0), (0.0, 10.0));
-        assert_eq!(friction.share(0.03).0, -friction.share(-0.03).0);
+        assert_eq!(friction.fraction(0.0), (0.0, 10.0));
+        assert_eq!(friction.fraction(0.03).0, -friction.fraction(-0.03).0);
         // Analytic: tanh 1 = 0.761594, 1 - tanh 10 = 4.1e-9.
-        assert!((friction.share(0.1).0 - 0.761_594_156).abs() < 1e-9);
-        let short = 1.0 - friction.share(1.0).0;
+        assert!((friction.fraction(0.1).0 - 0.761_594_156).abs() < 1e-9);
+        let short = 1.0 - friction.fraction(1.0).0;
         assert!(short > 0.0 && short < 4.2e-9);
         let (s, h) = (0.07, 1e-6);
-        let difference = (friction.share(s + h).0 - friction.share(s - h).0) / (2.0 * h);
-        assert!((friction.share(s).1 / difference - 1.0).abs() < 1e-7);
-        assert_eq!(friction.share(1e300), (1.0, 0.0));
+        let difference = (friction.fraction(s + h).0 - friction.fraction(s - h).0) / (2.0 * h);
+        assert!((friction.fraction(s).1 / difference - 1.0).abs() < 1e-7);
+        assert_eq!(friction.fraction(1e300), (1.0, 0.0));
     }
 }

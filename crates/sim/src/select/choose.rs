@@ -3,9 +3,9 @@
 
 use std::ops::ControlFlow;
 
-use super::fidelity::{Choice, Ladder, Reason, Selection};
+use super::fidelity::{Choice, FoundationProvider, Reason, Selection};
 use super::joint;
-use super::rung::Rung;
+use super::rung::Fidelity;
 use super::search::{Candidate, Outcome, Search};
 use crate::{Analysis, Scene};
 
@@ -15,9 +15,9 @@ const FEW: usize = 3;
 /// by bodies first, the others held at theirs (influence before their turn), and runs the scene. `watch` sees the
 /// time that every run reaches, and may stop the choice.
 ///
-/// First the errors of the fidelities are predicted, see [`Predicted`](crate::Predicted): fidelities expected to err
+/// First the errors of the fidelities are predicted, see [`PredictedErrors`](crate::Predicted): fidelities expected to err
 /// by much more than the tolerance are skipped; one expected to err by much less is taken without a higher one to
-/// check it. What is left is compared: rigid and influence with the first [`Rung::Modal`] whose highest frequency
+/// check it. What is left is compared: rigid and influence with the first [`Fidelity::Modal`] whose highest frequency
 /// exceeds three times that of the bodies on their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16
 /// and full, full with half its mesh. The run of the fidelity chosen is kept. Where several structures were refined,
 /// all are checked together and raised together until the sum of their tolerances holds. Not controlled: pitch, roll,
@@ -25,29 +25,29 @@ const FEW: usize = 3;
 ///
 /// # Errors
 /// A foundation that is given or influence that cannot be built; a scene that starts on no foundation.
-pub fn choose<L: Ladder>(
+pub fn choose<L: FoundationProvider>(
     scene: &Scene,
     tolerances: &[Option<f64>],
     provider: &mut L,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Selection, L::Error> {
     let mut foundations = (0..tolerances.len())
-        .map(|structure| provider.foundation(structure, Rung::Influence))
+        .map(|structure| provider.foundation(structure, Fidelity::Influence))
         .collect::<Result<Vec<_>, _>>()?;
     let mut choices: Vec<Choice> = Vec::new();
     let (mut last, mut runs) = (None, 0);
     // what a body carries is small: it is tried on all that is still cheap
     let (riding, standing): (Vec<usize>, Vec<usize>) =
-        (0..tolerances.len()).partition(|&structure| foundations[structure].on.is_some());
+        (0..tolerances.len()).partition(|&structure| foundations[structure].carrier.is_some());
     for structure in riding.into_iter().chain(standing) {
         let Some(tolerance) = tolerances[structure] else { continue };
         if scene.analysis == Analysis::QuasiStatic {
-            choices.push(Choice::new(structure, Rung::Influence, Reason::QuasiStatic));
+            choices.push(Choice::new(structure, Fidelity::Influence, Reason::QuasiStatic));
             continue;
         }
         let few = match provider.modes(structure, FEW) {
             Ok(None) => {
-                choices.push(Choice::new(structure, Rung::Influence, Reason::NoMass));
+                choices.push(Choice::new(structure, Fidelity::Influence, Reason::NoMass));
                 continue;
             }
             // where they cannot be found, the fidelities say why

@@ -1,6 +1,6 @@
 //! How far one run is from another.
 
-use crate::{Channel, Freedom, Run, Scene, Status};
+use crate::{BodyDof, Channel, Run, Scene, Status};
 
 /// How far `a` is from `b`, two runs of `scene`: the larger of max |y_a - y_b| / max |y_b| over each body's height
 /// and max |F_a - F_b| / max |F_b| over the vertical wheel forces, at the output times. Infinite where one did not
@@ -25,6 +25,6 @@ pub fn distance(a: &Run, b: &Run, scene: &Scene) -> f64 {
     let forces: Vec<Channel> =
         b.history.channels().iter().copied().filter(|c| matches!(c, Channel::Vertical(_))).collect();
     (0..scene.bodies.len())
-        .map(|body| part(&[Channel::Displacement(body, Freedom::Y)]))
+        .map(|body| part(&[Channel::Displacement(body, BodyDof::Y)]))
         .fold(part(&forces), f64::max)
 }

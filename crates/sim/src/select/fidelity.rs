@@ -2,19 +2,19 @@
 
 use std::ops::ControlFlow;
 
-use super::predict::Predicted;
-use super::rung::Rung;
+use super::predict::PredictedErrors;
+use super::rung::Fidelity;
 use crate::run::run;
 use crate::{Error, Foundation, Run, Scene, Structure};
 
 /// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
 /// thirty times what they are asked.
-pub const STEPPING: f64 = 0.03;
+pub const RUN_ACCURACY: f64 = 0.03;
 /// Share of the tolerance that an estimate may reach: the higher fidelity errs too.
 pub(super) const SAFE: f64 = 0.8;
 
 /// What builds foundations on demand.
-pub trait Ladder {
+pub trait FoundationProvider {
     /// What can go wrong.
     type Error: From<Error>;
 
@@ -29,7 +29,7 @@ pub trait Ladder {
     ///
     /// # Errors
     /// A fidelity that cannot be built.
-    fn foundation(&mut self, structure: usize, rung: Rung) -> Result<Foundation, Self::Error>;
+    fn foundation(&mut self, structure: usize, rung: Fidelity) -> Result<Foundation, Self::Error>;
 
     /// Runs the scene: [`run()`], unless it is to be integrated in another way.
     ///
@@ -58,21 +58,21 @@ pub enum Reason {
     Sufficient,
     /// Nothing lower was sufficient. The estimate is that of the mesh with half as many elements: above the tolerance,
     /// or, where that mesh could not be run, none.
-    Top,
+    Highest,
     /// No higher fidelity could be built or run to check it: its error is not known, or exceeds the tolerance.
     Unchecked,
 }
 
 /// A fidelity that was tried.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tried {
+pub struct FidelityTrial {
     /// Which.
-    pub rung: Rung,
+    pub fidelity: Fidelity,
     /// Its error against `against`, see [`distance`](crate::distance()); infinite where the two runs cannot be
     /// compared.
     pub estimate: f64,
     /// What it was checked against.
-    pub against: Rung,
+    pub against: Fidelity,
     /// Stages that its run took.
     pub stages: u64,
 }
@@ -83,19 +83,19 @@ pub struct Choice {
     /// Which structure.
     pub structure: usize,
     /// Its fidelity.
-    pub rung: Rung,
+    pub fidelity: Fidelity,
     /// Why.
     pub reason: Reason,
     /// Its error, where that is known.
     pub estimate: Option<f64>,
     /// What was expected of the fidelities; `None` where nothing was.
-    pub predicted: Option<Predicted>,
+    pub predicted: Option<PredictedErrors>,
     /// Rungs left out, as they were expected to err by far more than is allowed.
-    pub skipped: Vec<Rung>,
+    pub skipped: Vec<Fidelity>,
     /// All that were compared, in order.
-    pub tried: Vec<Tried>,
+    pub tried: Vec<FidelityTrial>,
     /// Rungs that could not be built, started or run to the end, in order.
-    pub failed: Vec<Rung>,
+    pub failed: Vec<Fidelity>,
 }
 
 /// Foundations chosen, and the run on them.
@@ -109,8 +109,8 @@ pub struct Selection {
 }
 
 impl Choice {
-    pub(super) fn new(structure: usize, rung: Rung, reason: Reason) -> Choice {
+    pub(super) fn new(structure: usize, fidelity: Fidelity, reason: Reason) -> Choice {
         let (skipped, tried, failed) = (Vec::new(), Vec::new(), Vec::new());
-        Choice { structure, rung, reason, estimate: None, predicted: None, skipped, tried, failed }
+        Choice { structure, fidelity, reason, estimate: None, predicted: None, skipped, tried, failed }
     }
 }

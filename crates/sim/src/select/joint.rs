@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 
 use super::distance::distance;
-use super::fidelity::{Choice, Ladder, Reason, SAFE, STEPPING, Selection, Tried};
-use super::rung::{MODES, Rung};
+use super::fidelity::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, SAFE, Selection};
+use super::rung::{Fidelity, MODES};
 use crate::{Foundation, Scene};
 
 /// Raises all structures that were refined until the next fidelities of all change the run by at most 0.8 of the sum
 /// of their tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they
 /// were held.
-pub(super) fn settle<L: Ladder>(
+pub(super) fn settle<L: FoundationProvider>(
     scene: &Scene,
     tolerances: &[Option<f64>],
     mut foundations: Vec<Foundation>,
@@ -22,18 +22,18 @@ pub(super) fn settle<L: Ladder>(
     let searched: Vec<usize> =
         (0..selection.choices.len()).filter(|&c| is_open(&selection.choices[c])).collect();
     let all: Vec<f64> = searched.iter().filter_map(|&c| tolerances[selection.choices[c].structure]).collect();
-    let kept = searched.iter().skip(1).all(|&c| selection.choices[c].rung == Rung::Influence);
+    let kept = searched.iter().skip(1).all(|&c| selection.choices[c].fidelity == Fidelity::Influence);
     if kept || !selection.run.status.is_complete() {
         return selection;
     }
     let mut finer = scene.clone();
-    finer.accuracy = all.iter().fold(finer.accuracy, |least, own| least.min(STEPPING * own));
+    finer.accuracy = all.iter().fold(finer.accuracy, |least, own| least.min(RUN_ACCURACY * own));
     let tolerance: f64 = all.iter().sum();
     let mut is_raised = false;
     loop {
-        let raised: Vec<Rung> = searched.iter().map(|&c| above(&selection.choices[c])).collect();
-        if searched.iter().zip(&raised).all(|(&c, rung)| selection.choices[c].rung == *rung) {
-            return doubted(selection, &searched, is_raised, Reason::Top);
+        let raised: Vec<Fidelity> = searched.iter().map(|&c| above(&selection.choices[c])).collect();
+        if searched.iter().zip(&raised).all(|(&c, rung)| selection.choices[c].fidelity == *rung) {
+            return doubted(selection, &searched, is_raised, Reason::Highest);
         }
         for (&c, &rung) in searched.iter().zip(&raised) {
             let structure = selection.choices[c].structure;
@@ -52,9 +52,9 @@ pub(super) fn settle<L: Ladder>(
         let is_enough = estimate <= SAFE * tolerance;
         for (&c, &against) in searched.iter().zip(&raised) {
             let choice = &mut selection.choices[c];
-            choice.tried.push(Tried { rung: choice.rung, estimate, against, stages });
+            choice.tried.push(FidelityTrial { fidelity: choice.fidelity, estimate, against, stages });
             if !is_enough {
-                choice.rung = against;
+                choice.fidelity = against;
             } else if is_raised {
                 (choice.reason, choice.estimate) = (Reason::Sufficient, Some(estimate));
             } else {
@@ -70,14 +70,16 @@ pub(super) fn settle<L: Ladder>(
 }
 
 /// What checks a choice: what it was checked against, or else the next fidelity.
-fn above(choice: &Choice) -> Rung {
-    let checked = choice.tried.iter().rev().find(|tried| tried.rung == choice.rung);
-    match (checked, choice.rung) {
+fn above(choice: &Choice) -> Fidelity {
+    let checked = choice.tried.iter().rev().find(|tried| tried.fidelity == choice.fidelity);
+    match (checked, choice.fidelity) {
         (Some(tried), _) => tried.against,
-        (None, Rung::Rigid) => Rung::Influence,
-        (None, Rung::Influence) => Rung::Modal(MODES[0]),
-        (None, Rung::Modal(m)) => MODES.into_iter().find(|&more| more > m).map_or(Rung::Full, Rung::Modal),
-        (None, Rung::Half | Rung::Full) => Rung::Full,
+        (None, Fidelity::Rigid) => Fidelity::Influence,
+        (None, Fidelity::Influence) => Fidelity::Modal(MODES[0]),
+        (None, Fidelity::Modal(m)) => {
+            MODES.into_iter().find(|&more| more > m).map_or(Fidelity::Full, Fidelity::Modal)
+        }
+        (None, Fidelity::Half | Fidelity::Full) => Fidelity::Full,
     }
 }
 

@@ -6,10 +6,10 @@ use std::ops::ControlFlow;
 use splines::{Axis, Probe};
 
 use super::distance::distance;
-use super::rung::{MODES, Rung, contact_frequency};
+use super::rung::{Fidelity, MODES, contact_frequency};
 use crate::run::run;
-use crate::scene::wheel::LawPoint;
-use crate::{Analysis, Channel, Error, Extent, Foundation, Freedom, Run, Scene, Structure};
+use crate::scene::wheel::LawValue;
+use crate::{Analysis, BodyDof, Channel, Error, Extent, Foundation, Run, Scene, Structure};
 
 /// Positions of the sweep, and places at which modes are looked at.
 const SAMPLES: usize = 32;
@@ -24,9 +24,9 @@ const MOST: f64 = 10.0;
 /// share of the give in the height of a wheel, s the share of the modes left out in the deflection, T the time of the
 /// run:
 #[derive(Clone, Debug, PartialEq)]
-pub struct Predicted {
+pub struct PredictedErrors {
     /// What rigid leaves out: the distance of quasi-static sweeps without and with the deflection.
-    pub give: f64,
+    pub deflection: f64,
     /// alpha / (1 - alpha) of the first mode, what influence leaves out of a crossing.
     pub speed: f64,
     /// (r / (1 - r) + r p omega_b T / 2) of the first mode, times the share of the force that oscillates.
@@ -37,15 +37,15 @@ pub struct Predicted {
     /// moves along a track.
     pub track: f64,
     /// Errors of rigid, influence and numbers of modes, from the cheapest.
-    pub errors: Vec<(Rung, f64)>,
+    pub errors: Vec<(Fidelity, f64)>,
     /// Whether nothing in the scene can excite the structure beside its wheels, their loads and their motion.
     pub is_complete: bool,
 }
 
-impl Predicted {
+impl PredictedErrors {
     /// Expected of `rung`.
     #[must_use]
-    pub fn of(&self, rung: Rung) -> Option<f64> {
+    pub fn of(&self, rung: Fidelity) -> Option<f64> {
         self.errors.iter().find(|(own, _)| *own == rung).map(|(_, error)| *error)
     }
 }
@@ -64,12 +64,12 @@ pub(super) fn predict(
     foundations: &mut [Foundation],
     structure: usize,
     motion: &Structure,
-) -> Option<Predicted> {
+) -> Option<PredictedErrors> {
     let soft = sweep(scene, foundations).ok()?;
     let rails = foundations[structure].rails.clone();
-    let Foundation { on, irregularities, .. } = &foundations[structure];
+    let Foundation { carrier: on, irregularities, .. } = &foundations[structure];
     let (on, irregularities) = (on.clone(), irregularities.clone());
-    let rigid = Foundation { rails, on, irregularities, ..Foundation::rigid() };
+    let rigid = Foundation { rails, carrier: on, irregularities, ..Foundation::rigid() };
     let own = std::mem::replace(&mut foundations[structure], rigid);
     let hard = sweep(scene, foundations);
     foundations[structure] = own;
@@ -106,28 +106,29 @@ pub(super) fn predict(
         Some([speed, ripple, step, track, weight * speed.max(track) + ripple + step])
     };
     let [speed, ripple, step, track, influence] = left(0)?;
-    let mut errors = vec![(Rung::Rigid, rigid), (Rung::Influence, influence)];
-    errors.extend(MODES.iter().filter_map(|&m| Some((Rung::Modal(m), left(m)?[4]))));
+    let mut errors = vec![(Fidelity::Rigid, rigid), (Fidelity::Influence, influence)];
+    errors.extend(MODES.iter().filter_map(|&m| Some((Fidelity::Modal(m), left(m)?[4]))));
     errors.iter_mut().for_each(|(_, error)| *error = error.min(MOST));
     let is_complete = is_complete(scene, foundations);
     let are_known = errors.iter().all(|(_, error)| error.is_finite());
-    are_known.then_some(Predicted { give, speed, ripple, step, track, errors, is_complete })
+    are_known.then_some(PredictedErrors { deflection: give, speed, ripple, step, track, errors, is_complete })
 }
 
 /// Whether the predictors know all that excites the structure.
 fn is_complete(scene: &Scene, foundations: &[Foundation]) -> bool {
     let Scene { actuators, bodies, .. } = scene;
     let steady = |profile: &crate::Profile| profile.breaks().iter().all(|&t| t >= scene.end);
-    let plain =
-        |f: &Foundation| f.on.is_none() && f.parts.is_none() && f.irregularities.is_empty() && !f.is_dragged;
+    let plain = |f: &Foundation| {
+        f.carrier.is_none() && f.parts.is_none() && f.irregularities.is_empty() && !f.is_loaded_along
+    };
     foundations.iter().all(plain)
         && actuators.drives.is_empty()
         && actuators.brakes.is_empty()
         && actuators.ropes.is_empty()
         && actuators.stops.is_empty()
-        && actuators.turns.is_empty()
+        && actuators.spins.is_empty()
         && actuators.rules.is_empty()
-        && actuators.loads.iter().all(|load| load.freedom == Freedom::Y)
+        && actuators.loads.iter().all(|load| load.dof == BodyDof::Y)
         && scene.wheels.iter().all(|wheel| wheel.flange.is_none() && wheel.friction.is_none())
         && bodies.iter().all(|body| {
             body.start[1..].iter().chain(&body.start_speed).all(|value| *value == 0.0)
@@ -167,8 +168,8 @@ impl Crossing {
         let dt = scene.end / SAMPLES as f64;
         for (w, contact) in contacts.enumerate().filter(|(_, contact)| contact.structure == structure) {
             let column = |channel| soft.history.column(channel);
-            let [x, force] = [column(Channel::Place(w)), column(Channel::Vertical(w))];
-            let [give, penetration] = [column(Channel::Give(w)), column(Channel::Penetration(w))];
+            let [x, force] = [column(Channel::Position(w)), column(Channel::Vertical(w))];
+            let [give, penetration] = [column(Channel::Deflection(w)), column(Channel::Penetration(w))];
             for pair in x.windows(2) {
                 speed = speed.max((pair[1] - pair[0]).abs() / dt);
             }
@@ -178,7 +179,7 @@ impl Crossing {
                 share = share.max(give / (give + penetration[i]));
                 softness = softness.max(give / penetration[i]);
                 let law = &scene.wheels[contact.wheel].normal;
-                let LawPoint { by_penetration: k, by_rate: c, .. } = law.at(penetration[i], 0.0);
+                let LawValue { by_penetration: k, by_rate: c, .. } = law.at(penetration[i], 0.0);
                 if law.has_memory() {
                     damping = damping.max(c / k);
                 }

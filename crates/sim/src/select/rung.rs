@@ -6,7 +6,7 @@ use crate::Scene;
 pub(super) const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
 /// How much of a structure is modelled, from the cheapest to the dearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Rung {
+pub enum Fidelity {
     /// It is rigid.
     Rigid,
     /// It complies without mass.

@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::distance::distance;
-use super::fidelity::{Choice, Ladder, Reason, SAFE, STEPPING, Tried};
+use super::fidelity::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, SAFE};
 use super::predict::predict;
-use super::rung::{MODES, Rung, contact_frequency};
+use super::rung::{Fidelity, MODES, contact_frequency};
 use crate::{Foundation, Run, Scene, Status, Structure};
 
 /// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
@@ -22,7 +22,7 @@ const FAR: f64 = 3.0;
 
 /// A fidelity, run.
 pub(super) struct Candidate {
-    pub rung: Rung,
+    pub rung: Fidelity,
     pub foundation: Foundation,
     pub run: Run,
 }
@@ -36,7 +36,7 @@ pub(super) struct Outcome {
 }
 
 /// The search for one structure.
-pub(super) struct Search<'a, L: Ladder> {
+pub(super) struct Search<'a, L: FoundationProvider> {
     scene: &'a Scene,
     finer: Scene,
     tolerance: f64,
@@ -52,24 +52,24 @@ pub(super) struct Search<'a, L: Ladder> {
 /// Rungs to try.
 struct Plan {
     /// To be compared with the first of the others.
-    lower: Vec<Rung>,
+    lower: Vec<Fidelity>,
     /// Each checks what was found below it.
-    higher: Vec<Rung>,
+    higher: Vec<Fidelity>,
     /// The last of `higher` needs no check.
     taken: bool,
     /// Whether more modes would not change what is tried first.
     is_enough: bool,
 }
 
-fn of_class<T: Copy>(table: [T; 3], rung: Rung) -> T {
+fn of_class<T: Copy>(table: [T; 3], rung: Fidelity) -> T {
     match rung {
-        Rung::Rigid => table[0],
-        Rung::Influence => table[1],
-        Rung::Modal(_) | Rung::Half | Rung::Full => table[2],
+        Fidelity::Rigid => table[0],
+        Fidelity::Influence => table[1],
+        Fidelity::Modal(_) | Fidelity::Half | Fidelity::Full => table[2],
     }
 }
 
-impl<'a, L: Ladder> Search<'a, L> {
+impl<'a, L: FoundationProvider> Search<'a, L> {
     pub fn new(
         scene: &'a Scene,
         tolerance: f64,
@@ -79,8 +79,8 @@ impl<'a, L: Ladder> Search<'a, L> {
         watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Self {
         let mut finer = scene.clone();
-        finer.accuracy = finer.accuracy.min(STEPPING * tolerance);
-        let choice = Choice::new(structure, Rung::Influence, Reason::Unchecked);
+        finer.accuracy = finer.accuracy.min(RUN_ACCURACY * tolerance);
+        let choice = Choice::new(structure, Fidelity::Influence, Reason::Unchecked);
         Search {
             scene,
             finer,
@@ -122,8 +122,8 @@ impl<'a, L: Ladder> Search<'a, L> {
             }
             for lower in below.drain(..) {
                 let estimate = distance(&lower.run, &found.run, self.scene);
-                self.choice.tried.push(Tried {
-                    rung: lower.rung,
+                self.choice.tried.push(FidelityTrial {
+                    fidelity: lower.rung,
                     estimate,
                     against,
                     stages: lower.run.counts.stages as u64,
@@ -136,7 +136,7 @@ impl<'a, L: Ladder> Search<'a, L> {
                 let estimate = self.choice.predicted.as_ref().and_then(|predicted| predicted.of(against));
                 return Ok(self.end(found, Reason::Predicted, estimate));
             }
-            if against == Rung::Full {
+            if against == Fidelity::Full {
                 return Ok(self.top(found));
             }
             below.push(found);
@@ -145,7 +145,7 @@ impl<'a, L: Ladder> Search<'a, L> {
         let last = match below.pop() {
             Some(found) => Some(found),
             None => {
-                let mut all = [Rung::Influence, Rung::Rigid].into_iter();
+                let mut all = [Fidelity::Influence, Fidelity::Rigid].into_iter();
                 all.find_map(
                     |rung| if self.choice.failed.contains(&rung) { None } else { self.attempt(rung) },
                 )
@@ -179,36 +179,36 @@ impl<'a, L: Ladder> Search<'a, L> {
             })
         };
         let reaches = |m: usize| highest(m) > needed;
-        let is_far = |rung: Rung| match rung {
-            Rung::Modal(m) => highest(m) > FAR * needed,
+        let is_far = |rung: Fidelity| match rung {
+            Fidelity::Modal(m) => highest(m) > FAR * needed,
             _ => true,
         };
-        let by_tolerance = |rung: Rung| {
+        let by_tolerance = |rung: Fidelity| {
             predicted.as_ref().and_then(|predicted| predicted.of(rung)).map(|error| error / self.tolerance)
         };
-        let modal = MODES.into_iter().filter(|&m| reaches(m)).map(Rung::Modal);
-        let all: Vec<Rung> = [Rung::Rigid, Rung::Influence].into_iter().chain(modal).collect();
+        let modal = MODES.into_iter().filter(|&m| reaches(m)).map(Fidelity::Modal);
+        let all: Vec<Fidelity> = [Fidelity::Rigid, Fidelity::Influence].into_iter().chain(modal).collect();
         let is_complete = predicted.as_ref().is_some_and(|predicted| predicted.is_complete);
         let sure = all.iter().copied().find(|&rung| {
             let is_small = by_tolerance(rung).is_some_and(|error| error < of_class(TAKE, rung));
             is_complete && is_far(rung) && is_small
         });
-        let last = sure.unwrap_or(Rung::Full);
-        let (skipped, kept): (Vec<Rung>, Vec<Rung>) = all
+        let last = sure.unwrap_or(Fidelity::Full);
+        let (skipped, kept): (Vec<Fidelity>, Vec<Fidelity>) = all
             .into_iter()
             .filter(|rung| *rung < last)
             .partition(|&rung| by_tolerance(rung).is_some_and(|error| error > of_class(SKIP, rung)));
-        let is_enough = sure.is_some() || kept.contains(&Rung::Modal(MODES[0]));
+        let is_enough = sure.is_some() || kept.contains(&Fidelity::Modal(MODES[0]));
         self.choice.skipped = skipped;
         self.choice.predicted = predicted;
-        let (lower, mut higher): (Vec<Rung>, Vec<Rung>) =
-            kept.into_iter().partition(|rung| *rung <= Rung::Influence);
+        let (lower, mut higher): (Vec<Fidelity>, Vec<Fidelity>) =
+            kept.into_iter().partition(|rung| *rung <= Fidelity::Influence);
         higher.push(last);
         Plan { lower, higher, taken: sure.is_some(), is_enough }
     }
 
     /// Builds and runs a fidelity. One that cannot be built or started is noted.
-    fn attempt(&mut self, rung: Rung) -> Option<Candidate> {
+    fn attempt(&mut self, rung: Fidelity) -> Option<Candidate> {
         let built = self.provider.foundation(self.structure, rung);
         let ran = built.and_then(|foundation| {
             self.foundations[self.structure] = foundation;
@@ -233,22 +233,22 @@ impl<'a, L: Ladder> Search<'a, L> {
 
     /// The mesh whole, checked by half of it.
     fn top(mut self, full: Candidate) -> Outcome {
-        let half = self.attempt(Rung::Half).filter(|half| half.run.status.is_complete());
-        let Some(half) = half else { return self.end(full, Reason::Top, None) };
+        let half = self.attempt(Fidelity::Half).filter(|half| half.run.status.is_complete());
+        let Some(half) = half else { return self.end(full, Reason::Highest, None) };
         let apart = distance(&half.run, &full.run, self.scene);
         let estimate = HALVED * apart;
-        self.choice.tried.push(Tried {
-            rung: Rung::Half,
+        self.choice.tried.push(FidelityTrial {
+            fidelity: Fidelity::Half,
             estimate: apart,
-            against: Rung::Full,
+            against: Fidelity::Full,
             stages: half.run.counts.stages as u64,
         });
-        let reason = if estimate <= self.tolerance { Reason::Sufficient } else { Reason::Top };
+        let reason = if estimate <= self.tolerance { Reason::Sufficient } else { Reason::Highest };
         self.end(full, reason, Some(estimate))
     }
 
     fn end(self, found: Candidate, reason: Reason, estimate: Option<f64>) -> Outcome {
-        let choice = Choice { rung: found.rung, reason, estimate, ..self.choice };
+        let choice = Choice { fidelity: found.rung, reason, estimate, ..self.choice };
         Outcome { choice, found, runs: self.runs }
     }
 }
@@ -256,6 +256,6 @@ impl<'a, L: Ladder> Search<'a, L> {
 impl Candidate {
     /// Whether the run ended where no other fidelity would go on.
     fn is_final(&self) -> bool {
-        matches!(self.run.status, Status::Stopped | Status::Refused(..))
+        matches!(self.run.status, Status::Stopped | Status::Failed(..))
     }
 }

@@ -44,7 +44,7 @@ impl Books {
 
     /// Books energy that steps of rails put in.
     pub fn book_rail(&mut self, energy: f64) {
-        self.audit.exchanged.steps += energy;
+        self.audit.exchanged.rail_steps += energy;
     }
 
     /// Books energy that is lost where elements begin or cease to act.

@@ -74,7 +74,7 @@ pub fn sled(m: f64, k: f64, c: f64, along: [f64; 3]) -> Foundation {
     let dynamics = Dynamics::Matrices { mass: one(m), damping: one(c), stiffness: one(k) };
     Foundation {
         structure: Some(Structure { dynamics, shapes: Box::new(Sled(along)) }),
-        is_dragged: true,
+        is_loaded_along: true,
         ..Foundation::default()
     }
 }

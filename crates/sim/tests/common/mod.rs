@@ -17,8 +17,8 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use serde_json::Value;
-use sim::{Analysis, Body, Contact, Damper, Foundation, Given, NormalLaw, Profile, Scene, Wheel};
-use splines::{Axis, Cell, Compliance, Error, Flexibility, Influence, Line, Probe, Surface};
+use sim::{Analysis, Body, Contact, Damper, Foundation, MotionKind, NormalLaw, Profile, Scene, Wheel};
+use splines::{Axis, Compliance, Error, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
 
 /// Span, ft, and bending stiffness, lb ft^2, of the paper's girder.
 pub const SPAN: f64 = 60.0;
@@ -75,7 +75,7 @@ impl Compliance for ClosedForm {
 }
 
 pub fn girder() -> Foundation {
-    Foundation::influence(Box::new(ClosedForm), 1)
+    Foundation::massless(Box::new(ClosedForm), 1)
 }
 
 /// One wheel of kind 0 under the origin of body 0, on the first rail of structure 0.
@@ -95,7 +95,7 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
             free: [false, true, false, false, false, true],
             start: [0.0; 6],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            motion: Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
             pinned: None,
         }],
         wheels: vec![Wheel {
@@ -140,7 +140,7 @@ pub fn reference(text: &str) -> Vec<[f64; 5]> {
 const STATIONS: [f64; 4] = [-15.0, 0.0, SPAN, 75.0];
 
 /// The girder as an exact surface: compliance of the states from the closed form [`give`] and its derivatives.
-pub fn surface() -> Surface {
+pub fn surface() -> ExactSurface {
     let mut nodal = DMatrix::zeros(24, 24);
     for (i, &x) in STATIONS.iter().enumerate() {
         for (j, &z) in STATIONS.iter().enumerate() {
@@ -151,7 +151,7 @@ pub fn surface() -> Surface {
         }
     }
     let flexibility = Flexibility { bending_z: 1.0 / EI, ..Flexibility::default() };
-    let cells = STATIONS.windows(2).enumerate().map(|(k, x)| Cell {
+    let cells = STATIONS.windows(2).enumerate().map(|(k, x)| RailElement {
         rail: 0,
         x: [x[0], x[1]],
         ends: [k, k + 1],
@@ -159,9 +159,10 @@ pub fn surface() -> Surface {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [0.0; 3],
         flexibility,
-        carrier: None,
+        member: None,
     });
-    Surface::new(Arc::new(Line::new(cells.collect()).expect("valid cells")), nodal).expect("the shape fits")
+    ExactSurface::new(Arc::new(Rails::new(cells.collect()).expect("valid cells")), nodal)
+        .expect("the shape fits")
 }
 
 /// Rotation at x for a unit moment at z: the derivative of [`give`]'s slope by z.

@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use sim::{
-    Analysis, Body, Damper, Dynamics, Extent, Foundation, Gauge, Given, NormalLaw, Profile, Scene, Shapes,
-    Structure, Wheel,
+    Analysis, Body, Damper, Dynamics, Extent, Foundation, Gauge, MotionKind, NormalLaw, Profile, Scene,
+    Shapes, Structure, Wheel,
 };
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
@@ -100,7 +100,7 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
             free: [false, true, false, false, false, false],
             start: [0.0; 6],
             start_speed: [0.0; 6],
-            motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
+            motion: Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], 0.0, 0.0).expect("a valid table")),
             pinned: None,
         }],
         wheels: vec![Wheel {

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{DMatrix, Matrix2, Matrix4, Matrix4x2};
 use sim::{Dynamics, Extent, Foundation, PartChain, PartShapes, Structure};
-use splines::{Cell, Flexibility, Line};
+use splines::{Flexibility, RailElement, Rails};
 
 use super::EI;
 
@@ -28,8 +28,8 @@ pub fn stiffness() -> Matrix2<f64> {
 pub const STATES: [usize; 4] = [1, 5, 7, 11];
 
 /// Rigid parts over the whole girder about `centres`, each on a rail of its own.
-pub fn arms(centres: &[f64]) -> Arc<Line> {
-    let cells = centres.iter().enumerate().map(|(j, centre)| Cell {
+pub fn arms(centres: &[f64]) -> Arc<Rails> {
+    let cells = centres.iter().enumerate().map(|(j, centre)| RailElement {
         rail: j,
         x: [-15.0, 75.0],
         ends: [j, j],
@@ -37,9 +37,9 @@ pub fn arms(centres: &[f64]) -> Arc<Line> {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [-15.0 - centre, 0.0, 0.0],
         flexibility: Flexibility::default(),
-        carrier: None,
+        member: None,
     });
-    Arc::new(Line::new(cells.collect()).expect("rigid arms"))
+    Arc::new(Rails::new(cells.collect()).expect("rigid arms"))
 }
 
 /// Centres of the two halves.

@@ -1,6 +1,6 @@
 //! Akima's curve of 1970.
 
-use super::cubic::{Curve, check_points};
+use super::cubic::{PiecewiseCubic, check_points};
 use crate::error::Error;
 
 /// Akima's piecewise cubic through at least three points, x increasing.
@@ -31,7 +31,7 @@ use crate::error::Error;
 /// assert_eq!(curve.at(0.5).value, 0.0);
 /// # Ok::<(), splines::Error>(())
 /// ```
-pub fn akima(x: &[f64], y: &[f64]) -> Result<Curve, Error> {
+pub fn akima(x: &[f64], y: &[f64]) -> Result<PiecewiseCubic, Error> {
     check_points(x, y, 3)?;
     let n = x.len();
     // Two extrapolated secants in front and two behind: m[i + 2] belongs to the interval from i to i + 1.
@@ -48,5 +48,5 @@ pub fn akima(x: &[f64], y: &[f64]) -> Result<Curve, Error> {
         let sum = before + after;
         if sum == 0.0 { 0.5 * (m[i + 1] + m[i + 2]) } else { (after * m[i + 1] + before * m[i + 2]) / sum }
     };
-    Ok(Curve::new(x, y, (0..n).map(slope).collect()))
+    Ok(PiecewiseCubic::new(x, y, (0..n).map(slope).collect()))
 }

@@ -4,7 +4,7 @@ use crate::error::Error;
 
 /// Value and derivatives of a curve at one place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Jet {
+pub struct CurveValue {
     /// y.
     pub value: f64,
     /// dy/dx.
@@ -21,10 +21,10 @@ pub struct Jet {
 ///
 /// y = (1 + 2 s)(1 - s)^2 y0 + s (1 - s)^2 h t0 + s^2 (3 - 2 s) y1 + s^2 (s - 1) h t1.
 ///
-/// [`crate::akima()`] and [`crate::natural()`] choose the slopes and construct the curve.
+/// [`crate::akima()`] and [`crate::natural_spline()`] choose the slopes and construct the curve.
 ///
 /// ```
-/// let curve = splines::natural(&[0.0, 1.0, 3.0], &[0.0, 2.0, 6.0])?;
+/// let curve = splines::natural_spline(&[0.0, 1.0, 3.0], &[0.0, 2.0, 6.0])?;
 /// assert_eq!(curve.slopes(), [2.0; 3]);
 /// let beyond = curve.at(4.0);
 /// assert!(beyond.outside);
@@ -32,28 +32,28 @@ pub struct Jet {
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct PiecewiseCubic {
     x: Vec<f64>,
     y: Vec<f64>,
     t: Vec<f64>,
 }
 
-impl Curve {
-    pub(crate) fn new(x: &[f64], y: &[f64], t: Vec<f64>) -> Curve {
-        Curve { x: x.to_vec(), y: y.to_vec(), t }
+impl PiecewiseCubic {
+    pub(crate) fn new(x: &[f64], y: &[f64], t: Vec<f64>) -> PiecewiseCubic {
+        PiecewiseCubic { x: x.to_vec(), y: y.to_vec(), t }
     }
 
     /// Value and derivatives at x, any finite number.
     #[must_use]
-    pub fn at(&self, x: f64) -> Jet {
+    pub fn at(&self, x: f64) -> CurveValue {
         let last = self.x.len() - 1;
         if x < self.x[0] || x > self.x[last] {
             let k = if x < self.x[0] { 0 } else { last };
             let value = self.y[k] + self.t[k] * (x - self.x[k]);
-            return Jet { value, slope: self.t[k], curvature: 0.0, outside: true };
+            return CurveValue { value, slope: self.t[k], curvature: 0.0, outside: true };
         }
         let (value, slope, curvature) = self.inside(&Interval::find(&self.x, x));
-        Jet { value, slope, curvature, outside: false }
+        CurveValue { value, slope, curvature, outside: false }
     }
 
     /// Slopes at the points.
@@ -137,7 +137,7 @@ impl Interval {
 /// Checks that there are at least `least` points, as many y as x, all finite, with x increasing.
 pub(crate) fn check_points(x: &[f64], y: &[f64], least: usize) -> Result<(), Error> {
     if x.len() < least {
-        return Err(Error::Points { found: x.len(), least });
+        return Err(Error::TooFewPoints { found: x.len(), least });
     }
     if x.len() != y.len() {
         return Err(Error::PointCount { x: x.len(), y: y.len() });

@@ -5,7 +5,7 @@ mod cubic;
 mod natural;
 
 pub use akima::akima;
-pub use cubic::{Curve, Jet};
+pub use cubic::{CurveValue, PiecewiseCubic};
 pub(crate) use cubic::{Interval, check_increasing};
-pub use natural::natural;
+pub use natural::natural_spline;
 pub(crate) use natural::values_and_slopes;

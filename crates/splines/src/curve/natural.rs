@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::cubic::{Curve, check_points};
+use super::cubic::{PiecewiseCubic, check_points};
 use crate::error::Error;
 
 /// Natural cubic spline through at least two points, x increasing.
@@ -23,15 +23,15 @@ use crate::error::Error;
 /// de Boor, A Practical Guide to Splines (1978), chapter IV.
 ///
 /// ```
-/// let curve = splines::natural(&[0.0, 1.0, 2.0], &[0.0, 1.0, 0.0])?;
+/// let curve = splines::natural_spline(&[0.0, 1.0, 2.0], &[0.0, 1.0, 0.0])?;
 /// assert_eq!(curve.at(1.0).slope, 0.0);
 /// // y = (3 x - x^3)/2 on the first interval.
 /// assert!((curve.at(0.5).value - 0.6875).abs() < 1e-15);
 /// # Ok::<(), splines::Error>(())
 /// ```
-pub fn natural(x: &[f64], y: &[f64]) -> Result<Curve, Error> {
+pub fn natural_spline(x: &[f64], y: &[f64]) -> Result<PiecewiseCubic, Error> {
     check_points(x, y, 2)?;
-    Ok(Curve::new(x, y, slopes(x, y, [false; 2])))
+    Ok(PiecewiseCubic::new(x, y, slopes(x, y, [false; 2])))
 }
 
 /// Slopes of the cubic spline at its points. At each end the curvature is zero, or the slope where `clamped`.

@@ -7,11 +7,11 @@ use crate::error::Error;
 use crate::probe::{Axis, Probe};
 
 /// A rail and an axis on it.
-pub type Way = (usize, Axis);
+pub type RailDirection = (usize, Axis);
 
 /// A number and the place of a block where it was found.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Extreme {
+pub struct BlockExtreme {
     /// The number.
     pub value: f64,
     /// Coordinate of the load.
@@ -24,33 +24,33 @@ pub struct Extreme {
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::quality::Strip;
-/// use splines::{Axis, Kind, Reading, Sheet, Table};
+/// use splines::quality::CouplingBlock;
+/// use splines::{Axis, ReadingMethod, TableReading, InfluenceBlock, SplineTable};
 ///
 /// let x = vec![0.0, 1.0, 2.0, 3.0];
 /// let vertical = (0, Axis::Vertical);
-/// let table = Table::new(x.clone(), x, DMatrix::from_fn(4, 4, |i, j| (i * j) as f64))?;
-/// let reading = Reading::new(Kind::Natural, &[Sheet { deflection: vertical, load: vertical, table }])?;
-/// let block = Strip::direct(&reading, vertical);
+/// let table = SplineTable::new(x.clone(), x, DMatrix::from_fn(4, 4, |i, j| (i * j) as f64))?;
+/// let reading = TableReading::new(ReadingMethod::Natural, &[InfluenceBlock { deflection: vertical, load: vertical, table }])?;
+/// let block = CouplingBlock::direct(&reading, vertical);
 /// assert!((block.at(0.5, 2.0)? - 1.0).abs() < 1e-15);
 /// assert_eq!(block.range(), Some([[0.0, 3.0]; 2]));
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Copy)]
-pub struct Strip<'a> {
+pub struct CouplingBlock<'a> {
     /// The compliance that is examined.
     pub compliance: &'a dyn Compliance,
     /// Rail and axis of the deflection; its coordinate is z.
-    pub deflection: Way,
+    pub deflection: RailDirection,
     /// Rail and axis of the load; its coordinate is x.
-    pub load: Way,
+    pub load: RailDirection,
 }
 
-impl<'a> Strip<'a> {
+impl<'a> CouplingBlock<'a> {
     /// The block of deflections and loads along the same direction.
     #[must_use]
-    pub fn direct(compliance: &'a dyn Compliance, way: Way) -> Strip<'a> {
-        Strip { compliance, deflection: way, load: way }
+    pub fn direct(compliance: &'a dyn Compliance, way: RailDirection) -> CouplingBlock<'a> {
+        CouplingBlock { compliance, deflection: way, load: way }
     }
 
     /// Whether deflections and loads have the same direction.
@@ -74,7 +74,7 @@ impl<'a> Strip<'a> {
     ///
     /// # Errors
     /// Those of the compliance; a coefficient that is not finite.
-    pub fn block(&self, z: &[f64], x: &[f64]) -> Result<DMatrix<f64>, Error> {
+    pub fn matrix(&self, z: &[f64], x: &[f64]) -> Result<DMatrix<f64>, Error> {
         let rows = z.iter().map(|&z| probe(self.deflection, z));
         if self.is_direct() && z == x {
             let at: Vec<Probe> = rows.collect();
@@ -96,7 +96,7 @@ impl<'a> Strip<'a> {
     }
 }
 
-fn probe((rail, axis): Way, x: f64) -> Probe {
+fn probe((rail, axis): RailDirection, x: f64) -> Probe {
     Probe { rail, x, axis }
 }
 

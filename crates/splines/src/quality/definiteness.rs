@@ -6,16 +6,16 @@
 
 use nalgebra::DMatrix;
 
-use super::block::Strip;
+use super::block::CouplingBlock;
 use super::search::refine_maximum;
 use crate::error::Error;
-use crate::table::Table;
+use crate::table::SplineTable;
 
 /// Eigenvalues above minus this fraction of the largest coefficient count as rounding.
 const ROUNDING: f64 = 1e-13;
 /// Largest number of rounds in which every wheel is exchanged once.
 const ROUNDS: usize = 4;
-/// Random layouts examined: the first of those that [`indefinite_share`] counts.
+/// Random layouts examined: the first of those that [`indefinite_fraction`] counts.
 const RANDOM: usize = 1000;
 /// How many of them, the worst, are refined.
 const REFINED: usize = 3;
@@ -43,21 +43,21 @@ impl Spectrum {
 /// Extreme eigenvalues of a table at its stations; `None` where the stations along z differ from those along
 /// x.
 #[must_use]
-pub fn station_spectrum(table: &Table) -> Option<Spectrum> {
+pub fn station_spectrum(table: &SplineTable) -> Option<Spectrum> {
     (table.z() == table.x()).then(|| Spectrum::of(table.values()))
 }
 
-/// Extreme eigenvalues of a direct block over `places`, with one wheel at each of them.
+/// Extreme eigenvalues of a direct block over `sample_places`, with one wheel at each of them.
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn spectrum(block: &Strip<'_>, places: &[f64]) -> Result<Spectrum, Error> {
-    Ok(Spectrum::of(&block.block(places, places)?))
+pub fn spectrum(block: &CouplingBlock<'_>, places: &[f64]) -> Result<Spectrum, Error> {
+    Ok(Spectrum::of(&block.matrix(places, places)?))
 }
 
 /// A layout of wheels, and its smallest eigenvalue.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Layout {
+pub struct WheelLayout {
     /// Coordinates of the wheels, increasing.
     pub places: Vec<f64>,
     /// Smallest eigenvalue of the symmetric part of G over them, length/force.
@@ -69,7 +69,7 @@ pub struct Layout {
 
 /// For each number of `wheels` (increasing) the layout with the smallest eigenvalue of G that a search finds.
 ///
-/// Algorithm. On the set of `places` (increasing), take the pair with the smallest eigenvalue, add one wheel
+/// Algorithm. On the set of `sample_places` (increasing), take the pair with the smallest eigenvalue, add one wheel
 /// after another where it lowers the eigenvalue most, and exchange single wheels until no exchange lowers it,
 /// for at most four rounds. Then refine between the places by compass search, from this layout, from the
 /// three worst of 1000 random layouts, and from the layout found for the previous number of wheels with
@@ -77,15 +77,19 @@ pub struct Layout {
 /// as zero.
 ///
 /// Guarantee: no smallest eigenvalue is above that for fewer wheels, or above that of any of the first 1000
-/// layouts that [`indefinite_share`] examines.
+/// layouts that [`indefinite_fraction`] examines.
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn weakest_layouts(block: &Strip<'_>, wheels: &[usize], places: &[f64]) -> Result<Vec<Layout>, Error> {
-    let mut out: Vec<Layout> = Vec::with_capacity(wheels.len());
+pub fn weakest_layouts(
+    block: &CouplingBlock<'_>,
+    wheels: &[usize],
+    places: &[f64],
+) -> Result<Vec<WheelLayout>, Error> {
+    let mut out: Vec<WheelLayout> = Vec::with_capacity(wheels.len());
     let (Some(&first), Some(&last)) = (places.first(), places.last()) else { return Ok(out) };
-    let g = block.block(places, places)?;
-    let negative = |at: &[f64]| Ok(-Spectrum::of(&block.block(at, at)?).smallest);
+    let g = block.matrix(places, places)?;
+    let negative = |at: &[f64]| Ok(-Spectrum::of(&block.matrix(at, at)?).smallest);
     let step = (last - first) / places.len() as f64;
     for &wheels in wheels {
         let mut starts = vec![best_exchange(&g, wheels).iter().map(|&k| places[k]).collect()];
@@ -108,7 +112,7 @@ pub fn weakest_layouts(block: &Strip<'_>, wheels: &[usize], places: &[f64]) -> R
         let (smallest, mut at) = (-best.0, best.1);
         at.sort_by(f64::total_cmp);
         let stiffness = (smallest < -ROUNDING * g.amax()).then(|| -1.0 / smallest);
-        out.push(Layout { places: at, smallest, stiffness });
+        out.push(WheelLayout { places: at, smallest, stiffness });
     }
     Ok(out)
 }
@@ -190,8 +194,8 @@ fn exchange(chosen: &mut [usize], k: usize, places: usize, smallest: impl Fn(&[u
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn indefinite_share(
-    block: &Strip<'_>,
+pub fn indefinite_fraction(
+    block: &CouplingBlock<'_>,
     wheels: usize,
     count: usize,
     range: [f64; 2],
@@ -200,7 +204,7 @@ pub fn indefinite_share(
     let mut indefinite = 0;
     for _ in 0..count {
         let at = layouts.layout(wheels, range);
-        let g = block.block(&at, &at)?;
+        let g = block.matrix(&at, &at)?;
         indefinite += usize::from(Spectrum::of(&g).smallest < -ROUNDING * g.amax());
     }
     Ok(if count == 0 { 0.0 } else { indefinite as f64 / count as f64 })

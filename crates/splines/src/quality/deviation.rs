@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::block::{Extreme, Strip};
+use super::block::{BlockExtreme, CouplingBlock};
 use super::search::refine_maximum;
 use crate::error::Error;
 
@@ -11,16 +11,16 @@ const STARTS: usize = 4;
 
 /// Largest errors of a reading, signed (reading less exact), length/force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Deviation {
+pub struct ReadingError {
     /// Largest |exact| over the places examined.
     pub scale: f64,
     /// The largest error.
-    pub largest: Extreme,
+    pub largest: BlockExtreme,
     /// The largest error under the load itself, x = z; `None` unless the block is direct.
-    pub diagonal: Option<Extreme>,
+    pub diagonal: Option<BlockExtreme>,
 }
 
-impl Deviation {
+impl ReadingError {
     /// The largest error relative to the largest exact coefficient, without sign; 0 where that is 0.
     #[must_use]
     pub fn relative(&self) -> f64 {
@@ -36,17 +36,22 @@ impl Deviation {
 ///
 /// # Errors
 /// Those of either compliance.
-pub fn deviation(reading: &Strip<'_>, exact: &Strip<'_>, x: &[f64], z: &[f64]) -> Result<Deviation, Error> {
-    let (&[first_x, .., last_x], &[first_z, .., last_z]) = (x, z) else { return Ok(Deviation::default()) };
-    let truth = exact.block(z, x)?;
-    let error = reading.block(z, x)? - &truth;
+pub fn reading_error(
+    reading: &CouplingBlock<'_>,
+    exact: &CouplingBlock<'_>,
+    x: &[f64],
+    z: &[f64],
+) -> Result<ReadingError, Error> {
+    let (&[first_x, .., last_x], &[first_z, .., last_z]) = (x, z) else { return Ok(ReadingError::default()) };
+    let truth = exact.matrix(z, x)?;
+    let error = reading.matrix(z, x)? - &truth;
     let bounds = [first_x.max(first_z), last_x.min(last_z)];
     let signed = |x: f64, z: f64| Ok::<f64, Error>(reading.at(x, z)? - exact.at(x, z)?);
     let step = (last_x - first_x) / x.len() as f64;
-    let mut largest = Extreme::default();
+    let mut largest = BlockExtreme::default();
     for (i, j) in peaks(&error) {
-        let found = Extreme { value: error[(i, j)], x: x[j], z: z[i] };
-        if found.value.abs() > largest.value.abs() || largest == Extreme::default() {
+        let found = BlockExtreme { value: error[(i, j)], x: x[j], z: z[i] };
+        if found.value.abs() > largest.value.abs() || largest == BlockExtreme::default() {
             largest = found;
         }
         let mut at = [x[j], z[i]];
@@ -56,7 +61,7 @@ pub fn deviation(reading: &Strip<'_>, exact: &Strip<'_>, x: &[f64], z: &[f64]) -
         refine_maximum(|p| Ok(signed(p[0], p[1])?.abs()), &mut at, step, bounds)?;
         let value = signed(at[0], at[1])?;
         if value.abs() > largest.value.abs() {
-            largest = Extreme { value, x: at[0], z: at[1] };
+            largest = BlockExtreme { value, x: at[0], z: at[1] };
         }
     }
     let mut diagonal = None;
@@ -64,13 +69,13 @@ pub fn deviation(reading: &Strip<'_>, exact: &Strip<'_>, x: &[f64], z: &[f64]) -
         let worst = (0..x.len()).max_by(|&i, &j| error[(i, i)].abs().total_cmp(&error[(j, j)].abs()));
         let mut at = [x[worst.unwrap_or(0)]];
         refine_maximum(|p| Ok(signed(p[0], p[0])?.abs()), &mut at, step, bounds)?;
-        let found = Extreme { value: signed(at[0], at[0])?, x: at[0], z: at[0] };
+        let found = BlockExtreme { value: signed(at[0], at[0])?, x: at[0], z: at[0] };
         if found.value.abs() > largest.value.abs() {
             largest = found;
         }
         diagonal = Some(found);
     }
-    Ok(Deviation { scale: truth.amax(), largest, diagonal })
+    Ok(ReadingError { scale: truth.amax(), largest, diagonal })
 }
 
 /// The largest entries by absolute value that no neighbour exceeds, no two next to each other, at most four.

@@ -16,12 +16,12 @@ const STEPS: usize = 2000;
 /// there are more than `most` breaks, some are left out.
 ///
 /// ```
-/// use splines::quality::places;
+/// use splines::quality::sample_places;
 ///
-/// assert_eq!(places(&[1.0, 5.0], [0.0, 2.0], 4), [0.0, 0.5, 1.0, 1.5, 2.0]);
+/// assert_eq!(sample_places(&[1.0, 5.0], [0.0, 2.0], 4), [0.0, 0.5, 1.0, 1.5, 2.0]);
 /// ```
 #[must_use]
-pub fn places(breaks: &[f64], range: [f64; 2], most: usize) -> Vec<f64> {
+pub fn sample_places(breaks: &[f64], range: [f64; 2], most: usize) -> Vec<f64> {
     let mut ends = breaks_within(breaks, range);
     if ends.len() > most.max(2) {
         let (last, keep) = (ends.len() - 1, most.max(2) - 1);

@@ -1,6 +1,6 @@
 //! Jumps of the slope of the rail's deflection under moving wheels.
 
-use super::block::Strip;
+use super::block::CouplingBlock;
 use super::search::breaks_within;
 use crate::error::Error;
 
@@ -10,7 +10,7 @@ const NODES: usize = 7;
 
 /// Slopes on both sides of a break.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kink {
+pub struct SlopeJump {
     /// Coordinate of the break.
     pub x: f64,
     /// Slope just before it.
@@ -19,7 +19,7 @@ pub struct Kink {
     pub beyond: f64,
 }
 
-impl Kink {
+impl SlopeJump {
     /// Slope beyond the break less slope before it.
     #[must_use]
     pub fn jump(&self) -> f64 {
@@ -38,17 +38,17 @@ impl Kink {
 ///
 /// # Source
 /// Berrut, Trefethen, Barycentric Lagrange interpolation, SIAM Review 46, 501-517 (2004).
-pub fn kinks(
+pub fn slope_jumps(
     f: impl Fn(f64) -> Result<f64, Error>,
     breaks: &[f64],
     range: [f64; 2],
-) -> Result<Vec<Kink>, Error> {
+) -> Result<Vec<SlopeJump>, Error> {
     let ends = breaks_within(breaks, range);
     let mut out = Vec::new();
     for three in ends.windows(3) {
         let before = end_slope(&f, three[1], three[0])?;
         let beyond = end_slope(&f, three[1], three[2])?;
-        out.push(Kink { x: three[1], before, beyond });
+        out.push(SlopeJump { x: three[1], before, beyond });
     }
     Ok(out)
 }
@@ -75,8 +75,8 @@ fn end_slope(f: impl Fn(f64) -> Result<f64, Error>, end: f64, other: f64) -> Res
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn diagonal_kinks(block: &Strip<'_>, range: [f64; 2]) -> Result<Vec<Kink>, Error> {
-    kinks(|x| block.at(x, x), &block.compliance.breaks(block.load.0), range)
+pub fn diagonal_slope_jumps(block: &CouplingBlock<'_>, range: [f64; 2]) -> Result<Vec<SlopeJump>, Error> {
+    slope_jumps(|x| block.at(x, x), &block.compliance.breaks(block.load.0), range)
 }
 
 /// The same for the mean deflection under two wheels at the distance `spacing` with half the unit load each:
@@ -84,18 +84,22 @@ pub fn diagonal_kinks(block: &Strip<'_>, range: [f64; 2]) -> Result<Vec<Kink>, E
 ///
 /// # Errors
 /// Those of the compliance.
-pub fn pair_kinks(block: &Strip<'_>, spacing: f64, range: [f64; 2]) -> Result<Vec<Kink>, Error> {
+pub fn pair_slope_jumps(
+    block: &CouplingBlock<'_>,
+    spacing: f64,
+    range: [f64; 2],
+) -> Result<Vec<SlopeJump>, Error> {
     if spacing >= range[1] - range[0] {
         return Ok(Vec::new());
     }
     let mut breaks = block.compliance.breaks(block.load.0);
     breaks.extend(breaks.clone().iter().map(|x| x - spacing));
-    let deflection = |x: f64| Ok(0.25 * block.block(&[x, x + spacing], &[x, x + spacing])?.sum());
+    let deflection = |x: f64| Ok(0.25 * block.matrix(&[x, x + spacing], &[x, x + spacing])?.sum());
     // Rounding must not put the second wheel beyond the range.
     let end = if range[1] - spacing + spacing > range[1] {
         (range[1] - spacing).next_down()
     } else {
         range[1] - spacing
     };
-    kinks(deflection, &breaks, [range[0], end])
+    slope_jumps(deflection, &breaks, [range[0], end])
 }

@@ -2,13 +2,13 @@
 
 use nalgebra::DMatrix;
 
-use super::block::{Extreme, Strip, Way};
-use super::deviation::deviation;
-use super::search::{breaks_within, places};
+use super::block::{BlockExtreme, CouplingBlock, RailDirection};
+use super::deviation::reading_error;
+use super::search::{breaks_within, sample_places};
 use crate::compliance::Compliance;
 use crate::error::Error;
 use crate::probe::Axis;
-use crate::table::{Sheet, Table};
+use crate::table::{InfluenceBlock, SplineTable};
 
 /// Largest number of iterations of the equidistribution for one number of stations.
 const ITERATIONS: usize = 10;
@@ -32,11 +32,11 @@ const UNCOUPLED: f64 = 1e-9;
 const BESIDE: f64 = 1e-7;
 
 /// Constructs a reading from the tables of all directions and their couplings.
-pub type Read<'a> = dyn Fn(&[Sheet]) -> Result<Box<dyn Compliance>, Error> + 'a;
+pub type MakeReading<'a> = dyn Fn(&[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> + 'a;
 
 /// A search for stations: the structure, the reading, and the tolerance.
 #[derive(Clone, Copy)]
-pub struct Search<'a> {
+pub struct StationSearch<'a> {
     /// The exact compliance of the structure.
     pub exact: &'a dyn Compliance,
     /// Index of the rail.
@@ -49,7 +49,7 @@ pub struct Search<'a> {
     /// ignored.
     pub fixed: &'a [f64],
     /// Constructs the reading.
-    pub read: &'a Read<'a>,
+    pub read: &'a MakeReading<'a>,
     /// Order of convergence of the reading, > 0: the power of the distance between stations with which its
     /// error decreases. 2 for AKISPL and CUBSPL, 3 for natural splines in both directions and for factored
     /// tables.
@@ -58,20 +58,20 @@ pub struct Search<'a> {
     /// the geometric mean of the largest of its two directions.
     pub tolerance: f64,
     /// Largest number of stations to be tried.
-    pub most: usize,
+    pub max_stations: usize,
 }
 
 /// A set of stations, and the error of the reading with them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Stations {
+pub struct StationSet {
     /// Coordinates of the stations, increasing.
     pub at: Vec<f64>,
-    /// The largest error found, relative as [`Search::tolerance`].
+    /// The largest error found, relative as [`StationSearch::tolerance`].
     pub error: f64,
     /// Deflection and load of the block that has it.
-    pub ways: [Way; 2],
+    pub directions: [RailDirection; 2],
     /// The error itself (reading less exact), length/force, and where it was found.
-    pub worst: Extreme,
+    pub worst: BlockExtreme,
 }
 
 /// The smallest set of stations found with which the reading is within the tolerance.
@@ -84,20 +84,20 @@ pub struct Stations {
 /// tolerance holds, then lowered by one until three numbers in succession fail. Finally every station is
 /// removed without which the tolerance still holds.
 ///
-/// Guarantee: `error` is that of [`error_of`] for these stations, and within the tolerance. It is not proved
+/// Guarantee: `error` is that of [`station_error`] for these stations, and within the tolerance. It is not proved
 /// that no smaller set exists.
 ///
 /// # Errors
-/// [`Error::Stations`] where the largest number of stations allowed is not enough; those of the compliance
+/// [`Error::TooFewStations`] where the largest number of stations allowed is not enough; those of the compliance
 /// and of `read`.
 ///
 /// # Source
 /// de Boor, Good approximation by splines with variable knots II, Lecture Notes in Mathematics 363, 12-20
 /// (1974).
-pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
+pub fn fewest_stations(search: &StationSearch<'_>) -> Result<StationSet, Error> {
     let fixed = breaks_within(search.fixed, search.range);
-    let least = fixed.len().max(Table::LEAST);
-    let most = search.most.max(least);
+    let least = fixed.len().max(SplineTable::FEWEST_X);
+    let most = search.max_stations.max(least);
     let mut density = Density { ends: fixed.clone(), value: vec![1.0; fixed.len() - 1] };
     let (mut count, mut failures) = (least, Vec::<(usize, f64)>::new());
     // Raise the number by prediction until the tolerance holds.
@@ -107,7 +107,7 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
             break found;
         }
         if count == most {
-            return Err(Error::Stations { most, error: found.error });
+            return Err(Error::TooFewStations { most, error: found.error });
         }
         let observed = failures.last().map(|&(fewer, error): &(usize, f64)| {
             (error / found.error).ln() / (count as f64 / fewer as f64).ln()
@@ -117,9 +117,9 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
         let wanted = count as f64 * (found.error / search.tolerance).powf(1.0 / order);
         if wanted > HOPELESS * most as f64 && failures.len() > 1 {
             // Evaluated once at the largest number, without iteration: give up if it is far from enough.
-            let found = error_of(search, &density.stations(&fixed, most))?;
+            let found = station_error(search, &density.stations(&fixed, most))?;
             if found.error > HOPELESS * search.tolerance {
-                return Err(Error::Stations { most, error: found.error });
+                return Err(Error::TooFewStations { most, error: found.error });
             }
         }
         count = (wanted.min(4.0 * count as f64).ceil() as usize).clamp(count + 1, most);
@@ -147,34 +147,37 @@ pub fn stations(search: &Search<'_>) -> Result<Stations, Error> {
 /// Error of the reading whose tables have the stations `at`.
 ///
 /// It is the largest over all pairs of a set of places, eight to an interval and two just beside every
-/// station, refined from there as in [`deviation`].
+/// station, refined from there as in [`reading_error`].
 ///
 /// # Errors
 /// Those of the compliance and of `read`.
-pub fn error_of(search: &Search<'_>, at: &[f64]) -> Result<Stations, Error> {
+pub fn station_error(search: &StationSearch<'_>, at: &[f64]) -> Result<StationSet, Error> {
     let (blocks, scales) = tabulate(search, at)?;
     let reading = (search.read)(&blocks)?;
-    let mut found = Stations {
+    let mut found = StationSet {
         at: at.to_vec(),
         error: 0.0,
-        ways: [(search.rail, search.axes[0]); 2],
-        worst: Extreme::default(),
+        directions: [(search.rail, search.axes[0]); 2],
+        worst: BlockExtreme::default(),
     };
     let mut breaks = breaks_within(&[at, search.fixed].concat(), search.range);
     let beside = BESIDE * (search.range[1] - search.range[0]);
     breaks.extend(breaks.clone().iter().flat_map(|x| [x - beside, x + beside]));
     let parts = PARTS[1] * at.len();
-    let inner = places(at, search.range, parts);
+    let inner = sample_places(at, search.range, parts);
     let x = breaks_within(&[breaks, inner].concat(), search.range);
     for (a, deflection) in directions(search).enumerate() {
         for (b, load) in directions(search).enumerate() {
-            let both =
-                [reading.as_ref(), search.exact].map(|compliance| Strip { compliance, deflection, load });
+            let both = [reading.as_ref(), search.exact].map(|compliance| CouplingBlock {
+                compliance,
+                deflection,
+                load,
+            });
             let scale = (scales[a] * scales[b]).sqrt();
-            let worst = deviation(&both[0], &both[1], &x, &x)?;
+            let worst = reading_error(&both[0], &both[1], &x, &x)?;
             let error = if scale > 0.0 { worst.largest.value.abs() / scale } else { 0.0 };
             if error > found.error {
-                found = Stations { error, ways: [deflection, load], worst: worst.largest, ..found };
+                found = StationSet { error, directions: [deflection, load], worst: worst.largest, ..found };
             }
         }
     }
@@ -182,25 +185,25 @@ pub fn error_of(search: &Search<'_>, at: &[f64]) -> Result<Stations, Error> {
 }
 
 /// The directions that are tabulated.
-fn directions<'a>(search: &'a Search<'_>) -> impl Iterator<Item = Way> + 'a {
+fn directions<'a>(search: &'a StationSearch<'_>) -> impl Iterator<Item = RailDirection> + 'a {
     search.axes.iter().map(|axis| (search.rail, *axis))
 }
 
 /// Tables of the exact compliance at the stations `at`, and the largest coefficient of each direction.
-fn tabulate(search: &Search<'_>, at: &[f64]) -> Result<(Vec<Sheet>, Vec<f64>), Error> {
+fn tabulate(search: &StationSearch<'_>, at: &[f64]) -> Result<(Vec<InfluenceBlock>, Vec<f64>), Error> {
     let mut blocks = Vec::new();
     let mut scales = Vec::new();
-    let dense = places(&[at, search.fixed].concat(), search.range, 4 * at.len().max(16));
+    let dense = sample_places(&[at, search.fixed].concat(), search.range, 4 * at.len().max(16));
     for direction in directions(search) {
-        let block = Strip::direct(search.exact, direction);
-        scales.push(block.block(&dense, &dense)?.amax());
+        let block = CouplingBlock::direct(search.exact, direction);
+        scales.push(block.matrix(&dense, &dense)?.amax());
     }
     for (a, deflection) in directions(search).enumerate() {
         for (b, load) in directions(search).enumerate().skip(a) {
-            let values = Strip { compliance: search.exact, deflection, load }.block(at, at)?;
+            let values = CouplingBlock { compliance: search.exact, deflection, load }.matrix(at, at)?;
             if a == b || values.amax() > UNCOUPLED * (scales[a] * scales[b]).sqrt() {
-                let table = Table::new(at.to_vec(), at.to_vec(), values)?;
-                blocks.push(Sheet { deflection, load, table });
+                let table = SplineTable::new(at.to_vec(), at.to_vec(), values)?;
+                blocks.push(InfluenceBlock { deflection, load, table });
             }
         }
     }
@@ -262,11 +265,11 @@ impl Density {
 /// The best placement of `count` stations that the iteration finds. `density` is where it starts, and is
 /// replaced by that of the best placement for the next call.
 fn equidistribute(
-    search: &Search<'_>,
+    search: &StationSearch<'_>,
     fixed: &[f64],
     count: usize,
     density: &mut Density,
-) -> Result<Stations, Error> {
+) -> Result<StationSet, Error> {
     let mut best: Option<(f64, Vec<f64>, Density)> = None;
     let mut now = density.clone();
     let mut idle = 0;
@@ -293,14 +296,14 @@ fn equidistribute(
         }
         now = Density { ends: at, value: value.iter().map(|v| v.max(SMALLEST_DENSITY * mean)).collect() };
     }
-    let Some((_, at, left)) = best else { return error_of(search, fixed) };
+    let Some((_, at, left)) = best else { return station_error(search, fixed) };
     *density = left;
-    error_of(search, &at)
+    station_error(search, &at)
 }
 
 /// The largest relative error over a coarse set of places, and the error of each interval: the largest with
 /// the load or the deflection in it and the other at a station, and with both in it.
-fn interval_errors(search: &Search<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), Error> {
+fn interval_errors(search: &StationSearch<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), Error> {
     let (blocks, scales) = tabulate(search, at)?;
     let reading = (search.read)(&blocks)?;
     let parts = PARTS[0];
@@ -313,9 +316,12 @@ fn interval_errors(search: &Search<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), E
     let mut largest = 0.0_f64;
     for (a, deflection) in directions(search).enumerate() {
         for (b, load) in directions(search).enumerate() {
-            let both =
-                [reading.as_ref(), search.exact].map(|compliance| Strip { compliance, deflection, load });
-            let error: DMatrix<f64> = both[0].block(&x, &x)? - both[1].block(&x, &x)?;
+            let both = [reading.as_ref(), search.exact].map(|compliance| CouplingBlock {
+                compliance,
+                deflection,
+                load,
+            });
+            let error: DMatrix<f64> = both[0].matrix(&x, &x)? - both[1].matrix(&x, &x)?;
             let scale = (scales[a] * scales[b]).sqrt().max(f64::MIN_POSITIVE);
             largest = largest.max(error.amax() / scale);
             for (k, own) in own.iter_mut().enumerate() {
@@ -332,8 +338,12 @@ fn interval_errors(search: &Search<'_>, at: &[f64]) -> Result<(f64, Vec<f64>), E
 }
 
 /// The stations without the first one that the tolerance does not need; `None` where it needs all.
-fn without_one(search: &Search<'_>, fixed: &[f64], stations: &Stations) -> Result<Option<Stations>, Error> {
-    if stations.at.len() <= fixed.len().max(Table::LEAST) {
+fn without_one(
+    search: &StationSearch<'_>,
+    fixed: &[f64],
+    stations: &StationSet,
+) -> Result<Option<StationSet>, Error> {
+    if stations.at.len() <= fixed.len().max(SplineTable::FEWEST_X) {
         return Ok(None);
     }
     for k in (0..stations.at.len()).filter(|&k| !fixed.contains(&stations.at[k])) {
@@ -342,7 +352,7 @@ fn without_one(search: &Search<'_>, fixed: &[f64], stations: &Stations) -> Resul
         if interval_errors(search, &at)?.0 > search.tolerance {
             continue;
         }
-        let found = error_of(search, &at)?;
+        let found = station_error(search, &at)?;
         if found.error <= search.tolerance {
             return Ok(Some(found));
         }

@@ -3,7 +3,7 @@
 
 use crate::curve::akima;
 use crate::error::Error;
-use crate::table::Table;
+use crate::table::SplineTable;
 
 /// A row that is below this fraction of the table's largest entry belongs to a support.
 const ZERO: f64 = 1e-12;
@@ -13,7 +13,7 @@ const ZERO: f64 = 1e-12;
 /// ADAMS documents all of them: with LINEAR_EXTRAPOLATE the tangent or the line through the last two points,
 /// without it the parabola through the last three points or a cubic.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Beyond {
+pub struct ExtrapolatedRow {
     /// The row: coordinate at which the deflection is taken.
     pub z: f64,
     /// Coordinate of the load, beyond the table.
@@ -28,7 +28,7 @@ pub struct Beyond {
     pub line: f64,
 }
 
-impl Beyond {
+impl ExtrapolatedRow {
     /// Largest less smallest of the four.
     #[must_use]
     pub fn spread(&self) -> f64 {
@@ -41,7 +41,7 @@ impl Beyond {
 ///
 /// # Errors
 /// Those of Akima's curve, which do not occur for a table.
-pub fn beyond(table: &Table, x: f64) -> Result<Vec<Beyond>, Error> {
+pub fn extrapolated_rows(table: &SplineTable, x: f64) -> Result<Vec<ExtrapolatedRow>, Error> {
     let points = table.x();
     let n = points.len();
     if x >= points[0] && x <= points[n - 1] {
@@ -62,7 +62,7 @@ pub fn beyond(table: &Table, x: f64) -> Result<Vec<Beyond>, Error> {
         // Newton's form of the cubic with the values ya, yb and slopes ta, tb at a and b.
         let (first, second) = ((secant - ta) / (b - a), (tb - secant) / (b - a));
         let third = (second - first) / (b - a);
-        out.push(Beyond {
+        out.push(ExtrapolatedRow {
             z: table.z().get(row).copied().unwrap_or(0.0),
             x,
             parabola: ya + r * (secant + (x - b) * curvature),
@@ -76,9 +76,9 @@ pub fn beyond(table: &Table, x: f64) -> Result<Vec<Beyond>, Error> {
 
 /// Precision with which a table is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Digits {
+pub struct TablePrecision {
     /// Fewest significant digits, 1 to 17, that reproduce every entry to the last bit.
-    pub count: usize,
+    pub digits: usize,
     /// Frobenius norm of a change of every entry by one unit of its last digit, length/force. By rounding to
     /// these digits no entry and no eigenvalue changes by more.
     pub slack: f64,
@@ -89,7 +89,7 @@ pub struct Digits {
 /// # Source
 /// Weyl's theorem: the eigenvalues of a symmetric matrix change by no more than the norm of the change.
 #[must_use]
-pub fn digits(table: &Table) -> Digits {
+pub fn table_precision(table: &SplineTable) -> TablePrecision {
     let all = table.values();
     let reproduced =
         |count: usize| all.iter().all(|value| format!("{:.*e}", count - 1, value).parse() == Ok(*value));
@@ -98,12 +98,12 @@ pub fn digits(table: &Table) -> Digits {
         let power = || value.abs().log10().floor() as i32 + 1 - count as i32;
         if value == 0.0 { 0.0 } else { 10_f64.powi(power()) }
     };
-    Digits { count, slack: all.iter().map(|v| unit(*v).powi(2)).sum::<f64>().sqrt() }
+    TablePrecision { digits: count, slack: all.iter().map(|v| unit(*v).powi(2)).sum::<f64>().sqrt() }
 }
 
 /// Stations along z whose rows are zero (below 1e-12 of the table's largest entry), which are rigid supports.
 #[must_use]
-pub fn supports(table: &Table) -> Vec<f64> {
+pub fn support_stations(table: &SplineTable) -> Vec<f64> {
     let zero = ZERO * table.values().amax();
     let is_zero = |i: &usize| table.values().row(*i).amax() <= zero;
     (0..table.z().len()).filter(is_zero).map(|i| table.z()[i]).collect()

@@ -42,9 +42,9 @@ pub struct Flexibility {
 /// Elements of one member, on different rails, are the same piece of steel: a force on one of them also bends
 /// the other between its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Carrier {
+pub struct ElementMember {
     /// Identity of the member; only equality counts.
-    pub member: usize,
+    pub id: usize,
     /// Whether the member's own local x runs against that of the element. The element's local axes are then
     /// those of the member, turned by half a turn about local y.
     pub reversed: bool,
@@ -61,10 +61,10 @@ pub struct Carrier {
 /// ignored.
 ///
 /// ```
-/// use splines::{Cell, Flexibility};
+/// use splines::{RailElement, Flexibility};
 ///
 /// // 20 ft of rail, 3 ft above the axis of the girder that carries it.
-/// let element = Cell {
+/// let element = RailElement {
 ///     rail: 0,
 ///     x: [0.0, 20.0],
 ///     ends: [0, 1],
@@ -72,12 +72,12 @@ pub struct Carrier {
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0, 3.0, 0.0],
 ///     flexibility: Flexibility { bending_z: 2.4e-11, ..Flexibility::default() },
-///     carrier: None,
+///     member: None,
 /// };
-/// assert_eq!(element.place(5.0), 5.0);
+/// assert_eq!(element.place_on_member(5.0), 5.0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Cell {
+pub struct RailElement {
     /// Index of the rail.
     pub rail: usize,
     /// First and last rail coordinate, increasing, length.
@@ -94,20 +94,20 @@ pub struct Cell {
     /// Flexibilities of the section.
     pub flexibility: Flexibility,
     /// The member whose whole flexible part the element stands on; `None` where no other element shares it.
-    pub carrier: Option<Carrier>,
+    pub member: Option<ElementMember>,
 }
 
-impl Cell {
+impl RailElement {
     /// Whether the member runs against the element.
     #[must_use]
     pub fn is_reversed(&self) -> bool {
-        self.carrier.is_some_and(|carrier| carrier.reversed)
+        self.member.is_some_and(|carrier| carrier.reversed)
     }
 
     /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail coordinate
     /// x. Coordinates beyond the element count as its ends.
     #[must_use]
-    pub fn place(&self, x: f64) -> f64 {
+    pub fn place_on_member(&self, x: f64) -> f64 {
         let [first, last] = self.x;
         let r = if x >= last { 1.0 } else { ((x - first) / (last - first)).clamp(0.0, 1.0) };
         if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
@@ -116,7 +116,7 @@ impl Cell {
     /// 3 x 3, one row an axis: the member's own local axes in the rail frame. They are those of `frame`,
     /// turned by half a turn about local y where the member runs against the element.
     #[must_use]
-    pub fn axes(&self) -> [[f64; 3]; 3] {
+    pub fn member_axes(&self) -> [[f64; 3]; 3] {
         let [x, y, z] = self.frame;
         if self.is_reversed() { [x.map(|a| -a), y, z.map(|a| -a)] } else { self.frame }
     }
@@ -143,28 +143,28 @@ impl Cell {
     pub(crate) fn check(&self, index: usize) -> Result<(), Error> {
         let numbers = self.x.iter().chain(&self.offset);
         if numbers.copied().any(|x| !x.is_finite()) || self.ends.iter().any(|&end| end > u32::MAX as usize) {
-            return Err(Error::CellNumber { cell: index });
+            return Err(Error::ElementNumber { cell: index });
         }
         if self.x[0] >= self.x[1] {
-            return Err(Error::CellExtent { cell: index, x: self.x });
+            return Err(Error::ElementExtent { cell: index, x: self.x });
         }
         if self.is_rigid_arm() {
             return Ok(());
         }
         if !(self.length > 0.0 && self.length.is_finite()) {
-            return Err(Error::CellLength { cell: index, length: self.length });
+            return Err(Error::ElementLength { cell: index, length: self.length });
         }
         let [x, y, z] = self.frame;
         let third = cross(x, y);
         let third = [third[0] - z[0], third[1] - z[1], third[2] - z[2]];
         let defects = [dot(&x, &x) - 1.0, dot(&y, &y) - 1.0, dot(&x, &y), dot(&third, &third).sqrt()];
         if defects.iter().any(|d| d.abs() > ORTHOGONALITY || d.is_nan()) {
-            return Err(Error::CellFrame { cell: index });
+            return Err(Error::ElementFrame { cell: index });
         }
         let f = &self.flexibility;
         let all = [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z];
         if all.iter().any(|x| *x < 0.0 || x.is_nan()) {
-            return Err(Error::CellFlexibility { cell: index });
+            return Err(Error::ElementFlexibility { cell: index });
         }
         Ok(())
     }

@@ -5,9 +5,9 @@
 //! function itself; `Plane::magnitude` sums the absolute values of its terms, for bounds of rounding errors;
 //! and `separated` expands it in powers of the place, for the fast evaluation of many pairs.
 
-use super::element::Cell;
+use super::element::RailElement;
 use super::load::AxisLoad;
-use crate::compliance::Jet2;
+use crate::compliance::Partials;
 
 /// One bending plane of a clamped Timoshenko beam; all zero where the plane is rigid.
 #[derive(Clone, Copy, Debug, Default)]
@@ -94,10 +94,10 @@ impl Plane {
     /// # Source
     /// Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966).
     #[inline(always)]
-    fn green(&self, a: f64, [f, m]: [f64; 2], b: f64, load: [f64; 2]) -> Jet2 {
+    fn green(&self, a: f64, [f, m]: [f64; 2], b: f64, load: [f64; 2]) -> Partials {
         let [reaction, first, second] = self.reactions(b, load);
         // A derivative by b is the negative of one by q.
-        Jet2 {
+        Partials {
             value: f * self.deflection(a, reaction) + m * self.rotation(a, reaction),
             p: f * self.slope(a, reaction) + m * self.c * (reaction.moment - reaction.shear * a),
             q: -(f * self.deflection(a, first) + m * self.rotation(a, first)),
@@ -111,7 +111,7 @@ impl Plane {
     /// of the places. It is symmetric: b(s, p; t, q) = b(t, q; s, p) to the last bit. At s = t every
     /// derivative is the mean of both sides.
     #[inline(always)]
-    fn ordered(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Jet2 {
+    fn ordered(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Partials {
         if s < t {
             self.green(s, p, t, q)
         } else if s > t {
@@ -125,10 +125,10 @@ impl Plane {
     /// Value and first derivatives of [`Plane::ordered`]. Forces without moments are taken out as one factor,
     /// so that equal places under different forces differ by that factor alone.
     #[inline(always)]
-    fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Jet2 {
+    fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Partials {
         const FORCE: [f64; 2] = [1.0, 0.0];
         if self.inverse == 0.0 {
-            Jet2::default()
+            Partials::default()
         } else if p[1] == 0.0 && q[1] == 0.0 {
             self.ordered(s, FORCE, t, FORCE).scaled(p[0] * q[0])
         } else {
@@ -150,12 +150,12 @@ impl Plane {
 
 /// Value and first derivatives of Green's function of a clamped bar, axial or torsional:
 /// b(s, t) = flexibility s (l - t)/l for s <= t.
-fn bar(flexibility: f64, l: f64, s: f64, t: f64) -> Jet2 {
-    let green = |a: f64, b: f64| Jet2 {
+fn bar(flexibility: f64, l: f64, s: f64, t: f64) -> Partials {
+    let green = |a: f64, b: f64| Partials {
         value: flexibility * a * (l - b) / l,
         p: flexibility * (l - b) / l,
         q: -flexibility * a / l,
-        ..Jet2::default()
+        ..Partials::default()
     };
     if s < t {
         green(s, t)
@@ -178,12 +178,12 @@ pub(crate) struct ClampedElement {
     xz: Plane,
     /// Unit forces along the three rail directions, in the member's own axes.
     loads: [AxisLoad; 3],
-    /// As [`Cell::without_stiffness`].
+    /// As [`RailElement::without_stiffness`].
     without_stiffness: [bool; 4],
 }
 
 impl ClampedElement {
-    pub fn new(element: &Cell) -> ClampedElement {
+    pub fn new(element: &RailElement) -> ClampedElement {
         let flexibility = &element.flexibility;
         let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
         ClampedElement {
@@ -192,7 +192,7 @@ impl ClampedElement {
             torsion: finite(flexibility.torsion),
             xy: Plane::new(flexibility.bending_z, flexibility.shear_y, element.length),
             xz: Plane::new(flexibility.bending_y, flexibility.shear_z, element.length),
-            loads: [0, 1, 2].map(|axis| AxisLoad::new(element, &element.axes(), axis)),
+            loads: [0, 1, 2].map(|axis| AxisLoad::new(element, &element.member_axes(), axis)),
             without_stiffness: element.without_stiffness(),
         }
     }
@@ -200,9 +200,9 @@ impl ClampedElement {
     /// Displacement along rail direction `a` at s under a unit force along direction `b` at t, with its first
     /// derivatives by s and t. The force acts on `other`, an element of the same member (or this one).
     #[inline(always)]
-    pub fn pair(&self, a: usize, s: f64, other: &ClampedElement, b: usize, t: f64) -> Jet2 {
+    pub fn pair(&self, a: usize, s: f64, other: &ClampedElement, b: usize, t: f64) -> Partials {
         let (p, q) = (&self.loads[a], &other.loads[b]);
-        let mut sum = Jet2::default();
+        let mut sum = Partials::default();
         if p.xy != [0.0; 2] && q.xy != [0.0; 2] {
             sum.add(self.xy.pair(s, p.xy, t, q.xy));
         }
@@ -221,10 +221,10 @@ impl ClampedElement {
     }
 
     /// Second derivatives of [`ClampedElement::pair`] by s and t: `pp`, `pq` and `qq` alone.
-    pub fn second_derivatives(&self, a: usize, s: f64, other: &ClampedElement, b: usize, t: f64) -> Jet2 {
+    pub fn second_derivatives(&self, a: usize, s: f64, other: &ClampedElement, b: usize, t: f64) -> Partials {
         let (p, q) = (&self.loads[a], &other.loads[b]);
         let bending = |plane: &Plane, p: [f64; 2], q: [f64; 2]| {
-            if plane.inverse == 0.0 { Jet2::default() } else { plane.ordered(s, p, t, q) }
+            if plane.inverse == 0.0 { Partials::default() } else { plane.ordered(s, p, t, q) }
         };
         let mut sum = bending(&self.xy, p.xy, q.xy);
         sum.add(bending(&self.xz, p.xz, q.xz));
@@ -262,12 +262,12 @@ impl ClampedElement {
 ///
 /// as in `Plane::green`, expanded in powers. `None` where the direction involves more than one plane or the
 /// axial bar, or a moment.
-pub(crate) fn separated(element: &Cell, axis: usize) -> Option<[[[f64; 4]; 4]; 2]> {
+pub(crate) fn separated(element: &RailElement, axis: usize) -> Option<[[[f64; 4]; 4]; 2]> {
     if element.is_rigid_arm() {
         return Some([[[0.0; 4]; 4]; 2]);
     }
     let f = &element.flexibility;
-    let load = AxisLoad::new(element, &element.axes(), axis);
+    let load = AxisLoad::new(element, &element.member_axes(), axis);
     let (force, plane) = match load.uses() {
         [true, false, false, false] if f.axial.is_finite() => {
             let scale = f.axial * load.axial * load.axial * element.length;
@@ -313,7 +313,7 @@ mod tests {
     #[test]
     fn separated_form_is_greens_function() {
         let (c, g, l) = (0.3, 0.7, 2.5);
-        let element = Cell {
+        let element = RailElement {
             rail: 0,
             x: [0.0, l],
             ends: [0, 1],
@@ -321,7 +321,7 @@ mod tests {
             frame: IDENTITY,
             offset: [0.0; 3],
             flexibility: Flexibility { bending_z: c, shear_y: g, ..Flexibility::default() },
-            carrier: None,
+            member: None,
         };
         let whole = ClampedElement::new(&element);
         let cubics = separated(&element, 1).expect("one plane without a moment");

@@ -1,6 +1,6 @@
 //! A unit rail force in the local axes of a member.
 
-use super::element::Cell;
+use super::element::RailElement;
 use crate::vector::{cross, dot, unit};
 
 /// Force and moment that a unit force on the rail exerts on the axis of a member, in local axes.
@@ -22,7 +22,7 @@ pub(crate) struct AxisLoad {
 impl AxisLoad {
     /// A unit force along rail direction `axis`, 0, 1 or 2, in the local axes given by the rows of `frame`:
     /// those of the element, or those of its member.
-    pub fn new(element: &Cell, frame: &[[f64; 3]; 3], axis: usize) -> AxisLoad {
+    pub fn new(element: &RailElement, frame: &[[f64; 3]; 3], axis: usize) -> AxisLoad {
         let moment = cross(element.offset, unit(axis));
         let largest = element.offset.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let force = |k: usize| without_rounding(frame[k][axis], 1.0);

@@ -14,8 +14,8 @@ mod row;
 mod shape;
 mod track;
 
-pub use element::{Carrier, Cell, Flexibility};
+pub use element::{ElementMember, Flexibility, RailElement};
 pub(crate) use element::{IDENTITY, LocalPlace};
 pub(crate) use planar::{PlanarCubics, PlanarPlace};
-pub use rails::Line;
-pub use row::Row;
+pub use rails::Rails;
+pub use row::ShapeRow;

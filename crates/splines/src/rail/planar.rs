@@ -4,7 +4,7 @@
 //! Green's function of the clamped element is a product of two terms (`separated` in `green`), so that eight
 //! cubics say everything about a place.
 
-use super::element::{Cell, LocalPlace};
+use super::element::{LocalPlace, RailElement};
 use super::green::separated;
 use super::shape::ShapeCubics;
 
@@ -23,7 +23,7 @@ pub(crate) struct PlanarCubics {
 
 impl PlanarCubics {
     /// `None` where the direction involves more than one plane or bar.
-    pub fn new(element: &Cell, axis: usize, shapes: &ShapeCubics) -> Option<PlanarCubics> {
+    pub fn new(element: &RailElement, axis: usize, shapes: &ShapeCubics) -> Option<PlanarCubics> {
         let [group] = shapes.groups() else { return None };
         let [first, last] = separated(element, axis)?;
         // Along x, far and near are exchanged where the member runs against the element.

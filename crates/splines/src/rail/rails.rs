@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
-use super::element::{Cell, LocalPlace};
+use super::element::{LocalPlace, RailElement};
 use super::green::ClampedElement;
 use super::load::AxisLoad;
 use super::planar::{PlanarCubics, PlanarPlace};
-use super::row::Row;
+use super::row::ShapeRow;
 use super::shape::ShapeCubics;
 use super::track::{Span, Track};
 use crate::error::Error;
@@ -15,13 +15,13 @@ use crate::probe::Probe;
 
 /// Elements of any number of rails, checked and indexed.
 ///
-/// It evaluates the two functions of an element at any coordinate: the shape row N(x) ([`Line::row`]) and
-/// Green's function b(x, z) of the element clamped at both ends ([`Line::kernel`]).
+/// It evaluates the two functions of an element at any coordinate: the shape row N(x) ([`Rails::row`]) and
+/// Green's function b(x, z) of the element clamped at both ends ([`Rails::clamped_green`]).
 ///
 /// ```
-/// use splines::{Axis, Cell, Flexibility, Line, Probe};
+/// use splines::{Axis, RailElement, Flexibility, Rails, Probe};
 ///
-/// let element = |k: usize, x: [f64; 2]| Cell {
+/// let element = |k: usize, x: [f64; 2]| RailElement {
 ///     rail: 0,
 ///     x,
 ///     ends: [k, k + 1],
@@ -29,19 +29,19 @@ use crate::probe::Probe;
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0; 3],
 ///     flexibility: Flexibility { bending_z: 2.0, ..Flexibility::default() },
-///     carrier: None,
+///     member: None,
 /// };
-/// let rail = Line::new(vec![element(0, [0.0, 4.0]), element(1, [4.0, 10.0])])?;
-/// assert_eq!(rail.states(), 3);
+/// let rail = Rails::new(vec![element(0, [0.0, 4.0]), element(1, [4.0, 10.0])])?;
+/// assert_eq!(rail.state_count(), 3);
 /// assert_eq!(rail.breaks(0), [0.0, 4.0, 10.0]);
-/// assert_eq!(rail.row(Probe { rail: 0, x: 7.0, axis: Axis::Vertical })?.cell, 1);
+/// assert_eq!(rail.row(Probe { rail: 0, x: 7.0, axis: Axis::Vertical })?.element, 1);
 /// // Midspan deflection of a clamped beam, l^3/(192 EI), under a vertical force.
-/// assert!((rail.kernel(0, 2.0, 2.0)[1][1] - 2.0 * 4.0_f64.powi(3) / 192.0).abs() < 1e-15);
+/// assert!((rail.clamped_green(0, 2.0, 2.0)[1][1] - 2.0 * 4.0_f64.powi(3) / 192.0).abs() < 1e-15);
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Line {
-    elements: Vec<Cell>,
+pub struct Rails {
+    elements: Vec<RailElement>,
     prepared: Vec<Prepared>,
     tracks: Vec<Track>,
     states: usize,
@@ -73,14 +73,14 @@ impl AxisCubics {
     // Kept out of line: it runs once, beside a look-up that runs for every probe.
     #[cold]
     #[inline(never)]
-    fn new(element: &Cell, axis: usize) -> AxisCubics {
+    fn new(element: &RailElement, axis: usize) -> AxisCubics {
         let shapes = ShapeCubics::new(element, axis);
         let planar = PlanarCubics::new(element, axis, &shapes);
         AxisCubics { shapes, planar }
     }
 }
 
-impl Line {
+impl Rails {
     /// Checks and sorts elements. A rail may have gaps; where two of its elements meet, the one listed first
     /// carries the common place. A gap or overlap below 1e-12 of the rail's largest coordinate counts as
     /// rounding.
@@ -89,9 +89,9 @@ impl Line {
     /// No element; a number that is not finite; `x` not increasing; a flexible element with a length that is
     /// not positive, a frame that is not a rotation or a negative flexibility; elements of one rail that
     /// overlap; elements of one member that differ in length or flexibility.
-    pub fn new(elements: Vec<Cell>) -> Result<Line, Error> {
+    pub fn new(elements: Vec<RailElement>) -> Result<Rails, Error> {
         if elements.is_empty() {
-            return Err(Error::NoCells);
+            return Err(Error::NoElements);
         }
         let mut prepared = Vec::with_capacity(elements.len());
         let mut states = 0;
@@ -101,12 +101,12 @@ impl Line {
             element.check(index)?;
             states = states.max(element.ends[0].max(element.ends[1]) + 1);
             let rigid = element.is_rigid_arm();
-            let carrier = element.carrier.filter(|_| !rigid);
-            let group = carrier.map_or(index, |carrier| *first.entry(carrier.member).or_insert(index));
+            let carrier = element.member.filter(|_| !rigid);
+            let group = carrier.map_or(index, |carrier| *first.entry(carrier.id).or_insert(index));
             shares_members |= group != index;
-            let same = |a: &Cell| a.length == element.length && a.flexibility == element.flexibility;
+            let same = |a: &RailElement| a.length == element.length && a.flexibility == element.flexibility;
             if group != index && !same(&elements[group]) {
-                return Err(Error::CellCarrier { first: group, second: index });
+                return Err(Error::ElementMember { first: group, second: index });
             }
             let without = element.without_stiffness();
             let along = |axis: usize| {
@@ -121,18 +121,18 @@ impl Line {
             });
         }
         let tracks = Track::all(&elements)?;
-        Ok(Line { elements, prepared, tracks, states, shares_members })
+        Ok(Rails { elements, prepared, tracks, states, shares_members })
     }
 
     /// The elements, in the order given.
     #[must_use]
-    pub fn cells(&self) -> &[Cell] {
+    pub fn elements(&self) -> &[RailElement] {
         &self.elements
     }
 
     /// Number of node states: one more than the largest state index.
     #[must_use]
-    pub fn states(&self) -> usize {
+    pub fn state_count(&self) -> usize {
         self.states
     }
 
@@ -146,18 +146,18 @@ impl Line {
     ///
     /// # Source
     /// Przemieniecki, Theory of Matrix Structural Analysis (1968), chapter 5.
-    pub fn row(&self, p: Probe) -> Result<Row, Error> {
-        let mut row = Row::EMPTY;
+    pub fn row(&self, p: Probe) -> Result<ShapeRow, Error> {
+        let mut row = ShapeRow::EMPTY;
         self.row_into(p, &mut row)?;
         Ok(row)
     }
 
-    /// [`Line::row`] into memory that the caller has.
-    pub(crate) fn row_into(&self, p: Probe, row: &mut Row) -> Result<(), Error> {
+    /// [`Rails::row`] into memory that the caller has.
+    pub(crate) fn row_into(&self, p: Probe, row: &mut ShapeRow) -> Result<(), Error> {
         let span = self.stiff_span(p)?;
         let axis = p.axis.component();
         let place = span.local(p.x);
-        row.cell = span.element;
+        row.element = span.element;
         row.axis = axis;
         row.s = span.start + place.fraction() * span.length;
         row.rate = span.length * span.scale;
@@ -166,10 +166,10 @@ impl Line {
     }
 
     /// The row of a probe, and the second derivatives of its values by x.
-    pub(crate) fn row_with_second_derivatives(&self, p: Probe) -> Result<(Row, [[f64; 4]; 3]), Error> {
+    pub(crate) fn row_with_second_derivatives(&self, p: Probe) -> Result<(ShapeRow, [[f64; 4]; 3]), Error> {
         let row = self.row(p)?;
         let span = self.span(p.rail, p.x)?;
-        let shapes = &self.cubics(row.cell, row.axis).shapes;
+        let shapes = &self.cubics(row.element, row.axis).shapes;
         Ok((row, shapes.second_derivatives(span.local(p.x), span.scale)))
     }
 
@@ -191,9 +191,9 @@ impl Line {
     }
 
     /// The rows at both ends of an element along a rail direction; slopes by the fraction of the element.
-    pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [Row; 2] {
+    pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [ShapeRow; 2] {
         [0, 1].map(|end| {
-            let mut row = Row::EMPTY;
+            let mut row = ShapeRow::EMPTY;
             row.evaluate(&self.cubics(element, axis).shapes, LocalPlace { end, r: 0.0 }, 1.0);
             row
         })
@@ -203,18 +203,18 @@ impl Line {
         self.prepared[element].cubics[axis].get_or_init(|| AxisCubics::new(&self.elements[element], axis))
     }
 
-    /// What bounds of rounding errors at a probe need: [`Line::row`]; for each of its values the sum of the
+    /// What bounds of rounding errors at a probe need: [`Rails::row`]; for each of its values the sum of the
     /// absolute values of its terms; and the same sum for Green's function of the clamped element at the
     /// probe. A computed value errs by a few units of rounding of its sum.
     ///
     /// # Errors
-    /// As [`Line::row`].
-    pub fn magnitudes(&self, p: Probe) -> Result<(Row, Vec<f64>, f64), Error> {
+    /// As [`Rails::row`].
+    pub fn rounding_magnitudes(&self, p: Probe) -> Result<(ShapeRow, Vec<f64>, f64), Error> {
         let row = self.row(p)?;
         let place = self.span(p.rail, p.x)?.local(p.x);
-        let clamped = self.prepared[row.cell].clamped.as_ref();
+        let clamped = self.prepared[row.element].clamped.as_ref();
         let own = clamped.map_or(0.0, |clamped| clamped.magnitude(row.axis, row.s));
-        let magnitudes = self.cubics(row.cell, row.axis).shapes.magnitudes(place).collect();
+        let magnitudes = self.cubics(row.element, row.axis).shapes.magnitudes(place).collect();
         Ok((row, magnitudes, own))
     }
 
@@ -229,12 +229,12 @@ impl Line {
     /// # Source
     /// theta' = m/EI, m' = -V, v' = theta + V/kGA, clamped at both ends: Cowper, J. Appl. Mech. 33 (1966).
     #[must_use]
-    pub fn kernel(&self, element: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
+    pub fn clamped_green(&self, element: usize, x: f64, z: f64) -> [[f64; 3]; 3] {
         let mut out = [[0.0; 3]; 3];
         let (Some(given), Some(clamped)) = (self.elements.get(element), self.clamped(element)) else {
             return out;
         };
-        let (s, t) = (given.place(x), given.place(z));
+        let (s, t) = (given.place_on_member(x), given.place_on_member(z));
         for (a, row) in out.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 *entry = if clamped.is_without_stiffness(a, b) {
@@ -292,7 +292,7 @@ impl Line {
     fn stiff_span(&self, p: Probe) -> Result<&Span, Error> {
         let span = self.span(p.rail, p.x)?;
         if self.prepared[span.element].without_stiffness[p.axis.component()] {
-            return Err(Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis });
+            return Err(Error::NoStiffness { rail: p.rail, x: p.x, axis: p.axis });
         }
         Ok(span)
     }

@@ -5,16 +5,16 @@ use super::shape::ShapeCubics;
 
 /// One row of the shape matrix N.
 ///
-/// The displacement of the rail at a probe, along its axis, is the sum of [`Row::values`] times the degrees
-/// of freedom [`Row::indices`], plus what the loads inside the element cause with its ends held. Degree of
+/// The displacement of the rail at a probe, along its axis, is the sum of [`ShapeRow::values`] times the degrees
+/// of freedom [`ShapeRow::indices`], plus what the loads inside the element cause with its ends held. Degree of
 /// freedom `6 * state + k` is a displacement for k = 0..3 and a rotation for k = 3..6, in the rail frame.
 ///
-/// Made by [`crate::Line::row`]:
+/// Made by [`crate::Rails::row`]:
 ///
 /// ```
-/// use splines::{Axis, Cell, Flexibility, Line, Probe};
+/// use splines::{Axis, RailElement, Flexibility, Rails, Probe};
 ///
-/// let element = Cell {
+/// let element = RailElement {
 ///     rail: 0,
 ///     x: [0.0, 8.0],
 ///     ends: [0, 1],
@@ -22,9 +22,9 @@ use super::shape::ShapeCubics;
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0; 3],
 ///     flexibility: Flexibility { bending_z: 1.0, ..Flexibility::default() },
-///     carrier: None,
+///     member: None,
 /// };
-/// let rail = Line::new(vec![element])?;
+/// let rail = Rails::new(vec![element])?;
 /// let row = rail.row(Probe { rail: 0, x: 4.0, axis: Axis::Vertical })?;
 /// // uy and rz of the first state, uy and rz of the second.
 /// assert_eq!(row.indices(), [1, 5, 7, 11]);
@@ -32,9 +32,9 @@ use super::shape::ShapeCubics;
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Row {
+pub struct ShapeRow {
     /// Index of the element that carries the probe.
-    pub cell: usize,
+    pub element: usize,
     /// Component of the probe's axis: 0, 1 or 2.
     pub(crate) axis: usize,
     /// Place along the member, from 0 to its length.
@@ -48,9 +48,9 @@ pub struct Row {
     slope: [f64; 12],
 }
 
-impl Row {
-    pub(crate) const EMPTY: Row = Row {
-        cell: 0,
+impl ShapeRow {
+    pub(crate) const EMPTY: ShapeRow = ShapeRow {
+        element: 0,
         axis: 0,
         s: 0.0,
         rate: 0.0,

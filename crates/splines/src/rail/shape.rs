@@ -12,7 +12,7 @@
 //! # Source
 //! Przemieniecki, Theory of Matrix Structural Analysis (1968), chapter 5.
 
-use super::element::{Cell, LocalPlace};
+use super::element::{LocalPlace, RailElement};
 use super::load::{AxisLoad, without_rounding};
 use crate::vector::{cross, unit};
 
@@ -37,7 +37,7 @@ pub(crate) struct CubicGroup {
 
 impl ShapeCubics {
     /// Those of `element` along rail direction `axis`, 0, 1 or 2.
-    pub fn new(element: &Cell, axis: usize) -> ShapeCubics {
+    pub fn new(element: &RailElement, axis: usize) -> ShapeCubics {
         let load = &AxisLoad::new(element, &element.frame, axis);
         let cubics = [0, 1].map(|end| cubics(element, axis, load, end));
         let used: Vec<usize> = (0..12).filter(|&k| cubics.iter().any(|of| of[k] != [0.0; 4])).collect();
@@ -82,7 +82,7 @@ impl ShapeCubics {
 }
 
 /// Cubics of all twelve degrees of freedom, in the rail frame, by the distance from `end`.
-fn cubics(element: &Cell, axis: usize, load: &AxisLoad, end: usize) -> [[f64; 4]; 12] {
+fn cubics(element: &RailElement, axis: usize, load: &AxisLoad, end: usize) -> [[f64; 4]; 12] {
     let mut cubics = [[0.0; 4]; 12];
     if element.is_rigid_arm() {
         let along = cross([element.x[1] - element.x[0], 0.0, 0.0], unit(axis));
@@ -109,7 +109,7 @@ fn cubics(element: &Cell, axis: usize, load: &AxisLoad, end: usize) -> [[f64; 4]
 }
 
 /// The same in local axes: u, v, w, theta x, y, z of the first end, then of the last.
-fn local_cubics(element: &Cell, load: &AxisLoad, end: usize) -> [[f64; 4]; 12] {
+fn local_cubics(element: &RailElement, load: &AxisLoad, end: usize) -> [[f64; 4]; 12] {
     let mut out = [[0.0; 4]; 12];
     let without_stiffness = element.without_stiffness();
     let linear = |scale: f64| {

@@ -1,6 +1,6 @@
 //! Which element of a rail carries a place.
 
-use super::element::{Cell, LocalPlace};
+use super::element::{LocalPlace, RailElement};
 use crate::error::Error;
 
 /// Rounding allowed in coordinates, relative to the largest coordinate of the rail.
@@ -101,7 +101,7 @@ impl Track {
     ///
     /// # Errors
     /// Elements of one rail that overlap by more than rounding.
-    pub fn all(elements: &[Cell]) -> Result<Vec<Track>, Error> {
+    pub fn all(elements: &[RailElement]) -> Result<Vec<Track>, Error> {
         let mut order: Vec<usize> = (0..elements.len()).collect();
         order.sort_by(|&a, &b| {
             let (p, q) = (&elements[a], &elements[b]);
@@ -114,12 +114,12 @@ impl Track {
     }
 
     /// One rail, whose elements `same` are sorted by coordinate.
-    fn new(elements: &[Cell], same: &[usize]) -> Result<Track, Error> {
+    fn new(elements: &[RailElement], same: &[usize]) -> Result<Track, Error> {
         let rail = elements[same[0]].rail;
         let largest = same.iter().flat_map(|&k| elements[k].x).fold(0.0_f64, |a, x| a.max(x.abs()));
         let slack = ROUNDING * largest;
         let span = |element: usize, yields| {
-            let Cell { x, length, .. } = elements[element];
+            let RailElement { x, length, .. } = elements[element];
             let (start, length) =
                 if elements[element].is_reversed() { (length, -length) } else { (0.0, length) };
             Span { x, scale: 1.0 / (x[1] - x[0]), start, length, element, yields }

@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{Cell, Line, Row};
+use crate::rail::{RailElement, Rails, ShapeRow};
 use crate::vector::{cross, dot, unit};
 
 /// Places along a member that differ by less than this fraction of its length count as equal.
@@ -19,7 +19,7 @@ const ROUNDING: f64 = 1e-12;
 /// is tension, a positive Mz stretches the fibres at -y, a positive My those at +z, and between loads dMz/dx
 /// = -Vy and dMy/dx = Vz.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Component {
+pub enum ForceComponent {
     /// N, force per unit force.
     Axial,
     /// Vy.
@@ -34,15 +34,15 @@ pub enum Component {
     BendingZ,
 }
 
-impl Component {
+impl ForceComponent {
     /// All six, in order.
-    pub const ALL: [Component; 6] = [
-        Component::Axial,
-        Component::ShearY,
-        Component::ShearZ,
-        Component::Torsion,
-        Component::BendingY,
-        Component::BendingZ,
+    pub const ALL: [ForceComponent; 6] = [
+        ForceComponent::Axial,
+        ForceComponent::ShearY,
+        ForceComponent::ShearZ,
+        ForceComponent::Torsion,
+        ForceComponent::BendingY,
+        ForceComponent::BendingZ,
     ];
 
     /// The component on a face at x that balances a force f and a moment m at z on the part before it: the
@@ -53,8 +53,8 @@ impl Component {
         let mut out = [0.0; 6];
         out[self as usize] = -1.0;
         match self {
-            Component::BendingY => out[2] = -lever,
-            Component::BendingZ => out[1] = lever,
+            ForceComponent::BendingY => out[2] = -lever,
+            ForceComponent::BendingZ => out[1] = lever,
             _ => {}
         }
         out
@@ -63,14 +63,14 @@ impl Component {
 
 /// An internal force: a section of a member and the component of the force there.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Section {
-    /// Identity of the member, as in [`crate::Carrier`].
+pub struct InternalForce {
+    /// Identity of the member, as in [`crate::ElementMember`].
     pub member: usize,
     /// Place along the member in the direction of its own local x, 0..=1. At 0 and 1 the section is just
     /// inside.
     pub place: f64,
     /// Component of the internal force.
-    pub component: Component,
+    pub component: ForceComponent,
     /// The component per unit load on the ends of the flexible part (fx fy fz mx my mz in local axes, first
     /// end, then last) while the rest of the structure holds the member's ends.
     pub ends: [f64; 12],
@@ -93,9 +93,9 @@ pub struct Section {
 /// use std::sync::Arc;
 ///
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Cell, Effects, Flexibility, Line, Probe};
+/// use splines::{Axis, RailElement, InfluenceLines, Flexibility, Rails, Probe};
 ///
-/// let element = Cell {
+/// let element = RailElement {
 ///     rail: 0,
 ///     x: [0.0, 8.0],
 ///     ends: [0, 1],
@@ -103,26 +103,26 @@ pub struct Section {
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0; 3],
 ///     flexibility: Flexibility { bending_z: 1.0, ..Flexibility::default() },
-///     carrier: None,
+///     member: None,
 /// };
 /// // Reaction of the left support of a simply supported beam: -1 per unit force on the left end, 1/8 per
 /// // unit moment on either end.
 /// let mut rows = DMatrix::zeros(1, 12);
 /// (rows[(0, 1)], rows[(0, 5)], rows[(0, 11)]) = (-1.0, 0.125, 0.125);
-/// let effects = Effects::new(Arc::new(Line::new(vec![element])?), rows, vec![None])?;
+/// let effects = InfluenceLines::new(Arc::new(Rails::new(vec![element])?), rows, vec![None])?;
 /// let mut reaction = [0.0];
 /// effects.fill(Probe { rail: 0, x: 2.0, axis: Axis::Vertical }, &mut reaction)?;
 /// assert!((reaction[0] + 0.75).abs() < 1e-15);
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Effects {
-    rails: Arc<Line>,
+pub struct InfluenceLines {
+    rails: Arc<Rails>,
     rows: DMatrix<f64>,
-    sections: Vec<Option<Section>>,
+    sections: Vec<Option<InternalForce>>,
 }
 
-impl Effects {
+impl InfluenceLines {
     /// Effects of loads on the rails `line`.
     ///
     /// `rows` is effects x 6 S with S = `line.states()`: the effect per unit load on each degree of freedom
@@ -132,24 +132,24 @@ impl Effects {
     /// # Errors
     /// Shapes that differ; an entry that is not a number; a place outside 0..=1.
     pub fn new(
-        line: Arc<Line>,
+        line: Arc<Rails>,
         rows: DMatrix<f64>,
-        sections: Vec<Option<Section>>,
-    ) -> Result<Effects, Error> {
-        let expected = [sections.len(), 6 * line.states()];
+        sections: Vec<Option<InternalForce>>,
+    ) -> Result<InfluenceLines, Error> {
+        let expected = [sections.len(), 6 * line.state_count()];
         let (found, columns) = rows.shape();
         if [found, columns] != expected {
             return Err(Error::EffectShape { rows: found, columns, expected });
         }
         for (effect, section) in sections.iter().enumerate() {
-            let valid = |section: &Section| {
+            let valid = |section: &InternalForce| {
                 (0.0..=1.0).contains(&section.place) && section.ends.iter().all(|end| end.is_finite())
             };
             if !section.as_ref().is_none_or(valid) || rows.row(effect).iter().any(|entry| entry.is_nan()) {
                 return Err(Error::EffectNumber { effect });
             }
         }
-        Ok(Effects { rails: line, rows, sections })
+        Ok(InfluenceLines { rails: line, rows, sections })
     }
 
     /// Number of effects.
@@ -166,7 +166,7 @@ impl Effects {
 
     /// The rails and their elements.
     #[must_use]
-    pub fn line(&self) -> &Arc<Line> {
+    pub fn rails(&self) -> &Arc<Rails> {
         &self.rails
     }
 
@@ -177,7 +177,7 @@ impl Effects {
     ///
     /// # Errors
     /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has
-    /// no stiffness; `out` of another length than [`Effects::len`].
+    /// no stiffness; `out` of another length than [`InfluenceLines::len`].
     pub fn fill(&self, at: Probe, out: &mut [f64]) -> Result<(), Error> {
         let n = self.len();
         if out.len() != n {
@@ -192,11 +192,11 @@ impl Effects {
                 *sum += shape * entry;
             }
         }
-        let element = &self.rails.cells()[row.cell];
-        if let Some(carrier) = element.carrier.filter(|_| !element.is_rigid_arm()) {
+        let element = &self.rails.elements()[row.element];
+        if let Some(carrier) = element.member.filter(|_| !element.is_rigid_arm()) {
             let mut load = None;
             for (sum, section) in out.iter_mut().zip(&self.sections) {
-                if let Some(section) = section.as_ref().filter(|section| section.member == carrier.member) {
+                if let Some(section) = section.as_ref().filter(|section| section.member == carrier.id) {
                     let load = load.get_or_insert_with(|| MemberLoad::new(element, at, &row));
                     *sum += load.with_ends_held(section);
                 }
@@ -205,7 +205,7 @@ impl Effects {
         if out.iter().all(|value| value.is_finite()) {
             Ok(())
         } else {
-            Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis })
+            Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis })
         }
     }
 }
@@ -223,8 +223,8 @@ struct MemberLoad {
 }
 
 impl MemberLoad {
-    fn new(element: &Cell, at: Probe, row: &Row) -> MemberLoad {
-        let axes = element.axes();
+    fn new(element: &RailElement, at: Probe, row: &ShapeRow) -> MemberLoad {
+        let axes = element.member_axes();
         let in_member_axes = |v: [f64; 3]| axes.map(|axis| dot(&axis, &v));
         let force = unit(at.axis.component());
         let [f, m] = [in_member_axes(force), in_member_axes(cross(element.offset, force))];
@@ -236,7 +236,7 @@ impl MemberLoad {
         }
         let ends = ends.map(in_member_axes);
         MemberLoad {
-            place: element.place(at.x),
+            place: element.place_on_member(at.x),
             length: element.length,
             own: [f[0], f[1], f[2], m[0], m[1], m[2]],
             ends: std::array::from_fn(|k| ends[k / 3][k % 3]),
@@ -245,7 +245,7 @@ impl MemberLoad {
 
     /// The component at a section while the ends of the member are held: that of the forces on the ends, and
     /// that of the load itself where it stands before the section.
-    fn with_ends_held(&self, section: &Section) -> f64 {
+    fn with_ends_held(&self, section: &InternalForce) -> f64 {
         let lever = section.place * self.length - self.place;
         let before = if lever.abs() > ROUNDING * self.length {
             f64::from(u8::from(lever > 0.0))

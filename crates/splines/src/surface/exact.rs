@@ -5,10 +5,10 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use super::planar::{self, PlanarProbe};
-use crate::compliance::{Compliance, Influence, Jet2, Jets};
+use crate::compliance::{Compliance, Differentiable, Influence, Partials};
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{Line, Row};
+use crate::rail::{Rails, ShapeRow};
 use crate::vector::dot4;
 
 /// Exact influence coefficients at any place of any rail.
@@ -33,11 +33,11 @@ use crate::vector::dot4;
 /// use std::sync::Arc;
 ///
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Cell, Compliance, Flexibility, Influence, Line, Probe, Surface};
+/// use splines::{Axis, RailElement, Compliance, Flexibility, Influence, Rails, Probe, ExactSurface};
 ///
 /// // A cantilever of length 10 with 1/EI = 1e-3: state 0 is clamped, state 1 free.
 /// let (l, c) = (10.0, 1e-3);
-/// let element = Cell {
+/// let element = RailElement {
 ///     rail: 0,
 ///     x: [0.0, l],
 ///     ends: [0, 1],
@@ -45,7 +45,7 @@ use crate::vector::dot4;
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0; 3],
 ///     flexibility: Flexibility { bending_z: c, ..Flexibility::default() },
-///     carrier: None,
+///     member: None,
 /// };
 /// // Compliance of the free end: uy is degree of freedom 7, rz is 11.
 /// let mut nodal = DMatrix::zeros(12, 12);
@@ -53,7 +53,7 @@ use crate::vector::dot4;
 /// nodal[(7, 11)] = c * l * l / 2.0;
 /// nodal[(11, 7)] = c * l * l / 2.0;
 /// nodal[(11, 11)] = c * l;
-/// let surface = Surface::new(Arc::new(Line::new(vec![element])?), nodal)?;
+/// let surface = ExactSurface::new(Arc::new(Rails::new(vec![element])?), nodal)?;
 ///
 /// // A load inside the element needs no node there: the deflection under it is c x^3/3.
 /// let wheel = Probe { rail: 0, x: 4.0, axis: Axis::Vertical };
@@ -63,12 +63,12 @@ use crate::vector::dot4;
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Surface {
-    rails: Arc<Line>,
+pub struct ExactSurface {
+    rails: Arc<Rails>,
     nodal: DMatrix<f64>,
 }
 
-impl Surface {
+impl ExactSurface {
     /// The surface of the rails `line` whose node states have the compliance `nodal`.
     ///
     /// `nodal` is 6 S x 6 S with S = `line.states()`: entry (i, j) is the displacement of degree of freedom i
@@ -77,8 +77,8 @@ impl Surface {
     ///
     /// # Errors
     /// A wrong shape; an entry that is not a number, or infinite off the diagonal.
-    pub fn new(line: Arc<Line>, nodal: DMatrix<f64>) -> Result<Surface, Error> {
-        let expected = 6 * line.states();
+    pub fn new(line: Arc<Rails>, nodal: DMatrix<f64>) -> Result<ExactSurface, Error> {
+        let expected = 6 * line.state_count();
         let (rows, columns) = nodal.shape();
         if rows != expected || columns != expected {
             return Err(Error::NodalShape { rows, columns, expected });
@@ -94,12 +94,12 @@ impl Surface {
                 nodal[(column, row)] = mean;
             }
         }
-        Ok(Surface { rails: line, nodal })
+        Ok(ExactSurface { rails: line, nodal })
     }
 
     /// The rails and their elements.
     #[must_use]
-    pub fn line(&self) -> &Arc<Line> {
+    pub fn rails(&self) -> &Arc<Rails> {
         &self.rails
     }
 
@@ -114,7 +114,7 @@ impl Surface {
     fn assemble(
         &self,
         at: &[Probe],
-        rows: &mut [Row],
+        rows: &mut [ShapeRow],
         order: &mut [usize],
         out: &mut Influence,
     ) -> Result<(), Error> {
@@ -129,7 +129,7 @@ impl Surface {
         }
         // Probes of one element and direction have the same degrees of freedom: one product C N(q) serves
         // them all.
-        let block = |row: &Row| (row.cell, row.axis);
+        let block = |row: &ShapeRow| (row.element, row.axis);
         if !rows.is_sorted_by_key(block) {
             order.sort_unstable_by_key(|&i| block(&rows[i]));
         }
@@ -158,15 +158,15 @@ impl Surface {
     }
 
     /// Adds Green's function between probes in one element and mirrors the values.
-    fn add_elements(&self, at: &[Probe], rows: &[Row], out: &mut Influence) -> Result<(), Error> {
+    fn add_elements(&self, at: &[Probe], rows: &[ShapeRow], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         let value = out.value.as_mut_slice();
         let slope = out.slope.as_mut_slice();
         for j in 0..n {
-            let clamped = self.rails.clamped(rows[j].cell);
+            let clamped = self.rails.clamped(rows[j].element);
             for i in j..n {
                 let (p, q) = (&rows[i], &rows[j]);
-                if let Some(clamped) = clamped.filter(|_| p.cell == q.cell) {
+                if let Some(clamped) = clamped.filter(|_| p.element == q.element) {
                     let green = clamped.pair(p.axis, p.s, clamped, q.axis, q.s);
                     value[i + n * j] += green.value;
                     slope[i + n * j] += green.p * p.rate;
@@ -177,7 +177,7 @@ impl Surface {
                 value[j + n * i] = value[i + n * j];
             }
             if !value[j + n * j].is_finite() {
-                return Err(Error::Unstiffened { rail: at[j].rail, x: at[j].x, axis: at[j].axis });
+                return Err(Error::NoStiffness { rail: at[j].rail, x: at[j].x, axis: at[j].axis });
             }
         }
         Ok(())
@@ -185,10 +185,12 @@ impl Surface {
 
     /// Adds Green's function of the member between two different elements of it.
     #[cold]
-    fn add_shared_members(&self, rows: &[Row], out: &mut Influence) {
+    fn add_shared_members(&self, rows: &[ShapeRow], out: &mut Influence) {
         for (j, q) in rows.iter().enumerate() {
-            for (i, p) in rows.iter().enumerate().skip(j + 1).filter(|(_, p)| p.cell != q.cell) {
-                let Some([own, other]) = self.rails.clamped_on_one_member(p.cell, q.cell) else { continue };
+            for (i, p) in rows.iter().enumerate().skip(j + 1).filter(|(_, p)| p.element != q.element) {
+                let Some([own, other]) = self.rails.clamped_on_one_member(p.element, q.element) else {
+                    continue;
+                };
                 let green = own.pair(p.axis, p.s, other, q.axis, q.s);
                 out.value[(i, j)] += green.value;
                 out.value[(j, i)] = out.value[(i, j)];
@@ -227,7 +229,7 @@ fn dot_chunks(a: &[[f64; 4]], b: &[[f64; 4]; 3]) -> f64 {
     a.iter().zip(b).map(|(x, y)| dot4(x, y)).sum()
 }
 
-impl Compliance for Surface {
+impl Compliance for ExactSurface {
     /// `value` is symmetric to the last bit. Where a slope jumps (under one's own force in shear, in torsion
     /// and axially), `slope` is the mean of both sides. Up to 16 probes need no allocation.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
@@ -248,10 +250,10 @@ impl Compliance for Surface {
             }
         }
         match n {
-            0..=2 => self.assemble(at, &mut [Row::EMPTY; 2][..n], &mut [0; 2][..n], out),
-            3..=8 => self.assemble(at, &mut [Row::EMPTY; 8][..n], &mut [0; 8][..n], out),
-            9..=16 => self.assemble(at, &mut [Row::EMPTY; 16][..n], &mut [0; 16][..n], out),
-            _ => self.assemble(at, &mut vec![Row::EMPTY; n], &mut vec![0; n], out),
+            0..=2 => self.assemble(at, &mut [ShapeRow::EMPTY; 2][..n], &mut [0; 2][..n], out),
+            3..=8 => self.assemble(at, &mut [ShapeRow::EMPTY; 8][..n], &mut [0; 8][..n], out),
+            9..=16 => self.assemble(at, &mut [ShapeRow::EMPTY; 16][..n], &mut [0; 16][..n], out),
+            _ => self.assemble(at, &mut vec![ShapeRow::EMPTY; n], &mut vec![0; n], out),
         }
     }
 
@@ -268,10 +270,10 @@ impl Compliance for Surface {
     }
 }
 
-impl Jets for Surface {
+impl Differentiable for ExactSurface {
     /// `pp` jumps where elements of different bending stiffness meet (the value of the element that carries
     /// the probe is given), and under one's own load where an offset makes it a moment (the mean is given).
-    fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error> {
+    fn partials(&self, p: Probe, q: Probe) -> Result<Partials, Error> {
         let (nodal, size) = (self.nodal.as_slice(), self.nodal.nrows());
         if !self.rails.shares_members()
             && let Some(derivatives) = planar::derivatives(&self.rails, nodal, size, p, q)?
@@ -284,7 +286,7 @@ impl Jets for Surface {
         let moved = [b0, b1, &b2[..b0.len()]]
             .map(|shapes| product(nodal, size, a.index_chunks(), b.index_chunks(), shapes));
         let a2 = &a2[..a0.len()];
-        let mut out = Jet2 {
+        let mut out = Partials {
             value: dot_chunks(a0, &moved[0]),
             p: dot_chunks(a1, &moved[0]),
             q: dot_chunks(a0, &moved[1]),
@@ -292,7 +294,7 @@ impl Jets for Surface {
             pq: dot_chunks(a1, &moved[1]),
             qq: dot_chunks(a0, &moved[2]),
         };
-        if let Some([own, other]) = self.rails.clamped_on_one_member(a.cell, b.cell) {
+        if let Some([own, other]) = self.rails.clamped_on_one_member(a.element, b.element) {
             let green = own.pair(a.axis, a.s, other, b.axis, b.s);
             let second = own.second_derivatives(a.axis, a.s, other, b.axis, b.s);
             out.value += green.value;
@@ -304,7 +306,7 @@ impl Jets for Surface {
         }
         for (row, at) in [(&a, p), (&b, q)] {
             if row.indices().iter().any(|&k| self.nodal[(k, k)] == f64::INFINITY) {
-                return Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis });
+                return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
             }
         }
         Ok(out)

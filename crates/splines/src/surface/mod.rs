@@ -12,8 +12,8 @@ mod residual;
 mod shapes;
 mod uncoupled;
 
-pub use effects::{Component, Effects, Section};
-pub use exact::Surface;
-pub use residual::Rest;
-pub use shapes::Shapes;
-pub use uncoupled::{Couplings, Parted};
+pub use effects::{ForceComponent, InfluenceLines, InternalForce};
+pub use exact::ExactSurface;
+pub use residual::ResidualFlexibility;
+pub use shapes::RailShapes;
+pub use uncoupled::{Couplings, Uncoupled};

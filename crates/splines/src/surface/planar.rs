@@ -7,10 +7,10 @@
 //! N(q) and N'(q) once for each q. (4) A pair then costs three scalar products: of four terms where the
 //! elements differ, of six (C and b together) where they are the same.
 
-use crate::compliance::{Influence, Jet2};
+use crate::compliance::{Influence, Partials};
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{Line, LocalPlace, PlanarCubics, PlanarPlace};
+use crate::rail::{LocalPlace, PlanarCubics, PlanarPlace, Rails};
 use crate::vector::dot4;
 
 /// A probe with the values and slopes of the cubics of `PlanarCubics` at its place.
@@ -50,7 +50,7 @@ impl PlanarProbe {
 /// # Errors
 /// As [`crate::Compliance::fill`].
 pub(super) fn fill(
-    rails: &Line,
+    rails: &Rails,
     nodal: &[f64],
     size: usize,
     at: &[Probe],
@@ -79,7 +79,7 @@ pub(super) fn fill(
             }
             if !to.value[q.who * (n + 1)].is_finite() {
                 let Probe { rail, x, axis } = at[q.who];
-                return Err(Error::Unstiffened { rail, x, axis });
+                return Err(Error::NoStiffness { rail, x, axis });
             }
         }
         let mut others = others;
@@ -103,14 +103,14 @@ pub(super) fn fill(
 /// Value and derivatives of one pair, if both probes have the planar form.
 ///
 /// # Errors
-/// As [`crate::Jets::jet`].
+/// As [`crate::Differentiable::partials`].
 pub(super) fn derivatives(
-    rails: &Line,
+    rails: &Rails,
     nodal: &[f64],
     size: usize,
     p: Probe,
     q: Probe,
-) -> Result<Option<Jet2>, Error> {
+) -> Result<Option<Partials>, Error> {
     // Each probe with its second derivatives.
     let mut both = [(PlanarProbe::EMPTY, [0.0; 8]); 2];
     for ((probe, second), at) in both.iter_mut().zip([p, q]) {
@@ -120,7 +120,7 @@ pub(super) fn derivatives(
         probe.set(cubics, block, at.x, local);
         *second = cubics.second_derivatives(local, scale);
         if probe.index.iter().any(|&k| nodal[k * (size + 1)] == f64::INFINITY) {
-            return Err(Error::Unstiffened { rail: at.rail, x: at.x, axis: at.axis });
+            return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
         }
     }
     let [p, q] = &both;
@@ -134,7 +134,7 @@ pub(super) fn derivatives(
             let own = if same { row[4] * loads[k][6] + row[5] * loads[k][7] } else { 0.0 };
             dot4(PlanarProbe::shapes(row), &moved[k]) + own
         };
-        Jet2 {
+        Partials {
             value: with(&p.0.value, 0),
             p: with(&p.0.slope, 0),
             q: with(&p.0.value, 1),

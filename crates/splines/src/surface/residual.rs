@@ -5,8 +5,8 @@ use crate::error::Error;
 use crate::probe::Probe;
 use crate::vector::dot;
 
-use super::exact::Surface;
-use super::shapes::Shapes;
+use super::exact::ExactSurface;
+use super::shapes::RailShapes;
 
 /// Residual flexibility of a surface beside shapes that are accounted for elsewhere:
 ///
@@ -23,9 +23,9 @@ use super::shapes::Shapes;
 /// use std::sync::Arc;
 ///
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Cell, Compliance, Flexibility, Influence, Line, Probe, Rest, Shapes, Surface};
+/// use splines::{Axis, RailElement, Compliance, Flexibility, Influence, Rails, Probe, ResidualFlexibility, RailShapes, ExactSurface};
 ///
-/// let element = Cell {
+/// let element = RailElement {
 ///     rail: 0,
 ///     x: [0.0, 8.0],
 ///     ends: [0, 1],
@@ -33,15 +33,15 @@ use super::shapes::Shapes;
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0; 3],
 ///     flexibility: Flexibility::default(),
-///     carrier: None,
+///     member: None,
 /// };
 /// // A rigid beam on two springs of compliance 4; the shape accounts for the second spring.
 /// let mut nodal = DMatrix::zeros(12, 12);
 /// (nodal[(1, 1)], nodal[(7, 7)]) = (4.0, 4.0);
 /// let mut states = DMatrix::zeros(12, 1);
 /// states[(7, 0)] = 2.0;
-/// let rails = Arc::new(Line::new(vec![element])?);
-/// let rest = Rest::new(Surface::new(rails.clone(), nodal)?, Shapes::new(rails, states)?);
+/// let rails = Arc::new(Rails::new(vec![element])?);
+/// let rest = ResidualFlexibility::new(ExactSurface::new(rails.clone(), nodal)?, RailShapes::new(rails, states)?);
 /// let ends = [0.0, 8.0].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
 /// let mut out = Influence::zeros(2);
 /// rest.fill(&ends, &mut out)?;
@@ -49,20 +49,20 @@ use super::shapes::Shapes;
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Rest {
-    whole: Surface,
-    taken: Shapes,
+pub struct ResidualFlexibility {
+    whole: ExactSurface,
+    taken: RailShapes,
 }
 
-impl Rest {
+impl ResidualFlexibility {
     /// The residual flexibility of `whole` beside the shapes `taken`.
     #[must_use]
-    pub const fn new(whole: Surface, taken: Shapes) -> Rest {
-        Rest { whole, taken }
+    pub const fn new(whole: ExactSurface, taken: RailShapes) -> ResidualFlexibility {
+        ResidualFlexibility { whole, taken }
     }
 }
 
-impl Compliance for Rest {
+impl Compliance for ResidualFlexibility {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         self.whole.fill(at, out)?;
         let (n, count) = (at.len(), self.taken.count());

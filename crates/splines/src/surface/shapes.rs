@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{Line, LocalPlace};
+use crate::rail::{LocalPlace, Rails};
 
 /// Motions of rails by the motions of their node states: phi_r(p) = N(p) s_r.
 ///
@@ -17,9 +17,9 @@ use crate::rail::{Line, LocalPlace};
 /// use std::sync::Arc;
 ///
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Cell, Flexibility, Line, Probe, Shapes};
+/// use splines::{Axis, RailElement, Flexibility, Rails, Probe, RailShapes};
 ///
-/// let element = Cell {
+/// let element = RailElement {
 ///     rail: 0,
 ///     x: [0.0, 8.0],
 ///     ends: [0, 1],
@@ -27,20 +27,20 @@ use crate::rail::{Line, LocalPlace};
 ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 ///     offset: [0.0; 3],
 ///     flexibility: Flexibility { bending_z: 1.0, ..Flexibility::default() },
-///     carrier: None,
+///     member: None,
 /// };
 /// // One shape: the second end rises by one, without rotation.
 /// let mut states = DMatrix::zeros(12, 1);
 /// states[(7, 0)] = 1.0;
-/// let shapes = Shapes::new(Arc::new(Line::new(vec![element])?), states)?;
+/// let shapes = RailShapes::new(Arc::new(Rails::new(vec![element])?), states)?;
 /// let (mut value, mut slope) = ([0.0], [0.0]);
 /// shapes.row(Probe { rail: 0, x: 4.0, axis: Axis::Vertical }, &mut value, &mut slope)?;
 /// assert_eq!((value[0], slope[0]), (0.5, 1.5 / 8.0));
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Shapes {
-    rails: Arc<Line>,
+pub struct RailShapes {
+    rails: Arc<Rails>,
     /// Shapes x degrees of freedom: what a place needs of all shapes is contiguous.
     motions: DMatrix<f64>,
     /// By element and direction: the values of all shapes at the first end, then their slopes there by the
@@ -48,20 +48,20 @@ pub struct Shapes {
     ends: Vec<[OnceLock<Vec<f64>>; 3]>,
 }
 
-impl Shapes {
+impl RailShapes {
     /// Shapes of the rails `line`. `states` is 6 S x shapes with S = `line.states()`: column r holds the
     /// motions s_r of the node states.
     ///
     /// # Errors
     /// A number of rows other than 6 S.
-    pub fn new(line: Arc<Line>, states: DMatrix<f64>) -> Result<Shapes, Error> {
-        let expected = 6 * line.states();
+    pub fn new(line: Arc<Rails>, states: DMatrix<f64>) -> Result<RailShapes, Error> {
+        let expected = 6 * line.state_count();
         let (rows, columns) = states.shape();
         if rows != expected {
             return Err(Error::NodalShape { rows, columns, expected });
         }
-        let ends = line.cells().iter().map(|_| Default::default()).collect();
-        Ok(Shapes { rails: line, motions: states.transpose(), ends })
+        let ends = line.elements().iter().map(|_| Default::default()).collect();
+        Ok(RailShapes { rails: line, motions: states.transpose(), ends })
     }
 
     /// Number of shapes.

@@ -37,41 +37,41 @@ impl Couplings {
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Compliance, Couplings, Influence, Kind, Parted, Probe, Reading, Sheet, Table};
+/// use splines::{Axis, Compliance, Couplings, Influence, ReadingMethod, Uncoupled, Probe, TableReading, InfluenceBlock, SplineTable};
 ///
 /// // Two rails whose deflections are all one, whatever the load.
 /// let x = vec![0.0, 1.0, 2.0, 3.0];
-/// let table = Table::new(x.clone(), x, DMatrix::from_element(4, 4, 1.0))?;
-/// let block = |deflection, load| Sheet {
+/// let table = SplineTable::new(x.clone(), x, DMatrix::from_element(4, 4, 1.0))?;
+/// let block = |deflection, load| InfluenceBlock {
 ///     deflection: (deflection, Axis::Vertical),
 ///     load: (load, Axis::Vertical),
 ///     table: table.clone(),
 /// };
-/// let whole = Reading::new(Kind::Natural, &[block(0, 0), block(0, 1), block(1, 1)])?;
+/// let whole = TableReading::new(ReadingMethod::Natural, &[block(0, 0), block(0, 1), block(1, 1)])?;
 ///
 /// let at = [0, 1].map(|rail| Probe { rail, x: 1.0, axis: Axis::Vertical });
 /// let mut out = Influence::zeros(2);
 /// whole.fill(&at, &mut out)?;
 /// assert_eq!(out.value[(0, 1)], 1.0);
-/// Parted::new(whole, Couplings::WithinRails).fill(&at, &mut out)?;
+/// Uncoupled::new(whole, Couplings::WithinRails).fill(&at, &mut out)?;
 /// assert_eq!(out.value[(0, 1)], 0.0);
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Parted<C> {
+pub struct Uncoupled<C> {
     whole: C,
     couplings: Couplings,
 }
 
-impl<C: Compliance> Parted<C> {
+impl<C: Compliance> Uncoupled<C> {
     /// `whole` with the given couplings alone.
     #[must_use]
     pub const fn new(whole: C, couplings: Couplings) -> Self {
-        Parted { whole, couplings }
+        Uncoupled { whole, couplings }
     }
 }
 
-impl<C: Compliance> Compliance for Parted<C> {
+impl<C: Compliance> Compliance for Uncoupled<C> {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         self.whole.fill(at, out)?;
         for (j, q) in at.iter().enumerate() {

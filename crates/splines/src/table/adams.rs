@@ -1,17 +1,17 @@
 //! Tables read as ADAMS reads a SPLINE: a curve along x in every row, straight lines along z between the
 //! rows.
 
-use super::block::{Pairs, Sheet};
-use super::values::Table;
-use crate::compliance::{Influence, Jet2};
-use crate::curve::{Curve, Interval};
+use super::block::{InfluenceBlock, Pairs};
+use super::values::SplineTable;
+use crate::compliance::{Influence, Partials};
+use crate::curve::{Interval, PiecewiseCubic};
 use crate::error::Error;
 use crate::probe::Probe;
 use crate::vector::dot4;
 
 /// The rule by which a curve passes through the values of one row: [`crate::akima()`] or
-/// [`crate::natural()`].
-pub(super) type Interpolant = fn(&[f64], &[f64]) -> Result<Curve, Error>;
+/// [`crate::natural_spline()`].
+pub(super) type Interpolant = fn(&[f64], &[f64]) -> Result<PiecewiseCubic, Error>;
 
 /// Tables ready for AKISPL or CUBSPL. Probes carry the number of their direction in place of the rail.
 #[derive(Clone, Debug)]
@@ -59,7 +59,7 @@ impl Families {
     /// pair.
     pub fn new(
         mut pairs: Pairs,
-        blocks: &[Sheet],
+        blocks: &[InfluenceBlock],
         interpolant: Interpolant,
         symmetrised: bool,
     ) -> Result<Families, Error> {
@@ -144,16 +144,16 @@ impl Families {
         }
     }
 
-    /// As [`crate::Jets::jet`].
-    pub fn jet(&self, p: Probe, q: Probe) -> Jet2 {
+    /// As [`crate::Differentiable::partials`].
+    pub fn jet(&self, p: Probe, q: Probe) -> Partials {
         let there = self.as_tabulated(p, q);
         if self.symmetrised { there.mean(self.as_tabulated(q, p).swapped()) } else { there }
     }
 
     /// Derivatives of the table itself, without taking the mean.
-    fn as_tabulated(&self, p: Probe, q: Probe) -> Jet2 {
+    fn as_tabulated(&self, p: Probe, q: Probe) -> Partials {
         let Some(family) = self.pairs[p.rail][q.rail].and_then(|k| self.families.get(k)) else {
-            return Jet2::default();
+            return Partials::default();
         };
         let (x, z) = (family.x.as_ref(), family.z.as_ref());
         let (x, z) = (x.unwrap_or(&self.stations[q.rail]), z.unwrap_or(&self.stations[p.rail]));
@@ -165,13 +165,13 @@ impl Families {
         if let Some(before) = along.before(x) {
             curvature = 0.5 * (curvature + family.value(&before, &before.curvature_weights(), &across));
         }
-        Jet2 { value, p: by_p, q: by_q, pp: 0.0, pq: by_both, qq: curvature }
+        Partials { value, p: by_p, q: by_q, pp: 0.0, pq: by_both, qq: curvature }
     }
 }
 
 impl Family {
     /// `own`: stations of the own tables of the deflection and of the load.
-    fn new(table: &Table, own: [&Vec<f64>; 2], interpolant: Interpolant) -> Result<Family, Error> {
+    fn new(table: &SplineTable, own: [&Vec<f64>; 2], interpolant: Interpolant) -> Result<Family, Error> {
         let mut nodes = Vec::with_capacity(2 * table.values().len());
         for row in table.values().row_iter() {
             let y: Vec<f64> = row.iter().copied().collect();

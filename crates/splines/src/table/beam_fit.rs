@@ -5,11 +5,11 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use super::tensor::{chain, scatter};
-use super::values::Table;
+use super::values::SplineTable;
 use crate::curve::values_and_slopes;
 use crate::error::Error;
-use crate::rail::{Flexibility, Line};
-use crate::surface::Surface;
+use crate::rail::{Flexibility, Rails};
+use crate::surface::ExactSurface;
 
 /// Largest entry of a support's row, relative to the table's largest.
 const ZERO: f64 = 1e-9;
@@ -22,9 +22,9 @@ const ROUNDING: f64 = 1e-9;
 
 /// A uniform beam fitted to a table, with its exact surface.
 #[derive(Clone, Debug)]
-pub struct Lift {
+pub struct BeamFit {
     /// The exact surface: vertical compliance of the rail; nothing else moves.
-    pub surface: Surface,
+    pub surface: ExactSurface,
     /// 1/EI that fits all entries best by least squares, 1/(force length^2).
     pub bending: f64,
     /// 1/EI from each column alone: station and value, for the stations at which the rail moves. Their
@@ -35,7 +35,7 @@ pub struct Lift {
     pub clamped: [bool; 2],
     /// Largest difference between the table and that of the fitted beam, relative to the table's largest
     /// entry.
-    pub misfit: f64,
+    pub error: f64,
 }
 
 /// Fits a uniform Euler-Bernoulli beam to a table of vertical influence coefficients, and gives its exact
@@ -58,7 +58,7 @@ pub struct Lift {
 ///
 /// Guarantee: a table with all its digits is reproduced without loss (5e-15 of the largest entry on the
 /// paper's girder). A table of three digits keeps the error of its rounding (4.7e-3 there), which
-/// [`Lift::misfit`] shows.
+/// [`BeamFit::error`] shows.
 ///
 /// # Errors
 /// Stations along z that differ from those along x; no zero row, or a single one that is not at a clamped
@@ -66,7 +66,7 @@ pub struct Lift {
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::{Table, lift};
+/// use splines::{SplineTable, fit_beam};
 ///
 /// // A simply supported beam of length 4 with 1/EI = 1: G = a b (16 - a^2 - b^2)/24, a and b being the
 /// // distances of the two places from the support on their own side.
@@ -76,15 +76,15 @@ pub struct Lift {
 ///     a * b * (16.0 - a * a - b * b) / 24.0
 /// };
 /// let values = DMatrix::from_fn(5, 5, |i, j| exact(x[i], x[j]));
-/// let fit = lift(0, &Table::new(x.clone(), x, values)?)?;
-/// assert!((fit.bending - 1.0).abs() < 1e-13 && fit.misfit < 1e-13);
+/// let fit = fit_beam(0, &SplineTable::new(x.clone(), x, values)?)?;
+/// assert!((fit.bending - 1.0).abs() < 1e-13 && fit.error < 1e-13);
 /// assert_eq!(fit.clamped, [false, false]);
 /// # Ok::<(), splines::Error>(())
 /// ```
-pub fn lift(rail: usize, table: &Table) -> Result<Lift, Error> {
+pub fn fit_beam(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
     let x = table.x();
     if table.z() != x {
-        return Err(Error::SheetStations { sheet: 0 });
+        return Err(Error::BlockStations { sheet: 0 });
     }
     let n = x.len();
     let values = 0.5 * (table.values() + table.values().transpose());
@@ -101,12 +101,12 @@ pub fn lift(rail: usize, table: &Table) -> Result<Lift, Error> {
             best = Some(fit);
         }
     }
-    let Fit { clamped, bending, misfit } = best.ok_or(Error::Unliftable)?;
+    let Fit { clamped, bending, misfit } = best.ok_or(Error::NoBeamFit)?;
     let b = values_and_slopes(x, clamped);
     let turns = |i: &usize| !(*i == 0 && clamped[0] || *i == n - 1 && clamped[1]);
     let rotations: Vec<usize> = (0..n).filter(turns).map(|i| 2 * i + 1).collect();
     let pinned = stiffness(x).select_rows(&rotations).select_columns(&rotations).cholesky();
-    let pinned = bending * pinned.ok_or(Error::Unliftable)?.inverse();
+    let pinned = bending * pinned.ok_or(Error::NoBeamFit)?.inverse();
     let mut compliance = &b * &values * b.transpose();
     for (i, &row) in rotations.iter().enumerate() {
         for (j, &column) in rotations.iter().enumerate() {
@@ -116,11 +116,11 @@ pub fn lift(rail: usize, table: &Table) -> Result<Lift, Error> {
     let mut nodal = DMatrix::zeros(6 * n, 6 * n);
     scatter(&mut nodal, [0, 0], &compliance);
     let flexibility = Flexibility { bending_z: bending, ..Flexibility::default() };
-    let rails = Line::new(chain(rail, 0, x, flexibility))?;
-    let surface = Surface::new(Arc::new(rails), nodal)?;
+    let rails = Rails::new(chain(rail, 0, x, flexibility))?;
+    let surface = ExactSurface::new(Arc::new(rails), nodal)?;
     let columns = &b * &values;
     let local = moving.iter().map(|&j| (x[j], jump(x, columns.column(j).as_slice(), j))).collect();
-    Ok(Lift { surface, bending, local, clamped, misfit })
+    Ok(BeamFit { surface, bending, local, clamped, error: misfit })
 }
 
 /// A beam with given ends, and how well it fits.

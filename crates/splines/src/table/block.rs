@@ -1,6 +1,6 @@
 //! Tables of values and the rail directions that they relate.
 
-use super::values::Table;
+use super::values::SplineTable;
 use crate::error::Error;
 use crate::probe::{Axis, Probe};
 
@@ -9,23 +9,23 @@ use crate::probe::{Axis, Probe};
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Sheet, Table};
+/// use splines::{Axis, InfluenceBlock, SplineTable};
 ///
 /// let x = vec![0.0, 1.0, 2.0, 3.0];
-/// let table = Table::new(x.clone(), x, DMatrix::identity(4, 4))?;
+/// let table = SplineTable::new(x.clone(), x, DMatrix::identity(4, 4))?;
 /// // Lateral deflections of the first rail under its own vertical loads.
-/// let coupling = Sheet { deflection: (0, Axis::Lateral), load: (0, Axis::Vertical), table };
+/// let coupling = InfluenceBlock { deflection: (0, Axis::Lateral), load: (0, Axis::Vertical), table };
 /// assert_ne!(coupling.deflection, coupling.load);
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sheet {
+pub struct InfluenceBlock {
     /// Rail and axis of the deflection, whose stations are the table's z.
     pub deflection: (usize, Axis),
     /// Rail and axis of the load, whose stations are the table's x.
     pub load: (usize, Axis),
     /// The influence coefficients, length/force.
-    pub table: Table,
+    pub table: SplineTable,
 }
 
 /// The directions that have tables, numbered in increasing order of rail and axis.
@@ -48,9 +48,9 @@ impl Directions {
     /// # Errors
     /// No table; two tables for one pair; a coupling between directions of which one has no table of its own;
     /// a table with fewer than two curves.
-    pub fn new(blocks: &[Sheet]) -> Result<(Directions, Pairs), Error> {
+    pub fn new(blocks: &[InfluenceBlock]) -> Result<(Directions, Pairs), Error> {
         if blocks.is_empty() {
-            return Err(Error::NoSheets);
+            return Err(Error::NoBlocks);
         }
         let mut names: Vec<(usize, Axis)> =
             blocks.iter().filter(|s| s.deflection == s.load).map(|s| s.load).collect();
@@ -58,13 +58,13 @@ impl Directions {
         names.dedup();
         let mut pairs = vec![vec![None; names.len()]; names.len()];
         for (index, sheet) in blocks.iter().enumerate() {
-            let number = |name| names.binary_search(&name).map_err(|_| Error::SheetAlone { sheet: index });
+            let number = |name| names.binary_search(&name).map_err(|_| Error::BlockAlone { sheet: index });
             let (i, j) = (number(sheet.deflection)?, number(sheet.load)?);
             if pairs[i][j].is_some() || pairs[j][i].is_some() {
-                return Err(Error::SheetTwice { sheet: index });
+                return Err(Error::BlockTwice { sheet: index });
             }
             if sheet.table.z().len() < 2 {
-                return Err(Error::Points { found: sheet.table.z().len(), least: 2 });
+                return Err(Error::TooFewPoints { found: sheet.table.z().len(), least: 2 });
             }
             pairs[i][j] = Some(index);
         }
@@ -92,7 +92,7 @@ impl Directions {
         let Ok(direction) = self.names.binary_search(&(p.rail, p.axis)) else {
             let known = self.names.iter().any(|name| name.0 == p.rail);
             return Err(if known {
-                Error::Unstiffened { rail: p.rail, x: p.x, axis: p.axis }
+                Error::NoStiffness { rail: p.rail, x: p.x, axis: p.axis }
             } else {
                 Error::NoRail { rail: p.rail }
             });
@@ -124,13 +124,16 @@ impl Directions {
 ///
 /// # Errors
 /// Stations along z that differ from those along x, or from those of the direction's own table.
-pub(super) fn common_stations<'a>(pairs: &Pairs, blocks: &'a [Sheet]) -> Result<Vec<&'a [f64]>, Error> {
+pub(super) fn common_stations<'a>(
+    pairs: &Pairs,
+    blocks: &'a [InfluenceBlock],
+) -> Result<Vec<&'a [f64]>, Error> {
     let own = |i: usize| pairs[i][i].map_or(&[][..], |k| blocks[k].table.x());
     for (i, row) in pairs.iter().enumerate() {
         for (j, index) in row.iter().enumerate() {
             let Some(index) = *index else { continue };
             if blocks[index].table.z() != own(i) || blocks[index].table.x() != own(j) {
-                return Err(Error::SheetStations { sheet: index });
+                return Err(Error::BlockStations { sheet: index });
             }
         }
     }

@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-use super::block::{Directions, Pairs, Sheet, common_stations};
-use super::values::Table;
-use crate::compliance::{Compliance, Influence, Jet2, Jets};
-use crate::curve::{Interval, check_increasing, natural};
+use super::block::{Directions, InfluenceBlock, Pairs, common_stations};
+use super::values::SplineTable;
+use crate::compliance::{Compliance, Differentiable, Influence, Partials};
+use crate::curve::{Interval, check_increasing, natural_spline};
 use crate::error::Error;
 use crate::probe::{Axis, Probe};
 use crate::vector::{dot, dot4};
@@ -27,23 +27,23 @@ pub enum Rank {
 
 /// The curves of one direction, by their values at its stations.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curves {
+pub struct FactorCurves {
     /// Rail and axis of the direction.
-    pub way: (usize, Axis),
+    pub direction: (usize, Axis),
     /// Stations, increasing, length.
     pub stations: Vec<f64>,
     /// phi, stations x rank: row i belongs to station i, column k to curve k; square root of length/force.
     pub values: DMatrix<f64>,
 }
 
-impl Curves {
+impl FactorCurves {
     /// Every curve as a table without z, which is what a SPLINE of one curve holds.
     ///
     /// # Errors
-    /// As [`Table::curve`].
-    pub fn tables(&self) -> Result<Vec<Table>, Error> {
+    /// As [`SplineTable::curve`].
+    pub fn tables(&self) -> Result<Vec<SplineTable>, Error> {
         let one = |column: nalgebra::DVectorView<'_, f64>| {
-            Table::curve(self.stations.clone(), column.iter().copied().collect())
+            SplineTable::curve(self.stations.clone(), column.iter().copied().collect())
         };
         self.values.column_iter().map(one).collect()
     }
@@ -52,9 +52,9 @@ impl Curves {
 /// A set of directions that couple, and their curves: G(p, q) = sum_k phi_k(p) phi_k(q), p and q each along
 /// any of these directions.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Factor {
+pub struct TableFactor {
     /// The curves of every direction, all of the same rank.
-    pub curves: Vec<Curves>,
+    pub curves: Vec<FactorCurves>,
     /// Eigenvalues of the products kept, decreasing, length/force.
     pub kept: Vec<f64>,
     /// The other eigenvalues, decreasing. One that is negative by more than rounding shows a table that no
@@ -62,7 +62,7 @@ pub struct Factor {
     pub dropped: Vec<f64>,
 }
 
-impl Factor {
+impl TableFactor {
     /// Number of products kept.
     #[must_use]
     pub fn rank(&self) -> usize {
@@ -90,19 +90,19 @@ impl Factor {
 ///
 /// Guarantee: symmetric to the last bit; positive semi-definite, being a Gram matrix; twice continuously
 /// differentiable. With every eigenvalue of a positive semi-definite table it equals
-/// [`crate::Kind::Natural`]: an error of 8.8e-3 of the largest entry on the paper's girder at seven stations,
+/// [`crate::ReadingMethod::Natural`]: an error of 8.8e-3 of the largest entry on the paper's girder at seven stations,
 /// which decreases with the third power of their distance.
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Factored, Rank, Sheet, Table};
+/// use splines::{Axis, FactoredTable, Rank, InfluenceBlock, SplineTable};
 ///
 /// // A table of rank one: x z.
 /// let x = vec![0.0, 1.0, 2.0, 3.0];
-/// let table = Table::new(x.clone(), x, DMatrix::from_fn(4, 4, |i, j| (i * j) as f64))?;
+/// let table = SplineTable::new(x.clone(), x, DMatrix::from_fn(4, 4, |i, j| (i * j) as f64))?;
 /// let vertical = (0, Axis::Vertical);
-/// let blocks = [Sheet { deflection: vertical, load: vertical, table }];
-/// let factored = Factored::new(&blocks, Rank::Full)?;
+/// let blocks = [InfluenceBlock { deflection: vertical, load: vertical, table }];
+/// let factored = FactoredTable::new(&blocks, Rank::Full)?;
 /// let [factor] = factored.factors() else { panic!("one direction") };
 /// assert_eq!(factor.rank(), 1);
 /// assert!((factor.kept[0] - 14.0).abs() < 1e-13);
@@ -110,9 +110,9 @@ impl Factor {
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Factored {
+pub struct FactoredTable {
     directions: Directions,
-    factors: Vec<Factor>,
+    factors: Vec<TableFactor>,
     /// Index of the factor of each direction.
     owner: Vec<usize>,
     splines: Vec<FactorSplines>,
@@ -127,12 +127,12 @@ struct FactorSplines {
     rank: usize,
 }
 
-impl Factored {
+impl FactoredTable {
     /// Decomposes tables. `rank` applies to each set of coupled directions by itself.
     ///
     /// # Errors
-    /// As [`crate::Reading::new`] for [`crate::Kind::Natural`]; a tolerance that is negative or not a number.
-    pub fn new(blocks: &[Sheet], rank: Rank) -> Result<Factored, Error> {
+    /// As [`crate::TableReading::new`] for [`crate::ReadingMethod::Natural`]; a tolerance that is negative or not a number.
+    pub fn new(blocks: &[InfluenceBlock], rank: Rank) -> Result<FactoredTable, Error> {
         if let Rank::Tolerance(tolerance) = rank
             && !(tolerance >= 0.0 && tolerance.is_finite())
         {
@@ -143,7 +143,7 @@ impl Factored {
         let factors = coupled_sets(&pairs)
             .into_iter()
             .map(|set| decompose(&set, &directions, &stations, &pairs, blocks, rank));
-        Factored::of(factors.collect())
+        FactoredTable::from_factors(factors.collect())
     }
 
     /// Takes curves that exist already, as read from a file; `kept` and `dropped` are taken over unchecked.
@@ -151,17 +151,17 @@ impl Factored {
     /// # Errors
     /// No curves; a direction that occurs twice; stations that do not increase or are fewer than four; values
     /// that are not finite or do not fit the stations and the rank.
-    pub fn of(factors: Vec<Factor>) -> Result<Factored, Error> {
-        let mut all: Vec<(usize, &Curves)> = Vec::new();
+    pub fn from_factors(factors: Vec<TableFactor>) -> Result<FactoredTable, Error> {
+        let mut all: Vec<(usize, &FactorCurves)> = Vec::new();
         for (index, factor) in factors.iter().enumerate() {
             all.extend(factor.curves.iter().map(|curves| (index, curves)));
         }
-        all.sort_by_key(|(_, curves)| curves.way);
+        all.sort_by_key(|(_, curves)| curves.direction);
         if all.is_empty() {
-            return Err(Error::NoSheets);
+            return Err(Error::NoBlocks);
         }
-        if let Some(k) = all.windows(2).position(|pair| pair[0].1.way == pair[1].1.way) {
-            return Err(Error::SheetTwice { sheet: k + 1 });
+        if let Some(k) = all.windows(2).position(|pair| pair[0].1.direction == pair[1].1.direction) {
+            return Err(Error::BlockTwice { sheet: k + 1 });
         }
         let mut splines = Vec::new();
         for (index, curves) in &all {
@@ -169,17 +169,17 @@ impl Factored {
         }
         let ends = |x: &[f64]| [x[0], x[x.len() - 1]];
         let directions = Directions {
-            names: all.iter().map(|(_, curves)| curves.way).collect(),
+            names: all.iter().map(|(_, curves)| curves.direction).collect(),
             ranges: all.iter().map(|(_, curves)| ends(&curves.stations)).collect(),
             stations: all.iter().map(|(_, curves)| curves.stations.clone()).collect(),
         };
         let owner = all.iter().map(|(index, _)| *index).collect();
-        Ok(Factored { directions, factors, owner, splines })
+        Ok(FactoredTable { directions, factors, owner, splines })
     }
 
     /// One factor for each set of coupled directions.
     #[must_use]
-    pub fn factors(&self) -> &[Factor] {
+    pub fn factors(&self) -> &[TableFactor] {
         &self.factors
     }
 
@@ -227,10 +227,10 @@ impl Factored {
 }
 
 impl FactorSplines {
-    fn new(curves: &Curves, rank: usize) -> Result<FactorSplines, Error> {
+    fn new(curves: &FactorCurves, rank: usize) -> Result<FactorSplines, Error> {
         let x = &curves.stations;
-        if x.len() < Table::LEAST {
-            return Err(Error::Points { found: x.len(), least: Table::LEAST });
+        if x.len() < SplineTable::FEWEST_X {
+            return Err(Error::TooFewPoints { found: x.len(), least: SplineTable::FEWEST_X });
         }
         check_increasing(x)?;
         let (rows, columns) = curves.values.shape();
@@ -240,7 +240,7 @@ impl FactorSplines {
         let mut nodes = vec![0.0; 2 * rows * rank];
         for (k, column) in curves.values.column_iter().enumerate() {
             let y: Vec<f64> = column.iter().copied().collect();
-            let curve = natural(x, &y)?;
+            let curve = natural_spline(x, &y)?;
             for (i, (y, t)) in y.iter().zip(curve.slopes()).enumerate() {
                 nodes[2 * i * rank + k] = *y;
                 nodes[(2 * i + 1) * rank + k] = *t;
@@ -288,7 +288,7 @@ fn coupled_table(
     set: &[usize],
     stations: &[&[f64]],
     pairs: &Pairs,
-    blocks: &[Sheet],
+    blocks: &[InfluenceBlock],
 ) -> (DMatrix<f64>, Vec<usize>) {
     let mut first = Vec::new();
     let mut size = 0;
@@ -320,9 +320,9 @@ fn decompose(
     directions: &Directions,
     stations: &[&[f64]],
     pairs: &Pairs,
-    blocks: &[Sheet],
+    blocks: &[InfluenceBlock],
     rank: Rank,
-) -> Factor {
+) -> TableFactor {
     let (table, first) = coupled_table(set, stations, pairs, blocks);
     let size = table.nrows();
     let largest = table.amax();
@@ -351,18 +351,18 @@ fn decompose(
     let one = |(&direction, &first): (&usize, &usize)| {
         let stations = stations[direction].to_vec();
         let values = DMatrix::from_fn(stations.len(), count, |i, k| columns[k][first + i]);
-        Curves { way: directions.names[direction], stations, values }
+        FactorCurves { direction: directions.names[direction], stations, values }
     };
     let curves = set.iter().zip(&first).map(one).collect();
-    Factor { curves, kept: values[..count].to_vec(), dropped: values[count..].to_vec() }
+    TableFactor { curves, kept: values[..count].to_vec(), dropped: values[count..].to_vec() }
 }
 
-impl Compliance for Factored {
+impl Compliance for FactoredTable {
     /// `value` is symmetric to the last bit. Up to 16 probes with 128 curve values in all need no allocation.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
         out.expect(n)?;
-        let width = self.factors.iter().map(Factor::rank).max().unwrap_or(0);
+        let width = self.factors.iter().map(TableFactor::rank).max().unwrap_or(0);
         let size = 2 * n * width;
         match size {
             0..=32 if n <= 4 => self.assemble(at, width, &mut [0.0; 32][..size], &mut [0; 4][..n], out),
@@ -384,19 +384,19 @@ impl Compliance for Factored {
     }
 }
 
-impl Jets for Factored {
+impl Differentiable for FactoredTable {
     /// All derivatives up to the second are continuous.
-    fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error> {
+    fn partials(&self, p: Probe, q: Probe) -> Result<Partials, Error> {
         let (a, b) = (self.directions.find(p)?, self.directions.find(q)?);
         if self.owner[a] != self.owner[b] {
-            return Ok(Jet2::default());
+            return Ok(Partials::default());
         }
         let three = |direction: usize, x| {
             let at = Interval::find(&self.splines[direction].stations, x);
             (at, [at.weights(), at.slope_weights(), at.curvature_weights()])
         };
         let ((at, own), (to, load)) = (three(a, p.x), three(b, q.x));
-        let mut out = Jet2::default();
+        let mut out = Partials::default();
         for k in 0..self.splines[a].rank {
             let [p0, p1, p2] = own.map(|w| self.splines[a].one(&at, &w, k));
             let [q0, q1, q2] = load.map(|w| self.splines[b].one(&to, &w, k));

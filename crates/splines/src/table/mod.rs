@@ -12,8 +12,8 @@ mod reading;
 mod tensor;
 mod values;
 
-pub use beam_fit::{Lift, lift};
-pub use block::Sheet;
-pub use factored::{Curves, Factor, Factored, Rank};
-pub use reading::{Kind, Reading};
-pub use values::Table;
+pub use beam_fit::{BeamFit, fit_beam};
+pub use block::InfluenceBlock;
+pub use factored::{FactorCurves, FactoredTable, Rank, TableFactor};
+pub use reading::{ReadingMethod, TableReading};
+pub use values::SplineTable;

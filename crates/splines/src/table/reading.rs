@@ -1,20 +1,20 @@
 //! Influence coefficients read from tables of values.
 
 use super::adams::Families;
-use super::block::{Directions, Sheet};
+use super::block::{Directions, InfluenceBlock};
 use super::tensor::tensor;
-use crate::compliance::{Compliance, Influence, Jet2, Jets};
-use crate::curve::{akima, natural};
+use crate::compliance::{Compliance, Differentiable, Influence, Partials};
+use crate::curve::{akima, natural_spline};
 use crate::error::Error;
 use crate::probe::{Axis, Probe};
-use crate::surface::Surface;
+use crate::surface::ExactSurface;
 
 /// Method by which values between the stations of a table are read.
 ///
 /// The errors given are the largest on the paper's girder with its overhangs at seven stations, relative to
 /// the largest entry. The order is the power of the distance between stations with which the error decreases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Kind {
+pub enum ReadingMethod {
     /// Tensor spline W T W^T with cardinal natural cubic splines W along both directions: symmetric to the
     /// last bit, positive semi-definite where the table is, twice continuously differentiable. Error 8.8e-3,
     /// order 3.
@@ -33,21 +33,21 @@ pub enum Kind {
     Cubspl,
 }
 
-/// The compliance that tables of values describe, read by one [`Kind`] of method.
+/// The compliance that tables of values describe, read by one [`ReadingMethod`] of method.
 ///
 /// A probe along a direction without a table of its own is refused. Two directions without a common table do
 /// not couple. A coupling is given once; the opposite one is its transpose.
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::{Axis, Compliance, Influence, Kind, Probe, Reading, Sheet, Table};
+/// use splines::{Axis, Compliance, Influence, ReadingMethod, Probe, TableReading, InfluenceBlock, SplineTable};
 ///
 /// // The table of G(x, z) = x z.
 /// let x = vec![0.0, 1.0, 2.0, 3.0];
-/// let table = Table::new(x.clone(), x, DMatrix::from_fn(4, 4, |i, j| (i * j) as f64))?;
+/// let table = SplineTable::new(x.clone(), x, DMatrix::from_fn(4, 4, |i, j| (i * j) as f64))?;
 /// let vertical = (0, Axis::Vertical);
-/// let blocks = [Sheet { deflection: vertical, load: vertical, table }];
-/// let akispl = Reading::new(Kind::Akispl, &blocks)?;
+/// let blocks = [InfluenceBlock { deflection: vertical, load: vertical, table }];
+/// let akispl = TableReading::new(ReadingMethod::Akispl, &blocks)?;
 ///
 /// let at = [0.5, 2.5].map(|x| Probe { rail: 0, x, axis: Axis::Vertical });
 /// let mut out = Influence::zeros(2);
@@ -57,8 +57,8 @@ pub enum Kind {
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Reading {
-    kind: Kind,
+pub struct TableReading {
+    kind: ReadingMethod,
     directions: Directions,
     tables: Prepared,
 }
@@ -66,31 +66,31 @@ pub struct Reading {
 /// Tables prepared for a method; every direction is a rail of its own.
 #[derive(Clone, Debug)]
 enum Prepared {
-    Tensor(Surface),
+    Tensor(ExactSurface),
     Families(Families),
 }
 
-impl Reading {
+impl TableReading {
     /// `blocks` holds one table for every direction, and those of couplings between directions.
     ///
     /// # Errors
     /// No table; two tables for one pair; a coupling between directions of which one has no table of its own;
-    /// a table with fewer than two curves; for [`Kind::Natural`] also stations along z that differ from those
+    /// a table with fewer than two curves; for [`ReadingMethod::Natural`] also stations along z that differ from those
     /// along x.
-    pub fn new(kind: Kind, blocks: &[Sheet]) -> Result<Reading, Error> {
+    pub fn new(kind: ReadingMethod, blocks: &[InfluenceBlock]) -> Result<TableReading, Error> {
         let (directions, pairs) = Directions::new(blocks)?;
         let tables = match kind {
-            Kind::Natural => Prepared::Tensor(tensor(&pairs, blocks)?),
-            Kind::Akispl => Prepared::Families(Families::new(pairs, blocks, akima, false)?),
-            Kind::Symmetrised => Prepared::Families(Families::new(pairs, blocks, akima, true)?),
-            Kind::Cubspl => Prepared::Families(Families::new(pairs, blocks, natural, false)?),
+            ReadingMethod::Natural => Prepared::Tensor(tensor(&pairs, blocks)?),
+            ReadingMethod::Akispl => Prepared::Families(Families::new(pairs, blocks, akima, false)?),
+            ReadingMethod::Symmetrised => Prepared::Families(Families::new(pairs, blocks, akima, true)?),
+            ReadingMethod::Cubspl => Prepared::Families(Families::new(pairs, blocks, natural_spline, false)?),
         };
-        Ok(Reading { kind, directions, tables })
+        Ok(TableReading { kind, directions, tables })
     }
 
     /// The method of reading.
     #[must_use]
-    pub fn kind(&self) -> Kind {
+    pub fn method(&self) -> ReadingMethod {
         self.kind
     }
 
@@ -101,7 +101,7 @@ impl Reading {
     }
 }
 
-impl Compliance for Reading {
+impl Compliance for TableReading {
     /// Where the slope along z jumps (at a station), `slope` is the mean of both sides.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         out.expect(at.len())?;
@@ -142,13 +142,13 @@ impl Compliance for Reading {
     }
 }
 
-impl Jets for Reading {
+impl Differentiable for TableReading {
     /// Where the method is linear along z, `pp` is zero and `p` at a station is the mean of both sides.
     /// Akima's curvature along x jumps at a station, where `qq` is the mean of both sides.
-    fn jet(&self, p: Probe, q: Probe) -> Result<Jet2, Error> {
+    fn partials(&self, p: Probe, q: Probe) -> Result<Partials, Error> {
         let [p, q] = [self.numbered(p)?, self.numbered(q)?];
         match &self.tables {
-            Prepared::Tensor(surface) => surface.jet(p, q),
+            Prepared::Tensor(surface) => surface.partials(p, q),
             Prepared::Families(families) => Ok(families.jet(p, q)),
         }
     }

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
-use super::block::{Pairs, Sheet, common_stations};
+use super::block::{InfluenceBlock, Pairs, common_stations};
 use crate::curve::values_and_slopes;
 use crate::error::Error;
-use crate::rail::{Cell, Flexibility, IDENTITY, Line};
-use crate::surface::Surface;
+use crate::rail::{Flexibility, IDENTITY, RailElement, Rails};
+use crate::surface::ExactSurface;
 
 /// The tensor spline W T W^T of tables T with the cardinal natural splines W.
 ///
@@ -16,7 +16,7 @@ use crate::surface::Surface;
 /// the clamped element vanishes. With B the matrix that takes values to the values and slopes of their
 /// natural spline, the nodal compliance B T B^T therefore makes their exact surface the tensor spline. Every
 /// direction is a rail of its own.
-pub(super) fn tensor(pairs: &Pairs, blocks: &[Sheet]) -> Result<Surface, Error> {
+pub(super) fn tensor(pairs: &Pairs, blocks: &[InfluenceBlock]) -> Result<ExactSurface, Error> {
     let own = common_stations(pairs, blocks)?;
     let mut cells = Vec::new();
     let mut first = Vec::new();
@@ -39,12 +39,12 @@ pub(super) fn tensor(pairs: &Pairs, blocks: &[Sheet]) -> Result<Surface, Error> 
             }
         }
     }
-    Surface::new(Arc::new(Line::new(cells)?), nodal)
+    ExactSurface::new(Arc::new(Rails::new(cells)?), nodal)
 }
 
 /// Elements from station to station, their node states numbered from `first`.
-pub(super) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibility) -> Vec<Cell> {
-    let cell = |(k, pair): (usize, &[f64])| Cell {
+pub(super) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibility) -> Vec<RailElement> {
+    let cell = |(k, pair): (usize, &[f64])| RailElement {
         rail,
         x: [pair[0], pair[1]],
         ends: [first + k, first + k + 1],
@@ -52,7 +52,7 @@ pub(super) fn chain(rail: usize, first: usize, x: &[f64], flexibility: Flexibili
         frame: IDENTITY,
         offset: [0.0; 3],
         flexibility,
-        carrier: None,
+        member: None,
     };
     x.windows(2).enumerate().map(cell).collect()
 }

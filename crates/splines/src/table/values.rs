@@ -11,50 +11,50 @@ use crate::error::Error;
 ///
 /// ```
 /// use nalgebra::DMatrix;
-/// use splines::Table;
+/// use splines::SplineTable;
 ///
 /// let x = vec![0.0, 20.0, 40.0, 60.0];
 /// let values = DMatrix::from_fn(4, 4, |i, j| (i * j) as f64);
-/// let table = Table::new(x.clone(), x, values)?;
+/// let table = SplineTable::new(x.clone(), x, values)?;
 /// assert_eq!(table.values()[(2, 3)], 6.0);
 /// assert_eq!(table.transposed()?, table);
 /// # Ok::<(), splines::Error>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct SplineTable {
     x: Vec<f64>,
     z: Vec<f64>,
     values: DMatrix<f64>,
 }
 
-impl Table {
+impl SplineTable {
     /// Fewest x values that ADAMS accepts in a SPLINE.
-    pub const LEAST: usize = 4;
+    pub const FEWEST_X: usize = 4;
 
     /// A family of curves. `values` is z.len() x x.len(): row i belongs to `z[i]`, column j to `x[j]`.
     ///
     /// # Errors
     /// Fewer than four x; no z; either not increasing; a number that is not finite; a wrong shape.
-    pub fn new(x: Vec<f64>, z: Vec<f64>, values: DMatrix<f64>) -> Result<Table, Error> {
+    pub fn new(x: Vec<f64>, z: Vec<f64>, values: DMatrix<f64>) -> Result<SplineTable, Error> {
         if z.is_empty() {
-            return Err(Error::Points { found: 0, least: 1 });
+            return Err(Error::TooFewPoints { found: 0, least: 1 });
         }
         check_increasing(&z)?;
-        Table::checked(x, z, values)
+        SplineTable::checked(x, z, values)
     }
 
     /// One curve, `y` over `x`, without z.
     ///
     /// # Errors
-    /// As [`Table::new`].
-    pub fn curve(x: Vec<f64>, y: Vec<f64>) -> Result<Table, Error> {
+    /// As [`SplineTable::new`].
+    pub fn curve(x: Vec<f64>, y: Vec<f64>) -> Result<SplineTable, Error> {
         let values = DMatrix::from_row_slice(1, y.len(), &y);
-        Table::checked(x, Vec::new(), values)
+        SplineTable::checked(x, Vec::new(), values)
     }
 
-    fn checked(x: Vec<f64>, z: Vec<f64>, values: DMatrix<f64>) -> Result<Table, Error> {
-        if x.len() < Table::LEAST {
-            return Err(Error::Points { found: x.len(), least: Table::LEAST });
+    fn checked(x: Vec<f64>, z: Vec<f64>, values: DMatrix<f64>) -> Result<SplineTable, Error> {
+        if x.len() < SplineTable::FEWEST_X {
+            return Err(Error::TooFewPoints { found: x.len(), least: SplineTable::FEWEST_X });
         }
         check_increasing(&x)?;
         let expected = [z.len().max(1), x.len()];
@@ -69,7 +69,7 @@ impl Table {
                 }
             }
         }
-        Ok(Table { x, z, values })
+        Ok(SplineTable { x, z, values })
     }
 
     /// Stations of the load, increasing, length.
@@ -94,7 +94,7 @@ impl Table {
     ///
     /// # Errors
     /// Fewer than four z, which then are too few x.
-    pub fn transposed(&self) -> Result<Table, Error> {
-        Table::new(self.z.clone(), self.x.clone(), self.values.transpose())
+    pub fn transposed(&self) -> Result<SplineTable, Error> {
+        SplineTable::new(self.z.clone(), self.x.clone(), self.values.transpose())
     }
 }

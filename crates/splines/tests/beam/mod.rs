@@ -12,7 +12,10 @@ pub mod printed;
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
-use splines::{Axis, Cell, Flexibility, Kind, Line, Probe, Reading, Sheet, Surface, Table};
+use splines::{
+    Axis, ExactSurface, Flexibility, InfluenceBlock, Probe, RailElement, Rails, ReadingMethod, SplineTable,
+    TableReading,
+};
 
 /// EI of the paper's girder, lb ft^2.
 pub const EI: f64 = 9.528 * 4.32e9;
@@ -80,7 +83,7 @@ impl Beam {
 
     /// Exact surface of the vertical direction with node states at `stations`, their compliance by the force
     /// method.
-    pub fn surface(&self, stations: &[f64]) -> Surface {
+    pub fn surface(&self, stations: &[f64]) -> ExactSurface {
         let mut nodal = DMatrix::zeros(6 * stations.len(), 6 * stations.len());
         let kinds = [(1, Effect::Force), (5, Effect::Moment)];
         for (i, &x) in stations.iter().enumerate() {
@@ -94,17 +97,17 @@ impl Beam {
         }
         let flexibility = Flexibility { bending_z: self.c, shear_y: self.g, ..Flexibility::default() };
         let cells = chain(stations, [0.0; 3], flexibility);
-        Surface::new(Arc::new(Line::new(cells).expect("valid cells")), nodal).expect("fits")
+        ExactSurface::new(Arc::new(Rails::new(cells).expect("valid cells")), nodal).expect("fits")
     }
 }
 
 pub const STRAIGHT: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
 
 /// Elements of one straight rail from station to station.
-pub fn chain(stations: &[f64], offset: [f64; 3], flexibility: Flexibility) -> Vec<Cell> {
+pub fn chain(stations: &[f64], offset: [f64; 3], flexibility: Flexibility) -> Vec<RailElement> {
     let pairs = stations.windows(2).enumerate();
     pairs
-        .map(|(k, x)| Cell {
+        .map(|(k, x)| RailElement {
             rail: 0,
             x: [x[0], x[1]],
             ends: [k, k + 1],
@@ -112,7 +115,7 @@ pub fn chain(stations: &[f64], offset: [f64; 3], flexibility: Flexibility) -> Ve
             frame: STRAIGHT,
             offset,
             flexibility,
-            carrier: None,
+            member: None,
         })
         .collect()
 }
@@ -142,21 +145,21 @@ impl Random {
 }
 
 /// The table of values of a beam at its stations.
-pub fn tabulate(beam: &Beam, stations: &[f64]) -> Table {
+pub fn tabulate(beam: &Beam, stations: &[f64]) -> SplineTable {
     let n = stations.len();
     let values = DMatrix::from_fn(n, n, |i, j| beam.deflection(stations[i], stations[j]));
-    Table::new(stations.to_vec(), stations.to_vec(), values).expect("stations increase")
+    SplineTable::new(stations.to_vec(), stations.to_vec(), values).expect("stations increase")
 }
 
 /// A reading of one vertical table on rail 0.
-pub fn read(kind: Kind, table: Table) -> Reading {
+pub fn read(kind: ReadingMethod, table: SplineTable) -> TableReading {
     let way = (0, Axis::Vertical);
-    Reading::new(kind, &[Sheet { deflection: way, load: way, table }]).expect("one table")
+    TableReading::new(kind, &[InfluenceBlock { deflection: way, load: way, table }]).expect("one table")
 }
 
 /// A rolled and inclined girder with its rail outside both planes, on node states of equal compliance in all
 /// directions.
-pub fn coupled() -> Surface {
+pub fn coupled() -> ExactSurface {
     let c = 1.0 / EI;
     let flexibility = Flexibility {
         axial: 1e-9,
@@ -172,7 +175,7 @@ pub fn coupled() -> Surface {
         cell.frame = [[t, s, 0.0], [-s * t, t * t, s], [s * s, -s * t, t]];
         cell.length /= t;
     }
-    let line = Line::new(cells).expect("valid cells");
-    let size = 6 * line.states();
-    Surface::new(Arc::new(line), DMatrix::identity(size, size) * 1e-8).expect("fits")
+    let line = Rails::new(cells).expect("valid cells");
+    let size = 6 * line.state_count();
+    ExactSurface::new(Arc::new(line), DMatrix::identity(size, size) * 1e-8).expect("fits")
 }

@@ -13,7 +13,7 @@
 #![allow(dead_code)]
 
 use nalgebra::DMatrix;
-use splines::Table;
+use splines::SplineTable;
 
 pub const STATIONS: [f64; 7] = [-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0];
 
@@ -37,7 +37,7 @@ pub const LATERAL: [[f64; 7]; 7] = [
     [5.95e-7, 0.0, -5.58e-7, -8.92e-7, -7.81e-7, 0.0, 1.67e-6],
 ];
 
-pub fn table(rows: &[[f64; 7]; 7]) -> Table {
+pub fn table(rows: &[[f64; 7]; 7]) -> SplineTable {
     let values = DMatrix::from_fn(7, 7, |i, j| rows[i][j]);
-    Table::new(STATIONS.to_vec(), STATIONS.to_vec(), values).expect("stations increase")
+    SplineTable::new(STATIONS.to_vec(), STATIONS.to_vec(), values).expect("stations increase")
 }

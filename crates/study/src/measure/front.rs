@@ -31,7 +31,7 @@ pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 /// Ratio of the cost of a point (cost, error) to that of the cheapest of `points` with no larger error: 1 on the front.
 #[must_use]
-pub fn excess(point: [f64; 2], points: &[[f64; 2]]) -> f64 {
+pub fn cost_ratio(point: [f64; 2], points: &[[f64; 2]]) -> f64 {
     let no_worse = points.iter().filter(|other| other[1] <= point[1]);
     let cheapest = no_worse.map(|other| other[0]).fold(point[0], f64::min);
     if cheapest > 0.0 { point[0] / cheapest } else { 1.0 }
@@ -59,15 +59,15 @@ mod tests {
         assert!(front.windows(2).all(|pair| pair[0][0] < pair[1][0] && pair[0][1] > pair[1][1]));
         for point in &cloud {
             assert!(front.iter().any(|best| best[0] <= point[0] && best[1] <= point[1]), "{point:?}");
-            assert_eq!(excess(*point, &cloud) == 1.0, front.contains(point), "{point:?}");
+            assert_eq!(cost_ratio(*point, &cloud) == 1.0, front.contains(point), "{point:?}");
         }
     }
 
     #[test]
     fn excess_is_the_ratio_to_the_cheapest_that_errs_no_more() {
         let points = [[1.0, 1e-1], [2.0, 1e-2], [8.0, 1e-3]];
-        assert_eq!(excess([6.0, 2e-2], &points), 3.0);
-        assert_eq!(excess([2.0, 1e-2], &points), 1.0);
-        assert_eq!(excess([5.0, 1e-6], &points), 1.0);
+        assert_eq!(cost_ratio([6.0, 2e-2], &points), 3.0);
+        assert_eq!(cost_ratio([2.0, 1e-2], &points), 1.0);
+        assert_eq!(cost_ratio([5.0, 1e-6], &points), 1.0);
     }
 }

@@ -3,11 +3,11 @@
 use sim::Stepping;
 
 use crate::measure::cpu::limited;
-use crate::measure::spread::Spread;
+use crate::measure::spread::TimeSpread;
 use crate::settings::budget::StudyBudget;
 use crate::settings::ladder::{self, varies};
-use formats::motion::cast;
 use formats::scene::Scene;
+use formats::scene::motion::simulation_input;
 use foundations::SolvedStructure;
 use results::cases::records_structure;
 use results::run_error;
@@ -18,7 +18,7 @@ pub struct Auto {
     /// Name of each structure, and the reason of its foundation.
     pub reasons: Vec<(String, String)>,
     /// Times of the whole choice, all its trial runs included.
-    pub trials: Option<Spread>,
+    pub trials: Option<TimeSpread>,
 }
 
 /// Lets "auto" choose every foundation that may vary, and returns its reasons and the scene on the chosen foundations.
@@ -39,7 +39,8 @@ pub fn choose_foundations(
     let reasons =
         choices.iter().map(|choice| (name(choice), foundations::selection_reason(choice))).collect();
     for choice in choices.iter().filter(|choice| choice.predicted.is_some()) {
-        chosen.accuracy = chosen.accuracy.min(sim::STEPPING * chosen.structures[choice.structure].tolerance);
+        chosen.accuracy =
+            chosen.accuracy.min(sim::RUN_ACCURACY * chosen.structures[choice.structure].tolerance);
     }
     chosen.structures.iter_mut().for_each(|structure| structure.auto = false);
     (Ok(Auto { reasons, trials: None }), Some(chosen))
@@ -61,7 +62,7 @@ pub fn left_to_auto(scene: &Scene) -> Scene {
 /// # Errors
 /// A scene that cannot be simulated, or a choice that took longer, in words.
 pub fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Vec<sim::Choice>, String> {
-    let cast = cast(scene).map_err(|failure| failure.to_string())?;
+    let cast = simulation_input(scene).map_err(|failure| failure.to_string())?;
     let recorded = records_structure(scene, known);
     let selected =
         limited(limit, |watch| foundations::select_and_run(scene, &cast.scene, known, &recorded, watch));

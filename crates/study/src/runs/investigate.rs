@@ -1,7 +1,7 @@
 //! A study: settings of a scene, their errors against converged references, and their costs.
 //!
 //! 1. "auto" chooses the foundations that the scene leaves to it.
-//! 2. Converged references are run, up to three (see [`Against`]). Where none of them resolves deflections and wheel
+//! 2. Converged references are run, up to three (see [`ReferenceKind`]). Where none of them resolves deflections and wheel
 //!    forces to the end of the scene, the study ends earlier.
 //! 3. Every setting runs once: its largest errors in each group of columns, its counts of steps and stages, its memory.
 //! 4. All settings that ran to their ends are timed, in repetitions that run all of them in turn.
@@ -22,7 +22,7 @@ use crate::runs::timing::time;
 use crate::settings::budget::StudyBudget;
 use crate::settings::detail::MeshDetail;
 use crate::settings::ladder::{self, SceneKinds};
-use crate::settings::setting::{Against, Setting, SettingFamily};
+use crate::settings::setting::{ReferenceKind, Setting, SettingFamily};
 use formats::scene::{Analysis, Scene};
 use foundations::SolvedStructure;
 use results::run_error;
@@ -38,7 +38,7 @@ pub struct Study {
     /// The converged runs that errors are measured against.
     pub references: Vec<ConvergedReference>,
     /// References that could not be run, with the reason.
-    pub lost: Vec<(Against, String)>,
+    pub failed_references: Vec<(ReferenceKind, String)>,
     /// The settings, in order.
     pub points: Vec<StudyPoint>,
     /// The foundations that "auto" chose, or why it chose none.
@@ -48,7 +48,7 @@ pub struct Study {
 impl Study {
     /// The reference of one kind, where it could be run.
     #[must_use]
-    pub fn reference(&self, against: Against) -> Option<&ConvergedReference> {
+    pub fn reference(&self, against: ReferenceKind) -> Option<&ConvergedReference> {
         self.references.iter().find(|own| own.against == against)
     }
 }
@@ -67,7 +67,7 @@ pub fn study(
     let mut cache = SetupCache::new(scene, known);
     let is_auto = scene.structures.iter().any(|structure| structure.auto);
     let choose = |scene: &Scene| {
-        observer.say("choosing foundations");
+        observer.message("choosing foundations");
         choose_foundations(scene, known, budget)
     };
     let first = is_auto.then(|| choose(scene));
@@ -77,15 +77,15 @@ pub fn study(
     };
     own.structures.iter_mut().for_each(|structure| structure.auto = false);
 
-    observer.say("running references");
+    observer.message("running references");
     let (mut references, lost) = references(&own, kinds, &mut cache, budget, observer)?;
     if references.is_empty() {
         let first = lost.into_iter().next().map(|(_, why)| why);
-        return Err(Error::Lost(first.unwrap_or_default()));
+        return Err(Error::NoReferences(first.unwrap_or_default()));
     }
     let until = until(&references, own.end, budget.resolution);
     if let Some(time) = until {
-        observer.say(&format!("no reference tells what comes after t = {time} s: the study ends there"));
+        observer.message(&format!("no reference tells what comes after t = {time} s: the study ends there"));
         references.iter_mut().for_each(|reference| reference.cut(time));
     }
     let end = until.unwrap_or(scene.end);
@@ -97,7 +97,7 @@ pub fn study(
     let settings = settings(&own, chosen, known, kinds, budget);
     let (mut points, cases) = measure_all(settings, kinds, &references, &lost, &mut cache, budget, observer);
     time(&mut points, &mut auto, &cases, scene, known, budget, observer);
-    Ok(Study { until, references, lost, points, auto })
+    Ok(Study { until, references, failed_references: lost, points, auto })
 }
 
 /// Reports the smallest error that a reference resolves in each group.
@@ -105,7 +105,7 @@ fn report_resolution(reference: &ConvergedReference, observer: &dyn Observer) {
     let resolved = ErrorGroup::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
     let resolved: Vec<String> =
         resolved.map(|own| format!("{} from {:.1e}", own.name(), reference.resolves(*own))).collect();
-    observer.say(&format!(
+    observer.message(&format!(
         "reference \"{}\" tells errors of {} on: {}",
         reference.against.word(),
         resolved.join(", "),
@@ -123,19 +123,31 @@ fn settings(
 ) -> Vec<Setting> {
     let mut settings = ladder::settings(own, known, kinds, budget);
     let (family, knob) = (SettingFamily::Written, "accuracy");
-    settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
+    settings.push(Setting {
+        family,
+        parameter: knob,
+        value: own.accuracy,
+        scene: own.clone(),
+        stations: None,
+    });
     if kinds.varies && own.analysis == Analysis::Dynamic {
         let family = SettingFamily::Stepping;
-        settings.push(Setting { family, knob, value: own.accuracy, scene: own.clone(), stations: None });
+        settings.push(Setting {
+            family,
+            parameter: knob,
+            value: own.accuracy,
+            scene: own.clone(),
+            stations: None,
+        });
     }
     if let Some(chosen) = chosen {
         let (family, value) = (SettingFamily::Auto, chosen.accuracy);
-        settings.push(Setting { family, knob, value, scene: chosen, stations: None });
+        settings.push(Setting { family, parameter: knob, value, scene: chosen, stations: None });
     }
     if !kinds.varies {
         // there is no other foundation to compare with: only the scene's own can be run
         settings.retain(|setting| {
-            setting.family.against() == Against::Own || setting.family == SettingFamily::Written
+            setting.family.against() == ReferenceKind::Own || setting.family == SettingFamily::Written
         });
     }
     settings
@@ -146,7 +158,7 @@ fn measure_all(
     settings: Vec<Setting>,
     kinds: SceneKinds,
     references: &[ConvergedReference],
-    lost: &[(Against, String)],
+    lost: &[(ReferenceKind, String)],
     cache: &mut SetupCache<'_>,
     budget: &StudyBudget,
     observer: &dyn Observer,
@@ -155,7 +167,7 @@ fn measure_all(
     let mut cases = Vec::new();
     let mut points = Vec::new();
     for (index, setting) in settings.into_iter().enumerate() {
-        let against = if kinds.varies { setting.family.against() } else { Against::Own };
+        let against = if kinds.varies { setting.family.against() } else { ReferenceKind::Own };
         let reference = references.iter().find(|own| own.against == against);
         let (case, outcome) = match reference {
             Some(reference) => measure(cache, &setting, reference, budget),
@@ -166,13 +178,13 @@ fn measure_all(
         };
         cases.push(case);
         points.push(StudyPoint { setting, outcome });
-        bar.reach(index as u64 + 1);
+        bar.advance_to(index as u64 + 1);
     }
     (points, cases)
 }
 
 /// References, and those that could not be run with the reason.
-type References = (Vec<ConvergedReference>, Vec<(Against, String)>);
+type References = (Vec<ConvergedReference>, Vec<(ReferenceKind, String)>);
 
 /// Runs the references of settings of `own`. Where two references are of the same scene, it runs once.
 fn references(
@@ -185,16 +197,16 @@ fn references(
     let whole = |detail: MeshDetail| ladder::whole(own, kinds, detail);
     let massless = |_| ladder::massless(own);
     let written = |_| own.clone();
-    let all: [(Against, &Make<'_>, bool); 3] = [
-        (Against::Whole, &whole, kinds.has_mass && own.analysis == Analysis::Dynamic),
-        (Against::Massless, &massless, false),
-        (Against::Own, &written, false),
+    let all: [(ReferenceKind, &Make<'_>, bool); 3] = [
+        (ReferenceKind::Whole, &whole, kinds.has_mass && own.analysis == Analysis::Dynamic),
+        (ReferenceKind::Massless, &massless, false),
+        (ReferenceKind::Own, &written, false),
     ];
     let mut references: Vec<ConvergedReference> = Vec::new();
     let mut lost = Vec::new();
     let mut seen: Vec<Scene> = Vec::new();
     for (against, make, meshes) in all {
-        if against != Against::Own && !kinds.varies {
+        if against != ReferenceKind::Own && !kinds.varies {
             continue;
         }
         let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(MeshDetail::Modes(2)) };
@@ -210,7 +222,7 @@ fn references(
             }
             Err(error) => {
                 let why = error.to_string();
-                observer.say(&format!("reference \"{}\": {why}", against.word()));
+                observer.message(&format!("reference \"{}\": {why}", against.word()));
                 lost.push((against, why));
             }
         }
@@ -276,7 +288,7 @@ mod tests {
     use crate::measure::deviation::ComparedColumns;
 
     /// Two runs of ten seconds whose wheel forces differ by a tenth from `time` on.
-    fn diverging(against: Against, time: usize) -> ConvergedReference {
+    fn diverging(against: ReferenceKind, time: usize) -> ConvergedReference {
         let trace = |shift: f64| {
             let force = |k: usize| if k < time { 1.0 } else { 1.0 + shift };
             let columns = vec![
@@ -290,14 +302,17 @@ mod tests {
 
     #[test]
     fn a_study_ends_where_the_first_of_its_references_diverges() {
-        let all =
-            [diverging(Against::Whole, 6), diverging(Against::Massless, 8), diverging(Against::Own, 11)];
+        let all = [
+            diverging(ReferenceKind::Whole, 6),
+            diverging(ReferenceKind::Massless, 8),
+            diverging(ReferenceKind::Own, 11),
+        ];
         assert_eq!(until(&all, 10.0, 1e-2), Some(5.0));
         assert_eq!(until(&all[1..], 10.0, 1e-2), Some(7.0));
         assert_eq!(until(&all[2..], 10.0, 1e-2), None, "they agree to the end");
         assert_eq!(until(&all, 10.0, 1.1), None, "the resolution asked for is reached");
         assert_eq!(
-            until(&[diverging(Against::Own, 3)], 10.0, 1e-2),
+            until(&[diverging(ReferenceKind::Own, 3)], 10.0, 1e-2),
             None,
             "a fifth of the time is too short"
         );
@@ -305,7 +320,7 @@ mod tests {
 
     #[test]
     fn a_reference_that_is_cut_resolves_the_rest() {
-        let mut own = diverging(Against::Own, 6);
+        let mut own = diverging(ReferenceKind::Own, 6);
         assert!((own.worst_resolution() - 1.0).abs() < 1e-12, "ten times a tenth");
         own.cut(5.0);
         assert_eq!((own.worst_resolution(), own.columns.time.len()), (0.0, 6));

@@ -3,7 +3,7 @@
 use crate::measure::deviation::Deviation;
 use crate::measure::memory::Memory;
 use crate::measure::quantity::ErrorGroup;
-use crate::measure::spread::Spread;
+use crate::measure::spread::TimeSpread;
 use crate::settings::setting::Setting;
 
 /// A setting with its outcome.
@@ -36,7 +36,7 @@ pub struct MeasuredPoint {
     /// Degrees of freedom of the foundations.
     pub dof_count: usize,
     /// Thread times of runs.
-    pub time: Option<Spread>,
+    pub time: Option<TimeSpread>,
     /// Thread time, s, that building the foundations took.
     pub setup: f64,
     /// Memory that it takes, where the program counts allocations.

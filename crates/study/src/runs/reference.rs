@@ -4,7 +4,7 @@
 //! method of integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the
 //! study must resolve, until a run exceeds its time limit, or until the list of the budget ends; the closest pair is
 //! kept. The difference d of the pair bounds what the reference can say: errors of settings are resolved from
-//! [`MARGIN`] d on.
+//! [`RESOLUTION_FACTOR`] d on.
 
 use sim::{Method, Stepping};
 
@@ -15,12 +15,12 @@ use crate::measure::quantity::ErrorGroup;
 use crate::runs::setup::SetupCache;
 use crate::settings::budget::StudyBudget;
 use crate::settings::detail::MeshDetail;
-use crate::settings::setting::{Against, Setting, SettingFamily};
+use crate::settings::setting::{ReferenceKind, Setting, SettingFamily};
 use formats::scene::{Analysis, Scene, stepper_word};
 use results::run_error;
 
 /// Ratio of the smallest error that a reference resolves to the difference of its two runs.
-pub const MARGIN: f64 = 10.0;
+pub const RESOLUTION_FACTOR: f64 = 10.0;
 /// Ratio of the time limit of a reference to that of other runs.
 const LIMIT_FACTOR: f64 = 10.0;
 /// Resolution above which a reference says nothing about a group of columns.
@@ -35,7 +35,7 @@ pub type Make<'m> = dyn Fn(MeshDetail) -> Scene + 'm;
 #[derive(Clone, Debug)]
 pub struct ConvergedReference {
     /// The kind of settings that it is the reference for.
-    pub against: Against,
+    pub against: ReferenceKind,
     /// Columns of the run itself.
     pub columns: ComparedColumns,
     /// Columns of the second run.
@@ -52,7 +52,7 @@ impl ConvergedReference {
     /// A reference from the columns of its two runs; `words`: the settings of both.
     #[must_use]
     pub fn new(
-        against: Against,
+        against: ReferenceKind,
         columns: ComparedColumns,
         second: ComparedColumns,
         words: [String; 2],
@@ -61,13 +61,13 @@ impl ConvergedReference {
         ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
     }
 
-    /// The smallest error that it resolves in a group: [`MARGIN`] times the difference of its runs; infinite where it
+    /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs; infinite where it
     /// has no column of the group.
     #[must_use]
     pub fn resolves(&self, group: ErrorGroup) -> f64 {
         let at = ErrorGroup::ALL.iter().position(|own| *own == group);
         let difference = at.and_then(|at| self.difference[at]);
-        difference.map_or(f64::INFINITY, |difference| MARGIN * difference.max(f64::EPSILON))
+        difference.map_or(f64::INFINITY, |difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))
     }
 
     /// The same; `None` where that is coarser than 0.1, which says nothing of use.
@@ -79,14 +79,22 @@ impl ConvergedReference {
     /// The larger resolution of deflections and vertical wheel forces.
     #[must_use]
     pub fn worst_resolution(&self) -> f64 {
-        self.difference[..ErrorGroup::ASKED].iter().flatten().fold(0.0, |most, own| most.max(MARGIN * own))
+        self.difference[..ErrorGroup::ASKED]
+            .iter()
+            .flatten()
+            .fold(0.0, |most, own| most.max(RESOLUTION_FACTOR * own))
     }
 
     /// The last output time, s, until which it resolves errors of deflections and vertical wheel forces down to
     /// `resolution`; `None` where it does so at no output time.
     #[must_use]
     pub fn horizon(&self, resolution: f64) -> Option<f64> {
-        horizon(&self.second, &self.columns, &ErrorGroup::ALL[..ErrorGroup::ASKED], resolution / MARGIN)
+        horizon(
+            &self.second,
+            &self.columns,
+            &ErrorGroup::ALL[..ErrorGroup::ASKED],
+            resolution / RESOLUTION_FACTOR,
+        )
     }
 
     /// Restricts the reference to the motion until `time`, s.
@@ -114,7 +122,7 @@ fn differences(run: &ComparedColumns, reference: &ComparedColumns) -> [Option<f6
 /// A scene that cannot start; [`Error::NoReference`] where no pair ran to its end.
 pub fn reference(
     cache: &mut SetupCache<'_>,
-    against: Against,
+    against: ReferenceKind,
     make: &Make<'_>,
     meshes: bool,
     budget: &StudyBudget,
@@ -145,12 +153,12 @@ impl Search {
     fn refine(
         &mut self,
         cache: &mut SetupCache<'_>,
-        against: Against,
+        against: ReferenceKind,
         make: &Make<'_>,
         levels: impl Iterator<Item = (f64, MeshDetail)>,
         budget: &StudyBudget,
     ) -> Result<(), Error> {
-        let wanted = (budget.resolution / MARGIN * 1e-2).max(SMALLEST_DIFFERENCE);
+        let wanted = (budget.resolution / RESOLUTION_FACTOR * 1e-2).max(SMALLEST_DIFFERENCE);
         for (accuracy, detail) in levels {
             let scenes = [make(detail), make(detail.half())];
             let [(columns, words), (second, second_words)] =
@@ -169,7 +177,7 @@ impl Search {
                 };
             let reference = ConvergedReference::new(against, columns, second, [words, second_words]);
             let largest = reference.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
-            self.approach.push((accuracy, reference.worst_resolution() / MARGIN));
+            self.approach.push((accuracy, reference.worst_resolution() / RESOLUTION_FACTOR));
             if self.best.as_ref().is_none_or(|best| reference.worst_resolution() < best.worst_resolution()) {
                 self.best = Some(reference);
             }
@@ -220,8 +228,13 @@ fn one(
 ) -> Result<Attempt, Error> {
     let stepping = Stepping { method, step: None };
     let scene = Scene { accuracy, stepping, ..scene.clone() };
-    let setting =
-        Setting { family: SettingFamily::Written, knob: "accuracy", value: accuracy, scene, stations: None };
+    let setting = Setting {
+        family: SettingFamily::Written,
+        parameter: "accuracy",
+        value: accuracy,
+        scene,
+        stations: None,
+    };
     let case = cache.set_up(&setting)?;
     let run = match limited(limit, |watch| case.run(watch)) {
         Ok(run) => run,
@@ -257,7 +270,7 @@ pub fn foundation(structure: &formats::scene::Structure) -> String {
         Foundation::Parts { count, .. } => format!("{word}, {count} parts"),
         Foundation::Modal { modes, .. } => format!("{word}, {modes} modes"),
         Foundation::Full { elements, .. } => format!("{word}, {elements} elements a member"),
-        Foundation::Influence => format!("{word}, {}", structure.reading.word()),
+        Foundation::Influence => format!("{word}, {}", structure.interpolation.word()),
         Foundation::Rigid | Foundation::Ties { .. } => word.to_owned(),
     }
 }

@@ -13,9 +13,9 @@ use crate::measure::quantity::ErrorGroup;
 use crate::settings::setting::Setting;
 use crate::stations;
 use formats::grid::GridRail;
-use formats::motion::{Cast, cast};
-use formats::quantity::quantities;
 use formats::scene::Scene;
+use formats::scene::motion::{SimulationInput, simulation_input};
+use formats::scene::quantity::quantities;
 use foundations::{BuiltFoundation, ModeCache, SolvedModel};
 use foundations::{SolvedStructure, solution_of};
 use results::cases::records_structure;
@@ -34,7 +34,7 @@ pub struct SetupCache<'k> {
 /// A setting that is ready to run.
 pub struct CaseSetup {
     scene: Scene,
-    cast: Cast,
+    cast: SimulationInput,
     foundations: Vec<Foundation>,
     /// Stations of each rail of the tables that are read; `None`: those of the specs.
     stations: Option<usize>,
@@ -60,7 +60,7 @@ impl<'k> SetupCache<'k> {
     pub fn set_up(&mut self, setting: &Setting) -> Result<CaseSetup, Error> {
         let start = cpu::seconds();
         let scene = setting.scene.clone();
-        let cast = cast(&scene)?;
+        let cast = simulation_input(&scene)?;
         let mut built = self.build(&scene, setting.stations)?;
         if setting.family.is_pure() {
             for own in built.iter_mut().filter(|own| own.foundation.structure.is_some()) {
@@ -102,7 +102,7 @@ impl<'k> SetupCache<'k> {
 
     /// The foundations of `scene`, their tables at `stations` equal distances a rail where that is given.
     fn build(&mut self, scene: &Scene, stations: Option<usize>) -> Result<Vec<BuiltFoundation>, Error> {
-        let lateral = scene.pushes_sideways();
+        let lateral = scene.has_flanges();
         let at = stations.map(|count| self.table(count)).transpose()?;
         let known = at.map_or(self.known, |at| self.tables[at].1.as_slice());
         let each = scene.structures.iter().zip(&mut self.modes);
@@ -162,6 +162,6 @@ impl CaseSetup {
     /// Degrees of freedom of all foundations; those of bodies do not count.
     #[must_use]
     pub fn dof_count(&self) -> usize {
-        self.foundations.iter().map(Foundation::freedoms).sum()
+        self.foundations.iter().map(Foundation::dofs).sum()
     }
 }

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use crate::measure::cpu;
-use crate::measure::spread::Spread;
+use crate::measure::spread::TimeSpread;
 use crate::observer::Observer;
 use crate::runs::auto::{Auto, choose, left_to_auto};
 use crate::runs::point::{PointOutcome, StudyPoint};
@@ -56,14 +56,14 @@ pub fn time(
                 trials.push(cpu::seconds() - start);
             }
         }
-        bar.reach(repetition as u64 + 1);
+        bar.advance_to(repetition as u64 + 1);
     }
     for (point, times) in points.iter_mut().zip(&times) {
         if let PointOutcome::Done(measured) = &mut point.outcome {
-            measured.time = Spread::of(times);
+            measured.time = TimeSpread::of(times);
         }
     }
     if let Ok(auto) = auto {
-        auto.trials = Spread::of(&trials);
+        auto.trials = TimeSpread::of(&trials);
     }
 }

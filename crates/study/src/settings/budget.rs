@@ -14,7 +14,7 @@ pub struct StudyBudget {
     /// Accuracies of adaptive steps, coarsest first.
     pub accuracies: Vec<f64>,
     /// Accuracy of settings in which something else varies.
-    pub fine: f64,
+    pub fine_accuracy: f64,
     /// Numbers of equal steps over the scene.
     pub steps: Vec<u32>,
     /// Numbers of modes.
@@ -44,7 +44,7 @@ impl StudyBudget {
     pub fn full() -> StudyBudget {
         StudyBudget {
             accuracies: vec![1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6],
-            fine: 1e-6,
+            fine_accuracy: 1e-6,
             steps: vec![64, 256, 1024, 4096, 16384],
             modes: vec![1, 2, 3, 4, 6, 8, 12, 16, 24],
             elements: vec![1, 2, 4, 8],
@@ -63,7 +63,7 @@ impl StudyBudget {
     pub fn quick() -> StudyBudget {
         StudyBudget {
             accuracies: vec![1e-2, 1e-3, 1e-4],
-            fine: 1e-4,
+            fine_accuracy: 1e-4,
             steps: vec![256, 1024],
             modes: vec![1, 2, 4, 8],
             elements: vec![1, 2],

@@ -5,7 +5,7 @@ use sim::Method;
 use crate::settings::budget::StudyBudget;
 use crate::settings::detail::MeshDetail;
 use crate::settings::setting::{Setting, SettingFamily};
-use formats::scene::{Analysis, Foundation, Handover, Origin, Reading, Scene, Structure};
+use formats::scene::{Analysis, Foundation, Handover, Origin, Scene, Structure, TableInterpolation};
 use foundations::{SolvedStructure, solution_of};
 
 /// Properties of the structures of a scene that decide which settings exist.
@@ -87,7 +87,7 @@ pub fn whole(scene: &Scene, kinds: SceneKinds, detail: MeshDetail) -> Scene {
 pub fn massless(scene: &Scene) -> Scene {
     let mut out = with(scene, |_| Foundation::Influence);
     for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
-        structure.reading = Reading::Exact;
+        structure.interpolation = TableInterpolation::Exact;
     }
     out
 }
@@ -120,13 +120,13 @@ struct List<'d> {
 
 impl List<'_> {
     fn add(&mut self, family: SettingFamily, knob: &'static str, value: f64, scene: Scene) {
-        self.all.push(Setting { family, knob, value, scene, stations: None });
+        self.all.push(Setting { family, parameter: knob, value, scene, stations: None });
     }
 
     /// One setting for each accuracy.
     fn by_accuracy(&mut self, family: SettingFamily, scene: &Scene) {
         // an equilibrium has no accuracy that could vary
-        let all = if self.dynamic { self.budget.accuracies.as_slice() } else { &[self.budget.fine] };
+        let all = if self.dynamic { self.budget.accuracies.as_slice() } else { &[self.budget.fine_accuracy] };
         for &accuracy in all {
             self.add(family, "accuracy", accuracy, Scene { accuracy, ..scene.clone() });
         }
@@ -135,7 +135,7 @@ impl List<'_> {
     /// Settings that vary the foundation.
     fn foundations(&mut self, scene: &Scene, known: &[SolvedStructure], kinds: SceneKinds) {
         let scene = &Scene { stepping: sim::Stepping::default(), ..scene.clone() };
-        let fine = Scene { accuracy: self.budget.fine, ..massless(scene) };
+        let fine = Scene { accuracy: self.budget.fine_accuracy, ..massless(scene) };
         self.by_accuracy(SettingFamily::Rigid, &with(&fine, |_| Foundation::Rigid));
         if kinds.is_girder {
             for &count in &self.budget.parts {
@@ -146,7 +146,7 @@ impl List<'_> {
         }
         self.by_accuracy(SettingFamily::Influence, &fine);
         if kinds.has_mass && self.dynamic {
-            for family in [SettingFamily::Modal, SettingFamily::Pure] {
+            for family in [SettingFamily::Modal, SettingFamily::ModalWithoutResidual] {
                 for &modes in &self.budget.modes {
                     let scene = with(&fine, |own| Foundation::Modal { modes, damping: own.damping });
                     self.add(family, "modes", modes as f64, scene);
@@ -162,21 +162,27 @@ impl List<'_> {
 
     /// Settings that read influence coefficients from tables.
     fn tables(&mut self, scene: &Scene) {
-        let (accuracy, stepping) = (self.budget.fine, sim::Stepping::default());
+        let (accuracy, stepping) = (self.budget.fine_accuracy, sim::Stepping::default());
         let exact = Scene { accuracy, stepping, ..scene.clone() };
         let rails = scene.structures.iter().filter(|own| varies(own)).flat_map(|own| &own.rails);
         let stations = rails.map(|rail| rail.stations.len()).max().unwrap_or(0);
-        self.add(SettingFamily::Table(Reading::Exact), "stations", stations as f64, exact);
-        for reading in [Reading::Natural, Reading::Akispl, Reading::Cubspl] {
+        self.add(SettingFamily::Table(TableInterpolation::Exact), "stations", stations as f64, exact);
+        for reading in [TableInterpolation::Natural, TableInterpolation::Akispl, TableInterpolation::Cubspl] {
             for &count in &self.budget.stations {
-                let (accuracy, stepping) = (self.budget.fine, sim::Stepping::default());
+                let (accuracy, stepping) = (self.budget.fine_accuracy, sim::Stepping::default());
                 let mut scene = Scene { accuracy, stepping, ..scene.clone() };
                 for structure in scene.structures.iter_mut().filter(|structure| varies(structure)) {
-                    structure.reading = reading;
+                    structure.interpolation = reading;
                 }
                 let family = SettingFamily::Table(reading);
                 let stations = Some(count);
-                self.all.push(Setting { family, knob: "stations", value: count as f64, scene, stations });
+                self.all.push(Setting {
+                    family,
+                    parameter: "stations",
+                    value: count as f64,
+                    scene,
+                    stations,
+                });
             }
         }
     }
@@ -193,7 +199,7 @@ impl List<'_> {
         for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
             for &count in &self.budget.steps {
                 let stepping = sim::Stepping { method, step: Some(scene.end / f64::from(count)) };
-                let scene = Scene { accuracy: self.budget.fine, stepping, ..scene.clone() };
+                let scene = Scene { accuracy: self.budget.fine_accuracy, stepping, ..scene.clone() };
                 self.add(SettingFamily::Fixed(method), "steps", f64::from(count), scene);
             }
         }

@@ -2,7 +2,7 @@
 
 use sim::Method;
 
-use formats::scene::{Reading, Scene, stepper_word};
+use formats::scene::{Scene, TableInterpolation, stepper_word};
 
 /// A family of settings: the points of one curve of a chart, along which one parameter varies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +16,7 @@ pub enum SettingFamily {
     /// Natural modes with the residual flexibility of the others, over their number.
     Modal,
     /// Natural modes without residual flexibility, over their number.
-    Pure,
+    ModalWithoutResidual,
     /// All modes of a mesh, over the number of elements of a member.
     Mesh,
     /// All modes of the mesh that is the highest fidelity of "auto", over accuracy.
@@ -26,7 +26,7 @@ pub enum SettingFamily {
     /// The scene's own foundations by one method with equal steps, over their number.
     Fixed(Method),
     /// Influence coefficients read from tables, over the number of stations of a rail.
-    Table(Reading),
+    Table(TableInterpolation),
     /// The scene as written; foundations that it leaves to "auto" are those that "auto" chose.
     Written,
     /// The foundations that "auto" chose, at the accuracy of its last run.
@@ -37,7 +37,7 @@ pub enum SettingFamily {
 
 /// Kinds of converged references.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
+pub enum ReferenceKind {
     /// The most complete model of the structure: with mass where it has any.
     Whole,
     /// The scene's own foundations.
@@ -46,14 +46,14 @@ pub enum Against {
     Massless,
 }
 
-impl Against {
+impl ReferenceKind {
     /// The word of this kind in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
-            Against::Whole => "whole",
-            Against::Own => "own",
-            Against::Massless => "massless",
+            ReferenceKind::Whole => "whole",
+            ReferenceKind::Own => "own",
+            ReferenceKind::Massless => "massless",
         }
     }
 }
@@ -64,7 +64,7 @@ pub struct Setting {
     /// The curve it belongs to.
     pub family: SettingFamily,
     /// Name of the parameter that varies along the curve, such as `accuracy`.
-    pub knob: &'static str,
+    pub parameter: &'static str,
     /// Value of this parameter.
     pub value: f64,
     /// The scene with this foundation, accuracy and method.
@@ -82,12 +82,12 @@ impl SettingFamily {
             SettingFamily::Parts => "parts".into(),
             SettingFamily::Influence => "influence".into(),
             SettingFamily::Modal => "modal".into(),
-            SettingFamily::Pure => "modal, no residual".into(),
+            SettingFamily::ModalWithoutResidual => "modal, no residual".into(),
             SettingFamily::Mesh => "mesh".into(),
             SettingFamily::Full => "full".into(),
             SettingFamily::Adaptive(own) => stepper_word(own).into(),
             SettingFamily::Fixed(own) => format!("{}, equal steps", stepper_word(own)),
-            SettingFamily::Table(Reading::Exact) => "exact surface".into(),
+            SettingFamily::Table(TableInterpolation::Exact) => "exact surface".into(),
             SettingFamily::Table(reading) => format!("{} tables", reading.word()),
             SettingFamily::Written | SettingFamily::Stepping => "as written".into(),
             SettingFamily::Auto => "auto".into(),
@@ -96,18 +96,20 @@ impl SettingFamily {
 
     /// The kind of reference that its errors are measured against.
     #[must_use]
-    pub const fn against(self) -> Against {
+    pub const fn against(self) -> ReferenceKind {
         match self {
-            SettingFamily::Adaptive(_) | SettingFamily::Fixed(_) | SettingFamily::Stepping => Against::Own,
-            SettingFamily::Table(_) => Against::Massless,
-            _ => Against::Whole,
+            SettingFamily::Adaptive(_) | SettingFamily::Fixed(_) | SettingFamily::Stepping => {
+                ReferenceKind::Own
+            }
+            SettingFamily::Table(_) => ReferenceKind::Massless,
+            _ => ReferenceKind::Whole,
         }
     }
 
     /// Whether the residual flexibility is left out.
     #[must_use]
     pub const fn is_pure(self) -> bool {
-        matches!(self, SettingFamily::Pure)
+        matches!(self, SettingFamily::ModalWithoutResidual)
     }
 }
 
@@ -115,7 +117,7 @@ impl Setting {
     /// The setting in words, such as `modal, modes 4`.
     #[must_use]
     pub fn label(&self) -> String {
-        let Setting { family, knob, value, .. } = self;
+        let Setting { family, parameter: knob, value, .. } = self;
         let value = if *value < 1.0 { format!("{value:e}") } else { value.to_string() };
         format!("{}, {knob} {value}", family.name())
     }

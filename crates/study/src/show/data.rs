@@ -2,11 +2,11 @@
 
 use serde_json::{Map, Value, json};
 
-use crate::measure::front::{excess, on_front};
+use crate::measure::front::{cost_ratio, on_front};
 use crate::measure::quantity::ErrorGroup;
 use crate::runs::investigate::Study;
 use crate::runs::point::{PointOutcome, StudyPoint};
-use crate::runs::reference::{ConvergedReference, MARGIN, foundation};
+use crate::runs::reference::{ConvergedReference, RESOLUTION_FACTOR, foundation};
 use crate::settings::budget::StudyBudget;
 use crate::settings::setting::SettingFamily;
 use formats::scene::Scene;
@@ -24,7 +24,7 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
         "limit": budget.limit,
         "until": study.until,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
-        "lost": study.lost.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
+        "lost": study.failed_references.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
         "auto": match &study.auto {
             Ok(auto) => {
                 let all = auto.reasons.iter().map(|(name, why)| (name.clone(), json!(why)));
@@ -48,7 +48,7 @@ fn reference(own: &ConvergedReference) -> Value {
         "run": own.words[0],
         "beside": own.words[1],
         "difference": each(&|k| own.difference[k]),
-        "tells_from": each(&|k| own.difference[k].map(|difference| MARGIN * difference.max(f64::EPSILON))),
+        "tells_from": each(&|k| own.difference[k].map(|difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))),
         "approach": own.approach.iter()
             .map(|(accuracy, difference)| json!({ "accuracy": accuracy, "difference": difference }))
             .collect::<Vec<_>>(),
@@ -61,7 +61,7 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
     let structures = setting.scene.structures.iter().map(|own| (own.name.clone(), json!(foundation(own))));
     let mut out = json!({
         "family": setting.family.name(),
-        setting.knob: setting.value,
+        setting.parameter: setting.value,
         "accuracy": setting.scene.accuracy,
         "against": setting.family.against().word(),
         "foundation": structures.collect::<Map<String, Value>>(),
@@ -111,7 +111,7 @@ pub fn excesses(
             all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
         let own = all.iter().find(|(known, _)| *known == family)?.1;
         let others: Vec<[f64; 2]> = all.into_iter().map(|(_, place)| place).collect();
-        Some((quantity, excess(own, &others)))
+        Some((quantity, cost_ratio(own, &others)))
     };
     ErrorGroup::ALL.into_iter().filter_map(of).collect()
 }
@@ -167,8 +167,8 @@ pub fn timing_json(study: &Study) -> Value {
         Some(json!({
             "setting": point.setting.label(),
             "median": time.median,
-            "least": time.least,
-            "most": time.most,
+            "least": time.min,
+            "most": time.max,
             "repetitions": time.count,
             "setup": measured.setup,
             "front": on(&fronts, k),
@@ -180,7 +180,7 @@ pub fn timing_json(study: &Study) -> Value {
         "dearer": excess_costs(study, &StudyPoint::seconds),
         "settings": points.collect::<Vec<_>>(),
         "auto_with_its_trials": trials.map(|own| json!({
-            "median": own.median, "least": own.least, "most": own.most, "repetitions": own.count,
+            "median": own.median, "least": own.min, "most": own.max, "repetitions": own.count,
         })),
     })
 }
@@ -201,7 +201,7 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     for point in &study.points {
         let StudyPoint { setting, outcome } = point;
         let (family, against) = (setting.family, setting.family.against());
-        let mut row = vec![family.name(), setting.knob.to_owned(), format!("{:?}", setting.value)];
+        let mut row = vec![family.name(), setting.parameter.to_owned(), format!("{:?}", setting.value)];
         row.push(against.word().to_owned());
         row.push(
             match outcome {
@@ -254,11 +254,11 @@ pub fn timing_csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
         let setting = &point.setting;
         writer.write_record([
             setting.family.name(),
-            setting.knob.to_owned(),
+            setting.parameter.to_owned(),
             format!("{:?}", setting.value),
             ms(time.median),
-            ms(time.least),
-            ms(time.most),
+            ms(time.min),
+            ms(time.max),
             time.count.to_string(),
             ms(measured.setup),
         ])?;

@@ -4,7 +4,7 @@ use crate::measure::front::front;
 use crate::measure::quantity::ErrorGroup;
 use crate::runs::investigate::Study;
 use crate::runs::point::{PointOutcome, StudyPoint};
-use crate::settings::setting::{Against, SettingFamily};
+use crate::settings::setting::{ReferenceKind, SettingFamily};
 use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
 
 /// A picture of a study.
@@ -36,12 +36,13 @@ type Filter = fn(SettingFamily) -> bool;
 
 /// Families that vary the foundation.
 fn is_foundation(family: SettingFamily) -> bool {
-    family.against() == Against::Whole && !matches!(family, SettingFamily::Written | SettingFamily::Auto)
+    family.against() == ReferenceKind::Whole
+        && !matches!(family, SettingFamily::Written | SettingFamily::Auto)
 }
 
 /// Families that vary the method of integration.
 fn is_method(family: SettingFamily) -> bool {
-    family.against() == Against::Own
+    family.against() == ReferenceKind::Own
 }
 
 /// Families that read tables.
@@ -62,7 +63,12 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
         ("methods-stages", "methods of integration", is_method, Cost::Stages),
         ("tables-time", "readings of tables", is_table, Cost::Time),
         ("stations", "readings of tables", is_table, Cost::Knob),
-        ("modes", "modes", |own| matches!(own, SettingFamily::Modal | SettingFamily::Pure), Cost::Knob),
+        (
+            "modes",
+            "modes",
+            |own| matches!(own, SettingFamily::Modal | SettingFamily::ModalWithoutResidual),
+            Cost::Knob,
+        ),
         ("parts", "rigid parts", |own| own == SettingFamily::Parts, Cost::Knob),
         ("elements", "elements", |own| own == SettingFamily::Mesh, Cost::Knob),
     ];
@@ -111,8 +117,8 @@ fn chart(
     let least = reference.resolution_of(quantity)?;
     // errors below the resolution of the reference are drawn at this resolution
     let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
-    let title = title(study, name, what, cost, first.knob, quantity);
-    let x = cost_axis(cost, first.knob);
+    let title = title(study, name, what, cost, first.parameter, quantity);
+    let x = cost_axis(cost, first.parameter);
     let mut chart = Chart::new(title, x.log(), ChartAxis::new("largest error / largest value", "").log());
     let mut all = add_curves(&mut chart, &shown, cost, &place);
     if all.iter().all(|own| own[1] <= least) {
@@ -136,7 +142,7 @@ fn chart(
          Reference: {}; beside it {}: {:.1e} apart.",
         reference.words[0],
         reference.words[1],
-        least / crate::runs::reference::MARGIN
+        least / crate::runs::reference::RESOLUTION_FACTOR
     );
     if unfinished > 0 {
         chart.note += &format!(" {unfinished} settings refused or stopped: see study.json.");
@@ -198,8 +204,7 @@ fn add_curves(
         let mut series = Series::new(family.name(), Style::Marked, points.clone());
         if cost == Cost::Time {
             let ends = own.iter().filter(|point| place(point).is_some());
-            let spread =
-                ends.filter_map(|point| point.measured()?.time).map(|t| [1e3 * t.least, 1e3 * t.most]);
+            let spread = ends.filter_map(|point| point.measured()?.time).map(|t| [1e3 * t.min, 1e3 * t.max]);
             series = series.spread(spread.collect());
         }
         all.extend(points);
@@ -214,10 +219,10 @@ fn marks(
     chart: &mut Chart,
     all: &mut Vec<[f64; 2]>,
     cost: Cost,
-    against: Against,
+    against: ReferenceKind,
     place: &dyn Fn(&StudyPoint) -> Option<[f64; 2]>,
 ) {
-    if against != Against::Whole {
+    if against != ReferenceKind::Whole {
         return;
     }
     for (family, label) in [(SettingFamily::Written, "as written"), (SettingFamily::Auto, "auto's choice")] {
@@ -228,7 +233,7 @@ fn marks(
         let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
         if let (SettingFamily::Auto, Cost::Time, Some(trials)) = (family, cost, trials) {
             let at = vec![[1e3 * trials.median, own[1]]];
-            let spread = vec![[1e3 * trials.least, 1e3 * trials.most]];
+            let spread = vec![[1e3 * trials.min, 1e3 * trials.max]];
             chart.series.push(Series::new("auto with its trials", Style::Points, at).spread(spread));
         }
     }

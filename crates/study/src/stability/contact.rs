@@ -9,7 +9,7 @@
 use nalgebra::{DMatrix, DVector};
 use sim::Instant;
 
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::{finite, spread};
 use super::subject::MapSubject;
 use formats::units::Dimension;
@@ -91,7 +91,7 @@ fn residual_of_simulator(
 /// The compliance of the rail under some wheels, and its largest eigenvalue.
 fn compliance_at(subject: &MapSubject<'_>, offsets: &[f64], x: f64) -> Option<(DMatrix<f64>, f64)> {
     let at: Vec<f64> = offsets.iter().map(|own| x + own).collect();
-    let compliance = subject.give(subject.surface, &at)?;
+    let compliance = subject.compliance(subject.surface, &at)?;
     let largest = compliance.clone().symmetric_eigenvalues().amax();
     Some((compliance, largest))
 }
@@ -121,10 +121,10 @@ fn layers(
     offsets: &[f64],
     places: &[f64],
     stiffnesses: &[f64],
-) -> Vec<Layer> {
-    let mut layers: Vec<Layer> = METHODS
+) -> Vec<MapLayer> {
+    let mut layers: Vec<MapLayer> = METHODS
         .iter()
-        .map(|name| Layer::new(format!("{name}, {who}"), name.starts_with("girderway")))
+        .map(|name| MapLayer::new(format!("{name}, {who}"), name.starts_with("girderway")))
         .collect();
     let mut line = Vec::new();
     for &x in places {
@@ -139,7 +139,7 @@ fn layers(
                     Ok(error) => (error, MapVerdict::of(error, allowed, OBVIOUS)),
                     Err(why) => (0.0, MapVerdict::Refused(why)),
                 };
-                layer.cells.push(MapPoint { at: [x, k], value: finite(value), verdict });
+                layer.points.push(MapPoint { at: [x, k], value: finite(value), verdict });
             }
         }
     }
@@ -169,10 +169,10 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         let gain = |x: f64| Some(subject.stiffness * compliance_at(subject, offsets, x)?.1);
         let mid = 0.5 * (subject.span[0] + subject.span[1]);
         if let Some(gain) = gain(mid) {
-            map.find(format!("{who}: k times the largest eigenvalue of G at midspan"), gain);
+            map.note(format!("{who}: k times the largest eigenvalue of G at midspan"), gain);
         }
         if let Some(x) = first_crossing_of_one(subject, &|x| gain(x).unwrap_or(f64::NAN)) {
-            map.find(format!("{who}: distance from the support where it is 1"), x);
+            map.note(format!("{who}: distance from the support where it is 1"), x);
         }
         map.layers.extend(layers(subject, who, offsets, &places, &stiffnesses));
     }

@@ -2,7 +2,7 @@
 
 use serde_json::{Map as Object, Value, json};
 
-use super::map::{Layer, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapVerdict, StabilityMap};
 use results::record::bytes;
 
 /// `stability.json`: counts of verdicts, single numbers and messages of every map, and the reasons of absent ones.
@@ -10,12 +10,12 @@ use results::record::bytes;
 pub fn json(maps: &[StabilityMap], absent: &[(String, String)]) -> Value {
     let points = |ours: bool| {
         let layers = maps.iter().flat_map(|map| &map.layers).filter(|layer| layer.is_ours == ours);
-        layers.map(|layer| layer.cells.len()).sum::<usize>()
+        layers.map(|layer| layer.points.len()).sum::<usize>()
     };
     json!({
         "format": "girderway-stability/1",
         "points": { "girderway": points(true), "others": points(false) },
-        "silently_wrong": maps.iter().map(StabilityMap::silent).sum::<usize>(),
+        "silently_wrong": maps.iter().map(StabilityMap::silent_count).sum::<usize>(),
         "maps": maps.iter().map(map).collect::<Vec<_>>(),
         "absent": absent.iter().map(|(name, why)| (name.clone(), json!(why))).collect::<Object<String, Value>>(),
     })
@@ -35,10 +35,10 @@ fn map(own: &StabilityMap) -> Value {
     })
 }
 
-fn layer(own: &Layer) -> Value {
+fn layer(own: &MapLayer) -> Value {
     let counts = MapVerdict::WORDS.iter().zip(own.counts());
     let mut messages: Vec<(&str, usize)> = Vec::new();
-    for cell in &own.cells {
+    for cell in &own.points {
         let MapVerdict::Refused(why) = &cell.verdict else { continue };
         match messages.iter_mut().find(|(known, _)| known == why) {
             Some((_, count)) => *count += 1,
@@ -63,7 +63,7 @@ pub fn csv(maps: &[StabilityMap]) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(["map", "method", "x", "y", "verdict", "value"])?;
     for map in maps {
         for layer in &map.layers {
-            for cell in &layer.cells {
+            for cell in &layer.points {
                 let [x, y] = cell.at.map(|own| format!("{own:e}"));
                 let value = format!("{:e}", cell.value);
                 writer.write_record([map.name, &layer.method, &x, &y, cell.verdict.word(), &value])?;

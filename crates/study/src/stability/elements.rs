@@ -5,10 +5,10 @@
 //! grows with the fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky
 //! factorisation in doubles stands beside the library, which certifies a bound of its own error.
 
-use fea::{Frame, Member, Model, Rail, Segment, Support};
+use fea::{FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use splines::{Axis, Probe};
 
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::subject::MapSubject;
 use report::chart::{Series, Style};
 
@@ -98,7 +98,7 @@ fn banded(lengths: &[f64], node: usize) -> Option<f64> {
 
 /// The same by the library, with the relative error bound that it certifies.
 fn certified(lengths: &[f64], node: usize) -> Result<(f64, f64), String> {
-    let section = fea::Section { e: 1.0, iz: 1.0, ..fea::Section::default() };
+    let section = fea::CrossSection { e: 1.0, iz: 1.0, ..fea::CrossSection::default() };
     let mut model = Model { up: [0.0, 1.0, 0.0], ..Model::default() };
     model.sections.push(section);
     let mut x = 0.0;
@@ -108,14 +108,14 @@ fn certified(lengths: &[f64], node: usize) -> Result<(f64, f64), String> {
         x += h;
         model.points.push([x, 0.0, 0.0]);
         model.members.push(Member::beam([e, e + 1], 0, model.up));
-        segments.push(Segment { member: e, offset: [0.0; 3] });
+        segments.push(RailSegment { member: e, offset: [0.0; 3] });
     }
     let last = lengths.len();
-    model.supports.push(Support { point: 0, fix: [true, true, true, true, false, false] });
-    model.supports.push(Support { point: last, fix: [false, true, true, true, false, false] });
+    model.supports.push(Support { point: 0, fixed: [true, true, true, true, false, false] });
+    model.supports.push(Support { point: last, fixed: [false, true, true, true, false, false] });
     let place = model.points[node][0];
     let rail = Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: vec![place] };
-    let frame = Frame::new(&model, &[rail]).map_err(|error| error.to_string())?;
+    let frame = FactoredFrame::new(&model, &[rail]).map_err(|error| error.to_string())?;
     let probe = Probe { rail: 0, x: place, axis: Axis::Vertical };
     let grid = frame.grid(&[probe]).map_err(|error| error.to_string())?;
     Ok((grid.value[(0, 0)], grid.certificate.error_bound))
@@ -155,7 +155,7 @@ pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
 /// Adds both methods and the certified bound over `meshes`: abscissa of the map, lengths of elements, loaded node.
 fn fill(map: &mut StabilityMap, meshes: impl Iterator<Item = (f64, Vec<f64>, usize)>) {
     let mut layers = [("doubles, banded Cholesky", false), ("girderway", true)]
-        .map(|(method, ours)| Layer::new(method, ours));
+        .map(|(method, ours)| MapLayer::new(method, ours));
     let mut bounds = Vec::new();
     for (x, lengths, node) in meshes {
         let place: f64 = lengths.iter().take(node).sum();
@@ -165,8 +165,8 @@ fn fill(map: &mut StabilityMap, meshes: impl Iterator<Item = (f64, Vec<f64>, usi
             Some(value) => (relative(value), MapVerdict::of(relative(value), ALLOWED, OBVIOUS)),
             None => (1.0, MapVerdict::Refused("the matrix is not positive definite".to_owned())),
         };
-        map.find(format!("doubles: relative error at {x}"), value);
-        layers[0].cells.push(MapPoint { at: [x, value], value, verdict });
+        map.note(format!("doubles: relative error at {x}"), value);
+        layers[0].points.push(MapPoint { at: [x, value], value, verdict });
         let (value, verdict) = match certified(&lengths, node) {
             Ok((value, bound)) => {
                 bounds.push([x, bound.max(LEAST)]);
@@ -184,7 +184,7 @@ fn fill(map: &mut StabilityMap, meshes: impl Iterator<Item = (f64, Vec<f64>, usi
             }
             Err(why) => (1.0, MapVerdict::Refused(why)),
         };
-        layers[1].cells.push(MapPoint { at: [x, value], value, verdict });
+        layers[1].points.push(MapPoint { at: [x, value], value, verdict });
     }
     layers[1].lines.push(Series::new("girderway's certified bound", Style::Line, bounds));
     map.layers.extend(layers);

@@ -16,11 +16,11 @@
 use std::ops::ControlFlow;
 
 use nalgebra::{DMatrix, Matrix2, Matrix4};
-use sim::{Channel, Foundation, Freedom};
-use splines::check::{Strip, work};
-use splines::{Axis, Compliance, Kind, Reading, Sheet};
+use sim::{BodyDof, Channel, Foundation};
+use splines::quality::{CouplingBlock, loop_work};
+use splines::{Axis, Compliance, InfluenceBlock, ReadingMethod, TableReading};
 
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
 use super::subject::MapSubject;
 use formats::units::Dimension;
@@ -113,7 +113,7 @@ struct BogieFamily<'s, 'a> {
 impl BogieFamily<'_, '_> {
     /// Growth rate of `bogie` on a rail of this `compliance`.
     fn growth(&self, compliance: &dyn Compliance, bogie: Bogie) -> Option<f64> {
-        let matrix = self.subject.give(compliance, &[bogie.x - self.half, bogie.x + self.half])?;
+        let matrix = self.subject.compliance(compliance, &[bogie.x - self.half, bogie.x + self.half])?;
         bogie.growth(&matrix)
     }
 
@@ -208,7 +208,7 @@ impl BogieFamily<'_, '_> {
     fn simulated(
         &self,
         akispl: &dyn Compliance,
-        tables: &[Sheet],
+        tables: &[InfluenceBlock],
         bogie: Bogie,
         dampers: &[f64],
     ) -> Vec<MapPoint> {
@@ -255,8 +255,9 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
     let mut map = empty_map(subject);
     let tables =
         influence_blocks(subject.structure, Some(subject.solved)).map_err(|failure| failure.to_string())?;
-    let read = |kind: Kind| Reading::new(kind, &tables).map_err(|error| error.to_string());
-    let (akispl, cubspl, natural) = (read(Kind::Akispl)?, read(Kind::Cubspl)?, read(Kind::Natural)?);
+    let read = |kind: ReadingMethod| TableReading::new(kind, &tables).map_err(|error| error.to_string());
+    let (akispl, cubspl, natural) =
+        (read(ReadingMethod::Akispl)?, read(ReadingMethod::Cubspl)?, read(ReadingMethod::Natural)?);
     let readings: [(&str, &dyn Compliance, bool); 4] = [
         ("akispl", &akispl, false),
         ("cubspl", &cubspl, false),
@@ -270,12 +271,12 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
         omega: (subject.stiffness / subject.mass()).sqrt(),
     };
     let (growth, worst) = family.fastest_growing(&akispl);
-    map.find("akispl: largest growth without dampers, 1/s", growth);
-    map.find("akispl: where", worst.x);
-    map.find("akispl: distance of the centre of mass from the middle", worst.offset);
-    map.find("akispl: radius of gyration", worst.gyration);
+    map.note("akispl: largest growth without dampers, 1/s", growth);
+    map.note("akispl: where", worst.x);
+    map.note("akispl: distance of the centre of mass from the middle", worst.offset);
+    map.note("akispl: radius of gyration", worst.gyration);
     let needed = family.stopping_damper(&akispl, worst);
-    map.find("akispl: damper of each wheel to the ground that stops it", needed);
+    map.note("akispl: damper of each wheel to the ground that stops it", needed);
     for (name, compliance, _) in &readings {
         note_loop_work(&mut map, subject, name, *compliance, 2.0 * half)?;
     }
@@ -287,10 +288,10 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
             name.to_owned()
         };
         let cells = family.growth_over_span(compliance, worst, &dampers, points);
-        map.layers.push(Layer::new(method, is_ours).with(cells));
+        map.layers.push(MapLayer::new(method, is_ours).with(cells));
     }
     let cells = family.simulated(&akispl, &tables, worst, &dampers);
-    map.layers.push(Layer::new("girderway told to read by akispl, worst place", true).with(cells));
+    map.layers.push(MapLayer::new("girderway told to read by akispl, worst place", true).with(cells));
     Ok(map)
 }
 
@@ -318,16 +319,16 @@ fn note_loop_work(
     compliance: &dyn Compliance,
     spacing: f64,
 ) -> Result<(), String> {
-    let strip = Strip::direct(compliance, (0, Axis::Vertical));
+    let strip = CouplingBlock::direct(compliance, (0, Axis::Vertical));
     let places: Vec<f64> =
         (0..=600).map(|i| subject.span[0] + subject.length() * f64::from(i) / 600.0).collect();
-    let largest = work(&strip, spacing, &places).map_err(|error| error.to_string())?;
-    map.find(
+    let largest = loop_work(&strip, spacing, &places).map_err(|error| error.to_string())?;
+    map.note(
         format!("{name}: work of a closed loop of two wheels' forces"),
         largest.work * subject.load * subject.load,
     );
     if largest.stored > 0.0 {
-        map.find(format!("{name}: the same by the energy stored"), largest.work / largest.stored);
+        map.note(format!("{name}: the same by the energy stored"), largest.work / largest.stored);
     }
     Ok(())
 }
@@ -340,11 +341,11 @@ fn note_loop_work(
 /// residual of the run.
 fn run_on_akispl(
     subject: &MapSubject<'_>,
-    tables: &[Sheet],
+    tables: &[InfluenceBlock],
     own: Bogie,
     growth: f64,
 ) -> Result<(bool, f64), String> {
-    let reading = Reading::new(Kind::Akispl, tables).map_err(|error| error.to_string())?;
+    let reading = TableReading::new(ReadingMethod::Akispl, tables).map_err(|error| error.to_string())?;
     let [k, c] = own.law;
     let omega = (2.0 * k / own.mass).sqrt();
     let end = EFOLDINGS / growth.max(0.01 * omega);
@@ -358,13 +359,13 @@ fn run_on_akispl(
     body.start_speed[1] = INITIAL_SPEED * subject.gravity / omega;
     scene.accuracy = 1e-6;
     scene.output_dt = end / 1000.0;
-    let foundation = Foundation::influence(Box::new(reading), 1);
+    let foundation = Foundation::massless(Box::new(reading), 1);
     let run = sim::run(&scene, &[foundation], &mut |_| ControlFlow::Continue(()));
     let run = run.map_err(|error| error.to_string())?;
     if !run.status.is_complete() {
         return Err(results::run_error::status(&run.status).1.unwrap_or_default());
     }
-    let speed = run.history.column(Channel::Speed(0, Freedom::Y));
+    let speed = run.history.column(Channel::Speed(0, BodyDof::Y));
     let largest = |part: &[f64]| part.iter().fold(0.0_f64, |most, own| most.max(own.abs()));
     let tenth = (speed.len() / 10).max(1);
     let has_grown = largest(&speed[speed.len() - tenth..]) > 2.0 * largest(&speed[..tenth]);

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use sim::{Channel, Status};
 
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
 use super::subject::MapSubject;
 use report::chart::{Series, Style};
@@ -85,7 +85,7 @@ fn reference(beta: f64) -> Passage {
 fn simulated(subject: &MapSubject<'_>, beta: f64, pulls: bool) -> Result<(Passage, f64), String> {
     let length = subject.length();
     let mid = 0.5 * (subject.span[0] + subject.span[1]);
-    let midspan = subject.at(mid);
+    let midspan = subject.flexibility(mid);
     let mass = subject.mass();
     let speed = (subject.gravity * length * length / (16.0 * beta * subject.load * midspan)).sqrt();
     let stiffness = RIGID / midspan;
@@ -134,14 +134,14 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         let own = simulated(subject, beta, false);
         for (who, passage) in [("Stokes", Some(right)), ("girderway", own.ok().map(|own| own.0))] {
             let Some(passage) = passage else { continue };
-            map.find(format!("{who}: factor at beta {beta}"), passage.factor);
+            map.note(format!("{who}: factor at beta {beta}"), passage.factor);
             if passage.lost < 1.0 {
-                map.find(format!("{who}: x/L of lift-off at beta {beta}"), passage.lost);
+                map.note(format!("{who}: x/L of lift-off at beta {beta}"), passage.lost);
             }
         }
     }
     let mut layers = [("rail that holds the wheel", false), ("girderway, one-sided", true)]
-        .map(|(method, ours)| Layer::new(method, ours));
+        .map(|(method, ours)| MapLayer::new(method, ours));
     let mut lost = Vec::new();
     for beta in spread(1.0, 200.0, points) {
         let right = reference(beta);
@@ -155,7 +155,7 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
                 }
                 Err(why) => (right.lost, 0.0, MapVerdict::Refused(why)),
             };
-            layer.cells.push(MapPoint { at: [beta, at], value, verdict });
+            layer.points.push(MapPoint { at: [beta, at], value, verdict });
         }
     }
     let line = Series::new("by Stokes' equation", Style::Line, lost);

@@ -2,7 +2,7 @@
 //!
 //! # Example
 //! ```
-//! use study::stability::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+//! use study::stability::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 //!
 //! // Explicit Euler on z' = -z: its factor per step is 1 - h, so that it diverges for h > 2.
 //! let axes = [MapScale::new("step", "s", false), MapScale::new("amplification", "", false)];
@@ -11,11 +11,11 @@
 //!     let value = (1.0 - h).abs();
 //!     MapPoint { at: [h, value], value, verdict: MapVerdict::of(value, 1.0, 10.0) }
 //! });
-//! map.layers.push(Layer::new("explicit Euler", false).with(cells.to_vec()));
-//! map.find("largest stable step, s", 2.0);
+//! map.layers.push(MapLayer::new("explicit Euler", false).with(cells.to_vec()));
+//! map.note("largest stable step, s", 2.0);
 //!
 //! assert_eq!(map.layers[0].counts(), [2, 1, 0, 0, 0]);
-//! assert_eq!(map.silent(), 0, "no layer is the program's own");
+//! assert_eq!(map.silent_count(), 0, "no layer is the program's own");
 //! ```
 
 use report::chart::Series;
@@ -81,34 +81,34 @@ pub struct MapPoint {
 
 /// One method over the map.
 #[derive(Clone, Debug)]
-pub struct Layer {
+pub struct MapLayer {
     /// Its name.
     pub method: String,
     /// Whether it is a method of this program.
     pub is_ours: bool,
     /// Its points.
-    pub cells: Vec<MapPoint>,
+    pub points: Vec<MapPoint>,
     /// Lines drawn over the points.
     pub lines: Vec<Series>,
 }
 
-impl Layer {
+impl MapLayer {
     /// A layer without points.
     #[must_use]
-    pub fn new(method: impl Into<String>, is_ours: bool) -> Layer {
-        Layer { method: method.into(), is_ours, cells: Vec::new(), lines: Vec::new() }
+    pub fn new(method: impl Into<String>, is_ours: bool) -> MapLayer {
+        MapLayer { method: method.into(), is_ours, points: Vec::new(), lines: Vec::new() }
     }
 
     /// The same layer with these points.
     #[must_use]
-    pub fn with(self, cells: Vec<MapPoint>) -> Layer {
-        Layer { cells, ..self }
+    pub fn with(self, cells: Vec<MapPoint>) -> MapLayer {
+        MapLayer { points: cells, ..self }
     }
 
     /// The number of points of each verdict, in the order of [`MapVerdict::WORDS`].
     #[must_use]
     pub fn counts(&self) -> [usize; 5] {
-        MapVerdict::WORDS.map(|word| self.cells.iter().filter(|cell| cell.verdict.word() == word).count())
+        MapVerdict::WORDS.map(|word| self.points.iter().filter(|cell| cell.verdict.word() == word).count())
     }
 }
 
@@ -150,7 +150,7 @@ pub struct StabilityMap {
     /// Both axes.
     pub axes: [MapScale; 2],
     /// Methods.
-    pub layers: Vec<Layer>,
+    pub layers: Vec<MapLayer>,
     /// Single numbers beside the points.
     pub findings: Vec<MapFinding>,
     /// What the verdicts mean on this map.
@@ -166,13 +166,13 @@ impl StabilityMap {
     }
 
     /// Adds a single number.
-    pub fn find(&mut self, what: impl Into<String>, value: f64) {
+    pub fn note(&mut self, what: impl Into<String>, value: f64) {
         self.findings.push(MapFinding { what: what.into(), value });
     }
 
     /// Number of points at which the program itself is wrong without a warning.
     #[must_use]
-    pub fn silent(&self) -> usize {
+    pub fn silent_count(&self) -> usize {
         let ours = self.layers.iter().filter(|layer| layer.is_ours);
         ours.map(|layer| layer.counts()[1] + layer.counts()[2]).sum()
     }

@@ -17,7 +17,7 @@ mod subject;
 mod ties;
 
 pub use data::{csv, json};
-pub use map::{Layer, MapFinding, MapPoint, MapScale, MapVerdict, StabilityMap};
+pub use map::{MapFinding, MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 pub use picture::pictures;
 pub use subject::MapSubject;
 
@@ -31,21 +31,21 @@ pub type Maps = (Vec<StabilityMap>, Vec<(String, String)>);
 pub fn maps(subject: &MapSubject<'_>, quick: bool, observer: &dyn Observer) -> Maps {
     let points = |full: usize| if quick { full / 3 } else { full };
     let (mut maps, mut absent) = (Vec::new(), Vec::new());
-    observer.say("mapping contact");
+    observer.message("mapping contact");
     maps.push(contact::map(subject, points(36)));
-    observer.say("mapping self-excitation");
+    observer.message("mapping self-excitation");
     match excitation::map(subject, points(36)) {
         Ok(map) => maps.push(map),
         Err(why) => absent.push(("excitation".to_owned(), why)),
     }
-    observer.say("mapping elements");
+    observer.message("mapping elements");
     maps.extend(elements::maps(subject, if quick { 11 } else { 15 }));
     maps.push(penalty::map(subject, points(48)));
-    observer.say("mapping lift-off");
+    observer.message("mapping lift-off");
     maps.push(liftoff::map(subject, points(48)));
-    observer.say("mapping steps");
+    observer.message("mapping steps");
     maps.extend(steps::maps(subject, points(30)));
-    observer.say("mapping ties");
+    observer.message("mapping ties");
     match if quick { Err("--quick leaves it out".to_owned()) } else { ties::map(points(27)) } {
         Ok(map) => maps.push(map),
         Err(why) => absent.push(("ties".to_owned(), why)),

@@ -5,12 +5,12 @@
 //! / (3 s) where it is soft, and loses digits of the factorisation where it is stiff: the best error lies between
 //! them and grows with the number of elements. An exact offset has neither error.
 
-use fea::{Frame, Member, Model, Rail, Section, Segment, Support};
+use fea::{CrossSection, FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 
 use super::elements::bending;
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
 use super::subject::MapSubject;
 
@@ -74,21 +74,28 @@ impl Beam {
 
     /// The same by the library, whose rail has the offset in its kinematics.
     fn by_offset(self, count: usize) -> Result<f64, String> {
-        let section =
-            Section { e: 1.0, g: 1.0, area: 1.0, iy: 1.0, iz: 1.0, j: self.twist, ..Section::default() };
+        let section = CrossSection {
+            e: 1.0,
+            g: 1.0,
+            area: 1.0,
+            iy: 1.0,
+            iz: 1.0,
+            j: self.twist,
+            ..CrossSection::default()
+        };
         let mut model = Model { up: [0.0, 1.0, 0.0], sections: vec![section], ..Model::default() };
         model.points = (0..=count).map(|i| [i as f64 / count as f64, 0.0, 0.0]).collect();
         model.members = (0..count).map(|e| Member::beam([e, e + 1], 0, model.up)).collect();
-        model.supports.push(Support { point: 0, fix: [true, true, true, true, false, false] });
-        model.supports.push(Support { point: count, fix: [false, true, true, true, false, false] });
-        let segments = (0..count).map(|member| Segment { member, offset: [0.0, self.offset, 0.0] });
+        model.supports.push(Support { point: 0, fixed: [true, true, true, true, false, false] });
+        model.supports.push(Support { point: count, fixed: [false, true, true, true, false, false] });
+        let segments = (0..count).map(|member| RailSegment { member, offset: [0.0, self.offset, 0.0] });
         let rail = Rail {
             origin: [0.0; 3],
             axis: [1.0, 0.0, 0.0],
             segments: segments.collect(),
             stations: vec![0.5],
         };
-        let frame = Frame::new(&model, &[rail]).map_err(|error| error.to_string())?;
+        let frame = FactoredFrame::new(&model, &[rail]).map_err(|error| error.to_string())?;
         let grid = frame.grid(&[Probe { rail: 0, x: 0.5, axis: Axis::Lateral }]);
         grid.map(|grid| grid.value[(0, 0)]).map_err(|error| error.to_string())
     }
@@ -141,22 +148,22 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         axes,
         "Soft posts give, hard ones cost digits: wrong from 1e-6 on. Ours has the offset in its kinematics and no stiffness to choose.",
     );
-    map.find("torsional stiffness by lateral bending stiffness", beam.twist);
-    map.find("height of the rail by the span", beam.offset);
+    map.note("torsional stiffness by lateral bending stiffness", beam.twist);
+    map.note("height of the rail by the span", beam.offset);
     let stiffs = spread(1.0, 1e16, points);
     for count in [4, 16, 64] {
         let (cells, best) = post(beam, count, &stiffs);
-        map.find(format!("{count} elements: least error"), best.0);
-        map.find(format!("{count} elements: at the stiffness"), best.1);
+        map.note(format!("{count} elements: least error"), best.0);
+        map.note(format!("{count} elements: at the stiffness"), best.1);
         for stiff in [1e3, 1e5, 1e7] {
             if let Some(value) = beam.penalty(count, stiff) {
-                map.find(
+                map.note(
                     format!("{count} elements: error at the stiffness {stiff:e}"),
                     error_of(beam, value),
                 );
             }
         }
-        map.layers.push(Layer::new(format!("stiff post, {count} elements"), false).with(cells));
+        map.layers.push(MapLayer::new(format!("stiff post, {count} elements"), false).with(cells));
     }
     let mut cells = Vec::new();
     for count in [4, 16, 64] {
@@ -164,7 +171,7 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
             Ok(error) => (error, MapVerdict::of(error, ALLOWED, OBVIOUS)),
             Err(why) => (1.0, MapVerdict::Refused(why)),
         };
-        map.find(format!("girderway, {count} elements: error"), value);
+        map.note(format!("girderway, {count} elements: error"), value);
         // there is no stiffness to choose: the error is drawn over the whole axis
         cells.extend(stiffs.iter().map(|stiff| MapPoint {
             at: [*stiff, value],
@@ -172,7 +179,7 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
             verdict: verdict.clone(),
         }));
     }
-    map.layers.push(Layer::new("girderway, 4, 16 and 64 elements", true).with(cells));
+    map.layers.push(MapLayer::new("girderway, 4, 16 and 64 elements", true).with(cells));
     map
 }
 

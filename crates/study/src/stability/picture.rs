@@ -29,7 +29,7 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
         fits(0) && fits(1)
     };
     let points =
-        || map.layers.iter().flat_map(|layer| &layer.cells).map(|cell| cell.at).filter(|at| is_drawable(at));
+        || map.layers.iter().flat_map(|layer| &layer.points).map(|cell| cell.at).filter(|at| is_drawable(at));
     let range = |k: usize| {
         let low = points().map(|at| at[k]).fold(f64::INFINITY, f64::min);
         [low, points().map(|at| at[k]).fold(f64::MIN, f64::max)]
@@ -44,7 +44,7 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
         let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
         let mut chart = Chart::new(title, x, y);
         for word in MapVerdict::WORDS {
-            let own = layer.cells.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
+            let own = layer.points.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
             chart.series.push(Series::new(word, Style::Points, own.filter(|at| is_drawable(at)).collect()));
         }
         for line in &layer.lines {
@@ -59,7 +59,7 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
             .map(|(word, count)| format!("{count} {word}"))
             .collect();
         chart.note = format!("{} Points: {}.", map.note, summary.join(", "));
-        if layer.cells.iter().any(|cell| is_drawable(&cell.at)) {
+        if layer.points.iter().any(|cell| is_drawable(&cell.at)) {
             charts.push(chart.svg()?);
         }
     }

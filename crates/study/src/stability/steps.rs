@@ -11,9 +11,9 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use nalgebra::DMatrix;
-use sim::{Channel, Freedom, Method, Stepping};
+use sim::{BodyDof, Channel, Method, Stepping};
 
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steppers::{Oscillator, STEPPERS, StepMethod, monodromy, radius};
 use super::subject::MapSubject;
 use formats::scene::stepper_word;
@@ -118,8 +118,8 @@ impl Crossing<'_, '_> {
             }
             residual = residual.max(run.audit.residual());
             for (row, (channel, scale)) in [
-                (Channel::Displacement(0, Freedom::Y), unit),
-                (Channel::Speed(0, Freedom::Y), unit * self.omega),
+                (Channel::Displacement(0, BodyDof::Y), unit),
+                (Channel::Speed(0, BodyDof::Y), unit * self.omega),
             ]
             .into_iter()
             .enumerate()
@@ -138,7 +138,7 @@ pub fn maps(subject: &MapSubject<'_>, points: usize) -> Vec<StabilityMap> {
     let omega = (subject.stiffness / subject.mass()).sqrt();
     let count = 8000;
     let place = |i: usize| subject.span[0] + subject.length() * i as f64 / f64::from(count);
-    let softness = (0..=count as usize).map(|i| subject.stiffness * subject.at(place(i))).collect();
+    let softness = (0..=count as usize).map(|i| subject.stiffness * subject.flexibility(place(i))).collect();
     let crossing = Crossing { subject, omega, damping: subject.damping / subject.mass(), softness };
     // from quasi-static to the speed at which a span passes in about a period of the wheel on its spring
     let fastest = omega * subject.length() / (2.0 * PI) * 0.86;
@@ -182,13 +182,13 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
         "A wheel on spring and damper, whose force the rail carries, crosses the longest span again and again. Wrong where the \
          spectral radius of a span's steps exceeds 1 and that of the motion (by 2 % where that itself grows).",
     );
-    map.find("frequency of the wheel on its spring, radian/s", omega);
-    map.find("share of critical damping", 0.5 * crossing.damping / omega);
+    map.note("frequency of the wheel on its spring, radian/s", omega);
+    map.note("share of critical damping", 0.5 * crossing.damping / omega);
     let ground = crossing.physical_with_ground_damper(subject.length() / fastest);
-    map.find("growth a span at the highest speed, the damper's force past the rail", ground);
+    map.note("growth a span at the highest speed, the damper's force past the rail", ground);
     for (speed, physical) in motions.each() {
         if physical > 1.0 + GROWTH {
-            map.find(
+            map.note(
                 format!("growth a span of the motion itself at {speed:.4} {}", map.axes[0].unit),
                 physical,
             );
@@ -198,14 +198,14 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
     for (name, size, step) in STEPPERS {
         let (cells, first) = other_stepper(crossing, motions, &steps, (size, step));
         if first.is_finite() {
-            map.find(format!("{name}: first unstable step x frequency of a motion that decays"), first);
+            map.note(format!("{name}: first unstable step x frequency of a motion that decays"), first);
         }
-        map.layers.push(Layer::new(name, false).with(cells));
+        map.layers.push(MapLayer::new(name, false).with(cells));
     }
     for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
         let cells = simulator_by_step(crossing, motions, &steps, fastest, method);
         let word = stepper_word(method);
-        map.layers.push(Layer::new(format!("girderway, {word}, equal steps"), true).with(cells));
+        map.layers.push(MapLayer::new(format!("girderway, {word}, equal steps"), true).with(cells));
     }
     map
 }
@@ -286,7 +286,7 @@ fn by_accuracy(crossing: &Crossing<'_, '_>, motions: &Motions, points: usize) ->
             cells.push(MapPoint { at: [speed, accuracy], value: finite(value), verdict });
         }
     }
-    map.layers.push(Layer::new("girderway", true).with(cells));
+    map.layers.push(MapLayer::new("girderway", true).with(cells));
     map
 }
 

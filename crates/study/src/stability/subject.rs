@@ -1,7 +1,7 @@
 //! The subject of stability maps: the first straight girder of a scene, and the wheels of a truck on it.
 
-use sim::{Damper, Foundation, Given, NormalLaw, Profile};
-use splines::{Axis, Compliance, Influence, Probe, Surface};
+use sim::{Damper, Foundation, MotionKind, NormalLaw, Profile};
+use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 
 use formats::scene::{Scene, Structure};
 use formats::units::{Dimension, Units};
@@ -21,7 +21,7 @@ pub struct MapSubject<'a> {
     /// Its solution: model, grid, surface.
     pub solved: &'a SolvedModel,
     /// Its exact surface.
-    pub surface: &'a Surface,
+    pub surface: &'a ExactSurface,
     /// The girder.
     pub girder: &'a fea::Girder,
     /// Coordinates of the supports of its longest span.
@@ -106,7 +106,7 @@ impl<'a> MapSubject<'a> {
     /// Vertical compliance matrix for the places `at` along the rail, n x n: entry (i, j) is the deflection at place
     /// i under a unit load at place j, both downward. `None` where `compliance` has no answer at a place.
     #[must_use]
-    pub fn give(&self, compliance: &dyn Compliance, at: &[f64]) -> Option<nalgebra::DMatrix<f64>> {
+    pub fn compliance(&self, compliance: &dyn Compliance, at: &[f64]) -> Option<nalgebra::DMatrix<f64>> {
         let probes: Vec<Probe> = at.iter().map(|&x| Probe { rail: 0, x, axis: Axis::Vertical }).collect();
         let mut out = Influence::zeros(at.len());
         compliance.fill(&probes, &mut out).ok()?;
@@ -115,14 +115,14 @@ impl<'a> MapSubject<'a> {
 
     /// Deflection at x under a unit load there, both downward; not a number beyond the rail.
     #[must_use]
-    pub fn at(&self, x: f64) -> f64 {
-        self.give(self.surface, &[x]).map_or(f64::NAN, |matrix| matrix[(0, 0)])
+    pub fn flexibility(&self, x: f64) -> f64 {
+        self.compliance(self.surface, &[x]).map_or(f64::NAN, |matrix| matrix[(0, 0)])
     }
 
     /// The exact influence surface of the girder as a foundation without mass.
     #[must_use]
     pub fn foundation(&self) -> Foundation {
-        Foundation::influence(Box::new(self.surface.clone()), 1)
+        Foundation::massless(Box::new(self.surface.clone()), 1)
     }
 
     /// A scene of one body of `mass` on wheels at `offsets` that starts at `x0`, moves at constant `speed` and ends
@@ -170,7 +170,7 @@ pub(super) fn crossing(
         free: [false, true, false, false, false, false],
         start: [x0, 0.0, 0.0, 0.0, 0.0, 0.0],
         start_speed: [0.0; 6],
-        motion: Some(Profile::new(Given::Speed, &[[0.0, speed]], x0, speed)?),
+        motion: Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], x0, speed)?),
         pinned: None,
     };
     Ok(sim::Scene {

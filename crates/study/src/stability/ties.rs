@@ -7,12 +7,12 @@
 
 use std::ops::ControlFlow;
 
-use fea::Section;
+use fea::CrossSection;
 use sim::{Channel, Damper, Foundation, NormalLaw};
 
-use super::map::{Layer, MapPoint, MapScale, MapVerdict, StabilityMap};
+use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::subject::crossing;
-use formats::track::{Ties, on_ground};
+use formats::spec::ties::{Ties, on_ground};
 use formats::units::{Force, Length, Units};
 use foundations::{full_mesh, solve};
 use report::chart::{Series, Style};
@@ -44,7 +44,7 @@ struct Track {
 
 impl Track {
     fn new() -> Result<Track, String> {
-        let rail = Section { e: 30e6, iz: 94.9, mass: 9.785e-3, ..Section::default() };
+        let rail = CrossSection { e: 30e6, iz: 94.9, mass: 9.785e-3, ..CrossSection::default() };
         let ties = Ties { spacing: 24.0, k: 72e3, mass: 0.5, rail, elements: 1, ..Ties::default() };
         let (bending, bed) = (rail.e * rail.iz, ties.k / ties.spacing);
         let mass = rail.mass + ties.mass / ties.spacing;
@@ -60,7 +60,7 @@ impl Track {
             static_flexibility: 1.0 / (8.0 * bending * beta * beta * beta),
             critical_speed: (4.0 * bed * bending / (mass * mass)).powf(0.25),
             with_mass,
-            massless: Foundation::influence(Box::new(surface), 1),
+            massless: Foundation::massless(Box::new(surface), 1),
         })
     }
 
@@ -81,7 +81,7 @@ impl Track {
             return Err(results::run_error::status(&run.status).1.unwrap_or_default());
         }
         let (deflections, forces) =
-            (run.history.column(Channel::Give(0)), run.history.column(Channel::Vertical(0)));
+            (run.history.column(Channel::Deflection(0)), run.history.column(Channel::Vertical(0)));
         let from = ((EVALUATED - START) / (STOP - START) * deflections.len() as f64) as usize;
         let pairs = deflections.iter().zip(&forces).skip(from);
         let ratios: Vec<f64> =
@@ -106,9 +106,9 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
         axes,
         "Mean over a tenth of a rail of 184 ties, 136 lb/yd on 3,000 psi; the line is 1 / sqrt(1 - (v / v_cr)^2) of a rail on a bed. Wrong from 1e-2 on.",
     );
-    map.find("critical speed, in/s", track.critical_speed);
+    map.note("critical speed, in/s", track.critical_speed);
     let mut layers = [("rail without mass", false), ("girderway, ties with mass", true)]
-        .map(|(method, ours)| Layer::new(method, ours));
+        .map(|(method, ours)| MapLayer::new(method, ours));
     let mut line = Vec::new();
     for i in 0..points {
         let fraction = 0.05 + (FASTEST - 0.05) * i as f64 / (points - 1).max(1) as f64;
@@ -123,9 +123,9 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
                 Err(why) => (expected, 0.0, MapVerdict::Refused(why)),
             };
             if layer.is_ours {
-                map.find(format!("deflection at {fraction:.3} of it"), at);
+                map.note(format!("deflection at {fraction:.3} of it"), at);
             }
-            layer.cells.push(MapPoint { at: [fraction, at], value, verdict });
+            layer.points.push(MapPoint { at: [fraction, at], value, verdict });
         }
     }
     let line = Series::new("rail on a bed", Style::Line, line);

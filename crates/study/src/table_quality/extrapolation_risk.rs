@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use splines::Table;
-use splines::check::supports;
+use splines::SplineTable;
+use splines::quality::support_stations;
 
 use super::digits::short;
 
@@ -66,7 +66,12 @@ impl ExtrapolationRisk {
     /// diagonal must be positive; `linear`: whether the file asks for linear extrapolation; `breaks`: ends of the
     /// elements of the loaded rail, empty where they are unknown.
     #[must_use]
-    pub fn of(table: &Table, direct: bool, linear: Option<bool>, breaks: &[f64]) -> Vec<ExtrapolationRisk> {
+    pub fn of(
+        table: &SplineTable,
+        direct: bool,
+        linear: Option<bool>,
+        breaks: &[f64],
+    ) -> Vec<ExtrapolationRisk> {
         let mut out = Vec::new();
         let (x, z) = (table.x(), table.z());
         if table.values().amax() == 0.0 {
@@ -86,7 +91,7 @@ impl ExtrapolationRisk {
         }
         if direct {
             let inside = |at: &f64| *at > z[0] && *at < z[z.len() - 1];
-            let at: Vec<f64> = supports(table).into_iter().filter(inside).collect();
+            let at: Vec<f64> = support_stations(table).into_iter().filter(inside).collect();
             if !at.is_empty() && table.values().amax() > 0.0 {
                 out.push(ExtrapolationRisk::Inside { at });
             }

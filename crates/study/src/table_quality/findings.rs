@@ -1,19 +1,19 @@
 //! The findings of one table, and the verdicts that follow.
 
-use splines::check::{
-    Beyond, Deviation, Digits, Extreme, Spectrum, Way, beyond, digits, station_asymmetry, station_spectrum,
-    supports,
+use splines::quality::{
+    BlockExtreme, ExtrapolatedRow, RailDirection, ReadingError, Spectrum, TablePrecision, extrapolated_rows,
+    station_asymmetry, station_spectrum, support_stations, table_precision,
 };
-use splines::{Axis, Compliance, Error, Lift, Sheet};
+use splines::{Axis, BeamFit, Compliance, Error, InfluenceBlock};
 
 use super::extrapolation_risk::ExtrapolationRisk;
-use super::reading_method::{TableReadingMethod, raised};
+use super::reading_method::{TableReadingMethod, beam_of};
 use super::readings::{ReadingFindings, ReadingPlanes, strip};
 use super::subject::{TableItem, TableSource};
 
 /// Settings of an evaluation.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Settings {
+pub struct TableQualitySettings {
     /// Force of one wheel.
     pub load: Option<f64>,
     /// Distance of the wheels of a pair.
@@ -31,7 +31,7 @@ pub enum Truth {
     /// The exact surface of the grid file.
     Surface,
     /// The beam whose influence coefficients the table holds.
-    Lifted(Lift),
+    Lifted(BeamFit),
     /// Neither.
     None,
 }
@@ -41,9 +41,9 @@ pub struct TableQuality {
     /// The table.
     pub item: TableItem,
     /// Digits that its entries were written with.
-    pub digits: Digits,
+    pub digits: TablePrecision,
     /// Largest |T_ij - T_ji|; `None` for couplings and for unequal stations.
-    pub asymmetry: Option<Extreme>,
+    pub asymmetry: Option<BlockExtreme>,
     /// Smallest and largest eigenvalue; `None` for couplings and for unequal stations.
     pub spectrum: Option<Spectrum>,
     /// Rigid supports.
@@ -56,9 +56,9 @@ pub struct TableQuality {
     /// The findings of each reading that accepts the table.
     pub readings: Vec<ReadingFindings>,
     /// For each end of the table, the row in which rules of extrapolation differ most.
-    pub beyond: Vec<Beyond>,
+    pub beyond: Vec<ExtrapolatedRow>,
     /// Risks of its stations.
-    pub hazards: Vec<ExtrapolationRisk>,
+    pub risks: Vec<ExtrapolationRisk>,
     /// Failed checks.
     pub verdicts: Vec<TableVerdict>,
     /// Force of one wheel, where it is known.
@@ -69,7 +69,7 @@ pub struct TableQuality {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TableVerdict {
     /// It is unsymmetric beyond the rounding of its entries.
-    Asymmetric(Extreme),
+    Asymmetric(BlockExtreme),
     /// An eigenvalue is negative beyond the rounding of its entries.
     Indefinite(Spectrum),
     /// The judged reading exceeds its tolerance: method, relative error, tolerance.
@@ -83,33 +83,38 @@ impl TableQuality {
     ///
     /// # Errors
     /// A place of the table at which the exact surface cannot be evaluated.
-    pub fn of(subject: &TableSource, index: usize, settings: &Settings) -> Result<TableQuality, Error> {
+    pub fn of(
+        subject: &TableSource,
+        index: usize,
+        settings: &TableQualitySettings,
+    ) -> Result<TableQuality, Error> {
         let item = &subject.items[index];
         let table = &item.table;
         let direct = item.is_direct();
-        let lifted = if direct { raised(0, table).ok() } else { None };
-        let truth = match (&subject.surface, item.ways, &lifted) {
+        let lifted = if direct { beam_of(0, table).ok() } else { None };
+        let truth = match (&subject.surface, item.paths, &lifted) {
             (Some(_), Some(_), _) => Truth::Surface,
             (_, _, Some(lift)) => Truth::Lifted(lift.clone()),
             _ => Truth::None,
         };
-        let supports = if direct { supports(table) } else { Vec::new() };
+        let supports = if direct { support_stations(table) } else { Vec::new() };
         let mut quality = TableQuality {
             item: item.clone(),
-            digits: digits(table),
+            digits: table_precision(table),
             asymmetry: station_asymmetry(table).filter(|_| direct),
             spectrum: station_spectrum(table).filter(|_| direct),
             scale: if direct { None } else { scale(subject, item) },
             readings: Vec::new(),
             beyond: Vec::new(),
-            hazards: ExtrapolationRisk::of(table, direct, item.linear, &breaks(subject, item)),
+            risks: ExtrapolationRisk::of(table, direct, item.linear, &breaks(subject, item)),
             verdicts: Vec::new(),
             load: settings.load,
             supports,
             truth,
         };
         for end in ends(table.x(), settings.beyond) {
-            let worst = beyond(table, end)?.into_iter().max_by(|a, b| a.spread().total_cmp(&b.spread()));
+            let worst =
+                extrapolated_rows(table, end)?.into_iter().max_by(|a, b| a.spread().total_cmp(&b.spread()));
             quality.beyond.extend(worst);
         }
         quality.readings = quality.read(subject, settings, lifted.as_ref())?;
@@ -121,11 +126,11 @@ impl TableQuality {
     fn read(
         &self,
         subject: &TableSource,
-        settings: &Settings,
-        lifted: Option<&Lift>,
+        settings: &TableQualitySettings,
+        lifted: Option<&BeamFit>,
     ) -> Result<Vec<ReadingFindings>, Error> {
         let mut out = Vec::new();
-        let Some(ways) = self.item.ways.filter(|_| !self.is_empty()) else { return Ok(out) };
+        let Some(ways) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
         let Some(frame) = self.frame(subject, settings, ways) else { return Ok(out) };
         for manner in TableReadingMethod::ALL {
             if manner == TableReadingMethod::Exact {
@@ -150,7 +155,7 @@ impl TableQuality {
     /// A relative error. The scale of a direct table is its largest exact coefficient; that of a coupling is the
     /// geometric mean of the largest coefficients of its two direct tables.
     #[must_use]
-    pub fn relative(&self, error: &Deviation) -> f64 {
+    pub fn relative(&self, error: &ReadingError) -> f64 {
         match self.scale {
             Some(scale) if scale > 0.0 => error.largest.value.abs() / scale,
             _ => error.relative(),
@@ -161,8 +166,8 @@ impl TableQuality {
     fn frame<'a>(
         &'a self,
         subject: &'a TableSource,
-        settings: &Settings,
-        ways: [Way; 2],
+        settings: &TableQualitySettings,
+        ways: [RailDirection; 2],
     ) -> Option<ReadingPlanes<'a>> {
         let table = &self.item.table;
         let own = |points: &[f64]| [points[0], points[points.len() - 1]];
@@ -176,7 +181,7 @@ impl TableQuality {
             Truth::Lifted(lift) => Some(strip(&lift.surface, UP)),
             Truth::None => None,
         };
-        if let Some([x, z]) = exact.as_ref().and_then(splines::check::Strip::range) {
+        if let Some([x, z]) = exact.as_ref().and_then(splines::quality::CouplingBlock::range) {
             range = [common(range[0], x), common(range[1], z)];
         }
         let span = match self.supports.as_slice() {
@@ -189,7 +194,7 @@ impl TableQuality {
     }
 
     /// Adds the checks that fail.
-    fn judge(&mut self, settings: &Settings) {
+    fn judge(&mut self, settings: &TableQualitySettings) {
         let slack = self.digits.slack;
         if let Some(worst) = self.asymmetry.filter(|worst| worst.value > slack) {
             self.verdicts.push(TableVerdict::Asymmetric(worst));
@@ -198,11 +203,11 @@ impl TableQuality {
             self.verdicts.push(TableVerdict::Indefinite(spectrum));
         }
         let Some((manner, tolerance)) = settings.judged else { return };
-        if self.item.ways.is_none() || self.is_empty() {
+        if self.item.paths.is_none() || self.is_empty() {
             return;
         }
         let error =
-            self.readings.iter().find(|reading| reading.manner == manner).and_then(|found| found.error);
+            self.readings.iter().find(|reading| reading.method == manner).and_then(|found| found.error);
         match error.map(|error| self.relative(&error)) {
             Some(error) if error <= tolerance => {}
             Some(error) => self.verdicts.push(TableVerdict::Error(manner, error, tolerance)),
@@ -212,7 +217,7 @@ impl TableQuality {
 }
 
 /// The beam behind a table has one rail and gives its vertical deflections, whatever the direction of the table.
-pub(super) const UP: [Way; 2] = [(0, Axis::Vertical); 2];
+pub(super) const UP: [RailDirection; 2] = [(0, Axis::Vertical); 2];
 /// Fraction of the largest eigenvalue below which a negative one is rounding.
 const ROUNDING: f64 = 1e-13;
 
@@ -221,11 +226,11 @@ const UNCOUPLED: f64 = 1e-9;
 
 /// Geometric mean of the largest entries of the two direct tables of a coupling.
 fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
-    let largest = |way: Way| {
-        let own = subject.items.iter().filter(|item| item.ways == Some([way; 2]));
+    let largest = |way: RailDirection| {
+        let own = subject.items.iter().filter(|item| item.paths == Some([way; 2]));
         own.map(|item| item.table.values().amax()).next()
     };
-    let [deflection, load] = item.ways?;
+    let [deflection, load] = item.paths?;
     Some((largest(deflection)? * largest(load)?).sqrt())
 }
 
@@ -235,8 +240,8 @@ pub(super) fn reading(
     item: &TableItem,
     manner: TableReadingMethod,
 ) -> Option<Box<dyn Compliance>> {
-    let [deflection, load] = item.ways?;
-    let own = Sheet { deflection, load, table: item.table.clone() };
+    let [deflection, load] = item.paths?;
+    let own = InfluenceBlock { deflection, load, table: item.table.clone() };
     let all = subject.sheets();
     let together = if all.contains(&own) { manner.read(&all).ok() } else { None };
     together.or_else(|| manner.read(&[own]).ok())
@@ -244,7 +249,7 @@ pub(super) fn reading(
 
 /// Ends of the elements of the loaded rail; empty where they are unknown.
 fn breaks(subject: &TableSource, item: &TableItem) -> Vec<f64> {
-    let surface = subject.surface.as_ref().zip(item.ways);
+    let surface = subject.surface.as_ref().zip(item.paths);
     surface.map(|(surface, [_, load])| surface.breaks(load.0)).unwrap_or_default()
 }
 

@@ -1,7 +1,7 @@
 //! Findings as JSON: `girderway-check/1`.
 
 use serde_json::{Value, json};
-use splines::check::{Deviation, Extreme, Kink};
+use splines::quality::{BlockExtreme, ReadingError, SlopeJump};
 
 use super::findings::{TableQuality, TableVerdict, Truth};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
@@ -29,12 +29,12 @@ fn table(found: &TableQuality) -> Value {
     let table = &found.item.table;
     let truth = match &found.truth {
         Truth::Surface => json!({ "from": "surface" }),
-        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "error": lift.misfit }),
+        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "error": lift.error }),
         Truth::None => Value::Null,
     };
     let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
     let hazards: Vec<Value> =
-        found.hazards.iter().map(|h| json!({ "kind": h.word(), "text": h.to_string() })).collect();
+        found.risks.iter().map(|h| json!({ "kind": h.word(), "text": h.to_string() })).collect();
     let beyond: Vec<Value> = found
         .beyond
         .iter()
@@ -51,7 +51,7 @@ fn table(found: &TableQuality) -> Value {
         "x": table.x(),
         "z": table.z(),
         "direct": found.item.is_direct(),
-        "digits": found.digits.count,
+        "digits": found.digits.digits,
         "slack": found.digits.slack,
         "asymmetry": found.asymmetry.as_ref().map(extreme),
         "eigenvalues": found.spectrum.map(|s| [s.smallest, s.largest]),
@@ -65,14 +65,14 @@ fn table(found: &TableQuality) -> Value {
 }
 
 fn reading(found: &TableQuality, reading: &ReadingFindings) -> Value {
-    let error = |e: &Deviation, relative: f64| {
+    let error = |e: &ReadingError, relative: f64| {
         json!({
             "relative": relative, "scale": e.scale, "largest": extreme(&e.largest),
             "diagonal": e.diagonal.as_ref().map(extreme),
         })
     };
     let mut object = json!({
-        "reading": reading.manner.word(),
+        "reading": reading.method.word(),
         "error": reading.error.as_ref().map(|e| error(e, found.relative(e))),
         "error_between_supports": reading.span.as_ref().map(|e| error(e, e.relative())),
     });
@@ -85,7 +85,7 @@ fn reading(found: &TableQuality, reading: &ReadingFindings) -> Value {
 fn direct(object: &mut Value, own: &DirectFindings, load: Option<f64>) {
     object["asymmetry"] = extreme(&own.asymmetry);
     object["eigenvalues"] = json!([own.spectrum.smallest, own.spectrum.largest]);
-    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.shares).map(|((wheels, layout), share)| {
+    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.indefinite_fractions).map(|((wheels, layout), share)| {
         json!({
             "wheels": wheels, "at": layout.places, "eigenvalue": layout.smallest, "stiffness": layout.stiffness,
             "indefinite_share": share,
@@ -107,11 +107,11 @@ fn direct(object: &mut Value, own: &DirectFindings, load: Option<f64>) {
     }
 }
 
-fn extreme(found: &Extreme) -> Value {
+fn extreme(found: &BlockExtreme) -> Value {
     json!({ "value": found.value, "x": found.x, "z": found.z })
 }
 
-fn kink(found: &Kink) -> Value {
+fn kink(found: &SlopeJump) -> Value {
     json!({ "x": found.x, "before": found.before, "beyond": found.beyond })
 }
 

@@ -22,7 +22,7 @@ pub mod subject;
 pub mod text;
 
 pub use extrapolation_risk::ExtrapolationRisk;
-pub use findings::{Settings, TableQuality, TableVerdict};
+pub use findings::{TableQuality, TableQualitySettings, TableVerdict};
 pub use reading_method::TableReadingMethod;
 pub use readings::{Pair, ReadingFindings};
 pub use subject::{TableItem, TableSource};

@@ -1,7 +1,7 @@
 //! Findings as figures: errors under a moving wheel, and over all places of load and deflection.
 
 use splines::Error;
-use splines::check::{Strip, places};
+use splines::quality::{CouplingBlock, sample_places};
 
 use super::digits::short;
 use super::findings::{TableQuality, Truth, UP, reading};
@@ -43,12 +43,12 @@ impl TableFigure {
 ///
 /// # Errors
 /// Data that a chart cannot draw, or a place at which a reading cannot be evaluated.
-pub fn plates(
+pub fn figures(
     subject: &TableSource,
     found: &TableQuality,
 ) -> Result<Vec<TableFigure>, Box<dyn std::error::Error>> {
     let mut out = Vec::new();
-    let Some(ways) = found.item.ways else { return Ok(out) };
+    let Some(ways) = found.item.paths else { return Ok(out) };
     let exact = match (&found.truth, &subject.surface) {
         (Truth::Surface, Some(surface)) => strip(surface, ways),
         (Truth::Lifted(lift), _) => strip(&lift.surface, UP),
@@ -85,21 +85,21 @@ pub fn plates(
 fn error_map(
     subject: &TableSource,
     found: &TableQuality,
-    exact: &Strip<'_>,
+    exact: &CouplingBlock<'_>,
     [x, z]: [[f64; 2]; 2],
     title: &str,
     length: &str,
 ) -> Result<Option<TableFigure>, Box<dyn std::error::Error>> {
-    let Some(ways) = found.item.ways else { return Ok(None) };
+    let Some(ways) = found.item.paths else { return Ok(None) };
     let table = &found.item.table;
     let worst = found
         .readings
         .iter()
-        .filter_map(|r| Some((r.manner, found.relative(&r.error?))))
+        .filter_map(|r| Some((r.method, found.relative(&r.error?))))
         .max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((manner, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(None) };
     let Some(reading) = reading(subject, &found.item, manner) else { return Ok(None) };
-    let (x, z) = (places(table.x(), x, MAP), places(table.z(), z, MAP));
+    let (x, z) = (sample_places(table.x(), x, MAP), sample_places(table.z(), z, MAP));
     let scale = scale(found);
     let mut values = map(&strip(reading.as_ref(), ways), exact, &z, &x)?;
     values.iter_mut().flatten().for_each(|value| *value *= 100.0 / scale);
@@ -132,13 +132,13 @@ fn scale(found: &TableQuality) -> f64 {
 fn diagonal(
     subject: &TableSource,
     found: &TableQuality,
-    exact: &Strip<'_>,
+    exact: &CouplingBlock<'_>,
     range: [f64; 2],
     title: &str,
     length: &str,
 ) -> Result<Option<TableFigure>, Error> {
-    let Some(ways) = found.item.ways else { return Ok(None) };
-    let x = places(found.item.table.x(), range, ACROSS);
+    let Some(ways) = found.item.paths else { return Ok(None) };
+    let x = sample_places(found.item.table.x(), range, ACROSS);
     let scale = scale(found);
     let mut chart = Chart::new(
         format!("{title}: error under one moving wheel"),
@@ -146,16 +146,16 @@ fn diagonal(
         ChartAxis::new("error, of the largest coefficient", "%"),
     );
     for (index, one) in
-        found.readings.iter().enumerate().filter(|(_, r)| r.manner != TableReadingMethod::Exact)
+        found.readings.iter().enumerate().filter(|(_, r)| r.method != TableReadingMethod::Exact)
     {
-        let Some(reading) = reading(subject, &found.item, one.manner) else { continue };
+        let Some(reading) = reading(subject, &found.item, one.method) else { continue };
         let own = strip(reading.as_ref(), ways);
         let mut points = Vec::with_capacity(x.len());
         for &x in &x {
             points.push([x, 100.0 * (own.at(x, x)? - exact.at(x, x)?) / scale]);
         }
         let style = Style::alternating(index);
-        chart = chart.with(Series::new(one.manner.word(), style, points));
+        chart = chart.with(Series::new(one.method.word(), style, points));
     }
     if chart.series.is_empty() {
         return Ok(None);
@@ -171,7 +171,7 @@ fn diagonal(
 /// All findings as one page of HTML.
 ///
 /// # Errors
-/// As [`plates`], and as [`Report::html`].
+/// As [`figures`], and as [`Report::html`].
 pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<dyn std::error::Error>> {
     let mut report = Report {
         title: "What readings of these tables cost".to_owned(),
@@ -181,13 +181,13 @@ pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<d
     for found in all {
         let mut section =
             ReportSection::new(format!("SPLINE/{} {}", found.item.id, found.item.name).trim_end());
-        for hazard in &found.hazards {
-            section = section.say(format!("Note: {hazard}."));
+        for hazard in &found.risks {
+            section = section.paragraph(format!("Note: {hazard}."));
         }
         if !found.readings.is_empty() {
             section = section.table(readings(subject, found));
         }
-        for figure in plates(subject, found)? {
+        for figure in figures(subject, found)? {
             section = section.figure(figure.picture, figure.caption);
         }
         report.sections.push(section);
@@ -217,7 +217,7 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
     for one in &found.readings {
         let direct = one.direct.as_ref();
         table.rows.push(vec![
-            one.manner.word().into(),
+            one.method.word().into(),
             number(one.error.map(|e| 100.0 * found.relative(&e))),
             number(one.error.map(|e| e.largest.x)),
             number(one.error.map(|e| e.largest.z)),

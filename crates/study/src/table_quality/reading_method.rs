@@ -1,6 +1,9 @@
 //! Methods of reading tables.
 
-use splines::{Axis, Compliance, Error, Factored, Kind, Lift, Rank, Reading, Sheet, Table, lift};
+use splines::{
+    Axis, BeamFit, Compliance, Error, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable,
+    TableReading, fit_beam,
+};
 
 /// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam stands for
 /// the table.
@@ -59,24 +62,24 @@ impl TableReadingMethod {
     /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without couplings.
     ///
     /// # Errors
-    /// As [`Reading::new`], [`Factored::new`] and [`raised()`].
-    pub fn read(self, sheets: &[Sheet]) -> Result<Box<dyn Compliance>, Error> {
+    /// As [`Reading::new`], [`Factored::new`] and [`beam_of()`].
+    pub fn read(self, sheets: &[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> {
         let kind = match self {
-            TableReadingMethod::Akispl => Kind::Akispl,
-            TableReadingMethod::Cubspl => Kind::Cubspl,
-            TableReadingMethod::Symmetrised => Kind::Symmetrised,
-            TableReadingMethod::Natural => Kind::Natural,
-            TableReadingMethod::Factored => return Ok(Box::new(Factored::new(sheets, Rank::Full)?)),
+            TableReadingMethod::Akispl => ReadingMethod::Akispl,
+            TableReadingMethod::Cubspl => ReadingMethod::Cubspl,
+            TableReadingMethod::Symmetrised => ReadingMethod::Symmetrised,
+            TableReadingMethod::Natural => ReadingMethod::Natural,
+            TableReadingMethod::Factored => return Ok(Box::new(FactoredTable::new(sheets, Rank::Full)?)),
             TableReadingMethod::Exact => {
                 return match sheets {
                     [one] if one.load == one.deflection && one.load.1 == Axis::Vertical => {
-                        Ok(Box::new(raised(one.load.0, &one.table)?.surface))
+                        Ok(Box::new(beam_of(one.load.0, &one.table)?.surface))
                     }
-                    _ => Err(Error::Unliftable),
+                    _ => Err(Error::NoBeamFit),
                 };
             }
         };
-        Ok(Box::new(Reading::new(kind, sheets)?))
+        Ok(Box::new(TableReading::new(kind, sheets)?))
     }
 }
 
@@ -84,7 +87,7 @@ impl TableReadingMethod {
 ///
 /// # Errors
 /// A table that deviates from every such beam by more than 1 percent of its largest entry.
-pub fn raised(rail: usize, table: &Table) -> Result<Lift, Error> {
-    let beam = lift(rail, table)?;
-    if beam.misfit <= MISFIT { Ok(beam) } else { Err(Error::Unliftable) }
+pub fn beam_of(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
+    let beam = fit_beam(rail, table)?;
+    if beam.error <= MISFIT { Ok(beam) } else { Err(Error::NoBeamFit) }
 }

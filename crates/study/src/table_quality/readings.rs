@@ -1,8 +1,9 @@
 //! The findings of one reading of one table.
 
-use splines::check::{
-    Deviation, Extreme, Kink, Layout, Spectrum, Strip, Work, asymmetry, deviation, diagonal_kinks,
-    indefinite_share, pair_kinks, places, spectrum, weakest_layouts, work,
+use splines::quality::{
+    BlockExtreme, CouplingBlock, LoopWork, ReadingError, SlopeJump, Spectrum, WheelLayout, asymmetry,
+    diagonal_slope_jumps, indefinite_fraction, loop_work, pair_slope_jumps, reading_error, sample_places,
+    spectrum, weakest_layouts,
 };
 use splines::{Compliance, Error};
 
@@ -20,11 +21,11 @@ const SPECTRUM: usize = 120;
 #[derive(Clone, Debug)]
 pub struct ReadingFindings {
     /// The method.
-    pub manner: TableReadingMethod,
+    pub method: TableReadingMethod,
     /// Error against the exact surface over the whole table; `None` where no exact values are known.
-    pub error: Option<Deviation>,
+    pub error: Option<ReadingError>,
     /// The same between the first and the last support.
-    pub span: Option<Deviation>,
+    pub span: Option<ReadingError>,
     /// Findings of a direct table on symmetry and definiteness.
     pub direct: Option<DirectFindings>,
 }
@@ -33,17 +34,17 @@ pub struct ReadingFindings {
 #[derive(Clone, Debug)]
 pub struct DirectFindings {
     /// Largest |G(x, z) - G(z, x)|.
-    pub asymmetry: Extreme,
+    pub asymmetry: BlockExtreme,
     /// Largest |G| at the evaluated places.
     pub scale: f64,
     /// Smallest and largest eigenvalue of the symmetric part at densely spaced places.
     pub spectrum: Spectrum,
     /// Fraction of random layouts of 2, 4 and 8 wheels whose compliance matrix is indefinite.
-    pub shares: [f64; 3],
+    pub indefinite_fractions: [f64; 3],
     /// The weakest layouts of 2, 4, 8 wheels.
-    pub layouts: Vec<Layout>,
+    pub layouts: Vec<WheelLayout>,
     /// The largest jump of slope under a moving wheel; `None` where there is no station between the ends.
-    pub kink: Option<Kink>,
+    pub kink: Option<SlopeJump>,
     /// Findings of two wheels at the distance of the settings.
     pub pair: Option<Pair>,
 }
@@ -52,15 +53,15 @@ pub struct DirectFindings {
 #[derive(Clone, Copy, Debug)]
 pub struct Pair {
     /// The loop of forces with the most work.
-    pub work: Work,
+    pub work: LoopWork,
     /// The largest jump of slope of their mean.
-    pub kink: Option<Kink>,
+    pub kink: Option<SlopeJump>,
 }
 
 /// Exact block and places with which a reading is compared.
 pub struct ReadingPlanes<'a> {
     /// The exact block.
-    pub exact: Option<Strip<'a>>,
+    pub exact: Option<CouplingBlock<'a>>,
     /// Ranges of loads and of deflections that both cover.
     pub range: [[f64; 2]; 2],
     /// From the first to the last support, where there are two.
@@ -76,56 +77,60 @@ impl ReadingFindings {
     /// A place at which the reading or the exact surface cannot be evaluated.
     pub fn of(
         manner: TableReadingMethod,
-        strip: &Strip<'_>,
+        strip: &CouplingBlock<'_>,
         frame: &ReadingPlanes<'_>,
     ) -> Result<ReadingFindings, Error> {
         let [x, z] = [strip.load.0, strip.deflection.0].map(|rail| strip.compliance.breaks(rail));
         let exact = frame.exact.as_ref();
         let against = |from: [[f64; 2]; 2]| {
-            let error = |exact: &Strip<'_>| {
+            let error = |exact: &CouplingBlock<'_>| {
                 let ends = |own: &[f64], rail: usize| [own, &exact.compliance.breaks(rail)].concat();
                 let [x, z] = [ends(&x, exact.load.0), ends(&z, exact.deflection.0)];
                 let [x, z] = [dense(&x, from[0]), dense(&z, from[1])];
-                deviation(strip, exact, &x, &z)
+                reading_error(strip, exact, &x, &z)
             };
             exact.map(error).transpose()
         };
         let direct = strip.is_direct().then(|| direct(strip, &x, frame)).transpose()?;
         let span = frame.span.filter(|_| strip.is_direct()).map_or(Ok(None), |span| against([span; 2]))?;
-        Ok(ReadingFindings { manner, error: against(frame.range)?, span, direct })
+        Ok(ReadingFindings { method: manner, error: against(frame.range)?, span, direct })
     }
 }
 
 /// Densely spaced places over `range`, the breaks included.
 fn dense(breaks: &[f64], range: [f64; 2]) -> Vec<f64> {
-    places(breaks, range, (4 * breaks.len()).clamp(PLACES[0], PLACES[1]))
+    sample_places(breaks, range, (4 * breaks.len()).clamp(PLACES[0], PLACES[1]))
 }
 
 /// The findings on symmetry and definiteness of a direct block.
-fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &ReadingPlanes<'_>) -> Result<DirectFindings, Error> {
+fn direct(
+    strip: &CouplingBlock<'_>,
+    breaks: &[f64],
+    frame: &ReadingPlanes<'_>,
+) -> Result<DirectFindings, Error> {
     let range = frame.range[0];
     let at = dense(breaks, range);
-    let few = places(breaks, range, SPECTRUM);
+    let few = sample_places(breaks, range, SPECTRUM);
     let mut shares = [0.0; 3];
     for (share, wheels) in shares.iter_mut().zip(WHEELS) {
-        *share = indefinite_share(strip, wheels, LAYOUTS, range)?;
+        *share = indefinite_fraction(strip, wheels, LAYOUTS, range)?;
     }
     let largest =
-        |kinks: Vec<Kink>| kinks.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()));
+        |kinks: Vec<SlopeJump>| kinks.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()));
     let pair = match frame.spacing.filter(|spacing| *spacing < range[1] - range[0]) {
         None => None,
         Some(spacing) => {
-            let kink = largest(pair_kinks(strip, spacing, range)?);
-            Some(Pair { work: work(strip, spacing, &at)?, kink })
+            let kink = largest(pair_slope_jumps(strip, spacing, range)?);
+            Some(Pair { work: loop_work(strip, spacing, &at)?, kink })
         }
     };
     Ok(DirectFindings {
         asymmetry: asymmetry(strip, &at)?,
-        scale: strip.block(&few, &few)?.amax(),
+        scale: strip.matrix(&few, &few)?.amax(),
         spectrum: spectrum(strip, &few)?,
-        shares,
+        indefinite_fractions: shares,
         layouts: weakest_layouts(strip, &WHEELS, &few)?,
-        kink: largest(diagonal_kinks(strip, range)?),
+        kink: largest(diagonal_slope_jumps(strip, range)?),
         pair,
     })
 }
@@ -134,13 +139,21 @@ fn direct(strip: &Strip<'_>, breaks: &[f64], frame: &ReadingPlanes<'_>) -> Resul
 ///
 /// # Errors
 /// As [`ReadingFindings::of`].
-pub fn map(strip: &Strip<'_>, exact: &Strip<'_>, z: &[f64], x: &[f64]) -> Result<Vec<Vec<f64>>, Error> {
-    let error = strip.block(z, x)? - exact.block(z, x)?;
+pub fn map(
+    strip: &CouplingBlock<'_>,
+    exact: &CouplingBlock<'_>,
+    z: &[f64],
+    x: &[f64],
+) -> Result<Vec<Vec<f64>>, Error> {
+    let error = strip.matrix(z, x)? - exact.matrix(z, x)?;
     Ok(error.row_iter().map(|row| row.iter().copied().collect()).collect())
 }
 
 /// The block of a compliance between two paths: deflection and load.
 #[must_use]
-pub fn strip(compliance: &dyn Compliance, [deflection, load]: [splines::check::Way; 2]) -> Strip<'_> {
-    Strip { compliance, deflection, load }
+pub fn strip(
+    compliance: &dyn Compliance,
+    [deflection, load]: [splines::quality::RailDirection; 2],
+) -> CouplingBlock<'_> {
+    CouplingBlock { compliance, deflection, load }
 }

@@ -3,19 +3,19 @@
 use std::path::Path;
 
 use nalgebra::DMatrix;
-use splines::check::Way;
-use splines::{Sheet, Surface, Table};
+use splines::quality::RailDirection;
+use splines::{ExactSurface, InfluenceBlock, SplineTable};
 
 use crate::Error;
-use formats::block::GridBlock;
-use formats::diagnostic::Diagnostic;
-use formats::fault::{Fault, Faults};
 use formats::grid::axes;
-use formats::grid_file;
-use formats::inputs::Inputs;
-use formats::place::Place;
-use formats::source::Source;
+use formats::grid::block::GridBlock;
+use formats::grid::file as grid_file;
 use formats::tables::{self, Contents, TableSet};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::fault::{Fault, Faults};
+use formats::text::inputs::Inputs;
+use formats::text::place::Place;
+use formats::text::source::Source;
 use formats::units::Units;
 
 /// Largest number of a table; larger ones are refused, since their squares must be finite.
@@ -33,7 +33,7 @@ pub struct TableSource {
     /// Its tables.
     pub items: Vec<TableItem>,
     /// The exact surface of which they are values.
-    pub surface: Option<Surface>,
+    pub surface: Option<ExactSurface>,
     /// Messages about parts of the file that are not read.
     pub notes: Vec<String>,
 }
@@ -47,18 +47,18 @@ pub struct TableItem {
     pub name: String,
     /// Paths (rail and direction) of deflection and load; `None` for a coupling whose directions the file does not
     /// state.
-    pub ways: Option<[Way; 2]>,
+    pub paths: Option<[RailDirection; 2]>,
     /// Whether the file asks for linear extrapolation; `None` for a grid file.
     pub linear: Option<bool>,
     /// Its values.
-    pub table: Table,
+    pub table: SplineTable,
 }
 
 impl TableItem {
     /// Whether deflections and loads are of the same path: only such a table is symmetric.
     #[must_use]
     pub fn is_direct(&self) -> bool {
-        self.ways.is_some_and(|[deflection, load]| deflection == load)
+        self.paths.is_some_and(|[deflection, load]| deflection == load)
     }
 }
 
@@ -70,8 +70,8 @@ impl TableSource {
     pub fn open(path: &Path) -> Result<TableSource, Error> {
         let inputs = Inputs::open_bytes(path)?;
         let input = &inputs.all()[0];
-        if tables::is_tables(&input.shown, &input.bytes) {
-            TableSource::of_tables(&input.shown, &tables::contents(&input.shown, &input.bytes)?)
+        if tables::is_tables(&input.display_name, &input.bytes) {
+            TableSource::of_tables(&input.display_name, &tables::contents(&input.display_name, &input.bytes)?)
         } else {
             TableSource::of_grid(&input.source()?)
         }
@@ -80,14 +80,14 @@ impl TableSource {
     fn of_grid(source: &Source) -> Result<TableSource, Error> {
         let (grid, surface) = grid_file::read(source)?;
         let mut notes: Vec<String> = Vec::new();
-        for rail in grid.rails.iter().filter(|rail| rail.stations.len() < Table::LEAST) {
+        for rail in grid.rails.iter().filter(|rail| rail.stations.len() < SplineTable::FEWEST_X) {
             notes.push(format!("rail {} has fewer than four stations: no table of loads on it", rail.name));
         }
         let rails = grid.rails.len();
         let mut items = Vec::new();
         for table in &TableSet::of_grid(&grid).tables {
             let ways = ways(table.id, rails);
-            items.extend(item(&source.name, table)?.map(|item| TableItem { ways, ..item }));
+            items.extend(item(&source.name, table)?.map(|item| TableItem { paths: ways, ..item }));
         }
         if items.is_empty() {
             let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
@@ -109,7 +109,7 @@ impl TableSource {
         // the file does not state which tables belong together: each is a path of its own
         for (index, item) in items.iter_mut().enumerate() {
             if !is_coupling(&item.name) {
-                item.ways = Some([(index, splines::Axis::Vertical); 2]);
+                item.paths = Some([(index, splines::Axis::Vertical); 2]);
             }
         }
         if items.is_empty() {
@@ -124,12 +124,12 @@ impl TableSource {
 
     /// The tables that can be read together: those of known paths, whose direct tables are in the file.
     #[must_use]
-    pub fn sheets(&self) -> Vec<Sheet> {
-        let own = |way: Way| self.items.iter().any(|item| item.ways == Some([way; 2]));
-        let known = self.items.iter().filter_map(|item| Some((item.ways?, &item.table)));
+    pub fn sheets(&self) -> Vec<InfluenceBlock> {
+        let own = |way: RailDirection| self.items.iter().any(|item| item.paths == Some([way; 2]));
+        let known = self.items.iter().filter_map(|item| Some((item.paths?, &item.table)));
         known
             .filter(|([deflection, load], table)| own(*deflection) && own(*load) && table.z().len() > 1)
-            .map(|([deflection, load], table)| Sheet { deflection, load, table: table.clone() })
+            .map(|([deflection, load], table)| InfluenceBlock { deflection, load, table: table.clone() })
             .collect()
     }
 }
@@ -153,15 +153,15 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
         }
     }
     let values = DMatrix::from_fn(curves.z().len(), curves.x().len(), |i, j| curves.y()[i][j]);
-    let table = Table::new(curves.x().to_vec(), curves.z().to_vec(), values)?;
+    let table = SplineTable::new(curves.x().to_vec(), curves.z().to_vec(), values)?;
     let unnamed = format!("SPLINE_{}", given.id);
     let name = if given.name == unnamed { String::new() } else { given.name.clone() };
-    Ok(Some(TableItem { id: given.id, name, ways: None, linear: None, table }))
+    Ok(Some(TableItem { id: given.id, name, paths: None, linear: None, table }))
 }
 
 /// Paths of a table of a grid with this number of rails, by the number of the table: from 6 on, six for each pair of
 /// rails.
-fn ways(id: u32, rails: usize) -> Option<[Way; 2]> {
+fn ways(id: u32, rails: usize) -> Option<[RailDirection; 2]> {
     let place = usize::try_from(id).ok()?.checked_sub(6)?;
     let (pair, index) = (place / 6, place % 6);
     let (deflection, load) = axes(*GridBlock::ALL.get(index)?);

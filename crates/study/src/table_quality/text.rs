@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use splines::check::{Extreme, Layout};
+use splines::quality::{BlockExtreme, WheelLayout};
 
 use super::digits::{sharp, short};
 use super::findings::{TableQuality, TableVerdict, Truth};
@@ -62,7 +62,7 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
         short(x[0]),
         short(x[x.len() - 1])
     );
-    if found.item.ways.is_none() {
+    if found.item.paths.is_none() {
         let _ = writeln!(out, "  a coupling by its name: it need not be symmetric, and is not read alone");
     }
     if found.is_empty() {
@@ -75,7 +75,7 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
         readings(out, found, units);
     }
     beyond(out, found, units);
-    for hazard in &found.hazards {
+    for hazard in &found.risks {
         let _ = writeln!(out, "  note: {hazard}");
     }
     for verdict in &found.verdicts {
@@ -86,7 +86,7 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
 /// Findings at the stations: digits, asymmetry, spectrum.
 fn stations(out: &mut String, found: &TableQuality, units: Words) {
     let flexibility = units.of(Dimension::FLEXIBILITY);
-    let _ = writeln!(out, "  at the stations: {} digits", found.digits.count);
+    let _ = writeln!(out, "  at the stations: {} digits", found.digits.digits);
     if let Some(worst) = found.asymmetry {
         let word = if worst.value == 0.0 {
             "symmetric".to_owned()
@@ -124,7 +124,7 @@ fn truth(found: &TableQuality, units: Words) -> String {
             format!(
                 "readings, errors against the beam behind the table: EI = {} {stiffness}, {} % from its values",
                 short(1.0 / lift.bending),
-                short(100.0 * lift.misfit)
+                short(100.0 * lift.error)
             )
         }
         Truth::None => {
@@ -166,7 +166,7 @@ fn readings(out: &mut String, found: &TableQuality, units: Words) {
 /// Errors and asymmetry.
 fn errors(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let length = units.bracket(Dimension::LENGTH);
-    rows.add("", &|r| Some(r.manner.word().to_owned()));
+    rows.add("", &|r| Some(r.method.word().to_owned()));
     rows.add("largest error (%)", &|r| r.error.map(|e| short(100.0 * found.relative(&e))));
     rows.add(&format!("  at x, z{length}"), &|r| r.error.map(|e| place(&e.largest)));
     rows.add("largest error under the load itself (%)", &|r| {
@@ -207,7 +207,7 @@ fn definiteness(rows: &mut Rows<'_>, units: Words) {
     });
     for (k, wheels) in WHEELS.into_iter().enumerate() {
         rows.add(&format!("indefinite layouts of {wheels} wheels (%)"), &|r| {
-            r.direct.as_ref().map(|d| short(100.0 * d.shares[k]))
+            r.direct.as_ref().map(|d| short(100.0 * d.indefinite_fractions[k]))
         });
     }
     for (k, wheels) in WHEELS.into_iter().enumerate() {
@@ -292,11 +292,11 @@ fn pair(reading: &ReadingFindings) -> Option<super::readings::Pair> {
     reading.direct.as_ref()?.pair
 }
 
-fn place(at: &Extreme) -> String {
+fn place(at: &BlockExtreme) -> String {
     format!("{}, {}", short(at.x), short(at.z))
 }
 
-fn stiffness(layout: &Layout) -> String {
+fn stiffness(layout: &WheelLayout) -> String {
     layout.stiffness.map_or_else(|| "never".to_owned(), short)
 }
 

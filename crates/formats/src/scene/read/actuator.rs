@@ -4,7 +4,7 @@ use super::schedule::read_schedule;
 use crate::check::Check;
 use crate::scene::raw::{RawLoad, RawMotion, RawScene};
 use crate::scene::values::actuator::Load;
-use crate::scene::values::body::{Along, Body, Drive, FREEDOMS, root_of};
+use crate::scene::values::body::{Body, BodyMotion, DOFS, Drive, root_of};
 use crate::scene::values::scene::Scene;
 use crate::text::fault::{Fault, Faults, alternatives};
 use crate::text::names::{names, resolve};
@@ -22,25 +22,25 @@ pub(super) fn read_loads(raw: &[RawLoad], bodies: &[Body], check: &mut Check<'_>
 }
 
 fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'_>) -> Option<Load> {
-    let body = check.faults.need(&raw.body, at, "body").and_then(|name| {
+    let body = check.faults.require(&raw.body, at, "body").and_then(|name| {
         let known = names(bodies, |body| &body.name);
         resolve(name, &known, "body", &at.key("body"), check.faults)
     });
-    let words: Vec<(&str, usize)> = FREEDOMS.iter().enumerate().map(|(index, word)| (*word, index)).collect();
+    let words: Vec<(&str, usize)> = DOFS.iter().enumerate().map(|(index, word)| (*word, index)).collect();
     let place = at.key("dof");
-    let freedom = check.faults.need(&raw.dof, at, "dof");
-    let freedom = freedom.and_then(|word| check.faults.word(word, &place, &words));
+    let freedom = check.faults.require(&raw.dof, at, "dof");
+    let freedom = freedom.and_then(|word| check.faults.one_of(word, &place, &words));
     let unit = if freedom.is_some_and(|freedom| freedom > 2) { Dimension::MOMENT } else { Dimension::FORCE };
-    let value = check.faults.need(&raw.value, at, "value");
+    let value = check.faults.require(&raw.value, at, "value");
     let value = value.and_then(|table| read_schedule(table, &at.key("value"), unit, check));
     let (body, freedom) = (body?, freedom?);
     let owner = &bodies[body];
-    let prescribed = matches!(owner.motion, Along::Prescribed(_));
+    let prescribed = matches!(owner.motion, BodyMotion::Prescribed(_));
     let is_free = |i: usize| owner.free[i] && !(i == 0 && prescribed);
     if !is_free(freedom) {
         let state = if owner.free[freedom] { "prescribed" } else { "held" };
-        let fault = Fault::new(&place, format!("{} of body {} is {state}", FREEDOMS[freedom], owner.name));
-        let free: Vec<&str> = (0..6).filter(|&i| is_free(i)).map(|i| FREEDOMS[i]).collect();
+        let fault = Fault::new(&place, format!("{} of body {} is {state}", DOFS[freedom], owner.name));
+        let free: Vec<&str> = (0..6).filter(|&i| is_free(i)).map(|i| DOFS[i]).collect();
         let hint = if free.is_empty() {
             "nothing of it is free".to_owned()
         } else {
@@ -48,16 +48,22 @@ fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'
         };
         check.faults.add(fault.hint(hint));
     }
-    Some(Load { body, freedom, value: value? })
+    Some(Load { body, dof: freedom, value: value? })
 }
 
 /// Reads the drive of a motion; none where its table of speeds is missing or wrong.
 pub(super) fn read_drive(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Drive> {
-    let gain = check.needed(motion.gain, at, "gain", Dimension::DAMPING, "force per speed that is missing");
+    let gain = check.required_positive(
+        motion.gain,
+        at,
+        "gain",
+        Dimension::DAMPING,
+        "force per speed that is missing",
+    );
     let max_force = motion.max_force.map(|force| {
         check.not_negative(force, &at.key("max_force"), Dimension::FORCE, "leave it out for no limit")
     });
-    let speed = check.faults.need(&motion.speed, at, "speed")?;
+    let speed = check.faults.require(&motion.speed, at, "speed")?;
     let speed = read_schedule(speed, &at.key("speed"), Dimension::SPEED, check)?;
     Some(Drive { speed, gain, max_force })
 }
@@ -69,7 +75,7 @@ pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
     for truck in &scene.trucks {
         let Some((root, _)) = root_of(&scene.bodies, truck.body) else { continue };
         let (body, kind) = (&scene.bodies[root], &scene.wheels[truck.wheel]);
-        let drives = matches!(body.motion, Along::Driven(_)) && kind.driven;
+        let drives = matches!(body.motion, BodyMotion::Driven(_)) && kind.driven;
         let brakes = body.brake.is_some() && kind.braked;
         if root != truck.body && (drives || brakes) {
             let what = if drives { "driven" } else { "braked" };
@@ -82,7 +88,7 @@ pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
             let trucks = scene.trucks.iter().filter(move |truck| truck.body == b);
             trucks.map(|truck| &scene.wheels[truck.wheel])
         };
-        let drives = matches!(body.motion, Along::Driven(_));
+        let drives = matches!(body.motion, BodyMotion::Driven(_));
         for kind in own().filter(|kind| (drives && kind.driven) || (body.brake.is_some() && kind.braked)) {
             if kind.spin_inertia.is_some() && kind.friction.is_some() {
                 let place = kinds.key(&kind.name);

@@ -1,13 +1,13 @@
 //! Bodies of a scene, and how they move along their rails.
 
-use sim::{Given, Profile};
+use sim::{MotionKind, Profile};
 
 use super::actuator::read_drive;
 use super::schedule::read_rows;
 use super::spin;
 use crate::check::Check;
 use crate::scene::raw::{RawBody, RawMotion, RawStart};
-use crate::scene::values::body::{Along, Body, FREEDOMS, SPACE};
+use crate::scene::values::body::{Body, BodyMotion, DOFS, SPACE};
 use crate::text::entries::Entries;
 use crate::text::fault::{Fault, alternatives, nearest, number};
 use crate::text::names::{names, resolve};
@@ -33,7 +33,7 @@ pub(super) fn read(
     let x0 = check.number(raw.x0.unwrap_or_default(), &at.key("x0"), Dimension::LENGTH);
     let v0 = check.number(raw.v0.unwrap_or_default(), &at.key("v0"), Dimension::SPEED);
     let start = raw.start.as_ref().map(|start| read_start(start, &free, &at.key("start"), check));
-    let motion = if free[0] { Along::Free } else { Along::Held };
+    let motion = if free[0] { BodyMotion::Free } else { BodyMotion::Held };
     Body {
         name: name.to_owned(),
         mass,
@@ -74,7 +74,7 @@ fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Ch
 
 fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
     let mut free = [false; 6];
-    let Some(words) = check.faults.need(&raw.dof, at, "dof") else { return free };
+    let Some(words) = check.faults.require(&raw.dof, at, "dof") else { return free };
     let place = at.key("dof");
     if words.iter().any(|word| SPACE.contains(&word.as_str())) {
         if *words != SPACE {
@@ -85,15 +85,15 @@ fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool;
     }
     for (index, word) in words.iter().enumerate() {
         let item = place.index(index);
-        match FREEDOMS.iter().position(|known| known == word) {
+        match DOFS.iter().position(|known| known == word) {
             Some(known) if free[known] => {
                 check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
             }
             Some(known) => free[known] = true,
             None => {
-                let mut fault = Fault::new(&item, format!("must be {}", alternatives(&FREEDOMS)));
+                let mut fault = Fault::new(&item, format!("must be {}", alternatives(&DOFS)));
                 fault = fault.got(format!("\"{word}\""));
-                if let Some(near) = nearest(word, &FREEDOMS) {
+                if let Some(near) = nearest(word, &DOFS) {
                     fault = fault.hint(format!("did you mean \"{near}\"?"));
                 }
                 check.faults.add(fault);
@@ -108,7 +108,7 @@ fn read_start(raw: &RawStart, free: &[bool; 6], at: &Place<'_>, check: &mut Chec
     let mut start = [0.0; 5];
     for (index, value) in given.into_iter().enumerate() {
         let Some(value) = value else { continue };
-        let word = FREEDOMS[index + 1];
+        let word = DOFS[index + 1];
         let dimension = if index < 2 { Dimension::LENGTH } else { Dimension::NUMBER };
         start[index] = check.number(value, &at.key(word), dimension);
         if !free[index + 1] {
@@ -138,17 +138,17 @@ pub(super) fn read_motions(
                 check.faults.add(fault.at_key().hint("\"dof\": \"spin\""));
             }
         }
-        let body = check.faults.need(&motion.body, &at, "body").and_then(|name| {
+        let body = check.faults.require(&motion.body, &at, "body").and_then(|name| {
             let known = names(bodies, |body| &body.name);
             resolve(name, &known, "body", &at.key("body"), check.faults)
         });
-        if let Some(dof) = check.faults.need(&motion.dof, &at, "dof") {
+        if let Some(dof) = check.faults.require(&motion.dof, &at, "dof") {
             let place = at.key("dof");
-            if FREEDOMS[1..].contains(&dof.as_str()) {
+            if DOFS[1..].contains(&dof.as_str()) {
                 let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
                 check.faults.add(fault.hint("motions along the rail, \"dof\": \"x\", are"));
             } else {
-                check.faults.word(dof, &place, &[("x", ())]);
+                check.faults.one_of(dof, &place, &[("x", ())]);
             }
         }
         let Some(body) = body else {
@@ -175,7 +175,7 @@ pub(super) fn read_motions(
     for (body, (name, raw)) in bodies.iter().zip(&raw_bodies.0) {
         let at = root.key("bodies");
         let at = at.key(name);
-        if raw.v0.is_some() && raw.pinned.is_none() && body.motion == Along::Held {
+        if raw.v0.is_some() && raw.pinned.is_none() && body.motion == BodyMotion::Held {
             let fault = Fault::new(&at.key("v0"), "the body cannot move along its rail");
             check.faults.add(fault.hint("list \"x\" in `dof` to free it"));
         }
@@ -191,9 +191,9 @@ enum Kind {
 }
 
 fn read_kind(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Kind> {
-    let kind = check.faults.need(&motion.kind, at, "kind")?;
+    let kind = check.faults.require(&motion.kind, at, "kind")?;
     let words = [("prescribed", Kind::Prescribed), ("drive", Kind::Drive), ("free", Kind::Free)];
-    check.faults.word(kind, &at.key("kind"), &words)
+    check.faults.one_of(kind, &at.key("kind"), &words)
 }
 
 fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_>, check: &mut Check<'_>) {
@@ -209,9 +209,9 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         }
     }
     let tables = [
-        ("position", Given::Position, &motion.position, Dimension::LENGTH),
-        ("speed", Given::Speed, &motion.speed, Dimension::SPEED),
-        ("acceleration", Given::Acceleration, &motion.acceleration, Dimension::ACCELERATION),
+        ("position", MotionKind::Position, &motion.position, Dimension::LENGTH),
+        ("speed", MotionKind::Speed, &motion.speed, Dimension::SPEED),
+        ("acceleration", MotionKind::Acceleration, &motion.acceleration, Dimension::ACCELERATION),
     ];
     let given: Vec<_> = tables
         .into_iter()
@@ -219,7 +219,7 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         .collect();
     if kind != Kind::Prescribed {
         for (key, what, ..) in &given {
-            if kind == Kind::Free || *what != Given::Speed {
+            if kind == Kind::Free || *what != MotionKind::Speed {
                 let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\""));
                 check.faults.add(fault.at_key());
             }
@@ -232,7 +232,7 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
             check.not_negative(time, &at.key("brake"), Dimension::TIME, "time from which the brakes are on")
         });
         let drive = if kind == Kind::Drive { read_drive(motion, at, check) } else { None };
-        body.motion = drive.map_or(Along::Free, Along::Driven);
+        body.motion = drive.map_or(BodyMotion::Free, BodyMotion::Driven);
         return;
     }
     let [(key, what, table, unit)] = given[..] else {
@@ -251,8 +251,8 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
     };
     let begin = travel.at(0.0);
     let clashes = [
-        ("x0", what == Given::Position, raw.x0, begin.x),
-        ("v0", what != Given::Acceleration, raw.v0, begin.v),
+        ("x0", what == MotionKind::Position, raw.x0, begin.x),
+        ("v0", what != MotionKind::Acceleration, raw.v0, begin.v),
     ];
     for (key, fixed, own, table) in clashes {
         if let Some(own) = own.filter(|own| fixed && *own != table) {
@@ -264,5 +264,5 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         }
     }
     (body.x0, body.v0) = (begin.x, begin.v);
-    body.motion = Along::Prescribed(travel);
+    body.motion = BodyMotion::Prescribed(travel);
 }

@@ -7,7 +7,7 @@ use crate::scene::motion::wheels;
 use crate::scene::quantity::{Quantity, quantities};
 use crate::scene::raw::{RawDo, RawEvent};
 use crate::scene::values::actuator::{Event, Rope};
-use crate::scene::values::body::{Along, Body};
+use crate::scene::values::body::{Body, BodyMotion};
 use crate::scene::values::scene::{Analysis, Scene};
 use crate::text::fault::{Fault, nearest, number};
 use crate::text::names::{check_name, names, resolve};
@@ -40,14 +40,18 @@ pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -
         let at = list.index(index);
         let name = raw.name.clone().unwrap_or_else(|| format!("event{}", index + 1));
         check_name(&name, &at.key("name"), check.faults);
-        let when = check.faults.need(&raw.when, &at, "when").cloned();
+        let when = check.faults.require(&raw.when, &at, "when").cloned();
         let place = at.key("when");
         let condition = when.as_ref().and_then(|text| read_condition(text, &known, scene, &place, check));
-        let actions = check.faults.need(&raw.actions, &at, "do");
+        let actions = check.faults.require(&raw.actions, &at, "do");
         let actions = actions.and_then(|raw| read_actions(raw, scene, &at.key("do"), check));
         let (Some(condition), Some((actions, what))) = (condition, actions) else { continue };
-        let event =
-            Event { name, when: when.unwrap_or_default(), what, rule: Rule { when: condition, actions } };
+        let event = Event {
+            name,
+            when: when.unwrap_or_default(),
+            description: what,
+            rule: Rule { when: condition, actions },
+        };
         compare_with(&event, &events, &at, check);
         events.push(event);
     }
@@ -72,8 +76,9 @@ fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Che
         let together = other.rule.when == event.rule.when;
         let pairs = || event.rule.actions.iter().flat_map(|a| other.rule.actions.iter().map(move |b| (a, b)));
         if together && pairs().any(|(a, b)| contradict(a, b)) {
-            let expected = format!("contradicts {}, which happens at once: {}", other.name, other.what);
-            let fault = Fault::new(&at.key("do"), expected).got(event.what.clone());
+            let expected =
+                format!("contradicts {}, which happens at once: {}", other.name, other.description);
+            let fault = Fault::new(&at.key("do"), expected).got(event.description.clone());
             check.faults.add(fault.hint("give them different conditions"));
         }
     }
@@ -164,14 +169,14 @@ fn why_useless(condition: &Condition, quantity: &Quantity, scene: &Scene) -> Opt
             let pulls = scene.wheels[wheels[w].kind].vertical.bilateral;
             if pulls { None } else { least(0.0, "a wheel never pulls") }
         }
-        Channel::Place(w) => {
+        Channel::Position(w) => {
             let wheels = wheels(scene);
             let [low, high] = scene.rails[wheels[w].rail].range;
             let beyond = if rises { level > high } else { level < low };
             let range = format!("the rail reaches from {} to {}", number(low), number(high));
             beyond.then(|| format!("can never be met: {range}"))
         }
-        Channel::Displacement(b, sim::Freedom::X) | Channel::Speed(b, sim::Freedom::X) => {
+        Channel::Displacement(b, sim::BodyDof::X) | Channel::Speed(b, sim::BodyDof::X) => {
             why_out_of_range(b, matches!(channel, Channel::Displacement(..)).then_some(level), rises, scene)
         }
         _ => None,
@@ -184,7 +189,7 @@ fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) ->
     if body.pinned.is_some() || body.in_space {
         return None;
     }
-    if body.motion == Along::Held {
+    if body.motion == BodyMotion::Held {
         return Some(format!("body {} cannot move along its rail", body.name));
     }
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
@@ -220,7 +225,7 @@ fn read_actions(
             let fault = Fault::new(&place, format!("nothing puts the brakes of body {name} on"));
             check.faults.add(fault.hint("`brake` of its motion or of another event does"));
         }
-        if on && matches!(given.motion, Along::Driven(_)) && raw.drive.is_none() {
+        if on && matches!(given.motion, BodyMotion::Driven(_)) && raw.drive.is_none() {
             actions.push(Action::Drive { body: b, speed: None });
         }
         actions.push(Action::Brake { body: b, on });
@@ -235,9 +240,9 @@ fn read_actions(
     }
     if let Some(follow) = &raw.drive {
         let place = at.key("drive");
-        let name = check.faults.need(&follow.body, &place, "body");
+        let name = check.faults.require(&follow.body, &place, "body");
         let b = name.and_then(|name| driven(name, &place.key("body"), scene, check));
-        let speed = check.faults.need(&follow.speed, &place, "speed").copied();
+        let speed = check.faults.require(&follow.speed, &place, "speed").copied();
         let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
         if let (Some(b), Some(speed)) = (b, speed) {
             actions.push(Action::Drive { body: b, speed: Some(speed) });
@@ -247,9 +252,9 @@ fn read_actions(
     if let Some(hoist) = &raw.hoist {
         let place = at.key("hoist");
         let known = names(&scene.ropes, |rope| &rope.name);
-        let name = check.faults.need(&hoist.rope, &place, "rope");
+        let name = check.faults.require(&hoist.rope, &place, "rope");
         let rope = name.and_then(|name| resolve(name, &known, "rope", &place.key("rope"), check.faults));
-        let speed = check.faults.need(&hoist.speed, &place, "speed").copied();
+        let speed = check.faults.require(&hoist.speed, &place, "speed").copied();
         let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
         if let (Some(rope), Some(speed)) = (rope, speed) {
             actions.push(Action::Hoist { rope, speed });
@@ -284,7 +289,7 @@ fn body(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> 
 /// A body that has a drive.
 fn driven(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Option<usize> {
     let b = body(name, place, scene, check)?;
-    if !matches!(scene.bodies[b].motion, Along::Driven(_)) {
+    if !matches!(scene.bodies[b].motion, BodyMotion::Driven(_)) {
         let fault = Fault::new(place, format!("body {name} has no drive"));
         check.faults.add(fault.hint("give it a motion of \"kind\": \"drive\""));
         return None;

@@ -27,7 +27,7 @@ impl<'i> Files<'i> {
         check: &mut Check<'c>,
         read: impl FnOnce(&Input, &mut Check<'c>) -> Result<T, Vec<Diagnostic>>,
     ) -> Option<T> {
-        let input = match self.inputs.refer(name) {
+        let input = match self.inputs.open_referenced(name) {
             Ok(input) => input,
             Err(why) => {
                 let fault = Fault::new(at, format!("\"{name}\" {why}"));

@@ -27,9 +27,9 @@ pub(super) fn read(
         let at = at.key(name);
         check_name(name, &at, check.faults);
         let rail = rail_among(raw.rail.as_ref(), rails, &at, check);
-        let x = check.faults.need(&raw.x, &at, "x").copied();
+        let x = check.faults.require(&raw.x, &at, "x").copied();
         let axis = match &raw.direction {
-            Some(word) => check.faults.word(word, &at.key("direction"), &DIRECTIONS),
+            Some(word) => check.faults.one_of(word, &at.key("direction"), &DIRECTIONS),
             None => Some(Axis::Vertical),
         };
         let (Some(rail), Some(x), Some(axis)) = (rail, x, axis) else { continue };

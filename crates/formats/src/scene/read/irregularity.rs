@@ -62,11 +62,11 @@ pub(super) fn read(
         let at = at.index(index);
         let rail = rail_among(raw.rail.as_ref(), rails, &at, check);
         let axis = match &raw.direction {
-            Some(word) => check.faults.word(word, &at.key("direction"), &DIRECTIONS),
+            Some(word) => check.faults.one_of(word, &at.key("direction"), &DIRECTIONS),
             None => Some(Axis::Vertical),
         };
-        let kind = check.faults.need(&raw.kind, &at, "kind");
-        let kind = kind.and_then(|kind| check.faults.word(kind, &at.key("kind"), &KINDS));
+        let kind = check.faults.require(&raw.kind, &at, "kind");
+        let kind = kind.and_then(|kind| check.faults.one_of(kind, &at.key("kind"), &KINDS));
         let (Some(rail), Some(axis), Some(kind)) = (rail, axis, kind) else { continue };
         if refuse_foreign_keys(raw, kind, &at, check) {
             continue;
@@ -130,11 +130,11 @@ fn local(
     check: &mut Check<'_>,
 ) -> Option<Result<Irregularity, sim::Error>> {
     let (key, size) = if kind == Kind::Step { ("height", &raw.height) } else { ("depth", &raw.depth) };
-    let x = check.faults.need(&raw.x, at, "x").copied();
-    let size = check.faults.need(size, at, key).copied();
+    let x = check.faults.require(&raw.x, at, "x").copied();
+    let size = check.faults.require(size, at, key).copied();
     let half = match kind {
         Kind::Step => 0.0,
-        _ => 0.5 * check.needed(raw.length, at, "length", Dimension::LENGTH, "from end to end"),
+        _ => 0.5 * check.required_positive(raw.length, at, "length", Dimension::LENGTH, "from end to end"),
     };
     let (x, size) = (x?, size?);
     let x = check.number(x, &at.key("x"), Dimension::LENGTH);
@@ -161,9 +161,9 @@ fn sinusoid(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Result<Irregularity, sim::Error> {
-    let amplitude = check.faults.need(&raw.amplitude, at, "amplitude").copied().unwrap_or_default();
+    let amplitude = check.faults.require(&raw.amplitude, at, "amplitude").copied().unwrap_or_default();
     let amplitude = check.number(amplitude, &at.key("amplitude"), Dimension::LENGTH);
-    let length = check.needed(raw.length, at, "length", Dimension::LENGTH, "from crest to crest");
+    let length = check.required_positive(raw.length, at, "length", Dimension::LENGTH, "from crest to crest");
     let phase = check.number(raw.phase.unwrap_or_default(), &at.key("phase"), Dimension::NUMBER);
     let place = at.key("range");
     let range = match raw.range {

@@ -3,7 +3,7 @@
 use sim::{Method, Stepping};
 
 use crate::check::Check;
-use crate::scene::motion::cast;
+use crate::scene::motion::simulation_input;
 use crate::scene::raw::RawScene;
 use crate::scene::values::scene::{Analysis, STEPPERS, Scene, stepper_word};
 use crate::scene::values::structure::{Foundation, Handover};
@@ -14,7 +14,7 @@ use crate::units::Dimension;
 /// Gauss needs a fixed step: its steps are equal, or energy is not kept.
 pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Stepping {
     let place = root.key("stepper");
-    let word = raw.stepper.as_ref().and_then(|word| check.faults.word(word, &place, &STEPPERS));
+    let word = raw.stepper.as_ref().and_then(|word| check.faults.one_of(word, &place, &STEPPERS));
     let method = word.unwrap_or_default();
     let length = root.key("step");
     let step = check.optional_positive(raw.step, &length, Dimension::TIME, "leave it out for adaptive steps");
@@ -31,13 +31,13 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     if scene.analysis == Analysis::QuasiStatic || matches!(method, Method::Auto | Method::Sdirk4) {
         return;
     }
-    let Ok(cast) = cast(scene) else { return };
+    let Ok(cast) = simulation_input(scene) else { return };
     let rigid: Vec<sim::Foundation> = scene.structures.iter().map(|_| sim::Foundation::rigid()).collect();
     let wanted = match method.suits(&cast.scene, &rigid) {
         Err(sim::Error::Method { wanted, .. }) => Some(wanted),
         _ => scene.structures.iter().find_map(|structure| match structure.foundation {
             Foundation::Parts { handover: Handover::PerPart { .. }, .. } => Some("one force a wheel"),
-            Foundation::Ties { moves: true, c, .. } if c > 0.0 => Some("ties without dampers"),
+            Foundation::Ties { has_mass: true, c, .. } if c > 0.0 => Some("ties without dampers"),
             _ => None,
         }),
     };

@@ -2,9 +2,9 @@
 
 use crate::check::Check;
 use crate::scene::raw::RawStructure;
-use crate::scene::values::body::{Along, Body, root_of};
+use crate::scene::values::body::{Body, BodyMotion, root_of};
 use crate::scene::values::scene::Scene;
-use crate::scene::values::structure::{Foundation, On, Origin, Structure};
+use crate::scene::values::structure::{CarriedBy, Foundation, Origin, Structure};
 use crate::scene::values::truck::Truck;
 use crate::spec::Spec;
 use crate::text::entries::Entries;
@@ -46,7 +46,8 @@ pub(super) fn read(
             }
             Origin::Spec { spec, .. } => refuse(spec, &at, check),
         }
-        structure.on = carrier.map(|body| On { body, at: position, moves: moves(bodies, body) });
+        structure.carrier =
+            carrier.map(|body| CarriedBy { body, at: position, may_move: moves(bodies, body) });
     }
 }
 
@@ -54,7 +55,7 @@ pub(super) fn read(
 fn moves(bodies: &[Body], b: usize) -> [bool; 6] {
     let body = &bodies[b];
     let mut moves = body.free;
-    moves[0] = body.motion != Along::Held;
+    moves[0] = body.motion != BodyMotion::Held;
     if body.pinned.is_some() { [true; 6] } else { moves }
 }
 
@@ -75,7 +76,8 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) {
     let root = Place::root();
     let (trucks, loads) = (root.key("trucks"), root.key("loads"));
     let tree = |body: usize| root_of(&scene.bodies, body).map_or(body, |(root, _)| root);
-    let carrier = |truck: &Truck| scene.structures[scene.rails[truck.rail].structure].on.map(|on| on.body);
+    let carrier =
+        |truck: &Truck| scene.structures[scene.rails[truck.rail].structure].carrier.map(|on| on.body);
     let name = |body: usize| &scene.bodies[body].name;
     for (index, truck) in scene.trucks.iter().enumerate() {
         let Some(on) = carrier(truck) else { continue };

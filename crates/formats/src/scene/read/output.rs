@@ -6,7 +6,7 @@ use super::rail::rail_named;
 use crate::check::Check;
 use crate::scene::columns::{names, stresses};
 use crate::scene::raw::{RawColumns, RawFatigue, RawOutput, RawScene};
-use crate::scene::values::output::{Fatigue, Output, Pick, belongs};
+use crate::scene::values::output::{ColumnSelection, Fatigue, Output, belongs};
 use crate::scene::values::scene::SceneRail;
 use crate::scene::values::structure::{Origin, Structure};
 use crate::text::fault::{Fault, nearest};
@@ -24,7 +24,7 @@ fn read_fatigue(raw: &Option<RawFatigue>, at: &Place<'_>, check: &mut Check<'_>)
         }
     }
     let words = [("once", Repetition::Once), ("repeated", Repetition::Repeated)];
-    let history = raw.history.as_ref().and_then(|word| check.faults.word(word, &at.key("history"), &words));
+    let history = raw.history.as_ref().and_then(|word| check.faults.one_of(word, &at.key("history"), &words));
     fatigue.history = history.unwrap_or(Repetition::Once);
     let hint = "how often the run happens in a life";
     fatigue.crossings = check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
@@ -51,9 +51,9 @@ pub(super) fn read(
         })
         .collect();
     let mut pick = |raw: &Option<RawColumns>, key: &str, kind: usize, form: &str| match raw {
-        None => Pick::Few,
-        Some(RawColumns::All(true)) => Pick::All,
-        Some(RawColumns::All(false)) => Pick::None,
+        None => ColumnSelection::Few,
+        Some(RawColumns::All(true)) => ColumnSelection::All,
+        Some(RawColumns::All(false)) => ColumnSelection::None,
         Some(RawColumns::Names(own)) => {
             for (index, name) in own.iter().enumerate() {
                 let all = || known.iter().flat_map(|names| &names[kind]);
@@ -71,7 +71,7 @@ pub(super) fn read(
                 }
                 check.faults.add(fault.got(format!("\"{name}\"")));
             }
-            Pick::Names(own.clone())
+            ColumnSelection::Names(own.clone())
         }
     };
     let reactions =

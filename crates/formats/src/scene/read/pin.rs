@@ -2,7 +2,7 @@
 
 use crate::check::Check;
 use crate::scene::raw::RawBody;
-use crate::scene::values::body::{Along, Body, FREEDOMS, root_of};
+use crate::scene::values::body::{Body, BodyMotion, DOFS, root_of};
 use crate::text::entries::Entries;
 use crate::text::fault::Fault;
 use crate::text::names::{names, resolve};
@@ -17,7 +17,7 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
         let own = list.key(name);
         let at = own.key("pinned");
         let Some(pin) = &raw.pinned else { continue };
-        let to = check.faults.need(&pin.to, &at, "to").and_then(|to| {
+        let to = check.faults.require(&pin.to, &at, "to").and_then(|to| {
             let known = names(bodies, |body| &body.name);
             resolve(to, &known, "body", &at.key("to"), check.faults)
         });
@@ -31,12 +31,12 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
             }
         }
         let free = bodies[b].free;
-        for (i, word) in FREEDOMS.iter().enumerate().take(3).filter(|(i, _)| free[*i]) {
+        for (i, word) in DOFS.iter().enumerate().take(3).filter(|(i, _)| free[*i]) {
             let fault = Fault::new(&own.key("dof"), format!("{word} of a pinned body is that of its pin"));
             check.faults.add(fault.hint("\"roll\", \"yaw\" and \"pitch\" can be free"));
             bodies[b].free[i] = false;
         }
-        bodies[b].motion = Along::Held;
+        bodies[b].motion = BodyMotion::Held;
         let Some(to) = to else { continue };
         bodies[b].pinned = Some((to, position));
         if root_of(bodies, b).is_none() {

@@ -7,7 +7,7 @@ use practice::skew::Guide;
 use crate::check::Check;
 use crate::scene::raw::RawPractice;
 use crate::scene::values::practice::Practice;
-use crate::scene::values::scene::{Scene, across, seat};
+use crate::scene::values::scene::{Scene, mean_lateral_position, root_body};
 use crate::text::fault::{Fault, number};
 use crate::text::names::{names, resolve};
 use crate::text::place::Place;
@@ -54,12 +54,13 @@ pub(super) fn read(
 ) -> Option<Practice> {
     let raw = raw.as_ref()?;
     let at = root.key("practice");
-    let kind = raw.kind.as_ref().and_then(|word| check.faults.word(word, &at.key("kind"), &KINDS));
+    let kind = raw.kind.as_ref().and_then(|word| check.faults.one_of(word, &at.key("kind"), &KINDS));
     let hoisting =
-        raw.hoisting.as_ref().and_then(|word| check.faults.word(word, &at.key("hoisting"), &HOISTING));
-    let drives = raw.drives.as_ref().and_then(|word| check.faults.word(word, &at.key("drives"), &DRIVES));
-    let release = raw.release.as_ref().and_then(|word| check.faults.word(word, &at.key("release"), &RELEASE));
-    let guide = raw.guide.as_ref().and_then(|word| check.faults.word(word, &at.key("guide"), &GUIDE));
+        raw.hoisting.as_ref().and_then(|word| check.faults.one_of(word, &at.key("hoisting"), &HOISTING));
+    let drives = raw.drives.as_ref().and_then(|word| check.faults.one_of(word, &at.key("drives"), &DRIVES));
+    let release =
+        raw.release.as_ref().and_then(|word| check.faults.one_of(word, &at.key("release"), &RELEASE));
+    let guide = raw.guide.as_ref().and_then(|word| check.faults.one_of(word, &at.key("guide"), &GUIDE));
     let mut size = |value: Option<f64>, key: &str, dimension: Dimension, hint: &str| {
         check.optional_positive(value, &at.key(key), dimension, hint)
     };
@@ -81,8 +82,8 @@ pub(super) fn read(
     let rails = rails_of(scene, crane, &place, check)?;
     let rides = |body: usize| {
         scene.trucks.iter().any(|truck| {
-            let on = scene.structures[scene.rails[truck.rail].structure].on;
-            seat(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
+            let on = scene.structures[scene.rails[truck.rail].structure].carrier;
+            root_body(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
         })
     };
     let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
@@ -94,7 +95,9 @@ pub(super) fn read(
         loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
     }
     if let Some(approach) = approach {
-        let span = (across(scene, crane, rails[0]) - across(scene, crane, rails[1])).abs();
+        let span = (mean_lateral_position(scene, crane, rails[0])
+            - mean_lateral_position(scene, crane, rails[1]))
+        .abs();
         if approach > span {
             let at = root.key("practice");
             let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
@@ -120,9 +123,9 @@ pub(super) fn read(
 /// The only body that carries structures; where none does, the only one on rails.
 fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
     let mut found: Vec<usize> =
-        scene.structures.iter().filter_map(|structure| Some(structure.on?.body)).collect();
+        scene.structures.iter().filter_map(|structure| Some(structure.carrier?.body)).collect();
     if found.is_empty() {
-        found = scene.trucks.iter().map(|truck| seat(scene, truck.body).0).collect();
+        found = scene.trucks.iter().map(|truck| root_body(scene, truck.body).0).collect();
     }
     found.sort_unstable();
     found.dedup();
@@ -143,16 +146,22 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
     let mut rails: Vec<usize> = scene
         .trucks
         .iter()
-        .filter(|truck| seat(scene, truck.body).0 == crane)
+        .filter(|truck| root_body(scene, truck.body).0 == crane)
         .map(|truck| truck.rail)
         .collect();
     rails.sort_unstable();
     rails.dedup();
     match rails[..] {
-        [one, other] if across(scene, crane, one) != across(scene, crane, other) => Some([one, other]),
+        [one, other]
+            if mean_lateral_position(scene, crane, one) != mean_lateral_position(scene, crane, other) =>
+        {
+            Some([one, other])
+        }
         _ => {
             let found = match rails.len() {
-                2 => format!("trucks on both at z = {}", number(across(scene, crane, rails[0]))),
+                2 => {
+                    format!("trucks on both at z = {}", number(mean_lateral_position(scene, crane, rails[0])))
+                }
                 count => count.to_string(),
             };
             let fault =

@@ -3,7 +3,7 @@
 use super::files::Files;
 use crate::check::Check;
 use crate::scene::raw::RawIrregularity;
-use crate::tables::{Columns, disorder};
+use crate::tables::{CsvColumns, disorder};
 use crate::text::fault::{Fault, nearest, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -62,7 +62,7 @@ fn read_file(
 ) -> Option<Vec<[f64; 2]>> {
     let rows = files.read(file, &at.key("file"), check, |input, check| {
         let source = input.source().map_err(|error| vec![*error])?;
-        let columns = Columns::of(&source).map_err(|error| vec![*error])?;
+        let columns = CsvColumns::of(&source).map_err(|error| vec![*error])?;
         select_columns(raw, &columns, at, check).map(|picked| columns.rows(picked)).transpose()
     });
     rows.flatten()
@@ -71,7 +71,7 @@ fn read_file(
 /// Indices of the columns of x and of the value: those that are named, otherwise the first two.
 fn select_columns(
     raw: &RawIrregularity,
-    columns: &Columns<'_>,
+    columns: &CsvColumns<'_>,
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<[usize; 2]> {

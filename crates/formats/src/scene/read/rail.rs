@@ -32,8 +32,8 @@ pub(super) fn rail_among(
     let words: Vec<(&str, usize)> =
         rails.iter().enumerate().map(|(index, rail)| (rail.name.as_str(), index)).collect();
     match (given, rails.len()) {
-        (Some(rail), _) => check.faults.word(rail, &at.key("rail"), &words),
+        (Some(rail), _) => check.faults.one_of(rail, &at.key("rail"), &words),
         (None, 1) => Some(0),
-        (None, _) => check.faults.need(&given, at, "rail").map(|_| 0),
+        (None, _) => check.faults.require(&given, at, "rail").map(|_| 0),
     }
 }

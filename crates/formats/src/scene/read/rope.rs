@@ -39,12 +39,14 @@ fn read(
 ) -> Option<Rope> {
     let name = raw.name.clone().unwrap_or_else(|| format!("rope{number}"));
     check_name(&name, &at.key("name"), check.faults);
-    let from = check.faults.need(&raw.from, at, "from");
+    let from = check.faults.require(&raw.from, at, "from");
     let from = from.and_then(|end| read_end(end, bodies, &at.key("from"), check));
-    let to = check.faults.need(&raw.to, at, "to");
+    let to = check.faults.require(&raw.to, at, "to");
     let to = to.and_then(|end| read_end(end, bodies, &at.key("to"), check));
-    let stiffness = check.needed(raw.stiffness, at, "EA", Dimension::FORCE, "a force: modulus times area");
-    let length = check.needed(raw.length, at, "length", Dimension::LENGTH, "unstretched, at time 0");
+    let stiffness =
+        check.required_positive(raw.stiffness, at, "EA", Dimension::FORCE, "a force: modulus times area");
+    let length =
+        check.required_positive(raw.length, at, "length", Dimension::LENGTH, "unstretched, at time 0");
     let damping = check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "");
     let place = at.key("speed");
     let still = vec![[0.0, 0.0]];

@@ -8,11 +8,11 @@ use super::{
 };
 use crate::check::Check;
 use crate::scene::raw::RawScene;
-use crate::scene::values::body::{Along, Body, SPACE, is_carried, root_of};
+use crate::scene::values::body::{Body, BodyMotion, SPACE, is_carried, root_of};
 use crate::scene::values::scene::{Analysis, FORMAT, Scene, SceneRail};
 use crate::scene::values::structure::Structure;
 use crate::scene::values::truck::Truck;
-use crate::scene::values::wheel::Wheel;
+use crate::scene::values::wheel::WheelKind;
 use crate::text::fault::{Fault, Faults, number};
 use crate::text::names::check_name;
 use crate::text::place::Place;
@@ -58,8 +58,8 @@ pub(in crate::scene) fn read(
     mount::read(&raw.structures, &mut structures, &bodies, check);
     let loads = actuator::read_loads(&raw.loads, &bodies, check);
     let wheels = read_wheels(raw, &root, check);
-    let end = match check.faults.need(&raw.end, &root, "end") {
-        Some(end) => check.needed(end.time, &root.key("end"), "time", Dimension::TIME, ""),
+    let end = match check.faults.require(&raw.end, &root, "end") {
+        Some(end) => check.required_positive(end.time, &root.key("end"), "time", Dimension::TIME, ""),
         None => 1.0,
     };
     let ropes = rope::read_all(&raw.ropes, &bodies, end, check);
@@ -124,7 +124,7 @@ fn read_bodies(
     bodies
 }
 
-fn read_wheels(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Vec<Wheel> {
+fn read_wheels(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Vec<WheelKind> {
     let mut wheels = Vec::new();
     let place = root.key("wheels");
     for (name, raw) in &raw.wheels.0 {
@@ -207,7 +207,7 @@ fn rails_of(structures: &[Structure]) -> Vec<SceneRail> {
 fn read_analysis(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Analysis {
     let words = [("dynamic", Analysis::Dynamic), ("quasi-static", Analysis::QuasiStatic)];
     match &raw.analysis {
-        Some(word) => check.faults.word(word, &root.key("analysis"), &words).unwrap_or(Analysis::Dynamic),
+        Some(word) => check.faults.one_of(word, &root.key("analysis"), &words).unwrap_or(Analysis::Dynamic),
         None => Analysis::Dynamic,
     }
 }
@@ -323,8 +323,8 @@ fn check_travel(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Fa
 /// Time and position at which a body's origin leaves a range, as far as that follows from its motion.
 fn leaves(body: &Body, range: [f64; 2], end: f64) -> Option<(f64, f64)> {
     match &body.motion {
-        Along::Prescribed(travel) => travel.leaves(range, end),
-        Along::Held | Along::Free | Along::Driven(_) => {
+        BodyMotion::Prescribed(travel) => travel.leaves(range, end),
+        BodyMotion::Held | BodyMotion::Free | BodyMotion::Driven(_) => {
             (body.x0 < range[0] || body.x0 > range[1]).then_some((0.0, body.x0))
         }
     }

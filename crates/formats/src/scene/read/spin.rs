@@ -1,12 +1,12 @@
 //! Wheels whose spin a motion prescribes.
 
-use sim::{Given, Profile};
+use sim::{MotionKind, Profile};
 
 use super::schedule::read_rows;
 use crate::check::Check;
 use crate::scene::raw::RawMotion;
 use crate::scene::values::actuator::Spin;
-use crate::scene::values::body::Along;
+use crate::scene::values::body::BodyMotion;
 use crate::scene::values::scene::Scene;
 use crate::text::fault::Fault;
 use crate::text::names::{names, resolve};
@@ -37,8 +37,8 @@ pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) 
     for (truck, owner) in scene.trucks.iter().enumerate() {
         let kind = &scene.wheels[owner.wheel];
         let body = &scene.bodies[owner.body];
-        let acts =
-            (kind.driven && matches!(body.motion, Along::Driven(_))) || (kind.braked && body.brake.is_some());
+        let acts = (kind.driven && matches!(body.motion, BodyMotion::Driven(_)))
+            || (kind.braked && body.brake.is_some());
         if acts && spins.iter().any(|spin| spin.truck == truck) {
             let fault = Fault::new(&list, format!("truck {} has a drive or a brake, and a spin", owner.name));
             check.faults.add(fault.hint("one or the other acts on a wheel"));
@@ -48,8 +48,8 @@ pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) 
 }
 
 fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<Spin> {
-    if let Some(kind) = check.faults.need(&motion.kind, at, "kind") {
-        check.faults.word(kind, &at.key("kind"), &[("prescribed", ())]);
+    if let Some(kind) = check.faults.require(&motion.kind, at, "kind") {
+        check.faults.one_of(kind, &at.key("kind"), &[("prescribed", ())]);
     }
     for (key, given) in [
         ("body", motion.body.is_some()),
@@ -64,9 +64,9 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
     }
     let rate = |power| Dimension::of(0, 0, power);
     let tables = [
-        ("position", Given::Position, &motion.position, rate(0)),
-        ("speed", Given::Speed, &motion.speed, rate(-1)),
-        ("acceleration", Given::Acceleration, &motion.acceleration, rate(-2)),
+        ("position", MotionKind::Position, &motion.position, rate(0)),
+        ("speed", MotionKind::Speed, &motion.speed, rate(-1)),
+        ("acceleration", MotionKind::Acceleration, &motion.acceleration, rate(-2)),
     ];
     let given: Vec<_> = tables
         .into_iter()
@@ -91,7 +91,7 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
     let truck = match (&motion.truck, known.len()) {
         (Some(name), _) => resolve(name, &known, "truck", &at.key("truck"), check.faults)?,
         (None, 1) => 0,
-        (None, _) => check.faults.need(&motion.truck, at, "truck").map(|_| 0)?,
+        (None, _) => check.faults.require(&motion.truck, at, "truck").map(|_| 0)?,
     };
     let owner = &scene.trucks[truck];
     let count = owner.wheel_offsets().len();

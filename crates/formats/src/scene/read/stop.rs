@@ -3,8 +3,8 @@
 use super::rail::rail_named;
 use crate::check::Check;
 use crate::scene::raw::RawStop;
-use crate::scene::values::actuator::{Meeting, Stop};
-use crate::scene::values::body::{Along, root_of};
+use crate::scene::values::actuator::{Stop, StopPoint};
+use crate::scene::values::body::{BodyMotion, root_of};
 use crate::scene::values::scene::Scene;
 use crate::scene::values::truck::Truck;
 use crate::text::fault::{Fault, number};
@@ -34,7 +34,7 @@ pub(super) fn read_all(raw: &[RawStop], scene: &Scene, check: &mut Check<'_>) ->
 fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<Stop> {
     let name = raw.name.clone().unwrap_or_else(|| format!("stop{count}"));
     check_name(&name, &at.key("name"), check.faults);
-    let stiffness = check.needed(raw.k, at, "k", Dimension::STIFFNESS, "force per length");
+    let stiffness = check.required_positive(raw.k, at, "k", Dimension::STIFFNESS, "force per length");
     let damping =
         check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "force per speed");
     let body = raw.body.as_ref().map(|name| {
@@ -51,12 +51,21 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
         check.faults.add(Fault::new(&at.key("gap"), "`gap` needs `against`").at_key().hint("a body"));
     }
     if let (Some(other), None, None, None) = (&raw.against, &raw.rail, raw.x, raw.height) {
-        check.faults.need(&raw.body, at, "body")?;
+        check.faults.require(&raw.body, at, "body")?;
         let met = (body??, point.unwrap_or_default());
         let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
-        let meetings = vec![Meeting { body: met.0, at: met.1, side }];
+        let meetings = vec![StopPoint { body: met.0, at: met.1, side }];
         let against = Some(against);
-        return Some(Stop { name, axis: 0, against, place, rail: None, stiffness, damping, meetings });
+        return Some(Stop {
+            name,
+            axis: 0,
+            against,
+            place,
+            rail: None,
+            stiffness,
+            damping,
+            points: meetings,
+        });
     }
     let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
         (Some(rail), Some(x), None) => {
@@ -67,10 +76,12 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
         (None, None, Some(height)) => {
             let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
             let words = [("above", -1.0), ("below", 1.0)];
-            let side =
-                raw.side.as_ref().map_or(Some(-1.0), |word| check.faults.word(word, &at.key("side"), &words));
-            check.faults.need(&raw.body, at, "body")?;
-            (1, height, None, vec![Meeting { body: body??, at: point.unwrap_or_default(), side: side? }])
+            let side = raw
+                .side
+                .as_ref()
+                .map_or(Some(-1.0), |word| check.faults.one_of(word, &at.key("side"), &words));
+            check.faults.require(&raw.body, at, "body")?;
+            (1, height, None, vec![StopPoint { body: body??, at: point.unwrap_or_default(), side: side? }])
         }
         _ => {
             let fault = Fault::new(at, "must have `rail` and `x`, `body` and `Y`, or `body` and `against`");
@@ -80,7 +91,7 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
             return None;
         }
     };
-    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, meetings })
+    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, points: meetings })
 }
 
 /// A buffer between a point of one body and the body named `other`, which it meets after `gap`: the body that bears it,
@@ -124,10 +135,10 @@ fn on_rail(
     scene: &Scene,
     at: &Place<'_>,
     check: &mut Check<'_>,
-) -> Option<Vec<Meeting>> {
+) -> Option<Vec<StopPoint>> {
     let words = [("before", 1.0), ("beyond", -1.0)];
     let side = match &raw.side {
-        Some(word) => Some(check.faults.word(word, &at.key("side"), &words)?),
+        Some(word) => Some(check.faults.one_of(word, &at.key("side"), &words)?),
         None => None,
     };
     let meant: Vec<usize> = match body {
@@ -137,7 +148,7 @@ fn on_rail(
     let mut meetings = Vec::new();
     for b in meant {
         let Some((root, ahead)) = root_of(&scene.bodies, b) else { continue };
-        if body.is_none() && scene.bodies[root].motion == Along::Held {
+        if body.is_none() && scene.bodies[root].motion == BodyMotion::Held {
             continue;
         }
         let x0 = scene.bodies[root].x0;
@@ -169,7 +180,7 @@ fn on_rail(
             }
         };
         let (body, at, _) = if side > 0.0 { *last } else { *first };
-        meetings.push(Meeting { body, at, side });
+        meetings.push(StopPoint { body, at, side });
     }
     if meetings.is_empty() && body.is_none() {
         check.faults.add(Fault::new(&at.key("rail"), "no body moves on that rail"));

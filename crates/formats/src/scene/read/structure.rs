@@ -9,7 +9,7 @@ use super::{gauge, irregularity, tables, ties};
 use crate::check::Check;
 use crate::scene::raw::{RawStructure, RawTables};
 use crate::scene::values::structure::{
-    ELEMENTS, Foundation, Handover, MODES, Origin, PARTS, Reading, Structure, TOLERANCE,
+    DEFAULT_PARTS, ELEMENTS, Foundation, Handover, MODES, Origin, Structure, TOLERANCE, TableInterpolation,
 };
 use crate::spec::{RailOutline, Spec};
 use crate::text::fault::{Fault, nearest};
@@ -41,7 +41,7 @@ pub(super) fn read(
     check: &mut Check<'_>,
 ) -> Option<Structure> {
     let word = foundation_word(raw, at, check);
-    let count = raw.count.unwrap_or(PARTS);
+    let count = raw.count.unwrap_or(DEFAULT_PARTS);
     if count < 2 {
         check
             .faults
@@ -50,8 +50,11 @@ pub(super) fn read(
     let handover = read_handover(raw, at, check);
     let damping = read_damping(raw, at, check);
     let reading = match &raw.reading {
-        Some(word) => check.faults.word(word, &at.key("reading"), &Reading::WORDS).unwrap_or(Reading::Exact),
-        None => Reading::Exact,
+        Some(word) => check
+            .faults
+            .one_of(word, &at.key("reading"), &TableInterpolation::WORDS)
+            .unwrap_or(TableInterpolation::Exact),
+        None => TableInterpolation::Exact,
     };
     let couplings = read_couplings(raw, word, at, check);
     let tolerance = read_tolerance(raw, at, check);
@@ -97,7 +100,7 @@ pub(super) fn read(
         check.faults.add(fault.hint("the short form of a spec, with `girder`"));
     }
     let rails = origin.rails();
-    if reading != Reading::Exact {
+    if reading != TableInterpolation::Exact {
         enough_stations(&rails, reading, at, check);
     }
     let auto = matches!(word, FoundationWord::Auto);
@@ -112,13 +115,13 @@ pub(super) fn read(
         foundation,
         auto,
         damping,
-        reading,
+        interpolation: reading,
         couplings,
         tolerance,
         gauges,
         longitudinal,
         irregularities,
-        on: None,
+        carrier: None,
     })
 }
 
@@ -136,7 +139,7 @@ fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) ->
         ("ties", FoundationWord::Ties),
         ("auto", FoundationWord::Auto),
     ];
-    check.faults.word(word, &place, &words).unwrap_or(FoundationWord::Auto)
+    check.faults.one_of(word, &place, &words).unwrap_or(FoundationWord::Auto)
 }
 
 /// Words of which couplings are taken into account.
@@ -153,7 +156,7 @@ fn read_couplings(
 ) -> Couplings {
     let Some(given) = &raw.couplings else { return Couplings::All };
     let place = at.key("couplings");
-    let couplings = check.faults.word(given, &place, &COUPLINGS).unwrap_or_default();
+    let couplings = check.faults.one_of(given, &place, &COUPLINGS).unwrap_or_default();
     if couplings != Couplings::All && !matches!(word, FoundationWord::Influence | FoundationWord::Rigid) {
         let fault = Fault::new(&place, "can be left out of the foundation \"influence\" alone").at_key();
         check
@@ -216,7 +219,7 @@ fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f6
 fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> Handover {
     let words = [("blend", false), ("per-part", true)];
     let per_part = match &raw.handover {
-        Some(word) => check.faults.word(word, &at.key("handover"), &words).unwrap_or(false),
+        Some(word) => check.faults.one_of(word, &at.key("handover"), &words).unwrap_or(false),
         None => false,
     };
     let hint = "the length over which the datum is blended";
@@ -251,14 +254,19 @@ fn read_tables(
         let fault = Fault::new(at, "must name a table as `vertical`, `lateral` or both");
         check.faults.add(fault.hint("such as \"vertical\": 6 for SPLINE/6, or its name in quotes"));
     }
-    let file = check.faults.need(&raw.file, at, "file")?;
+    let file = check.faults.require(&raw.file, at, "file")?;
     let read = files.read(file, &at.key("file"), check, |input, check| tables::read(raw, input, at, check));
     read.flatten()
 }
 
 /// Checks that there are enough stations for the interpolation.
-fn enough_stations(rails: &[RailOutline], reading: Reading, at: &Place<'_>, check: &mut Check<'_>) {
-    let least = if reading == Reading::Natural { 2 } else { 4 };
+fn enough_stations(
+    rails: &[RailOutline],
+    reading: TableInterpolation,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let least = if reading == TableInterpolation::Natural { 2 } else { 4 };
     for rail in rails {
         if rail.stations.len() < least {
             let expected = format!("needs at least {least} stations on rail {}", rail.name);

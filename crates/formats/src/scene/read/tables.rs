@@ -28,7 +28,7 @@ pub(super) fn read(
             Some(units)
         }
     };
-    let set = tables::expand(&tables::read(&input.shown, &input.bytes, units)?);
+    let set = tables::expand(&tables::read(&input.display_name, &input.bytes, units)?);
     Ok(pair(&set, raw, at, check)
         .map(|tables| Origin::Tables { file: input.name.clone(), tables: Arc::new(tables) }))
 }
@@ -79,7 +79,7 @@ fn table<'s>(
 }
 
 fn by_id<'s>(set: &'s TableSet, id: u32, at: &Place<'_>, check: &mut Check<'_>) -> Option<&'s Table> {
-    let found = set.find(id);
+    let found = set.table(id);
     if found.is_none() {
         let known: Vec<String> = set.tables.iter().map(|table| table.id.to_string()).collect();
         let fault = Fault::new(at, "must be the number of a SPLINE in the file").got(id);

@@ -2,14 +2,14 @@
 
 use std::sync::Arc;
 
-use fea::Section;
+use fea::CrossSection;
 
 use crate::check::Check;
 use crate::scene::raw::{RawStructure, RawTieRail};
 use crate::scene::values::structure::{Foundation, Origin};
+use crate::spec::ties::{self, Ties, TiesError};
 use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
-use crate::track::{self, Refusal, Ties};
 use crate::units::Dimension;
 
 /// Default number of elements between two ties where there is mass.
@@ -18,12 +18,13 @@ const ELEMENTS: usize = 2;
 /// The member `ties`, which the foundation "ties" needs; `range` where the ground carries it.
 pub(super) fn read(raw: &RawStructure, needed: bool, at: &Place<'_>, check: &mut Check<'_>) -> Option<Ties> {
     if raw.ties.is_none() && needed {
-        check.faults.need(&raw.ties, at, "ties");
+        check.faults.require(&raw.ties, at, "ties");
     }
     let given = raw.ties.as_ref()?;
     let at = at.key("ties");
-    let spacing = check.needed(given.spacing, &at, "spacing", Dimension::LENGTH, "from tie to tie");
-    let k = check.needed(given.k, &at, "k", Dimension::STIFFNESS, "of one tie, force per length");
+    let spacing =
+        check.required_positive(given.spacing, &at, "spacing", Dimension::LENGTH, "from tie to tie");
+    let k = check.required_positive(given.k, &at, "k", Dimension::STIFFNESS, "of one tie, force per length");
     let hint = "of one tie, force per length; leave it out where nothing moves sideways";
     let lateral_k =
         check.optional_positive(given.lateral_k, &at.key("lateral_k"), Dimension::STIFFNESS, hint);
@@ -33,9 +34,9 @@ pub(super) fn read(raw: &RawStructure, needed: bool, at: &Place<'_>, check: &mut
     };
     let c = or_zero(given.c, &at.key("c"), Dimension::DAMPING, "of one tie, force per speed");
     let mass = or_zero(given.mass, &at.key("mass"), Dimension::MASS, "of one tie");
-    let rail = match check.faults.need(&given.rail, &at, "rail") {
+    let rail = match check.faults.require(&given.rail, &at, "rail") {
         Some(rail) => read_rail(rail, lateral_k.is_some(), &at.key("rail"), check),
-        None => Section { e: 1.0, iz: 1.0, ..Section::default() },
+        None => CrossSection { e: 1.0, iz: 1.0, ..CrossSection::default() },
     };
     let mut ties = Ties { spacing, first, k, lateral_k, c, mass, rail, elements: 1 };
     if ties.has_mass() {
@@ -44,7 +45,7 @@ pub(super) fn read(raw: &RawStructure, needed: bool, at: &Place<'_>, check: &mut
     Some(ties)
 }
 
-fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<'_>) -> Section {
+fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<'_>) -> CrossSection {
     let mut or_zero = |value: Option<f64>, key: &str, dimension| {
         check.optional_positive(value, &at.key(key), dimension, "").unwrap_or(0.0)
     };
@@ -52,8 +53,8 @@ fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<
     let g = or_zero(raw.g, "G", Dimension::STRESS);
     let j = or_zero(raw.j, "J", Dimension::SECOND_MOMENT);
     let iy = or_zero(raw.i_lateral, "I_lateral", Dimension::SECOND_MOMENT);
-    let e = check.needed(raw.e, at, "E", Dimension::STRESS, "");
-    let iz = check.needed(raw.i_vertical, at, "I_vertical", Dimension::SECOND_MOMENT, "");
+    let e = check.required_positive(raw.e, at, "E", Dimension::STRESS, "");
+    let iz = check.required_positive(raw.i_vertical, at, "I_vertical", Dimension::SECOND_MOMENT, "");
     if raw.i_lateral.is_some() != lateral {
         let key = if lateral { "I_lateral" } else { "lateral_k" };
         let fault = Fault::new(at, format!("missing key `{key}`"));
@@ -62,7 +63,7 @@ fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<
     let mass = raw.mass_per_length;
     let mass =
         mass.map(|mass| check.not_negative(mass, &at.key("mass_per_length"), Dimension::LINE_MASS, ""));
-    Section { e, g, area, iy, iz, j, mass: mass.unwrap_or(0.0), ..Section::default() }
+    CrossSection { e, g, area, iy, iz, j, mass: mass.unwrap_or(0.0), ..CrossSection::default() }
 }
 
 /// A rail on ties over the ground.
@@ -73,7 +74,7 @@ pub(super) fn on_ground(
     at: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Option<Origin> {
-    let given = *check.faults.need(&raw.range, at, "range")?;
+    let given = *check.faults.require(&raw.range, at, "range")?;
     let place = at.key("range");
     let range = [0, 1].map(|k| check.number(given[k], &place.index(k), Dimension::LENGTH));
     if given[1] <= given[0] {
@@ -81,7 +82,7 @@ pub(super) fn on_ground(
         check.faults.add(fault.got(number(given[1])).hint("first and last coordinate of the rail"));
     }
     is_right(check)?;
-    match track::on_ground(name, check.scale.to, ties?, range) {
+    match ties::on_ground(name, check.scale.to, ties?, range) {
         Ok(spec) => Some(Origin::Spec { file: String::new(), spec: Arc::new(spec) }),
         Err(refusal) => refuse(refusal, at, check),
     }
@@ -101,7 +102,7 @@ pub(super) fn on_structure(
     }
     is_right(check)?;
     let Origin::Spec { file, spec } = origin else { return None };
-    match track::on_structure(&spec, ties?) {
+    match ties::on_structure(&spec, ties?) {
         Ok(spec) => Some(Origin::Spec { file, spec: Arc::new(spec) }),
         Err(refusal) => refuse(refusal, at, check),
     }
@@ -112,13 +113,13 @@ fn is_right(check: &Check<'_>) -> Option<()> {
     check.faults.0.is_empty().then_some(())
 }
 
-fn refuse(refusal: Refusal, at: &Place<'_>, check: &mut Check<'_>) -> Option<Origin> {
+fn refuse(refusal: TiesError, at: &Place<'_>, check: &mut Check<'_>) -> Option<Origin> {
     let ties = at.key("ties");
     let (place, hint) = match refusal {
-        Refusal::Few { .. } => (ties.key("spacing"), "from the `first`, ties stand `spacing` apart"),
-        Refusal::Many { .. } => (ties.key("spacing"), "a shorter rail, or fewer `elements`"),
-        Refusal::Hinge { .. } => (ties, "move the `first`"),
-        Refusal::Oblique { .. } | Refusal::Model => (ties, "use \"influence\""),
+        TiesError::Few { .. } => (ties.key("spacing"), "from the `first`, ties stand `spacing` apart"),
+        TiesError::Many { .. } => (ties.key("spacing"), "a shorter rail, or fewer `elements`"),
+        TiesError::Hinge { .. } => (ties, "move the `first`"),
+        TiesError::Oblique { .. } | TiesError::Model => (ties, "use \"influence\""),
     };
     check.faults.add(Fault::new(&place, refusal.to_string()).hint(hint));
     None
@@ -142,5 +143,5 @@ pub(super) fn foundation(
             check.faults.add(fault.hint("give `mass_per_length` of the rail or `mass` of a tie"));
         }
     }
-    Foundation::Ties { moves, modes: raw.modes, damping, c }
+    Foundation::Ties { has_mass: moves, modes: raw.modes, damping, c }
 }

@@ -6,7 +6,7 @@ use crate::scene::raw::{RawNode, RawTruck};
 use crate::scene::values::body::Body;
 use crate::scene::values::scene::SceneRail;
 use crate::scene::values::truck::{Node, Truck};
-use crate::scene::values::wheel::Wheel;
+use crate::scene::values::wheel::WheelKind;
 use crate::text::fault::{Fault, Faults, number};
 use crate::text::names::{check_name, names, resolve};
 use crate::text::place::Place;
@@ -18,7 +18,7 @@ pub(super) fn read(
     at: &Place<'_>,
     bodies: &[Body],
     rails: &[SceneRail],
-    wheels: &[Wheel],
+    wheels: &[WheelKind],
     check: &mut Check<'_>,
 ) -> Option<Truck> {
     let named = names(bodies, |body| &body.name);
@@ -48,7 +48,7 @@ fn named_or_only(
     match (name, known) {
         (None, [(_, only)]) => Some(*only),
         _ => {
-            let name = faults.need(name, at, key)?;
+            let name = faults.require(name, at, key)?;
             resolve(name, known, what, &at.key(key), faults)
         }
     }

@@ -11,7 +11,7 @@ use crate::vector::{cross, dot, unit};
 
 /// Tolerance of the distance between trucks, as a fraction of the distance between their rails: it allows for wheel
 /// treads, worn rails and rounded drawings.
-const TOLERANCE: f64 = 0.1;
+const DEFAULT_TOLERANCE: f64 = 0.1;
 
 /// Refuses trucks that do not stand on their rails, below bodies that can roll or yaw. Whether there are none.
 ///
@@ -37,7 +37,7 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
         };
         let own = truck.at[2] + arm[2];
         let wheels = own - reference.at[2] - reference_arm[2];
-        if (wheels - rails).abs() <= TOLERANCE * rails.abs() {
+        if (wheels - rails).abs() <= DEFAULT_TOLERANCE * rails.abs() {
             continue;
         }
         let [here, there] = [truck.rail, reference.rail].map(|rail| &scene.rails[rail].name);

@@ -3,17 +3,24 @@
 use crate::check::Check;
 use crate::scene::raw::{RawFriction, RawLateral, RawVertical, RawWheel};
 use crate::scene::values::wheel::{
-    Damper, Friction, FrictionLaw, IMPACT_EXPONENT, Lateral, Law, Vertical, Wheel,
+    DEFAULT_IMPACT_EXPONENT, DamperVelocity, FlangeContact, Friction, FrictionLaw, NormalForceLaw,
+    TreadContact, WheelKind,
 };
 use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check<'_>) -> Wheel {
-    let radius = check.needed(raw.radius, at, "radius", Dimension::LENGTH, "");
-    let vertical = match check.faults.need(&raw.vertical, at, "vertical") {
+pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check<'_>) -> WheelKind {
+    let radius = check.required_positive(raw.radius, at, "radius", Dimension::LENGTH, "");
+    let vertical = match check.faults.require(&raw.vertical, at, "vertical") {
         Some(vertical) => read_vertical(vertical, &at.key("vertical"), check),
-        None => Vertical { law: Law::Linear, k: 1.0, c: 0.0, damper: Damper::Rail, bilateral: false },
+        None => TreadContact {
+            law: NormalForceLaw::Linear,
+            k: 1.0,
+            c: 0.0,
+            damper: DamperVelocity::Rail,
+            bilateral: false,
+        },
     };
     let lateral = raw.lateral.as_ref().map(|lateral| read_lateral(lateral, &at.key("lateral"), check));
     let friction = raw.friction.as_ref().map(|friction| read_friction(friction, &at.key("friction"), check));
@@ -23,7 +30,7 @@ pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check
         Dimension::INERTIA,
         "leave it out for a wheel without inertia",
     );
-    Wheel {
+    WheelKind {
         name: name.to_owned(),
         radius,
         vertical,
@@ -35,19 +42,19 @@ pub(super) fn read(name: &str, raw: &RawWheel, at: &Place<'_>, check: &mut Check
     }
 }
 
-fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Vertical {
+fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> TreadContact {
     let impact = match &raw.law {
         Some(word) => {
-            check.faults.word(word, &at.key("law"), &[("linear", false), ("impact", true)]).unwrap_or(false)
+            check.faults.one_of(word, &at.key("law"), &[("linear", false), ("impact", true)]).unwrap_or(false)
         }
         None => false,
     };
-    let exponent = if impact { raw.exponent.unwrap_or(IMPACT_EXPONENT) } else { 1.0 };
+    let exponent = if impact { raw.exponent.unwrap_or(DEFAULT_IMPACT_EXPONENT) } else { 1.0 };
     if impact && exponent < 1.0 {
         let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(number(exponent));
         check.faults.add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
     }
-    let k = match check.faults.need(&raw.k, at, "k") {
+    let k = match check.faults.require(&raw.k, at, "k") {
         Some(k) => {
             let place = at.key("k");
             check.positive(*k, &place, Dimension::NUMBER, "");
@@ -60,7 +67,7 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Ve
     let law = if impact {
         let depth = match raw.depth {
             None if c == 0.0 => 1.0,
-            depth => check.needed(
+            depth => check.required_positive(
                 depth,
                 at,
                 "depth",
@@ -68,7 +75,7 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Ve
                 "penetration at which the damping is full",
             ),
         };
-        Law::Impact { exponent, depth }
+        NormalForceLaw::Impact { exponent, depth }
     } else {
         for (key, given) in [("exponent", raw.exponent.is_some()), ("depth", raw.depth.is_some())] {
             if given {
@@ -77,18 +84,18 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Ve
                 check.faults.add(fault.hint("give \"law\": \"impact\" or leave it out"));
             }
         }
-        Law::Linear
+        NormalForceLaw::Linear
     };
-    let dampers = [("rail", Damper::Rail), ("ground", Damper::Ground)];
+    let dampers = [("rail", DamperVelocity::Rail), ("ground", DamperVelocity::Ground)];
     let damper = match &raw.damper {
-        Some(word) => check.faults.word(word, &at.key("damper"), &dampers).unwrap_or(Damper::Rail),
-        None => Damper::Rail,
+        Some(word) => check.faults.one_of(word, &at.key("damper"), &dampers).unwrap_or(DamperVelocity::Rail),
+        None => DamperVelocity::Rail,
     };
-    Vertical { law, k, c, damper, bilateral: raw.bilateral.unwrap_or_default() }
+    TreadContact { law, k, c, damper, bilateral: raw.bilateral.unwrap_or_default() }
 }
 
-fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Lateral {
-    let k = check.needed(raw.k, at, "k", Dimension::STIFFNESS, "");
+fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> FlangeContact {
+    let k = check.required_positive(raw.k, at, "k", Dimension::STIFFNESS, "");
     let clearance = raw.clearance.unwrap_or_default();
     let clearance = check.not_negative(clearance, &at.key("clearance"), Dimension::LENGTH, "0 for none");
     let place = at.key("release");
@@ -101,17 +108,17 @@ fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Late
         }
         converted
     });
-    Lateral { k, clearance, release }
+    FlangeContact { k, clearance, release }
 }
 
 fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Friction {
     let laws = [("step", FrictionLaw::Step), ("coulomb", FrictionLaw::Coulomb)];
-    let given = raw.law.as_ref().and_then(|word| check.faults.word(word, &at.key("law"), &laws));
+    let given = raw.law.as_ref().and_then(|word| check.faults.one_of(word, &at.key("law"), &laws));
     let law = given.unwrap_or(FrictionLaw::Step);
     Friction {
         law,
-        mu: check.needed(raw.mu, at, "mu", Dimension::NUMBER, "leave `friction` out for none"),
-        slip: check.needed(
+        mu: check.required_positive(raw.mu, at, "mu", Dimension::NUMBER, "leave `friction` out for none"),
+        slip: check.required_positive(
             raw.slip,
             at,
             "slip",

@@ -8,7 +8,7 @@ pub struct Load {
     /// Index of its body.
     pub body: usize,
     /// Index of the degree of freedom in the order x, y, z, roll, yaw, pitch.
-    pub freedom: usize,
+    pub dof: usize,
     /// Force, or moment (force length), over time.
     pub value: Schedule,
 }
@@ -50,12 +50,12 @@ pub struct Stop {
     /// Damping coefficient, force time / length, not negative.
     pub damping: f64,
     /// Points of bodies that can meet it.
-    pub meetings: Vec<Meeting>,
+    pub points: Vec<StopPoint>,
 }
 
 /// A point of a body that can meet a stop.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Meeting {
+pub struct StopPoint {
     /// Index of the body.
     pub body: usize,
     /// Position of the point relative to its origin, length.
@@ -83,7 +83,7 @@ pub struct Event {
     /// Its condition as written.
     pub when: String,
     /// What it does, in words.
-    pub what: String,
+    pub description: String,
     /// Condition and actions.
     pub rule: Rule,
 }

@@ -30,7 +30,7 @@ pub struct Body {
     /// none: the run starts from static equilibrium.
     pub start: Option<[f64; 5]>,
     /// How it moves along its rails.
-    pub motion: Along,
+    pub motion: BodyMotion,
     /// Index of the body that carries it, and position of the pin relative to that body's origin; none: wheels or ropes
     /// carry it.
     pub pinned: Option<(usize, [f64; 3])>,
@@ -41,7 +41,7 @@ pub struct Body {
 
 /// How a body moves along its rails.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Along {
+pub enum BodyMotion {
     /// It does not move along them.
     Held,
     /// Its forces move it.
@@ -52,16 +52,16 @@ pub enum Along {
     Prescribed(Profile),
 }
 
-impl Along {
+impl BodyMotion {
     /// Whether x is an unknown that follows from the forces.
     #[must_use]
     pub fn is_free(&self) -> bool {
-        matches!(self, Along::Free | Along::Driven(_))
+        matches!(self, BodyMotion::Free | BodyMotion::Driven(_))
     }
 }
 
 /// Words of a body's degrees of freedom, in the order of [`Body::free`].
-pub const FREEDOMS: [&str; 6] = ["x", "y", "z", "roll", "yaw", "pitch"];
+pub const DOFS: [&str; 6] = ["x", "y", "z", "roll", "yaw", "pitch"];
 
 /// Words of the degrees of freedom of a body in space.
 pub(in crate::scene) const SPACE: [&str; 3] = ["X", "Y", "Z"];

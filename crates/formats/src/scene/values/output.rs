@@ -4,7 +4,7 @@ use practice::Repetition;
 
 /// Which quantities of one kind are written as columns.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Pick {
+pub enum ColumnSelection {
     /// All of them where there are few.
     #[default]
     Few,
@@ -16,15 +16,15 @@ pub enum Pick {
     Names(Vec<String>),
 }
 
-impl Pick {
-    /// Whether the quantity `name` is selected, where `few` says whether there are few of its kind.
+impl ColumnSelection {
+    /// Whether the quantity `name` is selected, where `has_few` says whether there are few of its kind.
     #[must_use]
-    pub fn takes(&self, name: &str, few: bool) -> bool {
+    pub fn selects(&self, name: &str, few: bool) -> bool {
         match self {
-            Pick::Few => few,
-            Pick::All => true,
-            Pick::None => false,
-            Pick::Names(all) => all.iter().any(|own| belongs(name, own)),
+            ColumnSelection::Few => few,
+            ColumnSelection::All => true,
+            ColumnSelection::None => false,
+            ColumnSelection::Names(all) => all.iter().any(|own| belongs(name, own)),
         }
     }
 }
@@ -38,11 +38,11 @@ pub(in crate::scene) fn belongs(name: &str, own: &str) -> bool {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Output {
     /// Reactions of the ground.
-    pub reactions: Pick,
+    pub reactions: ColumnSelection,
     /// Internal forces at the sections that specs name.
-    pub sections: Pick,
+    pub sections: ColumnSelection,
     /// Stresses at the points that specs give with sections.
-    pub stresses: Pick,
+    pub stresses: ColumnSelection,
     /// How fatigue is assessed from them.
     pub fatigue: Fatigue,
     /// Whether they include the effects of the structures' own weight.

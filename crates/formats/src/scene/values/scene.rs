@@ -8,7 +8,7 @@ use super::output::Output;
 use super::practice::Practice;
 use super::structure::Structure;
 use super::truck::Truck;
-use super::wheel::Wheel;
+use super::wheel::WheelKind;
 use crate::units::Units;
 
 /// The word of the format, with its version.
@@ -21,13 +21,13 @@ pub const FORMAT: &str = "girderway-scene/1";
 /// ```
 /// use std::path::Path;
 ///
-/// use formats::scene::{Document, Scene, seat};
+/// use formats::scene::{Document, Scene, root_body};
 ///
 /// let document = Document::open(Path::new("../../examples/wheel/scene.json")).expect("an example is right");
 /// let scene: &Scene = document.scene();
 /// assert_eq!((scene.name.as_str(), scene.end, scene.dt), ("wheel", 2.0, 0.005));
 /// assert_eq!(scene.rails[scene.trucks[0].rail].name, "floor.rail");
-/// assert_eq!(seat(scene, 0), (0, [0.0; 3]), "the hub is pinned to no other body");
+/// assert_eq!(root_body(scene, 0), (0, [0.0; 3]), "the hub is pinned to no other body");
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -46,7 +46,7 @@ pub struct Scene {
     /// Bodies, which run on them or hang from each other.
     pub bodies: Vec<Body>,
     /// Kinds of wheels.
-    pub wheels: Vec<Wheel>,
+    pub wheels: Vec<WheelKind>,
     /// Trucks: wheels under a body on one rail.
     pub trucks: Vec<Truck>,
     /// Wheels whose spin is prescribed.
@@ -98,7 +98,7 @@ pub struct SceneRail {
 impl Scene {
     /// Whether some wheel has flanges, which push its rail sideways.
     #[must_use]
-    pub fn pushes_sideways(&self) -> bool {
+    pub fn has_flanges(&self) -> bool {
         self.trucks.iter().any(|truck| self.wheels[truck.wheel].lateral.is_some())
     }
 }
@@ -107,23 +107,23 @@ impl Scene {
 pub fn end_stops<'s>(scene: &'s Scene, practice: &'s Practice) -> impl Iterator<Item = &'s Stop> {
     scene.stops.iter().filter(|stop| {
         let is_rail = stop.rail.is_some_and(|rail| practice.rails.contains(&rail));
-        is_rail && stop.meetings.iter().any(|meeting| meeting.body == practice.crane)
+        is_rail && stop.points.iter().any(|meeting| meeting.body == practice.crane)
     })
 }
 
 /// The body at the root of the tree of pins that a body is in (itself where it is not pinned), and the position of the
 /// body's origin relative to that of the root.
 #[must_use]
-pub fn seat(scene: &Scene, body: usize) -> (usize, [f64; 3]) {
+pub fn root_body(scene: &Scene, body: usize) -> (usize, [f64; 3]) {
     seat_of(&scene.bodies, body).unwrap_or((body, [0.0; 3]))
 }
 
 /// Mean position across the track, length, of the trucks on one rail below a body and the bodies pinned to it; 0 where
 /// there are none.
 #[must_use]
-pub fn across(scene: &Scene, body: usize, rail: usize) -> f64 {
+pub fn mean_lateral_position(scene: &Scene, body: usize, rail: usize) -> f64 {
     let places = scene.trucks.iter().filter(|truck| truck.rail == rail).filter_map(|truck| {
-        let (root, arm) = seat(scene, truck.body);
+        let (root, arm) = root_body(scene, truck.body);
         (root == body).then_some(truck.at[2] + arm[2])
     });
     let (sum, count) = places.fold((0.0, 0.0), |(sum, count), z| (sum + z, count + 1.0));

@@ -22,7 +22,7 @@ pub struct Structure {
     /// Damping ratio of its natural modes, from 0 to below 1.
     pub damping: f64,
     /// How its influence table is interpolated.
-    pub reading: Reading,
+    pub interpolation: TableInterpolation,
     /// Which couplings between its wheels are taken into account.
     pub couplings: Couplings,
     /// Relative error that the choice of the foundation may cause.
@@ -34,18 +34,18 @@ pub struct Structure {
     /// Irregularities of its unloaded rails, one for each rail; empty where all are straight.
     pub irregularities: Vec<sim::Irregularity>,
     /// The body that carries it; none: the ground.
-    pub on: Option<On>,
+    pub carrier: Option<CarriedBy>,
 }
 
 /// What carries a structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct On {
+pub struct CarriedBy {
     /// Index of the body.
     pub body: usize,
     /// Position of the spec's origin relative to the body's, length.
     pub at: [f64; 3],
     /// Which degrees of freedom x, y, z, roll, yaw, pitch of the body's origin may change.
-    pub moves: [bool; 6],
+    pub may_move: [bool; 6],
 }
 
 /// Where influence coefficients come from.
@@ -126,7 +126,7 @@ pub enum Foundation {
     /// A rail on elastic ties.
     Ties {
         /// Whether it has mass and moves in natural modes.
-        moves: bool,
+        has_mass: bool,
         /// Number of modes; none: all modes of the mesh.
         modes: Option<usize>,
         /// Damping ratio of each mode.
@@ -153,7 +153,7 @@ pub enum Handover {
 
 /// Interpolation of an influence table between its stations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Reading {
+pub enum TableInterpolation {
     /// The exact surface of the beams.
     Exact,
     /// Natural cubic splines along both directions.
@@ -164,19 +164,19 @@ pub enum Reading {
     Cubspl,
 }
 
-impl Reading {
+impl TableInterpolation {
     /// The interpolations by their words in scenes.
-    pub const WORDS: [(&'static str, Reading); 4] = [
-        ("exact", Reading::Exact),
-        ("natural", Reading::Natural),
-        ("akispl", Reading::Akispl),
-        ("cubspl", Reading::Cubspl),
+    pub const WORDS: [(&'static str, TableInterpolation); 4] = [
+        ("exact", TableInterpolation::Exact),
+        ("natural", TableInterpolation::Natural),
+        ("akispl", TableInterpolation::Akispl),
+        ("cubspl", TableInterpolation::Cubspl),
     ];
 
     /// Its word in scenes.
     #[must_use]
     pub fn word(self) -> &'static str {
-        Reading::WORDS.iter().find(|(_, reading)| *reading == self).map_or("", |(word, _)| *word)
+        TableInterpolation::WORDS.iter().find(|(_, reading)| *reading == self).map_or("", |(word, _)| *word)
     }
 }
 
@@ -205,7 +205,7 @@ pub const MODES: usize = 5;
 pub const ELEMENTS: usize = 8;
 
 /// Default number of parts of a chain.
-pub const PARTS: usize = 2;
+pub const DEFAULT_PARTS: usize = 2;
 
 /// A place whose displacement a run records as `<structure>.<name>`.
 #[derive(Clone, Debug, PartialEq)]

@@ -2,15 +2,15 @@
 
 /// A kind of wheel, shared by trucks.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wheel {
+pub struct WheelKind {
     /// Its name.
     pub name: String,
     /// Radius of the tread.
     pub radius: f64,
     /// Vertical contact of the tread.
-    pub vertical: Vertical,
+    pub vertical: TreadContact,
     /// Contact of the flange; none: the wheel never touches sideways.
-    pub lateral: Option<Lateral>,
+    pub lateral: Option<FlangeContact>,
     /// Friction along the rail; none: the wheel rolls without traction.
     pub friction: Option<Friction>,
     /// Moment of inertia about the axle, mass length^2; none: the spin follows from rolling without slip.
@@ -23,22 +23,22 @@ pub struct Wheel {
 
 /// Vertical contact: force from penetration and its rate.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Vertical {
+pub struct TreadContact {
     /// Law of the contact force.
-    pub law: Law,
+    pub law: NormalForceLaw,
     /// Stiffness, force per length^exponent (exponent 1 for the linear law).
     pub k: f64,
     /// Damping, force per speed.
     pub c: f64,
     /// Which velocity the damper acts on.
-    pub damper: Damper,
+    pub damper: DamperVelocity,
     /// Whether the contact can pull.
     pub bilateral: bool,
 }
 
 /// Law of a vertical contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Law {
+pub enum NormalForceLaw {
     /// N = k p + c dp/dt of the penetration p.
     Linear,
     /// IMPACT of ADAMS: N = k p^exponent + STEP(p, 0, 0, depth, c) dp/dt.
@@ -52,7 +52,7 @@ pub enum Law {
 
 /// The velocity that the damper of a contact acts on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Damper {
+pub enum DamperVelocity {
     /// That of the wheel relative to the rail.
     Rail,
     /// That of the wheel in space.
@@ -61,7 +61,7 @@ pub enum Damper {
 
 /// Flange contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lateral {
+pub struct FlangeContact {
     /// Stiffness, force / length.
     pub k: f64,
     /// Clearance to either side, length, not negative.
@@ -92,4 +92,4 @@ pub struct Friction {
 }
 
 /// Default exponent of IMPACT.
-pub const IMPACT_EXPONENT: f64 = 1.1;
+pub const DEFAULT_IMPACT_EXPONENT: f64 = 1.1;

@@ -3,7 +3,7 @@
 use super::*;
 
 fn of(shape: &str, d: &[f64]) -> Properties {
-    properties(shape, d).expect("a section")
+    section_properties(shape, d).expect("a section")
 }
 
 fn close(found: f64, expected: f64, what: &str) {
@@ -109,8 +109,8 @@ fn dimensions_that_do_not_fit_are_refused() {
         ("BAR", &[1e200, 1e200]),
     ];
     for (shape, d) in wrong {
-        assert_eq!(properties(shape, d), Err(Refusal::Dimensions), "{shape} {d:?}");
+        assert_eq!(section_properties(shape, d), Err(ShapeError::Dimensions), "{shape} {d:?}");
     }
-    assert_eq!(properties("BOX1", &[4.0, 4.0, 0.5, 0.1, 0.5, 0.1]), Err(Refusal::Oblique));
-    assert_eq!(properties("Z", &[1.0; 4]), Err(Refusal::Unknown));
+    assert_eq!(section_properties("BOX1", &[4.0, 4.0, 0.5, 0.1, 0.5, 0.1]), Err(ShapeError::Oblique));
+    assert_eq!(section_properties("Z", &[1.0; 4]), Err(ShapeError::Unknown));
 }

@@ -1,7 +1,7 @@
 //! The text of a file as rows of cells, each with its place.
 
-use crate::diagnostic::Diagnostic;
-use crate::source::Source;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::source::Source;
 
 /// The rows of a file that are neither blank nor comments.
 pub(super) struct Sheet<'s> {

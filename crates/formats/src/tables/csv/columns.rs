@@ -1,29 +1,29 @@
 //! Two columns of a file, as rows of numbers.
 
 use super::cells::{Cell, Sheet};
-use crate::diagnostic::Diagnostic;
-use crate::source::Source;
 use crate::tables::defect::disorder;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::source::Source;
 
 /// Rows of a file, with the names of its columns where the first row has names.
-pub struct Columns<'s> {
+pub struct CsvColumns<'s> {
     sheet: Sheet<'s>,
     names: Vec<String>,
     first: usize,
 }
 
-impl<'s> Columns<'s> {
+impl<'s> CsvColumns<'s> {
     /// Reads a file whose cells are separated by semicolons, tabs, commas or blanks. Rows that begin with `#`, `%` or
     /// `!` are comments.
     ///
     /// # Errors
     /// A file without rows, or with a quotation mark that is not closed.
-    pub fn of(source: &'s Source) -> Result<Columns<'s>, Box<Diagnostic>> {
+    pub fn of(source: &'s Source) -> Result<CsvColumns<'s>, Box<Diagnostic>> {
         let sheet = Sheet::of(source)?;
         let head = &sheet.rows[0];
         let named = head.iter().any(|cell| sheet.maybe_number(cell).is_none());
         let names = if named { head.iter().map(|cell| cell.text.clone()).collect() } else { Vec::new() };
-        Ok(Columns { sheet, names, first: usize::from(named) })
+        Ok(CsvColumns { sheet, names, first: usize::from(named) })
     }
 
     /// Names of the columns; none where the file has no header.
@@ -72,13 +72,13 @@ impl<'s> Columns<'s> {
 
 #[cfg(test)]
 mod tests {
-    use super::Columns;
-    use crate::source::Source;
+    use super::CsvColumns;
+    use crate::text::source::Source;
 
     fn rows(text: &str, columns: [usize; 2]) -> Result<Vec<[f64; 2]>, String> {
         let source =
             Source::from_bytes("t.csv".to_owned(), text.as_bytes().to_vec()).map_err(|e| e.to_string())?;
-        let table = Columns::of(&source).map_err(|e| e.to_string())?;
+        let table = CsvColumns::of(&source).map_err(|e| e.to_string())?;
         table.rows(columns).map_err(|all| all.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
     }
 

@@ -2,9 +2,9 @@
 
 use super::Sheet;
 use super::cells::Cell;
-use crate::diagnostic::Diagnostic;
 use crate::tables::defect;
 use crate::tables::parsed::Draft;
+use crate::text::diagnostic::Diagnostic;
 use crate::units::{Force, Length, Units};
 
 /// Indices of the columns.
@@ -45,7 +45,7 @@ impl Header {
         let unit = |column: usize| head[column].1;
         let units = unit(x).zip(unit(value)).map(|(length, value)| {
             // the first word of ft/lbf is the length, the second the force
-            let units = Units::of_words(value);
+            let units = Units::parse(value);
             units.filter(|units| Length::of_word(length) == Some(units.length))
         });
         let units = match units {

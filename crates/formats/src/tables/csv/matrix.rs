@@ -2,9 +2,9 @@
 
 use super::Sheet;
 use super::cells::Cell;
-use crate::diagnostic::Diagnostic;
 use crate::tables::defect::{self, Part};
 use crate::tables::parsed::Draft;
+use crate::text::diagnostic::Diagnostic;
 
 /// Reads the one table of the file. The corner is empty, text or left out; it may be 0 where x and z are the same
 /// stations.

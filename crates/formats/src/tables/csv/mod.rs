@@ -11,13 +11,13 @@ use serde_json::json;
 use super::adm::remarks;
 use super::parsed::Parsed;
 use super::set::TableSet;
-use crate::diagnostic::Diagnostic;
-use crate::source::Source;
 use crate::spec::stem;
+use crate::text::diagnostic::Diagnostic;
+use crate::text::source::Source;
 use crate::units::{Dimension, Units};
 use cells::Sheet;
 
-pub use columns::Columns;
+pub use columns::CsvColumns;
 
 /// The text: one value per line under a header with the units, and the products in comments above it.
 pub(super) fn write(set: &TableSet) -> String {
@@ -68,5 +68,5 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
 
 /// The units in a comment `units: ft, lbf, s`.
 fn units_in(comments: &str) -> Option<Units> {
-    comments.lines().find_map(|line| Units::of_words(line.trim().strip_prefix("units:")?))
+    comments.lines().find_map(|line| Units::parse(line.trim().strip_prefix("units:")?))
 }

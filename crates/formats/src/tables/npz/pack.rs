@@ -1,8 +1,8 @@
 //! The arrays of a file, with checks of type and length.
 
 use super::array::{Array, Data};
-use crate::diagnostic::Diagnostic;
 use crate::grid::GridBlock;
+use crate::text::diagnostic::Diagnostic;
 
 /// Quantity and rails (of deflection, of load) of a table, where they are known.
 pub(super) type Relation = (Option<GridBlock>, Option<[String; 2]>);

@@ -4,11 +4,11 @@ use super::archive;
 use super::array::Data;
 use super::keys::META;
 use super::pack::Pack;
-use crate::diagnostic::Diagnostic;
 use crate::spec::stem;
 use crate::tables::defect::{self, Defect, Part};
 use crate::tables::parsed::{Draft, Parsed};
 use crate::tables::set::Product;
+use crate::text::diagnostic::Diagnostic;
 use crate::units::Units;
 
 /// Reads an archive of ours, or of arrays as users of NumPy write them: there every matrix is a table with the name of
@@ -20,7 +20,7 @@ pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Di
     let given = match pack.words("units").map_err(one)? {
         None => None,
         Some(words) => {
-            let units = Units::of_words(&words.join(" "));
+            let units = Units::parse(&words.join(" "));
             let hint = "such as [\"ft\", \"lbf\", \"s\"]; length ft, in, m or mm; force lbf, kip, N or kN";
             Some(
                 units.ok_or_else(|| {
@@ -115,7 +115,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    /// A defect of the table `key` as a diagnostic; `x` and `z` are the arrays of its stations, and `line` says whether
+    /// A defect of the table `key` as a diagnostic; `x` and `z` are the arrays of its stations, and `summary` says whether
     /// the table has one dimension.
     fn located(&self, defect: Defect, key: &str, [x, z]: [&str; 2], line: bool) -> Diagnostic {
         let path = match defect.part {

@@ -13,7 +13,7 @@ use crate::document::animated::Animation;
 use crate::figures::pictures::{LabelledRun, RunFigure};
 use crate::{Picture, number};
 use draw::{PlanDrawing, WIDTH};
-use formats::motion::Cast;
+use formats::scene::motion::SimulationInput;
 use formats::units::Dimension;
 use foundations::Error;
 use results::layout::ScenePositions;
@@ -29,9 +29,9 @@ const FRAMES: usize = 400;
 ///
 /// # Errors
 /// A structure of which no model can be built.
-pub fn animation_figure(run: &LabelledRun, cast: &Cast) -> Result<Option<RunFigure>, Error> {
+pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Option<RunFigure>, Error> {
     let scene = run.scene;
-    let rides = scene.structures.iter().any(|structure| structure.on.is_some());
+    let rides = scene.structures.iter().any(|structure| structure.carrier.is_some());
     let hangs = scene.bodies.iter().any(|body| body.in_space);
     let time = run.record.values("time");
     if !(rides || hangs) || time.len() < 2 {

@@ -1,8 +1,8 @@
 //! The data of one run that both views of the animation need.
 
 use crate::figures::pictures::LabelledRun;
-use formats::motion::Cast;
 use formats::scene::Scene;
+use formats::scene::motion::SimulationInput;
 use results::layout::ScenePositions;
 
 /// Length of the longest bar of a force, in pixels.
@@ -11,7 +11,7 @@ pub(super) const BAR: f64 = 48.0;
 /// One run with the frames of its animation.
 pub(super) struct AnimationView<'v> {
     pub scene: &'v Scene,
-    pub cast: &'v Cast,
+    pub cast: &'v SimulationInput,
     pub layout: ScenePositions<'v>,
     pub run: &'v LabelledRun<'v>,
     /// Rows of the record that are drawn as frames.

@@ -63,7 +63,8 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
             .all(|w| first.is_none_or(|(b, _)| system.mechanics.kinematics.root(w.body) == b));
     let uniform = first.is_none_or(|(_, motion)| motion.uniform(scene.end).is_some());
     let symmetric = system.foundations.iter().all(|f| f.compliance.as_ref().is_none_or(|c| c.is_symmetric()));
-    let mounted = !system.mechanics.carried.is_empty() || system.foundations.iter().any(|f| f.on.is_some());
+    let mounted =
+        !system.mechanics.carried.is_empty() || system.foundations.iter().any(|f| f.carrier.is_some());
     let troubles = [
         (!together, "wheels that travel together"),
         (!uniform, "a uniform speed"),

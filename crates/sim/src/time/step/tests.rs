@@ -11,11 +11,11 @@ use crate::time::events::first_switch;
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use splines::{Cell, Compliance, Flexibility, Influence, Line, Probe, Surface};
+use splines::{Compliance, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
 
 use crate::{
-    Analysis, BlendedParts, Body, Contact, Damper, Dynamics, Error, Foundation, Given, Method, NormalLaw,
-    PartChain, Profile,
+    Analysis, BlendedParts, Body, Contact, Damper, Dynamics, Error, Foundation, Method, MotionKind,
+    NormalLaw, PartChain, Profile,
 };
 use crate::{Scene, Shapes, Structure, Wheel};
 
@@ -160,7 +160,7 @@ fn modal() -> Foundation {
 /// Two rigid parts on springs that are joined by a beam, their datum handed over from 1.5 to 6.5: the wheel stays
 /// between.
 fn parts() -> Foundation {
-    let cells = [2.0, 6.0].iter().enumerate().map(|(j, centre)| Cell {
+    let cells = [2.0, 6.0].iter().enumerate().map(|(j, centre)| RailElement {
         rail: j,
         x: [0.0, 10.0],
         ends: [j, j],
@@ -168,9 +168,9 @@ fn parts() -> Foundation {
         frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         offset: [-centre, 0.0, 0.0],
         flexibility: Flexibility::default(),
-        carrier: None,
+        member: None,
     });
-    let line = Line::new(cells.collect()).expect("rigid arms");
+    let line = Rails::new(cells.collect()).expect("rigid arms");
     let mut nodal = DMatrix::zeros(12, 12);
     let give = DMatrix::from_row_slice(
         4,
@@ -187,9 +187,9 @@ fn parts() -> Foundation {
             nodal[(row, column)] = give[(i, j)];
         }
     }
-    let surface = Surface::new(Arc::new(line), nodal).expect("two parts");
+    let surface = ExactSurface::new(Arc::new(line), nodal).expect("two parts");
     let chain = PartChain::new(vec![0.0, 4.0, 10.0], 0, Some(5.0)).expect("one joint");
-    Foundation::influence(Box::new(BlendedParts { surface, chains: vec![chain] }), 1)
+    Foundation::massless(Box::new(BlendedParts { surface, chains: vec![chain] }), 1)
 }
 
 /// A pinned beam of three elements with all its natural modes; the wheel stays on the middle one, from 1.5 to 6.5.
@@ -259,7 +259,7 @@ fn end(
 ) -> Result<[f64; 2], Error> {
     let mut scene = scene();
     scene.wheels[0].normal = NormalLaw::linear(100.0, damping, damper);
-    scene.bodies[0].motion = Some(Profile::new(Given::Speed, &[[0.0, 3.0]], 2.0, 0.0)?);
+    scene.bodies[0].motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 3.0]], 2.0, 0.0)?);
     let foundations = [foundation];
     let system = System::new(&scene, &foundations)?;
     method.check(&system)?;
@@ -279,7 +279,7 @@ fn end(
 /// Between the two finest of three steps; the reference is Gauss of order 6, or Radau where a damper forbids it.
 #[test]
 fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
-    let influence = || Foundation::influence(Box::new(Give), 1);
+    let influence = || Foundation::massless(Box::new(Give), 1);
     let foundations: [(&str, &dyn Fn() -> Foundation); 5] = [
         ("rigid", &Foundation::rigid),
         ("influence", &influence),
