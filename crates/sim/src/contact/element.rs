@@ -180,7 +180,6 @@ pub(crate) struct Fixed {
     pub has_memory: bool,
     pub is_followed: bool,
     pub is_tangential: bool,
-    pub guard_kind: Option<GuardKind>,
 }
 
 impl Fixed {
@@ -191,7 +190,6 @@ impl Fixed {
             has_memory: element.has_memory(),
             is_followed: element.is_followed(),
             is_tangential: element.is_tangential(),
-            guard_kind: element.guard_kind(),
         }
     }
 }
