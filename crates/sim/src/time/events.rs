@@ -229,6 +229,9 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
 /// Fraction of the step at which a law reaches or leaves a corner, if one does by more than [`OVERSHOOT`] of the force
 /// `largest`: the secant of its guard at both ends.
 pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
+    if step.system().guarded(GuardKind::Corner).is_empty() {
+        return None;
+    }
     let slack = OVERSHOOT * largest;
     let [from, to] = [&step.from, &step.to].map(|at| guards(step.solver, GuardKind::Corner, at));
     let fractions = from.iter().zip(&to).filter_map(|(from, to)| {

@@ -367,6 +367,7 @@ impl<'a> Solver<'a> {
 
     /// Calls `each` with the number of every degree of freedom and its errors of displacement and speed, which `of`
     /// gives by number; those of hanging bodies are errors of their coordinates.
+    #[inline]
     pub fn for_errors(
         &self,
         at: &State,
