@@ -61,6 +61,7 @@ impl RailCompliance {
     }
 
     /// G and its slopes where the wheels were at the last update.
+    #[inline]
     pub fn matrices(&self) -> &RailMatrices {
         &self.matrices
     }

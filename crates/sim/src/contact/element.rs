@@ -180,7 +180,6 @@ pub(crate) struct Fixed {
     pub has_memory: bool,
     pub is_followed: bool,
     pub is_tangential: bool,
-    pub guard_kind: Option<GuardKind>,
 }
 
 impl Fixed {
@@ -191,7 +190,6 @@ impl Fixed {
             has_memory: element.has_memory(),
             is_followed: element.is_followed(),
             is_tangential: element.is_tangential(),
-            guard_kind: element.guard_kind(),
         }
     }
 }
@@ -346,6 +344,7 @@ pub(crate) struct At<'c> {
 
 impl<'c> Frame<'c> {
     /// Element `index` at this state.
+    #[inline]
     pub fn at(&'c self, index: usize) -> At<'c> {
         At { index, frame: self }
     }
@@ -354,6 +353,7 @@ impl<'c> Frame<'c> {
 impl<'c> Deref for At<'c> {
     type Target = Frame<'c>;
 
+    #[inline]
     fn deref(&self) -> &Frame<'c> {
         self.frame
     }
@@ -361,36 +361,43 @@ impl<'c> Deref for At<'c> {
 
 impl At<'_> {
     /// Its force.
+    #[inline]
     pub fn force(&self) -> f64 {
         self.state.force[self.index]
     }
 
     /// What changes about it beside its row.
+    #[inline]
     pub fn local(&self) -> &Local {
         &self.frame.local[self.index]
     }
 
     /// Slope of the deflected rail there.
+    #[inline]
     pub fn rail_slope(&self) -> f64 {
         self.frame.rail_slope[self.index]
     }
 
     /// Its approach, before the deflection of the rail.
+    #[inline]
     pub fn approach(&self) -> f64 {
         self.rows.approach_at(self.index, &self.state.q)
     }
 
     /// Deflection of the rail without mass.
+    #[inline]
     pub fn deflection(&self) -> f64 {
         self.rails.deflection(self.index, &self.state.force)
     }
 
     /// The rate that it feels, that of the degrees of freedom alone.
+    #[inline]
     pub fn rate(&self) -> f64 {
         self.rate_of(self.index)
     }
 
     /// The same of element `i`.
+    #[inline]
     pub fn rate_of(&self, i: usize) -> f64 {
         self.rows.rate_at(i, &self.state.v)
     }

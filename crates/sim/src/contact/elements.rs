@@ -2,9 +2,11 @@
 
 use std::ops::Deref;
 
+use super::active::ActiveSet;
 use super::brake::BrakeForce;
 use super::drive::DriveForce;
-use super::element::Element;
+use super::element::{At, Coupling, Element, Law, Query};
+use super::energy::{Exchanged, Stored};
 use super::flange::FlangeContact;
 use super::rope::RopeForce;
 use super::stop::StopForce;
@@ -26,6 +28,57 @@ macro_rules! force_elements {
                 let mut all = Vec::new();
                 $(all.extend(<$element>::all(mechanics).into_iter().map(ForceElement::$kind));)+
                 all
+            }
+        }
+
+        /// The questions of the innermost loops, asked of the kind itself: its answer is not looked up in a table.
+        impl ForceElement<'_> {
+            /// [`Element::law`].
+            #[inline]
+            pub fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law> {
+                match self {
+                    $(ForceElement::$kind(element) => element.law(query, couplings),)+
+                }
+            }
+
+            /// [`Element::switch`].
+            #[inline]
+            pub fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {
+                match self {
+                    $(ForceElement::$kind(element) => element.switch(at, active),)+
+                }
+            }
+
+            /// [`Element::stored`].
+            #[inline]
+            pub fn stored(&self, at: &At, energy: &mut Stored) {
+                match self {
+                    $(ForceElement::$kind(element) => element.stored(at, energy),)+
+                }
+            }
+
+            /// [`Element::power`].
+            #[inline]
+            pub fn power(&self, at: &At, power: &mut Exchanged) {
+                match self {
+                    $(ForceElement::$kind(element) => element.power(at, power),)+
+                }
+            }
+
+            /// [`Element::boundary`].
+            #[inline]
+            pub fn boundary(&self, at: &At) -> f64 {
+                match self {
+                    $(ForceElement::$kind(element) => element.boundary(at),)+
+                }
+            }
+
+            /// [`Element::resistance`].
+            #[inline]
+            pub fn resistance(&self, at: &At, b: usize) -> f64 {
+                match self {
+                    $(ForceElement::$kind(element) => element.resistance(at, b),)+
+                }
             }
         }
 

@@ -74,21 +74,25 @@ impl Geometry {
     }
 
     /// Compliance of the rails without mass.
+    #[inline]
     pub fn rails(&self) -> &RailMatrices {
         self.rails.matrices()
     }
 
     /// Rows of the elements.
+    #[inline]
     pub fn rows(&self) -> &Rows {
         &self.rows
     }
 
     /// What changes about the elements beside their rows.
+    #[inline]
     pub fn local(&self) -> &[Local] {
         &self.local
     }
 
     /// Fraction of the law of element `i` that acts.
+    #[inline]
     pub fn fraction(&self, i: usize) -> f64 {
         self.local[i].fraction[0]
     }
@@ -124,6 +128,7 @@ impl Geometry {
     }
 
     /// The scene at `state`, to which this geometry belongs.
+    #[inline]
     pub fn frame<'c>(&'c self, system: &'c System<'c>, state: &'c State) -> Frame<'c> {
         Frame {
             mechanics: &system.mechanics,

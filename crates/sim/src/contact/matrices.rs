@@ -24,6 +24,7 @@ impl RailMatrices {
     }
 
     /// Deflection of the rail at element `i` under the forces `force`.
+    #[inline]
     pub fn deflection(&self, i: usize, force: &[f64]) -> f64 {
         along(&self.value, i, force)
     }

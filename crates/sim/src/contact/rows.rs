@@ -69,11 +69,13 @@ impl Rows {
     }
 
     /// R_i.
+    #[inline]
     pub fn approach_row(&self, i: usize) -> &[f64] {
         &self.approach[i * self.dofs..(i + 1) * self.dofs]
     }
 
     /// R'_i.
+    #[inline]
     pub fn rate_row(&self, i: usize) -> &[f64] {
         &self.rate[i * self.dofs..(i + 1) * self.dofs]
     }
@@ -84,11 +86,13 @@ impl Rows {
     }
 
     /// Approach of element `i` at the degrees of freedom `q`, before the deflection of the rails.
+    #[inline]
     pub fn approach_at(&self, i: usize, q: &DVector<f64>) -> f64 {
         self.approach_offset[i] + along(&self.approach, i, q.as_slice())
     }
 
     /// Rate that the damper or the friction of element `i` feels at the speeds `v`.
+    #[inline]
     pub fn rate_at(&self, i: usize, v: &DVector<f64>) -> f64 {
         self.rate_offset[i] + along(&self.rate, i, v.as_slice())
     }

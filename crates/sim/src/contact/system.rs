@@ -4,7 +4,7 @@
 
 use splines::{Axis, Probe};
 
-use super::element::{ElementProbe, Fixed, Role};
+use super::element::{ElementProbe, Fixed, GuardKind, Role};
 use super::elements::ForceElement;
 use super::probes::{Entry, Probes, TangentialContact};
 use super::rope::RopeForce;
@@ -28,6 +28,9 @@ pub(crate) struct System<'a> {
     springs: Vec<usize>,
     /// The element of each rope.
     ropes: Vec<usize>,
+    /// Elements with guards of each kind.
+    touching: Vec<usize>,
+    cornered: Vec<usize>,
 }
 
 /// Simplifications that hold for a scene.
@@ -61,12 +64,29 @@ impl<'a> System<'a> {
         let elements = ForceElement::all(&mechanics);
         let with = |role: Role| (0..elements.len()).filter(|&i| elements[i].role() == role).collect();
         let (guides, springs) = (with(Role::Guides), with(Role::Spring));
+        let guarded = |kind: GuardKind| {
+            (0..elements.len()).filter(|&i| elements[i].guard_kind() == Some(kind)).collect()
+        };
+        let (touching, cornered) = (guarded(GuardKind::Touch), guarded(GuardKind::Corner));
         let is_rope = |i: &usize| matches!(elements[*i], ForceElement::Rope(_));
         let ropes = (0..elements.len()).filter(is_rope).collect();
         let probes = find_probes(&mechanics, &elements);
         let traits = find_traits(&mechanics, &elements);
         let fixed = elements.iter().map(|element| Fixed::of(&**element)).collect();
-        Ok(System { scene, foundations, mechanics, elements, fixed, probes, traits, guides, springs, ropes })
+        Ok(System {
+            scene,
+            foundations,
+            mechanics,
+            elements,
+            fixed,
+            probes,
+            traits,
+            guides,
+            springs,
+            ropes,
+            touching,
+            cornered,
+        })
     }
 
     /// Number of vertical contacts, the first of all elements.
@@ -95,6 +115,14 @@ impl<'a> System<'a> {
     /// Elements that join points by springs: ropes and stops.
     pub fn springs(&self) -> &[usize] {
         &self.springs
+    }
+
+    /// Elements with guards of that kind.
+    pub fn guarded(&self, kind: GuardKind) -> &[usize] {
+        match kind {
+            GuardKind::Touch => &self.touching,
+            GuardKind::Corner => &self.cornered,
+        }
     }
 
     /// Rope `index` of the scene with its element.

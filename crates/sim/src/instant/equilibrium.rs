@@ -132,7 +132,7 @@ fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
     Ok(compliance)
 }
 
-/// Degrees of degree of freedom of structures under the vertical and the guiding forces of `at`.
+/// Degrees of freedom of structures under the vertical and the guiding forces of `at`.
 fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let (rows, pressing) = (solver.geometry().rows(), pressing(system));

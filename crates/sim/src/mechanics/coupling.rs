@@ -11,7 +11,7 @@ use crate::Carrier;
 
 /// B of one structure.
 pub(crate) struct InertialCoupling {
-    /// Degrees of degree of freedom of the structure.
+    /// Degrees of freedom of the structure.
     pub range: Range<usize>,
     /// B, degrees of freedom of the structure x those of the bodies.
     pub between: DMatrix<f64>,

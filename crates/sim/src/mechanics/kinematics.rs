@@ -12,7 +12,7 @@ use crate::scene::body::parents_first;
 use crate::scene::dof::arm_rows;
 use crate::{Body, Error, Foundation, Scene};
 
-/// Degrees of degree of freedom and their coefficients in one displacement.
+/// Degrees of freedom and their coefficients in one displacement.
 pub(crate) type Terms = Vec<(usize, f64)>;
 
 /// The maps J_b, and what follows from them.

@@ -3,6 +3,7 @@
 //! Stored energy and powers are sums over bodies, structures and force elements at one state; each element adds its own
 //! ([`Element`](crate::contact::element::Element)). Steppers integrate the powers; nothing here knows of steps.
 
+use crate::contact::element::Frame;
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::coupling::kinetic;
@@ -72,13 +73,13 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let structure = system.mechanics.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
     let mut power = Exchanged { structure, ..Exchanged::default() };
+    let frame = geometry.frame(system, state);
     for (b, body) in system.scene.bodies.iter().enumerate() {
         if body.motion.is_some() {
-            power.drives += motion_force(system, geometry, state, b) * geometry.places().travel[b].v;
+            power.drives += motion_force(system, &frame, b) * frame.places.travel[b].v;
         }
     }
     power.drives += power_of_turns(system, geometry, state);
-    let frame = geometry.frame(system, state);
     for (i, element) in system.elements.iter().enumerate() {
         element.power(&frame.at(i), &mut power);
     }
@@ -98,15 +99,14 @@ pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f
 
 /// Force along +x that the prescribed motion of body `b` needs: its inertia and that of all that is pinned to it, less
 /// what their elements take.
-pub(crate) fn motion_force(system: &System, geometry: &Geometry, state: &State, b: usize) -> f64 {
-    let mechanics = &system.mechanics;
+pub(crate) fn motion_force(system: &System, frame: &Frame, b: usize) -> f64 {
+    let Frame { mechanics, state, .. } = frame;
     let kinematics = &mechanics.kinematics;
-    let mut force = kinematics.mass(b) * geometry.places().travel[b].a;
+    let mut force = kinematics.mass(b) * frame.places.travel[b].a;
     force += mechanics.carried.drive(kinematics, [&state.q, &state.v, &state.a], state.t, b);
     for &(number, inertia) in kinematics.travel_inertia(b) {
         force += inertia * state.a[number];
     }
-    let frame = geometry.frame(system, state);
     for (i, element) in system.elements.iter().enumerate() {
         force += element.resistance(&frame.at(i), b);
     }

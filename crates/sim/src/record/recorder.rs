@@ -95,13 +95,14 @@ impl Recorder {
         values: &mut Vec<f64>,
     ) -> Result<(), Error> {
         let (first, mechanics) = (values.len(), &system.mechanics);
+        let frame = geometry.frame(system, at);
         values.push(at.t);
         for (b, body) in system.scene.bodies.iter().enumerate() {
             let (displacement, speed) = mechanics.body(b, at.t, &at.q, &at.v);
             values.extend(displacement);
             values.extend(speed);
             // The sum of no forces is -0.0, as that of an empty iterator.
-            let drive = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, geometry, at, b));
+            let drive = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
             values.extend([drive, -0.0]);
         }
         for w in 0..mechanics.wheels.len() {

@@ -1,6 +1,6 @@
 //! The six degrees of freedom of a rigid body, and the lever arms between them.
 
-/// Degree of degree of freedom of a body on its track; rotations are small and right-handed about x, y and z.
+/// Degree of freedom of a body on its track; rotations are small and right-handed about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum BodyDof {
     /// Along the rail.

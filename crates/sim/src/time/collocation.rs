@@ -321,7 +321,10 @@ impl Collocation {
         let system = solver.system();
         let (s, m, size) = (self.count(), system.elements.len(), self.problem.force.len());
         self.problem.index.clear();
-        self.problem.index.extend((0..size).filter(|at| solver.active().has(at % m)));
+        for a in 0..s {
+            let active = (0..m).filter(|&i| solver.active().has(i));
+            self.problem.index.extend(active.map(|i| a * m + i));
+        }
         let count = self.problem.index.len();
         self.problem.force.fill(0.0);
         for (line, &at) in self.problem.index.iter().enumerate() {
@@ -379,11 +382,14 @@ impl Collocation {
                 load.iter_mut().zip(spread).for_each(|(load, spread)| *load -= spread * force);
             }
         }
-        for at in 0..size {
-            self.problem.approach[at] -=
-                dot(&self.problem.effect[at * size..(at + 1) * size], &self.problem.force);
-            self.states[at / m].p[at % m] = self.problem.approach[at];
-            self.states[at / m].force[at % m] = self.problem.force[at];
+        for (a, state) in self.states.iter_mut().enumerate() {
+            for i in 0..m {
+                let at = a * m + i;
+                self.problem.approach[at] -=
+                    dot(&self.problem.effect[at * size..(at + 1) * size], &self.problem.force);
+                state.p[i] = self.problem.approach[at];
+                state.force[i] = self.problem.force[at];
+            }
         }
         let h = self.responses[0].h;
         for a in 0..s {

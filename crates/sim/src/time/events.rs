@@ -116,11 +116,13 @@ pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Opt
 /// The guards of one kind of all elements at `at`, to which the geometry belongs.
 pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard> {
     let (system, mut all) = (solver.system(), Vec::new());
-    let frame = solver.geometry().frame(system, at);
-    for (i, element) in system.elements.iter().enumerate() {
-        if system.fixed[i].guard_kind == Some(kind) {
-            element.guards(&frame.at(i), &mut |guard| all.push(guard));
-        }
+    let guarded = system.guarded(kind);
+    if guarded.is_empty() {
+        return all;
+    }
+    let frame = solver.frame(at);
+    for &i in guarded {
+        system.elements[i].guards(&frame.at(i), &mut |guard| all.push(guard));
     }
     all
 }
@@ -183,11 +185,9 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
 pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64, f64)>, Error> {
     let aim = 0.5 * OVERSHOOT * largest;
     let mut first: Option<(f64, f64)> = None;
-    let mut has_looked = false;
-    for i in 0..step.system().elements.len() {
-        let Some(excess) = step.solver.switch_guard(i, &step.to).filter(|excess| *excess > 0.0) else {
-            continue;
-        };
+    let (mut has_looked, mut next) = (false, 0);
+    while let Some((i, excess)) = step.solver.next_switch(next, &step.to) {
+        next = i + 1;
         let noise = step.solver.geometry().local()[i].spring.noise;
         let fraction = if step.solver.remembers(i) {
             let start = step.from.force[i].max(0.0);
@@ -208,7 +208,8 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
 
 /// Fraction of the step at which the switch guard of element `i` reaches `aim` on the interpolant.
 fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error> {
-    let beyond = |solver: &Solver, at: &State| solver.switch_guard(i, at).unwrap_or(-1.0) - aim;
+    let beyond =
+        |solver: &Solver, at: &State| solver.switch_guard(i, &solver.frame(at)).unwrap_or(-1.0) - aim;
     // The geometry is that of the end: the value at the start is a guess.
     let [start, end] = [&step.from, &step.to].map(|at| beyond(step.solver, at));
     if end <= 0.0 {
@@ -228,6 +229,9 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
 /// Fraction of the step at which a law reaches or leaves a corner, if one does by more than [`OVERSHOOT`] of the force
 /// `largest`: the secant of its guard at both ends.
 pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
+    if step.system().guarded(GuardKind::Corner).is_empty() {
+        return None;
+    }
     let slack = OVERSHOOT * largest;
     let [from, to] = [&step.from, &step.to].map(|at| guards(step.solver, GuardKind::Corner, at));
     let fractions = from.iter().zip(&to).filter_map(|(from, to)| {

@@ -66,6 +66,7 @@ impl StepSize {
 
     /// Errors of displacement and speed of degree of freedom `k`, per unit of a step of length `h` that ended at `to`,
     /// beside their scales.
+    #[inline]
     pub fn weigh(&self, to: &State, h: f64, k: usize, [dq, dv]: [f64; 2]) -> f64 {
         let scale = self.scale[k].max(to.q[k].abs());
         let rate_scale = self.rate_scale[k].max(to.v[k].abs());
@@ -97,7 +98,7 @@ impl StepSize {
 }
 
 /// Smallest displacements and speeds that the error is measured against: the penetration at rest, carried to each
-/// degree of degree of freedom by its lever, and the bounce that belongs to it.
+/// degree of freedom by its lever, and the bounce that belongs to it.
 fn least_scales(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system();
     let n = system.mechanics.dofs;

@@ -377,9 +377,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let (solver, to) = (&*self.step.solver, &self.step.to);
         let system = solver.system();
         let has_let_go = (0..system.verticals()).any(|i| solver.active().has(i) && solver.opens(i, to));
-        has_let_go
-            || (0..system.elements.len())
-                .any(|i| solver.switch_guard(i, to).is_some_and(|excess| excess > 0.0))
+        has_let_go || solver.next_switch(0, to).is_some()
     }
 
     /// Energy stored at the end of the step.

@@ -72,7 +72,7 @@ impl Triggers {
     /// # Errors
     /// What the rails refuse.
     pub fn first(&mut self, step: &mut Step, h: f64) -> Result<Option<f64>, Error> {
-        if self.met(step.solver, &step.to)?.is_empty() {
+        if self.pending.is_empty() || self.met(step.solver, &step.to)?.is_empty() {
             return Ok(None);
         }
         let slack = (SLACK[0] * h + SLACK[1] * step.to.t) * 10.0_f64.powi(self.missed);

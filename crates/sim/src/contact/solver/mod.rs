@@ -10,7 +10,7 @@ use nalgebra::DVector;
 use super::active::ActiveSet;
 use super::charts::Charts;
 use super::convergence::Convergence;
-use super::element::tangential_of;
+use super::element::{Frame, tangential_of};
 use super::forces::{Problem, RowKind};
 use super::free_motion::FreeMotion;
 use super::geometry::Geometry;
@@ -196,10 +196,24 @@ impl<'a> Solver<'a> {
         self.system.vertical(i).closing(i, self.geometry.fraction(i), &self.active, at, rate)
     }
 
-    /// Positive where element `i` must begin or cease to act: the force by which it has gone too far.
-    pub fn switch_guard(&self, i: usize, at: &State) -> Option<f64> {
-        let frame = self.geometry.frame(self.system, at);
+    /// The scene at `at`, to which the geometry belongs.
+    pub fn frame<'s>(&'s self, at: &'s State) -> Frame<'s> {
+        self.geometry.frame(self.system, at)
+    }
+
+    /// Positive where element `i` must begin or cease to act at `frame`: the force by which it has gone too far.
+    pub fn switch_guard(&self, i: usize, frame: &Frame) -> Option<f64> {
         self.system.elements[i].switch(&frame.at(i), &self.active)
+    }
+
+    /// The first element from `first` on that must begin or cease to act at `at`, with the force by which it has gone
+    /// too far.
+    pub fn next_switch(&self, first: usize, at: &State) -> Option<(usize, f64)> {
+        let frame = self.frame(at);
+        (first..self.system.elements.len()).find_map(|i| {
+            let excess = self.switch_guard(i, &frame).filter(|excess| *excess > 0.0)?;
+            Some((i, excess))
+        })
     }
 
     /// Whether the rail below vertical contact `i` is rigid beside the wheel.
@@ -353,6 +367,7 @@ impl<'a> Solver<'a> {
 
     /// Calls `each` with the number of every degree of freedom and its errors of displacement and speed, which `of`
     /// gives by number; those of hanging bodies are errors of their coordinates.
+    #[inline]
     pub fn for_errors(
         &self,
         at: &State,
