@@ -11,11 +11,11 @@
 //! use import::{ImportOptions, import};
 //!
 //! // a beam of one element, pinned at its left end
-//! let deck = "BEGIN BULK\nGRID,1,,0.,0.,0.,,123\nGRID,2,,6.,0.,0.,,23\nCBAR,7,3,1,2,0.,0.,1.\n\
+//! let deck = "BEGIN BULK\nGRID,1,,0.,0.,0.,,1234\nGRID,2,,6.,0.,0.,,23\nCBAR,7,3,1,2,0.,0.,1.\n\
 //!             PBAR,3,4,0.01,1.E-4,2.E-5,1.E-6\nMAT1,4,2.1E11,,0.3\nENDDATA\n";
 //! let open = |_: &Path| Ok(deck.as_bytes().to_vec());
 //! let options = ImportOptions {
-//!     length: Some(Length::Meter),
+//!     length: Some(Length::Metre),
 //!     force: Some(Force::Newton),
 //!     up: Some([0.0, 0.0, 1.0]),
 //!     rails: vec!["runway=7".parse().expect("a rail along element 7")],

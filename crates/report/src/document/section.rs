@@ -128,10 +128,10 @@ impl TableColumn {
 /// A table; every row has one cell for each column.
 ///
 /// ```
-/// use report::{ReportTable, TableColumn};
+/// use report::{ReportTable, TableCell, TableColumn};
 ///
 /// let columns = vec![TableColumn::new("wheel", ""), TableColumn::new("largest force", "kN")];
-/// let rows = vec![vec!["front".into(), 81.3.into()], vec!["rear".into(), 79.0.into()]];
+/// let rows = vec![vec!["front".into(), TableCell::Number(81.3)], vec!["rear".into(), TableCell::Number(79.0)]];
 /// let table = ReportTable { caption: "Wheel forces".to_owned(), columns, rows };
 /// assert!(table.rows.iter().all(|row| row.len() == table.columns.len()));
 /// ```
