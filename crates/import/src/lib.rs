@@ -27,7 +27,7 @@
 //! assert!(model.text.contains("\"PBAR 3\""));
 //! ```
 //!
-//! Wings, lowest first: findings, structure, rail, fix, msh, bdf, write
+//! Wings, lowest first: findings, structure, rail, fix, write, msh, bdf
 
 pub mod bdf;
 pub mod findings;

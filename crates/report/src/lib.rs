@@ -24,7 +24,7 @@
 //! # Ok::<(), report::Error>(())
 //! ```
 //!
-//! Wings, lowest first: error, chart, document, figures, text
+//! Wings, lowest first: chart, error, document, figures, text
 
 pub mod chart;
 pub mod document;

@@ -12,7 +12,7 @@ use crate::text::inputs::Inputs;
 use crate::text::names::check_name;
 use crate::text::place::Place;
 use crate::text::source::Tree;
-use crate::text::tree::{Node, Value};
+use crate::text::tree::{TreeNode, Value};
 
 /// A scene file with its comparisons, read and checked with all files that it names.
 ///
@@ -87,7 +87,7 @@ impl Document {
 
 /// Checks that every comparison has a label of its own that fits file names, and that it does not change `format`,
 /// `units`, `name` and `compare`.
-fn check_labels(comparisons: &[Node<'_>], faults: &mut Faults) {
+fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
     let root = Place::root();
     let list = root.key("compare");
     let mut seen: Vec<&str> = Vec::new();
@@ -125,7 +125,7 @@ fn case(
     tree: &Tree<'_>,
     file: &str,
     index: usize,
-    changes: &Node<'_>,
+    changes: &TreeNode<'_>,
     inputs: &mut Inputs,
 ) -> Result<Case, Vec<Diagnostic>> {
     let label =

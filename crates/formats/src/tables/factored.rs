@@ -28,7 +28,7 @@ pub struct FactoredTables {
     /// For each set of coupled directions, the number of products kept and the number of eigenvalues above rounding.
     pub ranks: Vec<[usize; 2]>,
     /// Largest deviation from the given tables at their stations.
-    pub stations: Deviation,
+    pub stations: TableDeviation,
     /// Numbers of the tables left out: those of a rail with fewer stations than a curve needs, and couplings that are
     /// zero.
     pub skipped: Vec<u32>,
@@ -203,9 +203,9 @@ fn curves_of(
 }
 
 /// Deviation of the factored form from `tables` at their stations.
-fn deviation(tables: &[&Table], factored: &TableSet) -> Deviation {
+fn deviation(tables: &[&Table], factored: &TableSet) -> TableDeviation {
     let plain = expand(factored);
-    let mut out = Deviation::default();
+    let mut out = TableDeviation::default();
     for table in tables {
         let Some(back) = plain.tables.iter().find(|back| back.name == table.name) else { continue };
         let (given, back) = (table.curves.y(), back.curves.y());
@@ -226,8 +226,8 @@ impl FactoredTables {
     /// Deviation from the exact compliance at the stations and at three places between each two; `None` where a rail of
     /// the tables is not among `rails`, those of the compliance.
     #[must_use]
-    pub fn deviation_from(&self, surface: &ExactSurface, rails: &[GridRail]) -> Option<Deviation> {
-        let mut out = Deviation::default();
+    pub fn deviation_from(&self, surface: &ExactSurface, rails: &[GridRail]) -> Option<TableDeviation> {
+        let mut out = TableDeviation::default();
         for (product, [deflection, load]) in self.set.products.iter().zip(&self.directions) {
             let find = |id: Option<u32>| id.and_then(|id| self.set.table(id));
             let x = places(find(product.terms.first().map(|term| term[0]))?.curves.x());
@@ -328,14 +328,14 @@ pub fn expand(set: &TableSet) -> TableSet {
 
 /// The largest difference between two forms of tables, relative to the largest value of the same table.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Deviation {
+pub struct TableDeviation {
     /// |difference| / largest |value|.
     pub largest: f64,
     /// Name of the table, x and z where it is.
     pub at: Option<(String, f64, f64)>,
 }
 
-impl Deviation {
+impl TableDeviation {
     /// Takes a relative difference into account.
     fn take(&mut self, name: &str, x: f64, z: f64, error: f64) {
         if error > self.largest || self.at.is_none() {

@@ -19,7 +19,7 @@ mod view;
 pub use self::csv::CsvColumns;
 pub use adm::{adm, data_set};
 pub(crate) use defect::disorder;
-pub use factored::{Deviation, FactorError, FactoredTables, expand, factor};
+pub use factored::{FactorError, FactoredTables, TableDeviation, expand, factor};
 pub use format::{Contents, TableFormat, WriteError, contents, is_tables, read, write};
 pub use round::{RoundError, Rounding, round};
 pub use set::{Product, Table, TableSet, select};

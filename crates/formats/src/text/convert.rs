@@ -15,7 +15,7 @@ use serde::forward_to_deserialize_any;
 
 use super::fault::Fault;
 use super::place::Place;
-use super::tree::{Member, Node, Value};
+use super::tree::{TreeMember, TreeNode, Value};
 use super::wording::{is_duplicate, type_fault};
 
 /// Largest number of faults that are collected from one text.
@@ -34,7 +34,7 @@ pub(crate) struct Located {
 
 /// Converts a tree. The first fault is the first one of the text. Where there are faults, the members and items that they
 /// concern are left out of the value; there is no value where the rest cannot be converted either.
-pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de Node<'de>) -> (Option<T>, Vec<Located>) {
+pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> (Option<T>, Vec<Located>) {
     let mut left_out = BTreeSet::new();
     let mut faults = Vec::new();
     while faults.len() < MOST {
@@ -95,7 +95,7 @@ impl Stop {
 
     /// The same, placed at the key of a member.
     #[cold]
-    fn at_key(self, member: &Member<'_>, place: &Place<'_>) -> Stop {
+    fn at_key(self, member: &TreeMember<'_>, place: &Place<'_>) -> Stop {
         let Stop::Message(message) = self else { return self };
         let fault = type_fault(place.key(&member.key).path(), &message);
         let located = Located { fault, offset: member.start, excess: None };
@@ -149,14 +149,14 @@ impl de::Error for Stop {
 /// A value to be converted.
 #[derive(Clone, Copy)]
 struct Reader<'a, 'de> {
-    node: &'de Node<'de>,
+    node: &'de TreeNode<'de>,
     place: &'a Place<'a>,
     /// Where the values begin that are left out.
     left_out: &'a BTreeSet<usize>,
 }
 
 impl<'de> Reader<'_, 'de> {
-    fn is_left_out(&self, node: &Node<'_>) -> bool {
+    fn is_left_out(&self, node: &TreeNode<'_>) -> bool {
         !self.left_out.is_empty() && self.left_out.contains(&node.start)
     }
 
@@ -165,7 +165,7 @@ impl<'de> Reader<'_, 'de> {
         if self.node.is_whole() { Ok(value) } else { Err(Stop::Broken) }
     }
 
-    fn list<V: Visitor<'de>>(self, items: &'de [Node<'de>], visitor: V) -> Result<V::Value, Stop> {
+    fn list<V: Visitor<'de>>(self, items: &'de [TreeNode<'de>], visitor: V) -> Result<V::Value, Stop> {
         let mut rest = Items { reader: self, items, next: 0 };
         let value = visitor.visit_seq(&mut rest)?;
         rest.skip_left_out();
@@ -243,7 +243,7 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
 /// The items of a list.
 struct Items<'a, 'de> {
     reader: Reader<'a, 'de>,
-    items: &'de [Node<'de>],
+    items: &'de [TreeNode<'de>],
     next: usize,
 }
 
@@ -275,7 +275,7 @@ impl<'de> de::SeqAccess<'de> for &mut Items<'_, 'de> {
 /// The members of an object.
 struct Members<'a, 'de> {
     reader: Reader<'a, 'de>,
-    members: &'de [Member<'de>],
+    members: &'de [TreeMember<'de>],
     next: usize,
 }
 

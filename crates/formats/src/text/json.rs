@@ -7,7 +7,7 @@
 use std::borrow::Cow;
 
 use super::place::{Path, Step};
-use super::tree::{Member, Node, Value};
+use super::tree::{TreeMember, TreeNode, Value};
 
 /// Number of lists and objects within each other that is refused.
 const DEPTH: usize = 128;
@@ -16,7 +16,7 @@ const DEPTH: usize = 128;
 #[derive(Debug)]
 pub(super) struct Reading<'t> {
     /// The value of the text.
-    pub root: Node<'t>,
+    pub root: TreeNode<'t>,
     /// Why the text is not JSON.
     pub error: Option<SyntaxError>,
 }
@@ -89,7 +89,7 @@ impl<'t> Parser<'t> {
         SyntaxError { message, offset, path: Path::default() }
     }
 
-    fn value(&mut self) -> Node<'t> {
+    fn value(&mut self) -> TreeNode<'t> {
         self.skip_space();
         let start = self.at;
         let value = match self.peek() {
@@ -107,10 +107,10 @@ impl<'t> Parser<'t> {
             None => Err(self.ahead("EOF while parsing a value")),
         };
         match value {
-            Ok(value) => Node { start, end: self.at, value },
+            Ok(value) => TreeNode { start, end: self.at, value },
             Err(error) => {
                 self.error = Some(error);
-                Node { start, end: 0, value: Value::Null }
+                TreeNode { start, end: 0, value: Value::Null }
             }
         }
     }
@@ -121,10 +121,10 @@ impl<'t> Parser<'t> {
         start: usize,
         empty: Value<'t>,
         fill: fn(&mut Self) -> (Value<'t>, Result<(), SyntaxError>),
-    ) -> Node<'t> {
+    ) -> TreeNode<'t> {
         if self.depth + 1 == DEPTH {
             self.error = Some(self.ahead("recursion limit exceeded"));
-            return Node { start, end: 0, value: empty };
+            return TreeNode { start, end: 0, value: empty };
         }
         self.depth += 1;
         self.at += 1;
@@ -133,7 +133,7 @@ impl<'t> Parser<'t> {
         if let Err(error) = filled {
             self.error = Some(error);
         }
-        Node { start, end: if self.error.is_some() { 0 } else { self.at }, value }
+        TreeNode { start, end: if self.error.is_some() { 0 } else { self.at }, value }
     }
 
     /// The error of a value that stands at `step` of the list or object that is being read.
@@ -151,7 +151,7 @@ impl<'t> Parser<'t> {
         (Value::List(items), filled)
     }
 
-    fn fill_list(&mut self, items: &mut Vec<Node<'t>>) -> Result<(), SyntaxError> {
+    fn fill_list(&mut self, items: &mut Vec<TreeNode<'t>>) -> Result<(), SyntaxError> {
         loop {
             self.skip_space();
             match self.peek() {
@@ -186,7 +186,7 @@ impl<'t> Parser<'t> {
         (Value::Object(members), filled)
     }
 
-    fn fill_object(&mut self, members: &mut Vec<Member<'t>>) -> Result<(), SyntaxError> {
+    fn fill_object(&mut self, members: &mut Vec<TreeMember<'t>>) -> Result<(), SyntaxError> {
         loop {
             self.skip_space();
             match self.peek() {
@@ -213,7 +213,11 @@ impl<'t> Parser<'t> {
             self.at += 1;
             let key = self.string()?;
             // a key whose value is missing is known to be there all the same
-            members.push(Member { start, key, value: Node { start: self.at, end: 0, value: Value::Null } });
+            members.push(TreeMember {
+                start,
+                key,
+                value: TreeNode { start: self.at, end: 0, value: Value::Null },
+            });
             self.skip_space();
             match self.peek() {
                 None => return Err(self.ahead("EOF while parsing an object")),

@@ -7,7 +7,7 @@ use super::diagnostic::Diagnostic;
 use super::fault::{Fault, Faults};
 use super::json::{self, SyntaxError};
 use super::place::{Path, Place, Step};
-use super::tree::{Node, Value};
+use super::tree::{TreeNode, Value};
 use super::wording::syntax;
 
 /// An input file's name, as users know it, and its text.
@@ -85,7 +85,7 @@ impl Source {
 #[derive(Clone, Debug)]
 pub struct Tree<'s> {
     source: &'s Source,
-    root: Node<'s>,
+    root: TreeNode<'s>,
     /// Why the text is not JSON.
     error: Option<SyntaxError>,
 }
@@ -93,7 +93,7 @@ pub struct Tree<'s> {
 impl<'s> Tree<'s> {
     /// The value of the text.
     #[must_use]
-    pub const fn root(&self) -> &Node<'s> {
+    pub const fn root(&self) -> &TreeNode<'s> {
         &self.root
     }
 
@@ -203,7 +203,7 @@ fn sorted(mut placed: Vec<Diagnostic>) -> Vec<Diagnostic> {
     placed
 }
 
-fn find_duplicates(node: &Node<'_>, path: Path, faults: &mut Faults) {
+fn find_duplicates(node: &TreeNode<'_>, path: Path, faults: &mut Faults) {
     let below = |step: Step| Path(path.0.iter().cloned().chain([step]).collect());
     if let Some(second) = node.second_of_a_key() {
         faults.add(Fault::duplicate(path.clone(), &second.key));

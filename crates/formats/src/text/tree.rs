@@ -6,7 +6,7 @@ use super::place::{Path, Step};
 
 /// One value of a text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Node<'t> {
+pub struct TreeNode<'t> {
     /// Byte offset of its first byte.
     pub start: usize,
     /// Byte offset behind its last byte; 0 where the text breaks off within the value.
@@ -31,34 +31,34 @@ pub enum Value<'t> {
     /// A string, without its escapes.
     Text(Cow<'t, str>),
     /// The items of a list.
-    List(Vec<Node<'t>>),
+    List(Vec<TreeNode<'t>>),
     /// The members of an object in the order of the text; a key may stand there twice.
-    Object(Vec<Member<'t>>),
+    Object(Vec<TreeMember<'t>>),
 }
 
 /// One member of an object.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Member<'t> {
+pub struct TreeMember<'t> {
     /// Byte offset of its key.
     pub start: usize,
     /// Its key, without escapes.
     pub key: Cow<'t, str>,
     /// Its value.
-    pub value: Node<'t>,
+    pub value: TreeNode<'t>,
 }
 
 /// How far a path leads into a tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit<'n, 't> {
     /// The last value on the path that the tree has.
-    pub node: &'n Node<'t>,
+    pub node: &'n TreeNode<'t>,
     /// Byte offset of that value's key where it is a member, of the value itself otherwise.
     pub key: usize,
     /// Whether the tree has the whole path.
     pub is_whole: bool,
 }
 
-impl<'t> Node<'t> {
+impl<'t> TreeNode<'t> {
     /// Whether the text has the value from its first byte to its last.
     #[must_use]
     pub const fn is_whole(&self) -> bool {
@@ -76,7 +76,7 @@ impl<'t> Node<'t> {
 
     /// The member of that name, where the value is an object that has it; the last of several.
     #[must_use]
-    pub fn member(&self, key: &str) -> Option<&Member<'t>> {
+    pub fn member(&self, key: &str) -> Option<&TreeMember<'t>> {
         match &self.value {
             Value::Object(members) => members.iter().rfind(|member| member.key == key),
             _ => None,
@@ -85,7 +85,7 @@ impl<'t> Node<'t> {
 
     /// The items, where the value is a list; none where it is not.
     #[must_use]
-    pub fn items(&self) -> &[Node<'t>] {
+    pub fn items(&self) -> &[TreeNode<'t>] {
         match &self.value {
             Value::List(items) => items,
             _ => &[],
@@ -94,7 +94,7 @@ impl<'t> Node<'t> {
 
     /// The first member whose key stands before it in the same object, where the value is an object that has one.
     #[must_use]
-    pub fn second_of_a_key(&self) -> Option<&Member<'t>> {
+    pub fn second_of_a_key(&self) -> Option<&TreeMember<'t>> {
         let Value::Object(members) = &self.value else { return None };
         let mut seen = std::collections::BTreeSet::new();
         members.iter().find(|member| !seen.insert(&member.key))
@@ -102,7 +102,7 @@ impl<'t> Node<'t> {
 
     /// The same without a member.
     #[must_use]
-    pub fn without(&self, key: &str) -> Node<'t> {
+    pub fn without(&self, key: &str) -> TreeNode<'t> {
         let mut node = self.clone();
         if let Value::Object(members) = &mut node.value {
             members.retain(|member| member.key != key);
@@ -128,7 +128,7 @@ impl<'t> Node<'t> {
 
     /// Merges changes into this value (RFC 7386): objects member by member, `null` removes a member, everything else
     /// replaces the value. An object that is changed stands where its changes stand.
-    pub fn merge(&mut self, changes: Node<'t>) {
+    pub fn merge(&mut self, changes: TreeNode<'t>) {
         let Value::Object(changed) = changes.value else {
             *self = changes;
             return;
@@ -147,9 +147,9 @@ impl<'t> Node<'t> {
                 (None, _) => {
                     // merged into nothing, so that a `null` below it is not taken over
                     let (start, end) = (change.value.start, change.value.end);
-                    let mut value = Node { start, end, value: Value::Null };
+                    let mut value = TreeNode { start, end, value: Value::Null };
                     value.merge(change.value);
-                    members.push(Member { value, ..change });
+                    members.push(TreeMember { value, ..change });
                 }
             }
         }
@@ -162,7 +162,7 @@ mod tests {
     use super::*;
 
     /// The value alone, as text.
-    fn plain(node: &Node<'_>) -> String {
+    fn plain(node: &TreeNode<'_>) -> String {
         match &node.value {
             Value::Null => "null".to_owned(),
             Value::Bool(value) => value.to_string(),
@@ -172,7 +172,7 @@ mod tests {
             Value::Text(text) => format!("{text:?}"),
             Value::List(items) => format!("[{}]", items.iter().map(plain).collect::<Vec<_>>().join(",")),
             Value::Object(members) => {
-                let member = |member: &Member<'_>| format!("{:?}:{}", member.key, plain(&member.value));
+                let member = |member: &TreeMember<'_>| format!("{:?}:{}", member.key, plain(&member.value));
                 format!("{{{}}}", members.iter().map(member).collect::<Vec<_>>().join(","))
             }
         }

@@ -3,7 +3,7 @@
 use super::*;
 
 /// The tree as `serde_json` has it.
-fn plain(node: &Node<'_>) -> serde_json::Value {
+fn plain(node: &TreeNode<'_>) -> serde_json::Value {
     match &node.value {
         Value::Null => serde_json::Value::Null,
         Value::Bool(value) => (*value).into(),
