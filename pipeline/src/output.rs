@@ -133,7 +133,7 @@ pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> 
     Ok(())
 }
 
-/// An output folder in the making: nothing touches the disk before [`Folder::commit`].
+/// An output folder in the making: nothing touches the disk before [`OutputFolder::commit`].
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,

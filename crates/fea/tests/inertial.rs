@@ -88,7 +88,7 @@ fn weight_bends_a_cantilever_with_a_mass_at_its_tip_as_statics_says() {
         points: vec![[1.0, 2.0, 3.0], [1.0 + SPAN, 2.0, 3.0]],
         sections: vec![section],
         members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0])],
-        supports: vec![Support { point: 0, fixed: fixed }],
+        supports: vec![Support { point: 0, fixed }],
         masses: vec![PointMass { point: 1, mass: 50.0, inertia: [0.0; 3], offset: [0.0, 0.0, 0.7] }],
         up: [0.0, 1.0, 0.0],
         theory: BeamTheory::Timoshenko,

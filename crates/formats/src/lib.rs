@@ -1,8 +1,8 @@
 //! File formats and units: from the bytes of files to checked values, and back.
 //!
-//! Beam specs ([`spec`]), scenes ([`scene`]), grids ([`grid_file`]) and tables ([`tables`]) are read here; every number
+//! Beam specs ([`spec`]), scenes ([`scene`]), grids ([`grid`]) and tables ([`tables`]) are read here; every number
 //! that leaves is finite, checked and in the units asked for. Everything that is wrong with a file is a
-//! [`diagnostic::Diagnostic`] with its place.
+//! [`text::diagnostic::Diagnostic`] with its place.
 //!
 //! ```
 //! use formats::text::source::Source;

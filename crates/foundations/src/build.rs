@@ -28,7 +28,7 @@ use crate::tables::influence;
 /// let built = build(&mut ModeCache::default(), structure, solution_of(&solved, &structure.origin), false)
 ///     .expect("influence functions");
 /// assert!(built.foundation.compliance.is_some());
-/// assert_eq!(built.foundation.freedoms(), 0, "without mass there are no degrees of freedom");
+/// assert_eq!(built.foundation.dofs(), 0, "without mass there are no degrees of freedom");
 /// ```
 ///
 /// # Errors

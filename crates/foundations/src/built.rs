@@ -15,7 +15,7 @@ use sim::Foundation;
 /// use foundations::BuiltFoundation;
 ///
 /// let rigid = BuiltFoundation::from(sim::Foundation::rigid());
-/// assert_eq!(rigid.foundation.freedoms(), 0);
+/// assert_eq!(rigid.foundation.dofs(), 0);
 /// assert!(rigid.motion.is_none(), "nothing moves");
 /// ```
 pub struct BuiltFoundation {

@@ -43,7 +43,7 @@ pub struct AutoRun {
 /// ```
 /// use std::ops::ControlFlow;
 ///
-/// use formats::scene::motion::cast;
+/// use formats::scene::motion::simulation_input;
 /// use formats::scene::Document;
 /// use foundations::{distinct_specs, select_and_run, selection_reason, solve_specs};
 ///
@@ -52,7 +52,7 @@ pub struct AutoRun {
 /// let mut scene = document.scene().clone();
 /// scene.structures[0].auto = true;
 /// scene.structures[0].tolerance = 0.01;
-/// let input = cast(&scene).expect("trucks with equal wheels");
+/// let input = simulation_input(&scene).expect("trucks with equal wheels");
 ///
 /// let all = |_: usize, _: &sim::Foundation| true;
 /// let found = select_and_run(&mut scene, &input.scene, &solved, &all, &mut |_| ControlFlow::Continue(()))

@@ -66,7 +66,6 @@ const RECORDED: f64 = 1e7;
 
 /// Whether the history of a run of `scene` is to hold the degrees of freedom of a structure, by its index, on a foundation:
 /// where columns of reactions or internal forces need them, or where they are fewer than 1e7 values.
-#[must_use]
 pub fn records_structure(
     scene: &Scene,
     known: &[SolvedStructure],

@@ -12,12 +12,12 @@
 //! ```
 //! use std::{ops::ControlFlow, sync::Arc};
 //! use sim::{Body, Channel, Contact, Damper, Foundation, BodyDof, MotionKind, NormalLaw, Profile, Scene, Wheel};
-//! use splines::{Cell, Flexibility, Line, Surface};
+//! use splines::{RailElement, Flexibility, Rails, ExactSurface};
 //!
 //! // The girder: one rail element on two supports, EI = 1e9 N m^2, loaded by moments at its ends for the nodal part.
 //! let (span, bending) = (20.0, 1e9);
-//! let cell = Cell {
-//!     rail: 0, x: [0.0, span], ends: [0, 1], length: span, offset: [0.0; 3], carrier: None,
+//! let cell = RailElement {
+//!     rail: 0, x: [0.0, span], ends: [0, 1], length: span, offset: [0.0; 3], member: None,
 //!     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
 //!     flexibility: Flexibility { bending_z: 1.0 / bending, ..Flexibility::default() },
 //! };
@@ -25,7 +25,7 @@
 //! for (i, j, share) in [(5, 5, 3.0), (11, 11, 3.0), (5, 11, -6.0), (11, 5, -6.0)] {
 //!     ends[(i, j)] = span / (share * bending);
 //! }
-//! let girder = Surface::new(Arc::new(Line::new(vec![cell])?), ends)?;
+//! let girder = ExactSurface::new(Arc::new(Rails::new(vec![cell])?), ends)?;
 //!
 //! let motion = Some(Profile::new(MotionKind::Speed, &[[0.0, 2.0]], 2.0, 0.0)?);
 //! let scene = Scene {

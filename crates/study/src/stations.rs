@@ -66,7 +66,7 @@ pub struct StationChoice {
 /// The grid at the fewest stations for the goal, with values from its exact surface.
 ///
 /// # Errors
-/// As [`splines::fewest_stations()`]; [`Error::Stations`] where blocks between rails do not keep the tolerance.
+/// As [`splines::fewest_stations()`]; [`splines::Error::TooFewStations`] where blocks between rails do not keep the tolerance.
 pub fn choose(
     grid: &StationGrid,
     surface: &ExactSurface,

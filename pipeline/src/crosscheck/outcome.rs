@@ -13,7 +13,7 @@ pub struct BlockDifference {
     pub quantity: GridBlock,
     /// Number of entries compared.
     pub entries: usize,
-    /// What the difference is measured by, see [`Measure`].
+    /// What the difference is measured by, see [`PeerMeasure`].
     pub scale: f64,
     /// Rails of the entry that differs most: deflection, load.
     pub rails: [usize; 2],

@@ -41,7 +41,7 @@ pub enum PeerMeasure {
     Diagonal,
 }
 
-/// Least measure by its largest value under [`Measure::Diagonal`]: at supports the coefficients vanish.
+/// Least measure by its largest value under [`PeerMeasure::Diagonal`]: at supports the coefficients vanish.
 pub const FLOOR: f64 = 1e-3;
 
 impl Peer {

@@ -1,12 +1,12 @@
 //! The deck, executed by our own interpreter of the ADAMS language, against the simulator.
 //!
-//! 1. Random states of the scene are drawn, with the contact forces of the simulator at each ([`states`]).
+//! 1. Random states of the scene are drawn, with the contact forces of the simulator at each (`states`).
 //! 2. The forces that the deck should find there are written down ([`compare::expected_forces`]), on foundations that
 //!    interpolate the deck's own tables: the comparison is of equations, not of interpolations.
-//! 3. The deck is executed at each state, its differential equations replaced by one backward Euler step ([`step`]), and
+//! 3. The deck is executed at each state, its differential equations replaced by one backward Euler step (`step`), and
 //!    the six components of every GFORCE are compared. The same is done with all rails on a moving part, which must not
 //!    change them, and with finite rotations, which is reported and not judged.
-//! 4. Where no body is free along its rail, static equilibria of both are compared along the prescribed motion ([`path`]).
+//! 4. Where no body is free along its rail, static equilibria of both are compared along the prescribed motion (`path`).
 
 pub mod compare;
 mod path;

@@ -55,8 +55,8 @@ impl Start {
     }
 }
 
-/// Rotation matrix of the rotation vector `a`, by Rodrigues' formula: R = I + (sin t/t) [a] + ((1 - cos t)/t^2) [a]^2 with
-/// the angle t = |a| and the cross-product matrix [a]. Below 1e-4 the coefficients are their series.
+/// Rotation matrix of the rotation vector a, by Rodrigues' formula: R = I + (sin t/t) A + ((1 - cos t)/t^2) A^2 with
+/// the angle t = |a| and the cross-product matrix A of a. Below 1e-4 the coefficients are their series.
 #[must_use]
 pub fn rotation(a: [f64; 3]) -> [[f64; 3]; 3] {
     let [x, y, z] = a;

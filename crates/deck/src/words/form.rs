@@ -6,10 +6,10 @@ use formats::scene::TableInterpolation;
 ///
 /// ```
 /// use deck::DeckForm;
-/// use formats::scene::Reading;
+/// use formats::scene::TableInterpolation;
 ///
-/// assert_eq!(DeckForm::of_readings([Reading::Exact, Reading::Natural]), DeckForm::Factored);
-/// assert_eq!(DeckForm::of_readings([Reading::Exact, Reading::Akispl]), DeckForm::Akispl);
+/// assert_eq!(DeckForm::of_readings([TableInterpolation::Exact, TableInterpolation::Natural]), DeckForm::Factored);
+/// assert_eq!(DeckForm::of_readings([TableInterpolation::Exact, TableInterpolation::Akispl]), DeckForm::Akispl);
 /// assert_eq!(DeckForm::Symmetrised.word(), "symmetrised");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -24,14 +24,14 @@ pub struct Restraint {
 ///
 /// # Example
 /// ```
-/// use fea::{Component, Effect, FactoredFrame, Girder};
+/// use fea::{ForceComponent, Effect, FactoredFrame, Girder};
 /// use splines::{Axis, Probe};
 ///
 /// let girder = Girder { spans: vec![60.0], e: 4.32e9, i_vertical: 9.528, ..Girder::default() };
 /// let (model, rail) = girder.model_and_rail()?;
 /// let frame = FactoredFrame::new(&model, &[rail])?;
 /// // Bending moment Mz at midspan of member 0; a unit load up at midspan gives -L/4.
-/// let moment = Effect::InternalForce { member: 0, place: 0.5, component: Component::BendingZ };
+/// let moment = Effect::InternalForce { member: 0, place: 0.5, component: ForceComponent::BendingZ };
 /// let load = Probe { rail: 0, x: 30.0, axis: Axis::Vertical };
 /// let value = frame.effects(&model, &[moment], &[load])?;
 /// assert!((value[(0, 0)] + 15.0).abs() < 1e-9);
@@ -41,7 +41,7 @@ pub struct Restraint {
 pub enum Effect {
     /// Force or moment of the ground on the structure, global, positive along its degree of freedom.
     Reaction(Restraint),
-    /// Internal force of a member, in its local axes; for the signs see [`Component`].
+    /// Internal force of a member, in its local axes; for the signs see [`ForceComponent`].
     InternalForce {
         /// Index of the member.
         member: usize,

@@ -28,7 +28,7 @@ use crate::units::Units;
 /// let spec = Spec::read(&Source { name: "beam.json".to_owned(), text: text.to_owned() }, None)
 ///     .expect("a beam on two supports");
 /// let (model, rails) = spec.model().expect("a model of it");
-/// let frame = fea::FrameSpec::new(&model, &rails).expect("a stable structure");
+/// let frame = fea::FactoredFrame::new(&model, &rails).expect("a stable structure");
 /// let grid = StationGrid::of(&spec, &frame).expect("stations on the rail");
 ///
 /// // at midspan L^3 / (48 EI)

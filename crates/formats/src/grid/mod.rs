@@ -1,6 +1,6 @@
 //! Influence grids of a structure, and the files that hold them.
 //!
-//! An [`InfluenceGrid`](Grid) holds the compliances between all stations of a structure. Its file, `girderway-grid/1`,
+//! An [`StationGrid`] holds the compliances between all stations of a structure. Its file, `girderway-grid/1`,
 //! may also hold influence lines of reactions and internal forces, the exact compliance between the stations, and
 //! natural modes. From low to high: [`block`], [`effects`], [`influence`], [`coupling`], then the members of the file
 //! and the [`file`](mod@file) itself.

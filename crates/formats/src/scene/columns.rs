@@ -73,7 +73,7 @@ pub fn stresses(structure: &str, spec: &Spec) -> Vec<String> {
     points.map(|(cut, point)| format!("{structure}.{cut}.{point}")).collect()
 }
 
-/// Whether a scene has few reactions, few internal forces, few stresses: at most [`MAX_ELEMENTS`].
+/// Whether a scene has few reactions, few internal forces, few stresses: at most [`MOST_BY_DEFAULT`].
 #[must_use]
 pub fn has_few(scene: &Scene) -> [bool; 3] {
     let mut counts = [0; 3];

@@ -35,7 +35,7 @@ const SAME: f64 = 1e-9;
 /// use formats::spec::ties::{Ties, on_ground};
 /// use formats::units::Units;
 ///
-/// let rail = fea::SectionForces { e: 2.1e11, area: 7.7e-3, iy: 5e-6, iz: 3e-5, ..fea::SectionForces::default() };
+/// let rail = fea::CrossSection { e: 2.1e11, area: 7.7e-3, iy: 5e-6, iz: 3e-5, ..fea::CrossSection::default() };
 /// let ties = Ties { spacing: 0.6, k: 5e7, rail, elements: 2, ..Ties::default() };
 /// let spec = on_ground("track", Units::SI, &ties, [0.0, 6.0]).expect("eleven ties");
 /// assert_eq!(spec.pads().len(), 11);

@@ -193,7 +193,7 @@ impl Response {
             let is_known = built.foundation.dofs() == 0 || built.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
             let failed = |source| Error::Lines { structure: scene.structures[s].name.clone(), source };
-            let loaded = LoadedStructure { scene, s, history, loads: &loads, built: built };
+            let loaded = LoadedStructure { scene, s, history, loads: &loads, built };
             self.bending.extend(bending::moment_envelopes(&loaded, solved).map_err(failed)?);
         }
         Ok(())

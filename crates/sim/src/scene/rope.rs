@@ -22,7 +22,7 @@ pub struct RopeEnd {
 /// // 1 t hangs at rest on 10 m of rope below the origin of space.
 /// let rope = Rope {
 ///     from: RopeEnd { body: None, at: [0.0; 3] },
-///     body: RopeEnd { body: Some(0), at: [0.0; 3] },
+///     to: RopeEnd { body: Some(0), at: [0.0; 3] },
 ///     stiffness: 1e7,
 ///     damping: 0.0,
 ///     length: 10.0,

@@ -15,7 +15,7 @@ const FEW: usize = 3;
 /// by bodies first, the others held at theirs (influence before their turn), and runs the scene. `watch` sees the
 /// time that every run reaches, and may stop the choice.
 ///
-/// First the errors of the fidelities are predicted, see [`PredictedErrors`](crate::Predicted): fidelities expected to err
+/// First the errors of the fidelities are predicted, see [`PredictedErrors`](crate::PredictedErrors): fidelities expected to err
 /// by much more than the tolerance are skipped; one expected to err by much less is taken without a higher one to
 /// check it. What is left is compared: rigid and influence with the first [`Fidelity::Modal`] whose highest frequency
 /// exceeds three times that of the bodies on their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16

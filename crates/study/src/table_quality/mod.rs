@@ -8,7 +8,7 @@
 //!    within 1 % of one.
 //! 3. A reading that is not symmetric does work on closed loops of wheel forces; one that is not positive lets
 //!    several stiff wheels at some layout sink without load. [`ReadingFindings`] holds both, as computed by
-//!    [`splines::check`].
+//!    [`splines::quality`].
 //! 4. `text`, `json` and `picture` write the findings.
 
 pub mod digits;

@@ -62,7 +62,7 @@ impl TableReadingMethod {
     /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without couplings.
     ///
     /// # Errors
-    /// As [`Reading::new`], [`Factored::new`] and [`beam_of()`].
+    /// As [`TableReading::new`], [`FactoredTable::new`] and [`beam_of()`].
     pub fn read(self, sheets: &[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> {
         let kind = match self {
             TableReadingMethod::Akispl => ReadingMethod::Akispl,
